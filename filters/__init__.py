@@ -1,0 +1,1 @@
+"""Estimation with delayed measurements; knows nothing of scheduling."""

@@ -1,0 +1,1 @@
+"""What is shown: Gantt charts, figures and the rendered reports."""

@@ -1,0 +1,1 @@
+"""What is asked: cost measurement, sweeps and the declared studies."""
