@@ -1,0 +1,66 @@
+"""Inverse and factor of a small symmetric positive definite matrix, such as the innovation covariance S of Eq. (9)."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from filters.arrays import FloatArray
+
+
+def inverse(S: FloatArray, out: FloatArray, scratch: FloatArray) -> None:
+    """out = S^-1 by Gauss-Jordan elimination, for S (p, p) symmetric positive definite; scratch is (p, p).
+
+    No pivoting: the pivots of a positive definite matrix are positive. S that is singular gives inf or nan.
+    """
+    p = S.shape[0]
+    for i in range(p):
+        for j in range(p):
+            scratch[i, j] = S[i, j]
+            out[i, j] = 0.0
+        out[i, i] = 1.0
+    for i in range(p):
+        pivot = scratch[i, i]
+        for j in range(p):
+            scratch[i, j] /= pivot
+            out[i, j] /= pivot
+        for row in range(p):
+            if row != i:
+                factor = scratch[row, i]
+                for j in range(p):
+                    scratch[row, j] -= factor * scratch[i, j]
+                    out[row, j] -= factor * out[i, j]
+
+
+def cholesky(S: FloatArray, out: FloatArray) -> None:
+    """out = C, the lower triangular factor of S = C C^T, for S (p, p) symmetric positive definite, out (p, p).
+
+    The part of out above its diagonal is left as it was. S that is not positive definite gives nan.
+    """
+    for i in range(S.shape[0]):
+        for j in range(i + 1):
+            total = S[i, j]
+            for k in range(j):
+                total -= out[i, k] * out[j, k]
+            if i == j:
+                out[i, i] = np.sqrt(total)
+            else:
+                out[i, j] = total / out[j, j]
+
+
+def solve_right(C: FloatArray, B: FloatArray, out: FloatArray) -> None:
+    """out = B S^-1 where S = C C^T is given by its Cholesky factor C (p, p), for B (n, p), out (n, p); out may be B.
+
+    Each row of B is solved forward with C, then backward with C^T.
+    """
+    p = C.shape[0]
+    for row in range(B.shape[0]):
+        for i in range(p):
+            total = B[row, i]
+            for k in range(i):
+                total -= C[i, k] * out[row, k]
+            out[row, i] = total / C[i, i]
+        for i in range(p - 1, -1, -1):
+            total = out[row, i]
+            for k in range(i + 1, p):
+                total -= C[k, i] * out[row, k]
+            out[row, i] = total / C[i, i]

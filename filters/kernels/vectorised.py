@@ -1,0 +1,77 @@
+"""Run the same jobs with each kernel replaced by NumPy calls: what a filter written with NumPy would cost."""
+
+from __future__ import annotations
+
+from types import FunctionType
+from typing import Any, cast
+
+import numpy as np
+
+from filters.arrays import FloatArray
+from filters.kernels import dense, solve
+from filters.kernels.rebind import rebind
+
+
+def vectorised(function: FunctionType) -> Any:
+    """A clone of a plain function that calls NumPy where the original calls a kernel of `dense` or `solve`."""
+    return rebind(function, lambda clone, _original: clone, _VERSIONS)
+
+
+def _matmul(A: FloatArray, B: FloatArray, out: FloatArray) -> None:
+    np.matmul(A, B, out=out)
+
+
+def _matmul_transposed(A: FloatArray, B: FloatArray, out: FloatArray) -> None:
+    np.matmul(A, B.T, out=out)
+
+
+def _add_matvec(A: FloatArray, x: FloatArray, out: FloatArray) -> None:
+    out += A @ x
+
+
+def _add(A: FloatArray, B: FloatArray, out: FloatArray) -> None:
+    np.add(A, B, out=out)
+
+
+def _subtract(A: FloatArray, B: FloatArray, out: FloatArray) -> None:
+    np.subtract(A, B, out=out)
+
+
+def _identity_minus(A: FloatArray, out: FloatArray) -> None:
+    np.subtract(np.eye(len(A)), A, out=out)
+
+
+def _subtract_symmetric_product(P: FloatArray, A: FloatArray, B: FloatArray, out: FloatArray) -> None:
+    np.subtract(P, A @ B.T, out=out)
+
+
+def _inverse(S: FloatArray, out: FloatArray, _scratch: FloatArray) -> None:
+    out[:] = np.linalg.inv(S)
+
+
+def _cholesky(S: FloatArray, out: FloatArray) -> None:
+    out[:] = np.linalg.cholesky(S)
+
+
+def _solve_right(C: FloatArray, B: FloatArray, out: FloatArray) -> None:
+    out[:] = np.linalg.solve(C @ C.T, B.T).T
+
+
+_VERSIONS: dict[FunctionType, Any] = {
+    cast(FunctionType, kernel): by_numpy
+    for kernel, by_numpy in (
+        (dense.matmul, _matmul),
+        (dense.matmul_transposed, _matmul_transposed),
+        (dense.matvec, _matmul),
+        (dense.add_matvec, _add_matvec),
+        (dense.add, _add),
+        (dense.subtract, _subtract),
+        (dense.add_vectors, _add),
+        (dense.subtract_vectors, _subtract),
+        (dense.identity_minus, _identity_minus),
+        (dense.subtract_symmetric_product, _subtract_symmetric_product),
+        (solve.inverse, _inverse),
+        (solve.cholesky, _cholesky),
+        (solve.solve_right, _solve_right),
+    )
+}

@@ -1,0 +1,129 @@
+"""The error-state Kalman filter without delay, Eqs. (6) to (12): what the other methods are measured against."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from filters.arrays import FloatArray
+from filters.history import History
+from filters.kernels.backends import BackendName, bind_to
+from filters.kernels.dense import add, add_vectors, matmul, matmul_transposed
+from filters.problem import check_problem
+from filters.records import (
+    Correction,
+    Estimate,
+    Workspace,
+    new_correction,
+    new_estimate,
+    new_workspace,
+)
+from filters.systems.system import System
+from filters.update import update_covariance, update_error
+from filters.update_forms import UpdateFormName, update_form
+from filters.update_forms.form import UpdateForm
+
+
+def propagate(
+    system: System, j: int, before: Estimate, u: FloatArray, after: Estimate, work: Workspace
+) -> FloatArray:
+    """Job: the estimate at j becomes that at j + 1, Eqs. (6) and (8). Returns Phi_j."""
+    system.f(j, before.x, u, system.parameters, after.x)  # (6)
+    Phi = system.F(j, before.x, u, system.parameters)
+    matmul(Phi, before.P, work.nn1)
+    matmul_transposed(work.nn1, Phi, after.P)
+    add(after.P, system.Q(j, system.parameters), after.P)  # (8)
+    return Phi
+
+
+def update(
+    system: System,
+    form: UpdateForm,
+    k: int,
+    y: FloatArray,
+    before: Estimate,
+    after: Estimate,
+    correction: Correction,
+    work: Workspace,
+) -> None:
+    """Job: the estimate before the measurement y of step k becomes that after it, Eqs. (9) to (12)."""
+    update_covariance(system, form, k, before, correction.K, after.P, work)
+    update_error(system, k, y, before.x, correction)
+    add_vectors(before.x, correction.delta_x, after.x)  # (12)
+
+
+def filter_all(
+    system: System,
+    form: UpdateForm,
+    N: int,
+    estimate: Estimate,
+    inputs: FloatArray,
+    measurements: FloatArray,
+    history: History,
+    correction: Correction,
+    spare: Estimate,
+    work: Workspace,
+) -> None:
+    """The whole filter as one kernel: all steps, with an update at k = 0, N, 2N, ... while there are measurements.
+
+    Shapes as in `run`. `estimate` holds the start; it and `spare` are overwritten; the result is in `history`.
+    """
+    steps = len(inputs)
+    for j in range(steps + 1):
+        if j > 0:
+            propagate(system, j - 1, estimate, inputs[j - 1], spare, work)
+            estimate, spare = spare, estimate
+        if j % N == 0:
+            cycle = j // N
+            history.P_reference[cycle] = estimate.P
+            if cycle < len(measurements):
+                update(system, form, j, measurements[cycle], estimate, spare, correction, work)
+                estimate, spare = spare, estimate
+                history.innovations[cycle] = correction.z
+                history.gains[cycle] = correction.K
+        history.x[j] = estimate.x
+
+
+def run(
+    system: System,
+    N: int,
+    M: int,
+    L: int,
+    x0: FloatArray,
+    P0: FloatArray,
+    inputs: FloatArray,
+    measurements: FloatArray,
+    *,
+    update: UpdateFormName = "textbook",
+    backend: BackendName = "reference",
+) -> History:
+    """Filter a record of data as if measurements came without delay: used in the step in which they are taken.
+
+    N, M, L: steps between measurements, delay, feedback; this method checks M and L but has no use for them.
+    x0 (n,), P0 (n, n): estimate and covariance at step 0, before its measurement.
+    inputs (steps, m): row j takes the state from j to j + 1.
+    measurements (cycles, p): row c is taken at k = cN; where there are fewer than steps // N + 1, the last are missing.
+
+    Raises:
+        ValueError: N, M, L or a shape is wrong, or a name is unknown.
+    """
+    check_problem(system, N, M, L, x0, P0, inputs, measurements)
+    steps, cycles = len(inputs), len(inputs) // N + 1
+    updates = min(cycles, len(measurements))
+    n, p = system.states, system.measurements
+    history = History(
+        np.empty((steps + 1, n)), np.empty((cycles, n, n)), np.empty((updates, p)), np.empty((updates, n, p))
+    )
+    start = Estimate(np.array(x0, dtype=np.float64), np.array(P0, dtype=np.float64))
+    bind_to(backend, filter_all)(
+        bind_to(backend, system),
+        bind_to(backend, update_form(update)),
+        N,
+        start,
+        inputs,
+        measurements,
+        history,
+        new_correction(system),
+        new_estimate(system),
+        new_workspace(system),
+    )
+    return history

@@ -1,0 +1,1 @@
+"""What is estimated: a system model is a record of functions and their parameters."""

@@ -1,0 +1,29 @@
+"""What an update form is."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple, TypeAlias
+
+from filters.arrays import FloatArray
+from filters.records import Workspace
+
+Gain: TypeAlias = Callable[[FloatArray, FloatArray, FloatArray, FloatArray, Workspace], None]
+Covariance: TypeAlias = Callable[[FloatArray, FloatArray, FloatArray, FloatArray, FloatArray, Workspace], None]
+DelayedCovariance: TypeAlias = Callable[
+    [FloatArray, FloatArray, FloatArray, FloatArray, FloatArray, FloatArray, FloatArray, Workspace], None
+]
+
+
+class UpdateForm(NamedTuple):
+    """The three places in which forms differ. All take P_{k^-} (n, n), H_k (p, n), R_k (p, p), K_k (n, p).
+
+    gain(P, H, R, K, work): writes K, Eq. (9).
+    covariance(P, H, R, K, out, work): writes P_{k^+}, Eq. (11), right after `gain`.
+    delayed_covariance(Phi, P, H, R, K, P_m, out, work): writes P_{m^+} from Phi_{k->m} and P_{m^-}, Eq. (21), right
+    after `gain`.
+    """
+
+    gain: Gain
+    covariance: Covariance
+    delayed_covariance: DelayedCovariance
