@@ -1,0 +1,189 @@
+"""The cost table: what each job of each method costs. A small TOML file; filters write it, schedules read it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from pathlib import Path
+from typing import Any, Literal, get_args
+
+from sched_sim.errors import InputError
+from sched_sim.options import Options
+from sched_sim.ticks import positive
+
+Method = Literal["standard", "recalculate", "larsen", "dual-rate"]
+METHODS: tuple[Method, ...] = get_args(Method)
+
+Statistic = Literal["minimum", "median", "p95"]
+
+KINDS: Mapping[str, tuple[str, ...]] = {
+    "standard": ("propagate", "update"),
+    "recalculate": ("propagate", "update", "replay"),
+    "larsen": ("propagate", "propagate_accumulate", "update"),
+    "dual-rate": (
+        "hr_propagate",
+        "hr_propagate_sum",
+        "hr_propagate_euler",
+        "hr_restart",
+        "hr_update",
+        "lr_propagate",
+        "lr_propagate_euler",
+        "lr_update",
+        "lr_gain",
+        "lr_correct",
+    ),
+}
+"""Every entry a table may hold, by method. Those a run needs depend on its options: see `select`."""
+
+SHIPPED = Path(__file__).parent / "cost_tables"
+
+
+@dataclass(frozen=True, slots=True)
+class Cost:
+    """The work of one job, in the unit of its table. A cost written as one number has all three alike."""
+
+    minimum: Fraction
+    median: Fraction
+    p95: Fraction
+
+    @classmethod
+    def of(cls, value: Fraction) -> Cost:
+        return cls(value, value, value)
+
+    def __truediv__(self, unit: Fraction) -> Cost:
+        return Cost(self.minimum / unit, self.median / unit, self.p95 / unit)
+
+
+@dataclass(frozen=True)
+class CostTable:
+    """Costs by method and job kind, all in one `unit` ("standard step", "seconds", "operations").
+
+    `provenance` holds whatever else the file says of where they come from: source, update form, machine,
+    versions, protocol, date. `path` is where it was read from, for messages.
+    """
+
+    name: str
+    unit: str
+    costs: Mapping[str, Mapping[str, Cost]]
+    provenance: Mapping[str, Any] = field(default_factory=dict)
+    path: str = ""
+
+    def entry(self, method: str, kind: str) -> Cost:
+        """Raises InputError that names the missing entry and how to supply it."""
+        try:
+            return self.costs[method][kind]
+        except KeyError:
+            where = f"{self.name} ({self.path})" if self.path else self.name
+            raise InputError(
+                f"cost table {where} has no entry [costs.{method}] {kind}: add the line `{kind} = <{self.unit}s>` "
+                f"there, choose another --method or option, or measure it with `sched-sim measure`"
+            ) from None
+
+    def normalised(self) -> CostTable:
+        """The same costs with the standard filter's propagate + update as the unit, as Steffes prints them."""
+        step = self.entry("standard", "propagate").minimum + self.entry("standard", "update").minimum
+        costs = {
+            method: {kind: cost / step for kind, cost in kinds.items()} for method, kinds in self.costs.items()
+        }
+        return replace(self, unit="standard step", costs=costs)
+
+
+@dataclass(frozen=True, slots=True)
+class StandardCosts:
+    """Work of the standard filter's pieces, which is not delayed: the update is due at k itself."""
+
+    propagate: Any
+    update: Any
+
+
+@dataclass(frozen=True, slots=True)
+class RecalculateCosts:
+    """Work of the pieces of recalculate; update: the fixed part at m, replay: each re-propagated step."""
+
+    propagate: Any
+    update: Any
+    replay: Any
+
+
+@dataclass(frozen=True, slots=True)
+class LarsenCosts:
+    """Work of the pieces of Larsen's method; accumulate: a propagated step with the product Phi(k->j) in it."""
+
+    propagate: Any
+    accumulate: Any
+    update: Any
+
+
+@dataclass(frozen=True, slots=True)
+class DualRateCosts:
+    """Work of the dual-rate filter's pieces.
+
+    hr: the HR job of an ordinary step; hr_restart: that of step k+1; hr_update: Eqs (13), (19);
+    lr_propagate: Eq. (14); lr_gain: the part of the update done before the measurement arrives, 0 if none;
+    lr_update: what is left to do after it arrived.
+    """
+
+    hr: Any
+    hr_restart: Any
+    hr_update: Any
+    lr_propagate: Any
+    lr_gain: Any
+    lr_update: Any
+
+
+JobCosts = StandardCosts | RecalculateCosts | LarsenCosts | DualRateCosts
+"""What one method's pieces cost: fractions of the table's unit, or whole ticks; one number type throughout."""
+
+
+def select(table: CostTable, method: str, options: Options, statistic: Statistic = "minimum") -> JobCosts:
+    """The costs that `method` runs with under `options`, as fractions of the table's unit.
+
+    Raises InputError for an unknown method and for an entry that the table lacks.
+    """
+
+    def cost(kind: str) -> Fraction:
+        return getattr(table.entry(method, kind), statistic)  # type: ignore[no-any-return]
+
+    if method == "standard":
+        return StandardCosts(cost("propagate"), cost("update"))
+    if method == "recalculate":
+        return RecalculateCosts(cost("propagate"), cost("update"), cost("replay"))
+    if method == "larsen":
+        return LarsenCosts(cost("propagate"), cost("propagate_accumulate"), cost("update"))
+    if method == "dual-rate":
+        noise = "" if options.low_rate_noise == "exact" else f"_{options.low_rate_noise}"
+        early = options.gain == "precomputed"
+        return DualRateCosts(
+            hr=cost(f"hr_propagate{noise}"),
+            hr_restart=cost("hr_restart"),
+            hr_update=cost("hr_update"),
+            lr_propagate=cost("lr_propagate_euler" if noise == "_euler" else "lr_propagate"),
+            lr_gain=cost("lr_gain") if early else Fraction(0),
+            lr_update=cost("lr_correct" if early else "lr_update"),
+        )
+    raise InputError(f"method {method!r} is unknown: choose from {', '.join(METHODS)}")
+
+
+def shipped_names() -> list[str]:
+    """The names of the cost tables that come with the project."""
+    return sorted(path.stem for path in SHIPPED.glob("*.toml"))
+
+
+def load(name_or_path: str | Path) -> CostTable:
+    """A shipped table by its name, or a user's own by its path.
+
+    Raises InputError that names the file, every wrong entry in it, and the remedy.
+    """
+    from sched_sim.cost_file import read_cost_table
+
+    text = str(name_or_path)
+    path = SHIPPED / f"{text}.toml" if text in shipped_names() else Path(text)
+    return read_cost_table(path, shown=text)
+
+
+def positive_cost(value: Any, where: str) -> Fraction:
+    """`value` as an exact cost; raises InputError that names `where` unless it is a number above 0."""
+    if isinstance(value, bool | list | dict):
+        raise InputError(f"{where} is {value!r}: a cost is a number greater than 0")
+    return positive(value, where)

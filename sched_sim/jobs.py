@@ -1,0 +1,65 @@
+"""What the processor runs: jobs, and the sources that release them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Protocol, TypeAlias
+
+Parts: TypeAlias = tuple[tuple[str, int], ...]
+
+
+HR = 10
+LR = 20
+"""Priorities of the filter's jobs. Smaller is more urgent (as in SimPy); user tasks may take any whole number."""
+
+
+class Job:
+    """One released piece of work. All times are in ticks.
+
+    kind: what its response times are filed under; step: the HR step it belongs to;
+    deadline: the last instant at which it may finish;
+    remaining: work left to do, at first the sum of its parts;
+    parts: (label, work) in the order they are done;
+    then: called with the job and the time when it finishes; may return jobs to release at that instant;
+    overhead: context-switch work charged and not yet done;
+    held: the release came while an earlier job of the same chain was unfinished.
+    """
+
+    __slots__ = ("cpu", "deadline", "held", "kind", "overhead", "parts", "priority", "release", "remaining",
+                 "step", "then")  # fmt: skip
+
+    def __init__(
+        self,
+        kind: str,
+        step: int,
+        priority: int,
+        release: int,
+        deadline: int,
+        remaining: int,
+        parts: Parts,
+        then: Callable[[Job, int], tuple[Job, ...]] | None = None,
+        cpu: int = 0,
+    ) -> None:
+        self.kind = kind
+        self.step = step
+        self.priority = priority
+        self.release = release
+        self.deadline = deadline
+        self.remaining = remaining
+        self.parts = parts
+        self.then = then
+        self.cpu = cpu
+        self.overhead = 0
+        self.held = False
+
+
+class Source(Protocol):
+    """Releases jobs by the clock: the HR loop of a filter, or a user's periodic task."""
+
+    next_release: int  # the instant of the next release, in ticks
+
+    def release(self) -> tuple[Job, ...]:
+        """The jobs released at that instant; moves on to the next one."""
+
+    def waiting(self) -> tuple[Job, ...]:
+        """At the horizon: jobs whose release has come but which wait for another job to finish first."""

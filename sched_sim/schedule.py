@@ -1,0 +1,99 @@
+"""What a simulated schedule says: response times, misses, preemptions, utilization, achieved l."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import NamedTuple
+
+from sched_sim.jobs import Parts
+
+
+class Slice(NamedTuple):
+    """A stretch of uninterrupted execution, [start, end) in ticks.
+
+    cpu: from 0; kind, step: of the job; begin: work of the job done before this slice, without overhead;
+    overhead: ticks at the start of the slice that went into the context switch; parts: of the whole job;
+    finished: whether the job finished at `end`; release, deadline: of the job, in ticks.
+    """
+
+    cpu: int
+    start: int
+    end: int
+    kind: str
+    step: int
+    begin: int
+    overhead: int
+    parts: Parts
+    finished: bool
+    release: int
+    deadline: int
+
+    def pieces(self) -> list[tuple[str, int, int]]:
+        """(label, start, end) of what was done in this slice: "switch", then "HRP", "HRU", ..."""
+        found = [("switch", self.start, self.start + self.overhead)] if self.overhead else []
+        at = self.start + self.overhead - self.begin
+        for label, work in self.parts:
+            start, end = max(at, self.start + self.overhead), min(at + work, self.end)
+            if start < end:
+                found.append((label, start, end))
+            at += work
+        return found
+
+
+@dataclass(frozen=True, slots=True)
+class Response:
+    """Of all jobs of one kind; times in ticks.
+
+    A job that is unfinished at the horizon counts in `releases`, and in `misses` and `worst_lateness` if its
+    deadline has passed; not in the response times.
+    """
+
+    releases: int
+    finished: int
+    worst: int
+    total: int
+    misses: int
+    worst_lateness: int
+    preemptions: int
+
+    @property
+    def mean(self) -> Fraction:
+        return Fraction(self.total, self.finished) if self.finished else Fraction(0)
+
+
+@dataclass(frozen=True, slots=True)
+class Schedule:
+    """The outcome of a simulation over `horizon` ticks.
+
+    period: the HR period in ticks; busy: ticks in which a job ran, summed over the processors;
+    responses: by job kind ("hr", "lr_propagate", "lr_update", "task:NAME", ...);
+    first_miss: (kind, whether it waited for an earlier LR job) of the missed job whose deadline was first, if any;
+    achieved: how many cycles landed at each achieved L;
+    instants: how many points in time the simulation visited; slices: if they were asked for.
+    """
+
+    period: int
+    horizon: int
+    cpus: int
+    busy: int
+    responses: Mapping[str, Response]
+    first_miss: tuple[str, bool] | None
+    instants: int
+    achieved: Counter[int] = field(default_factory=Counter)
+    slices: tuple[Slice, ...] = ()
+
+    @property
+    def misses(self) -> int:
+        return sum(response.misses for response in self.responses.values())
+
+    @property
+    def preemptions(self) -> int:
+        return sum(response.preemptions for response in self.responses.values())
+
+    @property
+    def utilization(self) -> Fraction:
+        """The busy share of the processors' time, between 0 and 1."""
+        return Fraction(self.busy, self.horizon * self.cpus)

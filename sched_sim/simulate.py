@@ -1,0 +1,265 @@
+"""The simulated preemptive processor: fixed priorities, immediate preemption, exact integer time.
+
+At one instant, finishes come first, then releases, then dispatch: a job that finishes exactly at its deadline has met
+it, and an LR update that finishes exactly at the start of step j is applied in step j. The ready queues are our own,
+because SimPy's `PreemptiveResource` lets a release preempt a job that finishes at that same instant.
+"""
+
+from __future__ import annotations
+
+from collections import Counter, defaultdict
+from collections.abc import Callable, Generator, Sequence
+from dataclasses import astuple, replace
+from fractions import Fraction
+from heapq import heapify, heappop, heappush, heapreplace
+
+import simpy
+
+from sched_sim.costs import JobCosts, LarsenCosts, RecalculateCosts
+from sched_sim.jobs import Job, Source
+from sched_sim.methods import OnLanding, method_source
+from sched_sim.options import Options
+from sched_sim.schedule import Response, Schedule, Slice
+from sched_sim.tasks import Task, TaskSource
+from sched_sim.ticks import positive, ticks_per_unit, to_ticks
+from sched_sim.timing import Timing
+
+OnSlice = Callable[[Slice], None]
+
+
+def simulate(
+    costs: JobCosts,
+    timing: Timing,
+    speed: Fraction,
+    cycles: int,
+    options: Options = Options(),
+    tasks: Sequence[Task] = (),
+    *,
+    keep_slices: bool = False,
+    on_slice: OnSlice | None = None,
+    on_landing: OnLanding | None = None,
+) -> Schedule:
+    """Run one filter, and the user's tasks beside it, for `cycles` measurement cycles.
+
+    costs: from `costs.select`; speed: cost units the processor does per HR period.
+    on_slice, on_landing: called as slices end and as corrections land, with a `Slice` and with
+    (cycle, achieved L); memory does not grow with `cycles` unless `keep_slices` is set.
+    Raises InputError for a speed that is not positive or an L the method cannot have.
+    """
+    positive(speed, "speed")
+    work = [Fraction(value) for value in astuple(costs)]
+    times = [speed * time for task in tasks for time in (task.period, task.offset)]
+    resolution = ticks_per_unit([speed, options.context_switch, *work, *times, *(task.cost for task in tasks)])
+    period = to_ticks(speed, resolution)
+    tick_costs = type(costs)(*(to_ticks(value, resolution) for value in work))
+
+    achieved: Counter[int] = Counter()
+
+    def landed(cycle: int, L: int) -> None:
+        if cycle < cycles:
+            achieved[L] += 1
+            if on_landing is not None:
+                on_landing(cycle, L)
+
+    source = method_source(tick_costs, timing, options, period, landed)
+    task_sources = [
+        TaskSource(
+            task,
+            period=to_ticks(task.period * speed, resolution),
+            offset=to_ticks(task.offset * speed, resolution),
+            cost=to_ticks(task.cost, resolution),
+        )
+        for task in tasks
+    ]
+    arrives_a_step_later = isinstance(costs, RecalculateCosts | LarsenCosts) and timing.M == timing.N
+    horizon = (cycles * timing.N + arrives_a_step_later) * period
+    slices: list[Slice] = []
+    processor = Processor(
+        [source, *task_sources],
+        horizon,
+        options.cpus,
+        to_ticks(options.context_switch, resolution),
+        slices.append if keep_slices else on_slice,
+    )
+    processor.run()
+    return replace(processor.schedule(period), achieved=achieved, slices=tuple(slices))
+
+
+class Cpu:
+    """One processor: the jobs that are ready, the one that runs, and the one that ran last.
+
+    ready: a heap of (priority, order of release, job); entry: that of the running job;
+    since: when it was dispatched; finish: when it will finish if nothing preempts it; busy: ticks it has run.
+    """
+
+    __slots__ = ("busy", "entry", "finish", "last", "number", "ready", "running", "since")
+
+    def __init__(self, number: int) -> None:
+        self.number = number
+        self.ready: list[tuple[int, int, Job]] = []
+        self.running: Job | None = None
+        self.entry: tuple[int, int, Job]
+        self.last: Job | None = None
+        self.since = self.finish = self.busy = 0
+
+
+class Tally:
+    """The running figures of one job kind; see `Response`."""
+
+    __slots__ = ("finished", "misses", "preemptions", "releases", "total", "worst", "worst_lateness")
+
+    def __init__(self) -> None:
+        self.releases = self.finished = self.worst = self.total = 0
+        self.misses = self.worst_lateness = self.preemptions = 0
+
+    def frozen(self) -> Response:
+        return Response(**{name: getattr(self, name) for name in self.__slots__})
+
+
+class Processor:
+    """Runs the jobs of `sources` from time 0 to `horizon` on `cpus` processors; all times in ticks."""
+
+    def __init__(
+        self, sources: Sequence[Source], horizon: int, cpus: int, context_switch: int, on_slice: OnSlice | None
+    ) -> None:
+        self.sources = sources
+        self.horizon = horizon
+        self.cpus = tuple(Cpu(number) for number in range(cpus))
+        self.context_switch = context_switch
+        self.on_slice = on_slice
+        self.tallies: defaultdict[str, Tally] = defaultdict(Tally)
+        self.first_miss: tuple[int, str, bool] | None = None
+        self.instants = 0
+
+    def run(self) -> None:
+        environment = simpy.Environment()
+        environment.process(self._timeline(environment))
+        environment.run()
+
+    def _timeline(self, environment: simpy.Environment) -> Generator[simpy.Event, None, None]:
+        """Waits from one instant at which something happens to the next.
+
+        One process with its state in local names: twice as fast as small methods, and this loop is what every
+        simulated second costs.
+        """
+        timeout, horizon, cpus = environment.timeout, self.horizon, self.cpus
+        tallies, on_slice, context_switch = self.tallies, self.on_slice, self.context_switch
+        releases = [(source.next_release, order, source) for order, source in enumerate(self.sources)]
+        heapify(releases)
+        order_of_release = now = instants = 0
+        next_finish = -1
+        while True:
+            if now == next_finish:  # 1. finishes
+                for cpu in cpus:
+                    job = cpu.running
+                    if job is None or cpu.finish != now:
+                        continue
+                    cpu.running = None
+                    cpu.busy += now - cpu.since
+                    tally = tallies[job.kind]
+                    tally.finished += 1
+                    response = now - job.release
+                    tally.total += response
+                    if response > tally.worst:
+                        tally.worst = response
+                    if now > job.deadline:
+                        self._missed(job, now)
+                    if on_slice is not None:
+                        on_slice(_slice(cpu, job, now, finished=True))
+                    if job.then is not None:
+                        for new in job.then(job, now):
+                            order_of_release += 1
+                            heappush(cpus[new.cpu].ready, (new.priority, order_of_release, new))
+            if now == horizon:
+                break
+            until, order, source = releases[0]
+            while until == now:  # 2. releases
+                for new in source.release():
+                    order_of_release += 1
+                    heappush(cpus[new.cpu].ready, (new.priority, order_of_release, new))
+                heapreplace(releases, (source.next_release, order, source))
+                until, order, source = releases[0]
+            if until > horizon:
+                until = horizon
+            next_finish = -1
+            for cpu in cpus:  # 3. dispatch
+                ready, running = cpu.ready, cpu.running
+                if ready and (running is None or ready[0][0] < running.priority):
+                    if running is None:
+                        cpu.entry = heappop(ready)
+                    else:
+                        self._preempt(cpu, running, now)
+                        cpu.entry = heapreplace(ready, cpu.entry)
+                    running = cpu.running = cpu.entry[2]
+                    if context_switch and running is not cpu.last:
+                        running.overhead += context_switch
+                        cpu.last = running
+                    cpu.since = now
+                    cpu.finish = now + running.remaining + running.overhead
+                if running is not None and cpu.finish <= until:
+                    next_finish = until = cpu.finish
+            instants += 1
+            yield timeout(until - now)
+            now = until
+        self.instants = instants
+
+    def _preempt(self, cpu: Cpu, job: Job, now: int) -> None:
+        """Book the work that `job` did since it was dispatched."""
+        if self.on_slice is not None:
+            self.on_slice(_slice(cpu, job, now, finished=False))
+        self.tallies[job.kind].preemptions += 1
+        ran = now - cpu.since
+        cpu.busy += ran
+        overhead = min(ran, job.overhead)
+        job.overhead -= overhead
+        job.remaining -= ran - overhead
+
+    def _missed(self, job: Job, now: int) -> None:
+        tally = self.tallies[job.kind]
+        tally.misses += 1
+        tally.worst_lateness = max(tally.worst_lateness, now - job.deadline)
+        if self.first_miss is None or job.deadline < self.first_miss[0]:
+            self.first_miss = (job.deadline, job.kind, job.held)
+
+    def schedule(self, period: int) -> Schedule:
+        """The outcome, once `run` has reached the horizon; unfinished jobs are counted as they stand."""
+        unfinished = [job for cpu in self.cpus for _, _, job in cpu.ready]
+        for cpu in self.cpus:
+            if cpu.running is not None:
+                unfinished.append(cpu.running)
+                cpu.busy += self.horizon - cpu.since
+                if self.on_slice is not None:
+                    self.on_slice(_slice(cpu, cpu.running, self.horizon, finished=False))
+        unfinished += [job for source in self.sources for job in source.waiting()]
+        for job in unfinished:
+            self.tallies[job.kind].releases += 1
+            if job.deadline <= self.horizon:
+                self._missed(job, self.horizon)
+        for tally in self.tallies.values():
+            tally.releases += tally.finished
+        return Schedule(
+            period=period,
+            horizon=self.horizon,
+            cpus=len(self.cpus),
+            busy=sum(cpu.busy for cpu in self.cpus),
+            responses={kind: tally.frozen() for kind, tally in sorted(self.tallies.items())},
+            first_miss=self.first_miss[1:] if self.first_miss else None,
+            instants=self.instants,
+        )
+
+
+def _slice(cpu: Cpu, job: Job, now: int, *, finished: bool) -> Slice:
+    """What `job` did on `cpu` from its dispatch until now; called before the work is booked."""
+    return Slice(
+        cpu=cpu.number,
+        start=cpu.since,
+        end=now,
+        kind=job.kind,
+        step=job.step,
+        begin=sum(work for _, work in job.parts) - job.remaining,
+        overhead=min(job.overhead, now - cpu.since),
+        parts=job.parts,
+        finished=finished,
+        release=job.release,
+        deadline=job.deadline,
+    )

@@ -1,0 +1,57 @@
+"""The user's other periodic tasks on the same processor: control law, telemetry, ..."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+from sched_sim.errors import InputError
+from sched_sim.jobs import Job
+
+
+@dataclass(frozen=True, slots=True)
+class Task:
+    """A periodic task; its deadline is its next release.
+
+    period, offset: in HR periods; cost: in the unit of the cost table;
+    priority: smaller is more urgent; the filter's HR jobs run at 10, its LR jobs at 20;
+    cpu: 1 or 2, where there are two.
+    """
+
+    name: str
+    period: Fraction
+    cost: Fraction
+    priority: int
+    offset: Fraction = Fraction(0)
+    cpu: int = 1
+
+    def __post_init__(self) -> None:
+        if self.period <= 0:
+            raise InputError(f"task {self.name!r}: period {self.period} must be greater than 0 HR periods")
+        if self.cost <= 0:
+            raise InputError(f"task {self.name!r}: cost {self.cost} must be greater than 0")
+        if self.offset < 0:
+            raise InputError(f"task {self.name!r}: offset {self.offset} must be 0 or more HR periods")
+        if self.cpu not in (1, 2):
+            raise InputError(f"task {self.name!r}: cpu {self.cpu} must be 1 or 2")
+
+
+class TaskSource:
+    """Releases one task's jobs; all times in ticks."""
+
+    def __init__(self, task: Task, period: int, offset: int, cost: int) -> None:
+        self.task = task
+        self.period = period
+        self.next_release = offset
+        self.cost = cost
+        self.count = 0
+
+    def release(self) -> tuple[Job, ...]:
+        task, start, number = self.task, self.next_release, self.count
+        self.next_release = due = start + self.period
+        self.count = number + 1
+        parts = ((task.name, self.cost),)
+        return (Job(f"task:{task.name}", number, task.priority, start, due, self.cost, parts, cpu=task.cpu - 1),)
+
+    def waiting(self) -> tuple[Job, ...]:
+        return ()

@@ -1,0 +1,71 @@
+"""N, M, L: when measurements are taken, when they arrive, when the correction must land."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from sched_sim.errors import InputError
+
+Feedback = Literal["next-step", "same-step"]
+
+
+@dataclass(frozen=True, slots=True)
+class Timing:
+    """The timeline of one filter, in high-rate (HR) steps (Steffes 2014, Sec. II and III.A).
+
+    N: steps between measurement references, k = 0, N, 2N, ...
+    M: delay; the measurement of step k is available at the start of m = k + M, 0 <= M <= N.
+    L: feedback step; the correction must reach the state by l = k + L, M <= L <= N.
+    """
+
+    N: int
+    M: int
+    L: int
+
+    def __post_init__(self) -> None:
+        if self.N < 1:
+            raise InputError(f"N={self.N} must be at least 1: it is the number of HR steps between measurements")
+        if self.M < 0:
+            raise InputError(f"M={self.M} must be at least 0: it is the delay of the measurement in HR steps")
+        if self.M > self.N:
+            raise InputError(
+                f"M={self.M} must be <= N={self.N}: the measurement must arrive before the next one is taken; "
+                f"give a larger N or a smaller M"
+            )
+        if self.L < self.M:
+            raise InputError(
+                f"L={self.L} must be > M={self.M}: the correction cannot land before the measurement arrives; "
+                f"give L from {self.M + 1} to N={self.N}"
+            )
+        if self.L > self.N:
+            raise InputError(
+                f"L={self.L} must be <= N={self.N}: the correction must land before the next measurement is taken"
+            )
+
+
+def latest_feedback_step(N: int, feedback: Feedback) -> int:
+    """The largest L that the dual-rate filter may have: N, or N - 1 with same-step feedback."""
+    return N if feedback == "next-step" else N - 1
+
+
+def check_dual_rate(timing: Timing, feedback: Feedback) -> None:
+    """Raises InputError unless M < L <= N (next-step) or M <= L < N (same-step)."""
+    N, M, L = timing.N, timing.M, timing.L
+    if feedback == "next-step" and L <= M:
+        advice = (
+            f"give L from {M + 1} to N={N}" if M < N else "give a larger N, or --method recalculate or larsen"
+        )
+        raise InputError(
+            f"L={L} must be > M={M}: the dual-rate correction cannot land in the step in which the measurement "
+            f"arrives; {advice} (same-step feedback allows L = M)"
+        )
+    if feedback == "same-step" and L >= N:
+        advice = (
+            f"give L from {M} to {N - 1}" if M < N else "give a larger N, or --method recalculate or larsen"
+        )
+        raise InputError(
+            f"L={L} must be < N={N} with same-step feedback: the correction lands during step l; {advice}"
+        )
+
+
