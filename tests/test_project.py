@@ -10,6 +10,7 @@ import tomllib
 import zipfile
 from pathlib import Path
 
+import grimp
 import pytest
 from packaging.markers import default_environment
 from packaging.requirements import Requirement
@@ -183,6 +184,14 @@ def test_no_tracked_file_holds_a_path_of_someones_machine():
                 if absolute.search(line):
                     found.append(f"{name}:{number}: {line.strip()[:120]}")
     assert found == []
+
+
+def test_only_main_imports_the_command_line():
+    """The one import rule that is not a contract in pyproject.toml: lint-imports fails without a cli."""
+    graph = grimp.build_graph(*PACKAGES, cache_dir=None)
+    cli = {name for name in graph.modules if f"{name}.".startswith("sched_sim.cli.")}
+    importers = {importer for module in cli for importer in graph.find_modules_that_directly_import(module)}
+    assert importers - cli <= {"sched_sim.__main__"}
 
 
 def test_the_command_line_imports_nothing_slow():
