@@ -48,9 +48,7 @@ class _CostFile(BaseModel):
     model_config = ConfigDict(extra="allow")
     name: str
     unit: str
-    costs: Annotated[
-        dict[str, dict[str, Annotated[_CostEntry, BeforeValidator(_cost)]]], AfterValidator(_known_kinds)
-    ]
+    costs: Annotated[dict[str, dict[str, Annotated[_CostEntry, BeforeValidator(_cost)]]], AfterValidator(_known_kinds)]
 
 
 def read_cost_table(path: Path, shown: str = "") -> CostTable:

@@ -83,9 +83,7 @@ class CostTable:
     def normalised(self) -> CostTable:
         """The same costs with the standard filter's propagate + update as the unit, as Steffes prints them."""
         step = self.entry("standard", "propagate").minimum + self.entry("standard", "update").minimum
-        costs = {
-            method: {kind: cost / step for kind, cost in kinds.items()} for method, kinds in self.costs.items()
-        }
+        costs = {method: {kind: cost / step for kind, cost in kinds.items()} for method, kinds in self.costs.items()}
         return replace(self, unit="standard step", costs=costs)
 
 
@@ -143,7 +141,7 @@ def select(table: CostTable, method: str, options: Options, statistic: Statistic
     """
 
     def cost(kind: str) -> Fraction:
-        return getattr(table.entry(method, kind), statistic)  # type: ignore[no-any-return]
+        return getattr(table.entry(method, kind), statistic)
 
     if method == "standard":
         return StandardCosts(cost("propagate"), cost("update"))

@@ -14,10 +14,10 @@ from sched_sim.timing import Timing, check_dual_rate
 OnLanding = Callable[[int, int], None]
 """Called with (cycle, achieved L) when a correction has reached the state."""
 
+Then = Callable[[Job, int], tuple[Job, ...]]
 
-def method_source(
-    costs: JobCosts, timing: Timing, options: Options, period: int, on_landing: OnLanding
-) -> HrSource:
+
+def method_source(costs: JobCosts, timing: Timing, options: Options, period: int, on_landing: OnLanding) -> HrSource:
     """The jobs of one filter; `costs` and `period` (the HR period) in ticks.
 
     Raises InputError for an L that the dual-rate filter cannot have.
@@ -126,9 +126,7 @@ class DualRate(HrSource):
             corrections = self._apply(step)
             work += corrections * self.costs.hr_update
             parts = (*parts, ("HRU", corrections * self.costs.hr_update))
-        job = Job(
-            "hr", step, HR, start, self.next_release, work, parts, None if offset else self._propagate
-        )
+        job = Job("hr", step, HR, start, self.next_release, work, parts, None if offset else self._propagate)
         if offset == self.M:
             return (job, *self._measurement(step - offset, start))
         return (job,)
@@ -146,30 +144,31 @@ class DualRate(HrSource):
         self.to_apply.clear()
         return corrections
 
-    def _lr_job(
-        self, kind: str, label: str, k: int, release: int, due: int, cost: int, then: Callable[[Job, int], tuple[Job, ...]]
-    ) -> Job:  # fmt: skip
+    def _lr_job(self, kind: str, label: str, k: int, release: int, due: int, cost: int, then: Then) -> Job:
         return Job(kind, k, LR, release, k * self.period + due, cost, ((label, cost),), then, self.lr_cpu)
 
     def _propagate(self, job: Job, now: int) -> tuple[Job, ...]:
         """Phi and Q of the last cycle are sent at k: LR propagate is released."""
         self.propagates_released += 1
         k, cost = job.step, self.costs.lr_propagate
-        then = self._gain if self.costs.lr_gain else self._lr_done
+        then = self._gain if self.costs.lr_gain else self._early_work_done
         propagate = self._lr_job("lr_propagate", "LRP", k, now, self.propagate_due, cost, then)
         updates = [self.arrived.popleft()] if self.arrived else []
         return self._enqueue(propagate, *updates)
 
     def _gain(self, job: Job, now: int) -> tuple[Job, ...]:
         return (
-            self._lr_job("lr_gain", "LRG", job.step, now, self.propagate_due, self.costs.lr_gain, self._lr_done),
+            self._lr_job(
+                "lr_gain", "LRG", job.step, now, self.propagate_due, self.costs.lr_gain, self._early_work_done
+            ),
         )
+
+    def _early_work_done(self, _job: Job, _now: int) -> tuple[Job, ...]:
+        return self._next_in_chain()
 
     def _measurement(self, k: int, now: int) -> tuple[Job, ...]:
         """The measurement of step k arrives at m: the LR update is released."""
-        update = self._lr_job(
-            "lr_update", "LRU", k, now, self.update_due, self.costs.lr_update, self._update_done
-        )
+        update = self._lr_job("lr_update", "LRU", k, now, self.update_due, self.costs.lr_update, self._update_done)
         if self.propagates_released * self.N <= k:
             self.arrived.append(update)
             return ()
@@ -178,11 +177,11 @@ class DualRate(HrSource):
     def _update_done(self, job: Job, now: int) -> tuple[Job, ...]:
         if not self.same_step:
             self.to_apply.append(job.step // self.N)
-            return self._lr_done(job, now)
+            return self._next_in_chain()
         cost = self.costs.hr_update
         due = job.step * self.period + self.update_due
         feedback = Job("hr_update", job.step, HR, now, due, cost, (("HRU", cost),), self._landed)
-        return (feedback, *self._lr_done(job, now))
+        return (feedback, *self._next_in_chain())
 
     def _landed(self, job: Job, now: int) -> tuple[Job, ...]:
         self.on_landing(job.step // self.N, step_at(now, self.period) - job.step)
@@ -192,7 +191,7 @@ class DualRate(HrSource):
         self.lr_queue.extend(jobs)
         return () if self.lr_busy else self._next_lr()
 
-    def _lr_done(self, job: Job, now: int) -> tuple[Job, ...]:
+    def _next_in_chain(self) -> tuple[Job, ...]:
         self.lr_busy = False
         for waiting in self.lr_queue:
             waiting.held = True
@@ -203,5 +202,3 @@ class DualRate(HrSource):
             return ()
         self.lr_busy = True
         return (self.lr_queue.popleft(),)
-
-

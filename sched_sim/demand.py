@@ -1,0 +1,124 @@
+"""Demand of the dual-rate filter over windows of a cycle, as exact quotients over whole arrays.
+
+A window of c steps offers c HR periods of processor time; the work that must be done in it, divided by c, is the
+HR period (in ticks) that it takes at least.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from sched_sim.costs import DualRateCosts
+
+Ints: TypeAlias = npt.NDArray[Any]
+
+
+class Quotient(NamedTuple):
+    """Elementwise numerator / denominator (denominators positive), with a code that says where it comes from."""
+
+    numerator: Ints
+    denominator: Ints
+    code: Ints
+
+    def exceeds(self, other: Quotient) -> Ints:
+        return self.numerator * other.denominator > other.numerator * self.denominator
+
+
+def quotient(numerator: Any, denominator: Any, code: int) -> Quotient:
+    numerator, denominator = np.broadcast_arrays(numerator, denominator)
+    return Quotient(numerator, denominator, np.full(numerator.shape, code))
+
+
+def choose(condition: Ints, yes: Quotient, no: Quotient) -> Quotient:
+    """`yes` where the condition holds, else `no`."""
+    return Quotient(*(np.where(condition, a, b) for a, b in zip(yes, no, strict=True)))
+
+
+def largest(*quotients: Quotient) -> Quotient:
+    """The elementwise maximum; the first of equals."""
+    result = quotients[0]
+    for other in quotients[1:]:
+        result = choose(other.exceeds(result), other, result)
+    return result
+
+
+def smaller(one: Quotient, other: Quotient) -> Quotient:
+    return choose(one.exceeds(other), other, one)
+
+
+class DualRateDemand(NamedTuple):
+    """Work of the HR and LR jobs of one cycle. Steps are counted from k; costs in ticks.
+
+    separate: LR jobs have a processor of their own.
+    """
+
+    costs: DualRateCosts
+    N: Ints
+    M: Ints
+    separate: bool
+
+    def hr_job(self, step: Ints | int) -> Ints:
+        """The HR job of one step, without the HR update."""
+        return np.where((step == 1) | (self.N == 1), self.costs.hr_restart, self.costs.hr)
+
+    def longest_hr_job(self) -> Ints:
+        """The longest HR job of the cycle, without the HR update."""
+        c = self.costs
+        return np.where(self.N == 1, c.hr_restart, max(c.hr, c.hr_restart))
+
+    def hr_work(self, first: Ints | int, end: Ints | int) -> Ints:
+        """All HR jobs of steps first .. end-1 without HR updates, 0 <= first <= end <= N."""
+        c = self.costs
+        restarts = np.where(self.N == 1, np.subtract(end, first), (np.less_equal(first, 1)) & (np.greater(end, 1)))
+        return np.subtract(end, first) * c.hr + restarts * (c.hr_restart - c.hr)
+
+    def before_lr(self, steps: Ints | int) -> Ints:
+        """HR work that LR jobs have to wait for between k and the start of step k + `steps` (at least 1)."""
+        return self.hr_job(0) if self.separate else self.hr_work(0, steps)
+
+    @property
+    def lr_early(self) -> Any:
+        """LR work before the update: propagate, and the gain if it is precomputed."""
+        return self.costs.lr_propagate + self.costs.lr_gain
+
+    def update_window(self, end: Ints, code: int, more: Any = 0) -> Quotient:
+        """The LR update, and `more`, between m and the start of step `end`."""
+        hr = 0 if self.separate else self.hr_work(self.M, end)
+        return quotient(hr + self.costs.lr_update + more, end - self.M, code)
+
+    def total_window(self, end: Ints, code: int, more: Any = 0) -> Quotient:
+        """All LR work, and `more`, between k and the start of step `end`."""
+        return quotient(self.before_lr(end) + self.lr_early + self.costs.lr_update + more, end, code)
+
+    def propagate_window(self, code: int, more: Any = 0) -> Quotient:
+        """LR propagate (and gain) between k and m; nothing where m = k."""
+        M = np.maximum(self.M, 1)
+        work = np.where(self.M == 0, 0, self.before_lr(M) + self.lr_early + more)
+        return quotient(work, M, code)
+
+    def first_end(self, period: Ints, scale: Ints | int = 1) -> Ints:
+        """The first step by whose start all LR work is done, at an HR period of `period / scale` ticks; it may lie
+        beyond N. The period must be enough for every HR job, and no HR update runs between k and then."""
+        c, M = self.costs, self.M
+        update, total = c.lr_update * scale, (self.lr_early + c.lr_update) * scale
+        if self.separate:
+            first = self.hr_job(0) * scale
+            return np.maximum(M + _steps(update, period), _steps(first + total, period))
+        slack = period - c.hr * scale
+        saved = (c.hr_restart - c.hr) * scale
+        by_update = M + _steps(update + np.where(M <= 1, saved, 0), slack)
+        end = np.maximum(np.maximum(by_update, _steps(total + saved, slack)), 2)
+        within_first = (M == 0) & (period - self.hr_job(0) * scale >= total)
+        return np.where(within_first, 1, end)
+
+
+BEYOND = 1 << 40
+
+
+def _steps(work: Ints, slack: Ints) -> Ints:
+    """How many steps it takes to do `work` when each leaves `slack`: at least one."""
+    ceiling = -(-work // np.maximum(slack, 1))
+    return np.where(slack > 0, np.maximum(ceiling, 1), np.where(work <= 0, 1, BEYOND))

@@ -1,0 +1,93 @@
+"""The least speed of one design, its achieved l, and the staircase between them, as exact fractions."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import astuple, replace
+from fractions import Fraction
+from typing import NamedTuple
+
+import numpy as np
+
+from sched_sim import analysis
+from sched_sim.costs import DualRateCosts, JobCosts
+from sched_sim.options import Options
+from sched_sim.tasks import Task
+from sched_sim.ticks import positive, ticks_per_unit, to_ticks
+from sched_sim.timing import Timing, check_dual_rate, latest_feedback_step
+
+
+class LeastSpeed(NamedTuple):
+    """speed: the least, in cost units per HR period; binding: the name of an `analysis.Binding`, or "task:NAME"."""
+
+    speed: Fraction
+    binding: str
+
+
+class Stair(NamedTuple):
+    """For one L asked for: the least speed, what fixes it, and the L at which corrections land at that speed."""
+
+    L: int
+    speed: Fraction
+    binding: str
+    achieved: int
+
+
+def least_speed(
+    costs: JobCosts, timing: Timing, options: Options = Options(), tasks: Sequence[Task] = ()
+) -> LeastSpeed:
+    """The least speed at which every deadline holds (Steffes 2014, Sec. III.C: needed processing power).
+
+    In closed form and exact; with context-switch costs or other tasks by bisection on the simulation, which is
+    exact to one tick (see `search.least_speed_by_simulation`).
+    Raises InputError for an L that the method cannot have.
+    """
+    if isinstance(costs, DualRateCosts):
+        check_dual_rate(timing, options.feedback)
+    if tasks or options.context_switch:
+        from sched_sim.search import least_speed_by_simulation
+
+        alone = least_speed(costs, timing, replace(options, context_switch=Fraction(0))).speed
+        return LeastSpeed(*least_speed_by_simulation(costs, timing, options, tasks, at_least=alone))
+    resolution, in_ticks = _in_ticks(costs)
+    N, M, L = (np.array([value], dtype=object) for value in (timing.N, timing.M, timing.L))
+    least = analysis.least_period(in_ticks, N, M, L, options)
+    speed = Fraction(least.numerator.item(), least.denominator.item() * resolution)
+    return LeastSpeed(speed, analysis.Binding(least.code.item()).name)
+
+
+def achieved_l(costs: JobCosts, timing: Timing, speed: Fraction, options: Options = Options()) -> int | None:
+    """The L at which corrections land at `speed`, in closed form; None where an HR job overruns its step or nothing
+    lands before the next measurement. Without context-switch costs."""
+    positive(speed, "speed")
+    resolution, in_ticks = _in_ticks(costs, speed)
+    N, M, period = (np.array([value], dtype=object) for value in (timing.N, timing.M, to_ticks(speed, resolution)))
+    landed = analysis.achieved_l(in_ticks, N, M, period, options).item()
+    return None if landed == analysis.NOT_LANDED else landed
+
+
+def staircase(costs: JobCosts, N: int, M: int, options: Options = Options()) -> list[Stair]:
+    """Every legal L with its least speed, from the earliest to the latest.
+
+    A step on which `achieved` is less than L is waste: the same processor already lands earlier.
+    For methods other than dual-rate there is one stair: the correction lands at m, whatever L is.
+    """
+    if isinstance(costs, DualRateCosts):
+        first = M + 1 if options.feedback == "next-step" else M
+        wanted = range(first, latest_feedback_step(N, options.feedback) + 1)
+    else:
+        wanted = range(M, M + 1)
+    stairs = []
+    for L in wanted:
+        timing = Timing(N, M, L)
+        least = least_speed(costs, timing, options)
+        landed = achieved_l(costs, timing, least.speed, options)
+        assert landed is not None
+        stairs.append(Stair(L, least.speed, least.binding, landed))
+    return stairs
+
+
+def _in_ticks(costs: JobCosts, *others: Fraction) -> tuple[int, JobCosts]:
+    values = [Fraction(value) for value in astuple(costs)]
+    resolution = ticks_per_unit([*values, *others])
+    return resolution, type(costs)(*(to_ticks(value, resolution) for value in values))
