@@ -4,7 +4,11 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+import numpy as np
+
 from filters.arrays import FloatArray
+from filters.records import Correction
+from filters.systems.system import System
 
 
 class History(NamedTuple):
@@ -19,3 +23,37 @@ class History(NamedTuple):
     P_reference: FloatArray
     innovations: FloatArray
     gains: FloatArray
+
+
+class HistoryRecorder:
+    """Collects a history while a filter runs."""
+
+    def __init__(self, system: System) -> None:
+        self._system = system
+        self._x: list[FloatArray] = []
+        self._P: list[FloatArray] = []
+        self._z: list[FloatArray] = []
+        self._K: list[FloatArray] = []
+
+    def state(self, x: FloatArray) -> None:
+        """The estimate at the end of a step."""
+        self._x.append(x)
+
+    def reference(self, P: FloatArray) -> None:
+        """P_{k^-} of a measurement reference step."""
+        self._P.append(P)
+
+    def correction(self, correction: Correction) -> None:
+        """What a measurement that was used has said."""
+        self._z.append(correction.z)
+        self._K.append(correction.K)
+
+    def history(self) -> History:
+        """What was collected, as arrays."""
+        n, p = self._system.states, self._system.measurements
+        return History(
+            np.array(self._x),
+            np.array(self._P),
+            np.array(self._z).reshape(-1, p),
+            np.array(self._K).reshape(-1, n, p),
+        )

@@ -33,3 +33,9 @@ def check_problem(
 def _check_shape(name: str, array: FloatArray, needed: tuple[int, ...]) -> None:
     if np.shape(array) != needed:
         raise ValueError(f"{name} has shape {np.shape(array)}, the system needs {needed}")
+
+
+def check_choice(name: str, value: str, choices: tuple[str, ...]) -> None:
+    """Raises ValueError unless the value is one of the choices."""
+    if value not in choices:
+        raise ValueError(f"{name}={value!r} is unknown; give one of {', '.join(choices)}")

@@ -52,7 +52,8 @@ def _jit(clone: FunctionType, original: FunctionType) -> Any:
 
     from filters.kernels.disk_cache import keep_on_disk
 
-    dispatcher = numba.njit(error_model="numpy")(clone)
+    # Without inlining, taking a record apart costs more in reference counts than the arithmetic of a 9-state step.
+    dispatcher = numba.njit(error_model="numpy", forceinline=True)(clone)
     keep_on_disk(dispatcher, cache_folder(original))
     identity = uuid.uuid5(uuid.NAMESPACE_URL, f"sched_sim:{original.__qualname__}:{source_hash(original)}")
     dispatcher._set_uuid(str(identity))

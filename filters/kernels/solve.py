@@ -50,17 +50,21 @@ def cholesky(S: FloatArray, out: FloatArray) -> None:
 def solve_right(C: FloatArray, B: FloatArray, out: FloatArray) -> None:
     """out = B S^-1 where S = C C^T is given by its Cholesky factor C (p, p), for B (n, p), out (n, p); out may be B.
 
-    Each row of B is solved forward with C, then backward with C^T.
+    All rows of B are solved forward with C, then backward with C^T. Each pivot is inverted once, for n divides cost
+    more than n multiplies.
     """
-    p = C.shape[0]
-    for row in range(B.shape[0]):
-        for i in range(p):
+    n, p = B.shape
+    for i in range(p):
+        scale = 1.0 / C[i, i]
+        for row in range(n):
             total = B[row, i]
             for k in range(i):
                 total -= C[i, k] * out[row, k]
-            out[row, i] = total / C[i, i]
-        for i in range(p - 1, -1, -1):
+            out[row, i] = total * scale
+    for i in range(p - 1, -1, -1):
+        scale = 1.0 / C[i, i]
+        for row in range(n):
             total = out[row, i]
             for k in range(i + 1, p):
                 total -= C[k, i] * out[row, k]
-            out[row, i] = total / C[i, i]
+            out[row, i] = total * scale

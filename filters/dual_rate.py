@@ -1,0 +1,192 @@
+"""The dual rate filter, Eqs. (13) to (19): a high-rate (HR) and a low-rate (LR) task side by side.
+
+The tasks exchange only what Fig. 2 names. HR to LR at k: Phi_{(k-N)->k} and Q_{(k-N)->k}, and x_{k^-}, from which the
+innovation is formed (Eq. 5). LR to HR at l: delta_x_{k^+}.
+"""
+
+from __future__ import annotations
+
+from typing import Any, Literal, NamedTuple, TypeAlias
+
+import numpy as np
+
+from filters.arrays import FloatArray
+from filters.high_rate import hr_restart, hr_update
+from filters.history import History, HistoryRecorder
+from filters.kernels.backends import BackendName, bind_to
+from filters.low_rate import lr_correct, lr_gain, lr_update
+from filters.low_rate_noise import NOISE_METHODS, LowRateNoise, NoiseMethod
+from filters.problem import check_choice, check_problem
+from filters.records import Correction, Estimate, new_correction, new_workspace
+from filters.systems.system import System
+from filters.update_forms import UpdateFormName, update_form
+from filters.update_forms.form import UpdateForm
+
+GainTime: TypeAlias = Literal["at-update", "precomputed"]
+Feedback: TypeAlias = Literal["next-step", "same-step"]
+
+
+class Message(NamedTuple):
+    """From HR to LR at k. transition: over the steps k - N .. k, None at k = 0."""
+
+    k: int
+    x: FloatArray
+    transition: Any
+
+
+class HighRateTask:
+    """The whole state x_j (n,) and the transition from the last k to j."""
+
+    def __init__(
+        self, system: System, N: int, x0: FloatArray, noise: NoiseMethod, backend: BackendName
+    ) -> None:
+        self._size = system
+        self._N = N
+        self._noise = noise
+        self._work = new_workspace(system)
+        self._system = bind_to(backend, system)
+        self._restart = bind_to(backend, hr_restart)
+        self._propagate = bind_to(backend, noise.propagate)
+        self._update = bind_to(backend, hr_update)
+        self._transition: Any = None
+        self.x = np.array(x0, dtype=np.float64)
+
+    def step(self, j: int, u: FloatArray) -> None:
+        """From j to j + 1."""
+        x, self.x = self.x, np.empty_like(self.x)
+        if j % self._N == 0:
+            start = self._restart(self._system, j, x, u, self.x)
+            self._transition = self._noise.start(start, j, self._N)
+        else:
+            following = self._noise.new(self._size)
+            self._transition = self._propagate(
+                self._system, j, x, self._transition, u, self.x, following, self._work
+            )
+
+    def message(self, k: int) -> Message:
+        """What LR gets at k."""
+        return Message(k, self.x, self._transition)
+
+    def correct(self, L: int, delta_x: FloatArray) -> None:
+        """Take in the error estimate of k = l - L."""
+        Phi_from_k = self._transition.Phi if L > 0 else np.eye(len(self.x))
+        x, self.x = self.x, np.empty_like(self.x)
+        self._update(x, Phi_from_k, delta_x, self.x, self._work)
+
+
+class LowRateTask:
+    """The covariance, and the error estimate in the making."""
+
+    def __init__(
+        self,
+        system: System,
+        P0: FloatArray,
+        noise: NoiseMethod,
+        form: UpdateForm,
+        gain: GainTime,
+        backend: BackendName,
+    ) -> None:
+        self._size = system
+        self._gain_time = gain
+        self._work = new_workspace(system)
+        self._system = bind_to(backend, system)
+        self._form = bind_to(backend, form)
+        self._propagate = bind_to(backend, noise.lr_propagate)
+        self._update = bind_to(backend, lr_update)
+        self._gain = bind_to(backend, lr_gain)
+        self._correct = bind_to(backend, lr_correct)
+        self._P = np.array(P0, dtype=np.float64)  # P_{k^+} of the last k
+        self._k = 0
+        self._reference = Estimate(np.empty(0), self._P)
+        self._correction = new_correction(system)
+
+    def propagate(self, message: Message, *, measured: bool) -> FloatArray:
+        """Go to the next k, at which a measurement is taken or is missing. Returns P_{k^-}."""
+        P = self._P
+        if message.transition is not None:
+            P = np.empty_like(P)
+            self._propagate(self._P, message.transition, P, self._work)
+        self._k, self._reference = message.k, Estimate(message.x, P)
+        self._P = P  # stays so if the measurement is missing
+        self._correction = new_correction(self._size)
+        if measured and self._gain_time == "precomputed":
+            self._P = np.empty_like(P)
+            self._gain(
+                self._system, self._form, self._k, self._reference, self._P, self._correction, self._work
+            )
+        return P
+
+    def update(self, y: FloatArray) -> Correction:
+        """Use the measurement of the last k."""
+        if self._gain_time == "precomputed":
+            self._correct(self._system, self._k, y, self._reference, self._correction)
+        else:
+            self._P = np.empty_like(self._P)
+            self._update(
+                self._system, self._form, self._k, y, self._reference, self._P, self._correction, self._work
+            )
+        return self._correction
+
+
+def run(
+    system: System,
+    N: int,
+    M: int,
+    L: int,
+    x0: FloatArray,
+    P0: FloatArray,
+    inputs: FloatArray,
+    measurements: FloatArray,
+    *,
+    update: UpdateFormName = "textbook",
+    low_rate_noise: LowRateNoise = "exact",
+    gain: GainTime = "at-update",
+    feedback: Feedback = "next-step",
+    backend: BackendName = "reference",
+) -> History:
+    """Filter a record of data in which the measurement of k can be read from m = k + M on; correct at l = k + L.
+
+    Other arguments, results and errors as in `standard.run`.
+    low_rate_noise: "exact" (Eq. 18), or an approximation, "sum" (Eq. 23) or "euler" (Eq. 24).
+    gain: "at-update", or "precomputed" before the measurement arrives (Sec. III.D); the numbers are the same.
+    feedback: "next-step" corrects at the start of step l, M < L <= N, where l = k + N comes before the next x_{k^-} is
+        taken; "same-step" corrects at the end of step l, M <= L < N.
+    """
+    check_problem(system, N, M, L, x0, P0, inputs, measurements)
+    check_choice("low_rate_noise", low_rate_noise, ("exact", "sum", "euler"))
+    check_choice("gain", gain, ("at-update", "precomputed"))
+    check_choice("feedback", feedback, ("next-step", "same-step"))
+    _check_feedback_step(N, M, L, feedback)
+    noise = NOISE_METHODS[low_rate_noise]
+    high_rate = HighRateTask(system, N, x0, noise, backend)
+    low_rate = LowRateTask(system, P0, noise, update_form(update), gain, backend)
+    recorder = HistoryRecorder(system)
+
+    correction: Correction | None = None
+    for j in range(len(inputs) + 1):
+        if j > 0:
+            high_rate.step(j - 1, inputs[j - 1])
+        if feedback == "next-step" and correction is not None and j % N == L % N:
+            high_rate.correct(L, correction.delta_x)
+            correction = None
+        if j % N == 0:
+            measured = j // N < len(measurements)
+            recorder.reference(low_rate.propagate(high_rate.message(j), measured=measured))
+        if j % N == M and j // N < len(measurements):  # m < k + N, so the cycle is still that of k
+            correction = low_rate.update(measurements[j // N])
+            recorder.correction(correction)
+        if feedback == "same-step" and correction is not None and j % N == L:
+            high_rate.correct(L, correction.delta_x)
+            correction = None
+        recorder.state(high_rate.x)
+    return recorder.history()
+
+
+def _check_feedback_step(N: int, M: int, L: int, feedback: Feedback) -> None:
+    if feedback == "next-step" and L <= M:
+        raise ValueError(
+            f"L={L} must be > M={M}: the correction cannot land in the step in which the measurement arrives "
+            f"(same-step feedback allows L = M)"
+        )
+    if feedback == "same-step" and L >= N:
+        raise ValueError(f"L={L} must be < N={N} with same-step feedback: the correction lands during step l")

@@ -1,0 +1,122 @@
+"""Larsen's measurement extrapolation: the correction of step k is carried to m by Phi_{k->m}, Eqs. (20) to (22)."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from filters.arrays import FloatArray
+from filters.history import History, HistoryRecorder
+from filters.kernels.backends import BackendName, bind_to
+from filters.kernels.dense import add_vectors, matmul, matvec
+from filters.problem import check_problem
+from filters.records import Correction, Estimate, Workspace, new_correction, new_estimate, new_workspace
+from filters.standard import propagate
+from filters.standard import update as update_at_once
+from filters.systems.system import System
+from filters.update import update_error
+from filters.update_forms import UpdateFormName, update_form
+from filters.update_forms.form import UpdateForm
+
+
+def propagate_accumulate(
+    system: System,
+    j: int,
+    before: Estimate,
+    Phi_from_k: FloatArray,
+    u: FloatArray,
+    after: Estimate,
+    Phi_next: FloatArray,
+    work: Workspace,
+) -> None:
+    """Job: the estimate at j becomes that at j + 1, and Phi_{k->j} becomes Phi_{k->j+1}, Eqs. (6), (8) and (16)."""
+    Phi = propagate(system, j, before, u, after, work)
+    matmul(Phi, Phi_from_k, Phi_next)  # (16)
+
+
+def extrapolated_update(
+    system: System,
+    form: UpdateForm,
+    k: int,
+    y: FloatArray,
+    reference: Estimate,
+    Phi_from_k: FloatArray,
+    before: Estimate,
+    after: Estimate,
+    correction: Correction,
+    work: Workspace,
+) -> None:
+    """Job: the estimate at m before the measurement y of step k becomes that after it, Eqs. (9), (20) and (21).
+
+    reference: x_{k^-}, P_{k^-}, as they were at k; Phi_from_k: Phi_{k->m}; before: x_{m^-}, P_{m^-}.
+    """
+    H = system.H(k, reference.x, system.parameters)
+    R = system.R(k, system.parameters)
+    form.gain(reference.P, H, R, correction.K, work)
+    update_error(system, k, y, reference.x, correction)
+    matvec(Phi_from_k, correction.delta_x, work.n1)
+    add_vectors(before.x, work.n1, after.x)  # (20)
+    form.delayed_covariance(Phi_from_k, reference.P, H, R, correction.K, before.P, after.P, work)
+
+
+def run(
+    system: System,
+    N: int,
+    M: int,
+    L: int,
+    x0: FloatArray,
+    P0: FloatArray,
+    inputs: FloatArray,
+    measurements: FloatArray,
+    *,
+    update: UpdateFormName = "textbook",
+    backend: BackendName = "reference",
+) -> History:
+    """Filter a record of data in which the measurement of step k can be read from step m = k + M on.
+
+    Arguments, results and errors as in `standard.run`. The correction is in the state of step m, whatever L is.
+    """
+    check_problem(system, N, M, L, x0, P0, inputs, measurements)
+    run_propagate = bind_to(backend, propagate)
+    run_propagate_accumulate = bind_to(backend, propagate_accumulate)
+    run_update_at_once = bind_to(backend, update_at_once)
+    run_update = bind_to(backend, extrapolated_update)
+    form, model = bind_to(backend, update_form(update)), bind_to(backend, system)
+    work = new_workspace(system)
+    recorder = HistoryRecorder(system)
+
+    estimate = reference = Estimate(np.array(x0, dtype=np.float64), np.array(P0, dtype=np.float64))
+    Phi_from_k = np.eye(system.states)
+    for j in range(len(inputs) + 1):
+        if j > 0:
+            i, before, estimate = j - 1, estimate, new_estimate(system)
+            if i % N == 0:
+                Phi_from_k = run_propagate(model, i, before, inputs[i], estimate, work)  # the product so far, (15)
+            elif i % N < M:
+                Phi_before, Phi_from_k = Phi_from_k, np.empty_like(Phi_from_k)
+                run_propagate_accumulate(
+                    model, i, before, Phi_before, inputs[i], estimate, Phi_from_k, work
+                )
+            else:
+                run_propagate(model, i, before, inputs[i], estimate, work)
+
+        if j % N == 0 and M < N:
+            reference = estimate
+            recorder.reference(reference.P)
+
+        k = j - M
+        if k >= 0 and k % N == 0 and k // N < len(measurements):
+            y = measurements[k // N]
+            before, estimate, correction = estimate, new_estimate(system), new_correction(system)
+            if M == 0:
+                run_update_at_once(model, form, k, y, before, estimate, correction, work)
+            else:
+                run_update(
+                    model, form, k, y, reference, Phi_from_k, before, estimate, correction, work
+                )
+            recorder.correction(correction)
+
+        if j % N == 0 and M == N:  # the measurement that has just arrived belonged to the reference before this one
+            reference = estimate
+            recorder.reference(reference.P)
+        recorder.state(estimate.x)
+    return recorder.history()

@@ -1,0 +1,71 @@
+"""Recalculate the filter when the delayed measurement arrives: go back to k, update, and propagate to m again.
+
+At m the state and covariance of step k, and the inputs since, are still at hand; the update of Eqs. (9) to (12) at k is
+followed by M propagations. Nothing is done twice in other steps.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from filters.arrays import FloatArray
+from filters.history import History, HistoryRecorder
+from filters.kernels.backends import BackendName, bind_to
+from filters.problem import check_problem
+from filters.records import Estimate, new_correction, new_estimate, new_workspace
+from filters.standard import propagate as propagate_job
+from filters.standard import update as update_job
+from filters.systems.system import System
+from filters.update_forms import UpdateFormName, update_form
+
+
+def run(
+    system: System,
+    N: int,
+    M: int,
+    L: int,
+    x0: FloatArray,
+    P0: FloatArray,
+    inputs: FloatArray,
+    measurements: FloatArray,
+    *,
+    update: UpdateFormName = "textbook",
+    backend: BackendName = "reference",
+) -> History:
+    """Filter a record of data in which the measurement of step k can be read from step m = k + M on.
+
+    Arguments, results and errors as in `standard.run`. The correction is in the state of step m, whatever L is.
+    """
+    check_problem(system, N, M, L, x0, P0, inputs, measurements)
+    propagate, correct = bind_to(backend, propagate_job), bind_to(backend, update_job)
+    form, model = bind_to(backend, update_form(update)), bind_to(backend, system)
+    work = new_workspace(system)
+    recorder = HistoryRecorder(system)
+
+    def propagated(j: int, before: Estimate) -> Estimate:
+        after = new_estimate(system)
+        propagate(model, j, before, inputs[j], after, work)
+        return after
+
+    estimate = reference = Estimate(np.array(x0, dtype=np.float64), np.array(P0, dtype=np.float64))
+    for j in range(len(inputs) + 1):
+        if j > 0:
+            estimate = propagated(j - 1, estimate)
+        if j % N == 0 and M < N:
+            reference = estimate
+            recorder.reference(reference.P)
+
+        k = j - M
+        if k >= 0 and k % N == 0 and k // N < len(measurements):
+            correction = new_correction(system)
+            estimate = new_estimate(system)
+            correct(model, form, k, measurements[k // N], reference, estimate, correction, work)
+            for i in range(k, j):
+                estimate = propagated(i, estimate)
+            recorder.correction(correction)
+
+        if j % N == 0 and M == N:  # the measurement that has just arrived belonged to the reference before this one
+            reference = estimate
+            recorder.reference(reference.P)
+        recorder.state(estimate.x)
+    return recorder.history()

@@ -1,0 +1,83 @@
+"""What a filter has in memory at some moment: realistic arguments for the jobs that are measured."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from filters import standard
+from filters.arrays import FloatArray
+from filters.high_rate import hr_propagate, hr_restart
+from filters.kernels.backends import bind_to
+from filters.records import (
+    Correction,
+    Estimate,
+    Transition,
+    new_correction,
+    new_estimate,
+    new_transition,
+    new_workspace,
+)
+from filters.simulation import simulate_truth
+from filters.systems.system import System
+from filters.update import update_covariance, update_error
+from filters.update_forms import UPDATE_FORMS
+
+WARM_UP = 12  # steps with a measurement each, after which the covariance is far from its start
+DELAY = 4  # steps from k to m
+
+
+class Sample(NamedTuple):
+    """A moment k at which a measurement is taken, and m, at which it is available.
+
+    reference: x_{k^-}, P_{k^-}. y (p,): the measurement. correction: what it says at k. P_posterior: P_{k^+}.
+    now: x_{m^-}, P_{m^-}, not corrected. transition: Phi_{k->m}, Q_{k->m}. u (m,): the input of step m.
+    """
+
+    k: int
+    m: int
+    reference: Estimate
+    y: FloatArray
+    correction: Correction
+    P_posterior: FloatArray
+    now: Estimate
+    transition: Transition
+    u: FloatArray
+
+
+def sample(system: System, seed: int, index: int, x0: FloatArray | None = None) -> Sample:
+    """The sample of this number, independent of those with other numbers: k and all values differ.
+
+    The standard filter is run on simulated data from x0 (zero if not given) with unit covariance and normal inputs.
+    """
+    k = WARM_UP + index
+    m = k + DELAY
+    random = np.random.default_rng([seed, index])
+    start = np.zeros(system.states) if x0 is None else np.array(x0, dtype=np.float64)
+    P0 = np.eye(system.states)
+    inputs = random.normal(size=(m + 1, system.inputs))
+    truth = simulate_truth(system, 1, start, P0, inputs, int(random.integers(2**31)))
+    used = truth.measurements[:k]
+    before = standard.run(system, 1, 0, 0, start, P0, inputs[:k], used, backend="numpy")
+    reference = Estimate(before.x[k], before.P_reference[k])
+
+    work = new_workspace(system)
+    correction, P_posterior = new_correction(system), np.empty_like(P0)
+    bound = bind_to("numpy", system)
+    form = bind_to("numpy", UPDATE_FORMS["joseph"])
+    bind_to("numpy", update_covariance)(bound, form, k, reference, correction.K, P_posterior, work)
+    bind_to("numpy", update_error)(bound, k, truth.measurements[k], reference.x, correction)
+
+    now, x = reference, np.empty_like(start)
+    transition = bind_to("numpy", hr_restart)(bound, k, reference.x, inputs[k], x)
+    for j in range(k, m):
+        after = new_estimate(system)
+        if j > k:
+            args = (bound, j, now.x, transition, inputs[j], x, new_transition(system), work)
+            transition = bind_to("numpy", hr_propagate)(*args)
+        bind_to("numpy", standard.propagate)(bound, j, now, inputs[j], after, work)
+        now = after
+    return Sample(
+        k, m, reference, truth.measurements[k], correction, P_posterior, now, transition, inputs[m]
+    )
