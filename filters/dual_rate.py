@@ -13,7 +13,7 @@ import numpy as np
 from filters.arrays import FloatArray
 from filters.high_rate import hr_restart, hr_update
 from filters.history import History, HistoryRecorder
-from filters.kernels.backends import BackendName, bind_to
+from filters.kernels.backends import BackendName, arguments_for, function_for
 from filters.low_rate import lr_correct, lr_gain, lr_update
 from filters.low_rate_noise import NOISE_METHODS, LowRateNoise, NoiseMethod
 from filters.problem import check_choice, check_problem
@@ -44,10 +44,10 @@ class HighRateTask:
         self._N = N
         self._noise = noise
         self._work = new_workspace(system)
-        self._system = bind_to(backend, system)
-        self._restart = bind_to(backend, hr_restart)
-        self._propagate = bind_to(backend, noise.propagate)
-        self._update = bind_to(backend, hr_update)
+        self._system = arguments_for(backend, system)
+        self._restart = function_for(backend, hr_restart)
+        self._propagate = function_for(backend, noise.propagate)
+        self._update = function_for(backend, hr_update)
         self._transition: Any = None
         self.x = np.array(x0, dtype=np.float64)
 
@@ -89,12 +89,12 @@ class LowRateTask:
         self._size = system
         self._gain_time = gain
         self._work = new_workspace(system)
-        self._system = bind_to(backend, system)
-        self._form = bind_to(backend, form)
-        self._propagate = bind_to(backend, noise.lr_propagate)
-        self._update = bind_to(backend, lr_update)
-        self._gain = bind_to(backend, lr_gain)
-        self._correct = bind_to(backend, lr_correct)
+        self._system = arguments_for(backend, system)
+        self._form = arguments_for(backend, form)
+        self._propagate = function_for(backend, noise.lr_propagate)
+        self._update = function_for(backend, lr_update)
+        self._gain = function_for(backend, lr_gain)
+        self._correct = function_for(backend, lr_correct)
         self._P = np.array(P0, dtype=np.float64)  # P_{k^+} of the last k
         self._k = 0
         self._reference = Estimate(np.empty(0), self._P)

@@ -6,7 +6,7 @@ import numpy as np
 
 from filters.arrays import FloatArray
 from filters.history import History, HistoryRecorder
-from filters.kernels.backends import BackendName, bind_to
+from filters.kernels.backends import BackendName, arguments_for, function_for
 from filters.kernels.dense import add_vectors, matmul, matvec
 from filters.problem import check_problem
 from filters.records import Correction, Estimate, Workspace, new_correction, new_estimate, new_workspace
@@ -76,11 +76,11 @@ def run(
     Arguments, results and errors as in `standard.run`. The correction is in the state of step m, whatever L is.
     """
     check_problem(system, N, M, L, x0, P0, inputs, measurements)
-    run_propagate = bind_to(backend, propagate)
-    run_propagate_accumulate = bind_to(backend, propagate_accumulate)
-    run_update_at_once = bind_to(backend, update_at_once)
-    run_update = bind_to(backend, extrapolated_update)
-    form, model = bind_to(backend, update_form(update)), bind_to(backend, system)
+    run_propagate = function_for(backend, propagate)
+    run_propagate_accumulate = function_for(backend, propagate_accumulate)
+    run_update_at_once = function_for(backend, update_at_once)
+    run_update = function_for(backend, extrapolated_update)
+    form, model = arguments_for(backend, update_form(update)), arguments_for(backend, system)
     work = new_workspace(system)
     recorder = HistoryRecorder(system)
 

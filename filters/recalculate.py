@@ -10,7 +10,7 @@ import numpy as np
 
 from filters.arrays import FloatArray
 from filters.history import History, HistoryRecorder
-from filters.kernels.backends import BackendName, bind_to
+from filters.kernels.backends import BackendName, arguments_for, function_for
 from filters.problem import check_problem
 from filters.records import Estimate, new_correction, new_estimate, new_workspace
 from filters.standard import propagate as propagate_job
@@ -37,8 +37,8 @@ def run(
     Arguments, results and errors as in `standard.run`. The correction is in the state of step m, whatever L is.
     """
     check_problem(system, N, M, L, x0, P0, inputs, measurements)
-    propagate, correct = bind_to(backend, propagate_job), bind_to(backend, update_job)
-    form, model = bind_to(backend, update_form(update)), bind_to(backend, system)
+    propagate, correct = function_for(backend, propagate_job), function_for(backend, update_job)
+    form, model = arguments_for(backend, update_form(update)), arguments_for(backend, system)
     work = new_workspace(system)
     recorder = HistoryRecorder(system)
 

@@ -3,7 +3,7 @@
     for method in ALL_METHODS.values():
         for job in method.jobs(example_system(), "textbook", seed=0).values():
             count(job.function, *job.arguments(0))
-            compiled(job.function)(*bind_to("compiled", job.arguments(0)))
+            compiled(job.function)(*function_for("compiled", job.arguments(0)))
 """
 
 from __future__ import annotations

@@ -9,7 +9,7 @@ import numpy as np
 from filters import standard
 from filters.arrays import FloatArray
 from filters.high_rate import hr_propagate, hr_restart
-from filters.kernels.backends import bind_to
+from filters.kernels.backends import arguments_for, function_for
 from filters.records import (
     Correction,
     Estimate,
@@ -64,19 +64,19 @@ def sample(system: System, seed: int, index: int, x0: FloatArray | None = None) 
 
     work = new_workspace(system)
     correction, P_posterior = new_correction(system), np.empty_like(P0)
-    bound = bind_to("numpy", system)
-    form = bind_to("numpy", UPDATE_FORMS["joseph"])
-    bind_to("numpy", update_covariance)(bound, form, k, reference, correction.K, P_posterior, work)
-    bind_to("numpy", update_error)(bound, k, truth.measurements[k], reference.x, correction)
+    bound = arguments_for("numpy", system)
+    form = arguments_for("numpy", UPDATE_FORMS["joseph"])
+    function_for("numpy", update_covariance)(bound, form, k, reference, correction.K, P_posterior, work)
+    function_for("numpy", update_error)(bound, k, truth.measurements[k], reference.x, correction)
 
     now, x = reference, np.empty_like(start)
-    transition = bind_to("numpy", hr_restart)(bound, k, reference.x, inputs[k], x)
+    transition = function_for("numpy", hr_restart)(bound, k, reference.x, inputs[k], x)
     for j in range(k, m):
         after = new_estimate(system)
         if j > k:
             args = (bound, j, now.x, transition, inputs[j], x, new_transition(system), work)
-            transition = bind_to("numpy", hr_propagate)(*args)
-        bind_to("numpy", standard.propagate)(bound, j, now, inputs[j], after, work)
+            transition = function_for("numpy", hr_propagate)(*args)
+        function_for("numpy", standard.propagate)(bound, j, now, inputs[j], after, work)
         now = after
     return Sample(
         k, m, reference, truth.measurements[k], correction, P_posterior, now, transition, inputs[m]

@@ -6,7 +6,7 @@ import numpy as np
 
 from filters.arrays import FloatArray
 from filters.history import History
-from filters.kernels.backends import BackendName, bind_to
+from filters.kernels.backends import BackendName, arguments_for, function_for
 from filters.kernels.dense import add, add_vectors, matmul, matmul_transposed
 from filters.problem import check_problem
 from filters.records import (
@@ -114,9 +114,9 @@ def run(
         np.empty((steps + 1, n)), np.empty((cycles, n, n)), np.empty((updates, p)), np.empty((updates, n, p))
     )
     start = Estimate(np.array(x0, dtype=np.float64), np.array(P0, dtype=np.float64))
-    bind_to(backend, filter_all)(
-        bind_to(backend, system),
-        bind_to(backend, update_form(update)),
+    function_for(backend, filter_all)(
+        arguments_for(backend, system),
+        arguments_for(backend, update_form(update)),
         N,
         start,
         inputs,

@@ -4,27 +4,55 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from types import FunctionType
-from typing import Any, Literal, TypeAlias
+from typing import Any, Literal, NamedTuple, TypeAlias
 
 from filters.kernels.bind import bind
-from filters.kernels.compiled import compiled
+from filters.kernels.compiled import compiled, inlined
 from filters.kernels.vectorised import vectorised
 
 BackendName: TypeAlias = Literal["reference", "compiled", "numpy"]
 
-BACKENDS: dict[BackendName, Callable[[FunctionType], Any]] = {
-    "reference": lambda function: function,  # the loops as they are written
-    "compiled": compiled,
-    "numpy": vectorised,
+
+class Backend(NamedTuple):
+    """function: the version of a function to call. argument: its version inside an argument of such a call."""
+
+    function: Callable[[FunctionType], Any]
+    argument: Callable[[FunctionType], Any]
+
+
+def _as_written(function: FunctionType) -> Any:
+    return function
+
+
+BACKENDS: dict[BackendName, Backend] = {
+    "reference": Backend(_as_written, _as_written),
+    "compiled": Backend(compiled, inlined),
+    "numpy": Backend(vectorised, vectorised),
 }
 
 
-def bind_to(backend: BackendName, value: Any) -> Any:
-    """A function, or a (named) tuple with functions in it such as a system model, in its version for a backend.
+def function_for(backend: BackendName, function: Callable[..., Any]) -> Any:
+    """A kernel or job, to be called with arguments from `arguments_for` the same backend.
+
+    Raises:
+        ValueError: there is no backend of this name.
+        TypeError: it is not a plain Python function.
+    """
+    if not isinstance(function, FunctionType):
+        raise TypeError(f"{function!r} is not a plain Python function, and only such can be run by a backend")
+    return _backend(backend).function(function)
+
+
+def arguments_for(backend: BackendName, value: Any) -> Any:
+    """An argument, or a tuple of them: functions in it, such as those of a system model, in their right version.
 
     Raises:
         ValueError: there is no backend of this name.
     """
-    if backend not in BACKENDS:
-        raise ValueError(f"backend {backend!r} is unknown; give one of {', '.join(BACKENDS)}")
-    return bind(value, BACKENDS[backend])
+    return bind(value, _backend(backend).argument)
+
+
+def _backend(name: BackendName) -> Backend:
+    if name not in BACKENDS:
+        raise ValueError(f"backend {name!r} is unknown; give one of {', '.join(BACKENDS)}")
+    return BACKENDS[name]

@@ -1,6 +1,11 @@
-"""Run kernels compiled by numba: a clone of the function in which everything it calls is compiled too.
+"""Run kernels compiled by numba: a clone of the function in which everything it calls is compiled into it.
 
 numba is imported when the first function is compiled, for its import costs half a second.
+
+Everything is inlined. Otherwise taking a record of arrays apart at each call costs more in reference counts than the
+arithmetic of a 9-state step. Hence the two versions of a function: `compiled`, to be called from Python and kept on
+disk, and `inlined`, to be called by compiled code, which is only ever a part of a compiled function. (Machine code
+read from the disk cannot be inlined: if the parts were cached too, the speed would depend on what the cache held.)
 
 Machine code is kept in the user's cache folder. numba's own cache looks only at the file of the outermost function
 and so goes stale when a callee in another file changes; here the folder's name carries a hash of the sources of all
@@ -20,22 +25,35 @@ from typing import Any
 
 from filters.kernels.rebind import callees, rebind
 
+# Functions in these modules neither allocate nor return arrays. numba need not count references in them, which it would
+# do for every array taken out of a record, and LLVM would not remove all of it: half the time of a short update.
+_ALLOCATION_FREE = ("filters.kernels.", "filters.update_forms.")
 
-_VERSIONS: dict[FunctionType, Any] = {}
+_COMPILED: dict[FunctionType, Any] = {}
+_INLINED: dict[FunctionType, Any] = {}
 
 
 def compiled(function: FunctionType) -> Any:
-    """The numba version of a plain function; it is compiled when first called with arguments of new types.
+    """The numba version of a plain function for callers in Python; compiled when called with arguments of new types.
 
-    Same function in, same object out, so that nothing is compiled twice. Floating-point operations are neither
-    reordered nor fused, so that results agree with the plain function to the last bits; division by zero gives inf.
+    Functions in its arguments must be the `inlined` versions. Same function in, same object out, so that nothing is
+    compiled twice. Floating-point operations are neither reordered nor fused, so that results agree with the plain
+    function to the last bits; division by zero gives inf.
     """
-    return rebind(function, _jit, _VERSIONS)
+    if function not in _COMPILED:
+        parts = {callee: inlined(callee) for callee in callees(function).values() if callee is not function}
+        _COMPILED[function] = rebind(function, _kept_on_disk, parts)
+    return _COMPILED[function]
+
+
+def inlined(function: FunctionType) -> Any:
+    """The numba version of a plain function for callers in compiled code, such as a job given to a timing loop."""
+    return rebind(function, _inlined, _INLINED)
 
 
 def source_hash(function: FunctionType) -> str:
     """A hash of the source of a function and of all plain functions that it calls, in whatever file."""
-    digest = hashlib.sha256()
+    digest = hashlib.sha256(Path(__file__).read_bytes())  # the way of compiling counts too
     for item in _with_callees(function, {}):
         digest.update(f"{item.__module__}.{item.__qualname__}\n{_source(item)}\n".encode())
     return digest.hexdigest()[:24]
@@ -47,17 +65,25 @@ def cache_folder(function: FunctionType) -> Path:
     return Path(home) / "sched_sim" / "numba" / f"{function.__name__}-{source_hash(function)}"
 
 
-def _jit(clone: FunctionType, original: FunctionType) -> Any:
-    import numba
-
+def _kept_on_disk(clone: FunctionType, original: FunctionType) -> Any:
     from filters.kernels.disk_cache import keep_on_disk
 
-    # Without inlining, taking a record apart costs more in reference counts than the arithmetic of a 9-state step.
-    dispatcher = numba.njit(error_model="numpy", forceinline=True)(clone)
+    dispatcher = _jit(clone)
     keep_on_disk(dispatcher, cache_folder(original))
+    return dispatcher
+
+
+def _inlined(clone: FunctionType, original: FunctionType) -> Any:
+    dispatcher = _jit(clone, forceinline=True, _nrt=not original.__module__.startswith(_ALLOCATION_FREE))
     identity = uuid.uuid5(uuid.NAMESPACE_URL, f"sched_sim:{original.__qualname__}:{source_hash(original)}")
     dispatcher._set_uuid(str(identity))
     return dispatcher
+
+
+def _jit(clone: FunctionType, **options: bool) -> Any:
+    import numba
+
+    return numba.njit(error_model="numpy", **options)(clone)
 
 
 def _with_callees(function: FunctionType, found: dict[FunctionType, None]) -> dict[FunctionType, None]:
