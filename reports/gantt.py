@@ -1,0 +1,132 @@
+"""Gantt charts in the manner of Steffes (2014), Fig. 3: schedules below one another on a common axis of steps."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
+
+from reports.intervals import jobs, never_ran, rows
+from reports.lanes import draw_lanes, fills_of, lanes, plain, shortened
+from reports.legend import draw_legend, legend_height
+from reports.marks import draw_marks
+from reports.panels import Panel, method_panel
+from reports.picture import image, save
+from reports.scale import Scale
+from reports.style import (
+    FONT_PT,
+    INK,
+    PALE,
+    RED,
+    TITLE_PT,
+    WIDTH_MM,
+    axes_at,
+    drawing,
+    page,
+    text_width_mm,
+)
+
+__all__ = ["Panel", "gantt", "image", "method_panel", "save"]
+
+TITLE_MM, MARKS_MM, AXIS_MM, PANEL_GAP_MM, EDGE_MM, RIGHT_MM = 4.2, 4.2, 10.0, 3.5, 2.0, 7.0
+SEPARATOR = "  ·  "
+
+
+def gantt(panels: Sequence[Panel], *, width_mm: float = WIDTH_MM) -> Figure:
+    """Draw the panels below one another, at print size.
+
+    Work is labelled as in the paper's legend (P, U, HRP, HRU, LRP, LRU), as far as the labels fit. An arrow up below
+    a row is a release, an arrow down above it a deadline, both black; a missed deadline is red with a cross, work
+    done after its deadline hatched in red; a job that was released and does not run is a thin bar.
+    """
+    with drawing():
+        names = [shortened(row.name) for panel in panels for row in rows(panel.schedule)]
+        left = EDGE_MM + max(8.0, *(text_width_mm(plain(name)) for name in names)) + 2.0
+        across = width_mm - left - RIGHT_MM
+        first, end = min(panel.first for panel in panels), max(panel.end for panel in panels)
+        scales = [Scale(panel.schedule.period, first, end, across) for panel in panels]
+        titles = [title_lines(panel, width_mm - left - EDGE_MM) for panel in panels]
+        places = [lanes(panel.schedule, scale) for panel, scale in zip(panels, scales, strict=True)]
+        fills = fills_of(panel.schedule for panel in panels)
+        missing = any(panel.schedule.misses for panel in panels)
+        legend_mm = legend_height(fills, missing, across)
+
+        heads = [TITLE_MM * len(lines) + MARKS_MM for lines in titles]
+        bodies = [height for _, height in places]
+        gaps = PANEL_GAP_MM * (len(panels) - 1)
+        figure = page(EDGE_MM + sum(heads) + sum(bodies) + gaps + AXIS_MM + legend_mm + EDGE_MM, width_mm)
+        top = EDGE_MM
+        for panel, scale, lines, (rows_at, body), head in zip(panels, scales, titles, places, heads, strict=True):
+            axes = axes_at(figure, left, top + head, across, body)
+            frame(axes, scale, body, with_axis=panel is panels[-1])
+            _write_title(axes, lines, scale, body + MARKS_MM)
+            draw_marks(axes, panel.marks, scale, body)
+            draw_lanes(axes, panel.schedule, rows_at, scale, fills)
+            top += head + body + PANEL_GAP_MM
+        draw_legend(figure, fills, missing, left, top - PANEL_GAP_MM + AXIS_MM, across)
+        return figure
+
+
+def frame(axes: Axes, scale: Scale, height_mm: float, *, with_axis: bool) -> None:
+    """Axes of steps across and mm up; with numbers and a name below if they are the lowest."""
+    axes.set(xlim=(scale.first, scale.end), ylim=(0, height_mm), yticks=[])
+    axes.spines[["left", "right", "top"]].set_visible(False)
+    axes.spines["bottom"].set_visible(with_axis)
+    axes.xaxis.set_major_locator(MaxNLocator(nbins=20, integer=True, steps=[1, 2, 5, 10]))
+    axes.tick_params(axis="x", bottom=with_axis, labelbottom=with_axis)
+    if scale.mm_per_step >= 3:
+        for step in range(int(scale.first), int(scale.end) + 1):
+            axes.axvline(step, color=PALE, lw=0.5, zorder=0.3)
+    if with_axis:
+        axes.set_xlabel("start of step $j$ (high-rate periods)", labelpad=2)
+
+
+def title_lines(panel: Panel, width_mm: float) -> list[list[tuple[str, str]]]:
+    """The panel's title, its notes and its misses as lines of (text, role); role: "title", "note" or "miss"."""
+    pieces = [(panel.title, "title"), *((note, "note") for note in panel.notes), _misses(panel)]
+    lines: list[list[tuple[str, str]]] = [[]]
+    used = 0.0
+    for text, role in pieces:
+        width = _width(text, role) + text_width_mm(SEPARATOR)
+        if lines[-1] and used + width > width_mm:
+            lines.append([])
+            used = 0.0
+        lines[-1].append((text, role))
+        used += width
+    return lines
+
+
+def _misses(panel: Panel) -> tuple[str, str]:
+    missed = panel.schedule.misses
+    if not missed:
+        return "no deadline missed", "note"
+    ran = len(jobs(panel.schedule)) + (silent := never_ran(panel.schedule))
+    waiting = f", {silent} never got the processor" if silent else ""
+    verb = "misses its" if missed == 1 else "miss their"
+    return f"✗ {missed} of {ran} jobs {verb} deadline{waiting}", "miss"
+
+
+def _width(text: str, role: str) -> float:
+    measured = text if role == "note" else plain(text)
+    return text_width_mm(measured, TITLE_PT if role == "title" else FONT_PT, bold=role != "note")
+
+
+def _write_title(axes: Axes, lines: Sequence[Sequence[tuple[str, str]]], scale: Scale, foot_mm: float) -> None:
+    for number, line in enumerate(lines):
+        x, y = 0.0, foot_mm + TITLE_MM * (len(lines) - number - 1) + 0.8
+        for text, role in line:
+            if x:
+                axes.text(scale.at(x), y, SEPARATOR, size=FONT_PT)
+                x += text_width_mm(SEPARATOR)
+            axes.text(
+                scale.at(x),
+                y,
+                text,
+                size=TITLE_PT if role == "title" else FONT_PT,
+                weight="normal" if role == "note" else "bold",
+                color=RED if role == "miss" else INK,
+                parse_math=role == "note",
+            )
+            x += _width(text, role)

@@ -1,0 +1,124 @@
+"""A schedule as what a Gantt chart shows of it: intervals and instants in ticks, no graphics."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from itertools import pairwise
+from typing import NamedTuple
+
+from sched_sim.schedule import Schedule, Slice
+
+TASK = "task:"
+
+
+class Row(NamedTuple):
+    """A line of the chart: one class of jobs. cpu: from 0; None if nothing of it ever ran."""
+
+    name: str
+    cpu: int | None
+
+
+class Bar(NamedTuple):
+    """Work of one label, done without interruption in [start, end); overdue: when its deadline passed, if it did.
+
+    style: the label, or "task:NAME" for a user's task, whose name might be anyone's.
+    """
+
+    row: Row
+    style: str
+    start: int
+    end: int
+    kind: str
+    step: int
+    overdue: int | None
+
+
+class JobSpan(NamedTuple):
+    """One job from release to finish (None: unfinished at the horizon); runs: when it had the processor."""
+
+    row: Row
+    kind: str
+    step: int
+    release: int
+    deadline: int
+    finish: int | None
+    missed: bool
+    runs: tuple[tuple[int, int], ...]
+
+
+def row_of(kind: str, cpu: int | None) -> Row:
+    """The line on which jobs of one kind are drawn."""
+    if kind.startswith(TASK):
+        return Row(kind.removeprefix(TASK), cpu)
+    return Row("LR" if kind.startswith("lr_") else "HR", cpu)
+
+
+def rows(schedule: Schedule) -> list[Row]:
+    """The lines of the chart from top to bottom: by processor, then HR, LR, the user's tasks by their first run.
+
+    A processor on which nothing ever ran has a line "idle".
+    """
+    cpu_of: dict[str, int | None] = {}
+    for piece in schedule.slices:
+        cpu_of.setdefault(piece.kind, piece.cpu)
+    for kind in schedule.responses:
+        cpu_of.setdefault(kind, None)
+    found = list(dict.fromkeys(row_of(kind, cpu) for kind, cpu in cpu_of.items()))
+    ran = {row.name for row in found if row.cpu is not None}
+    found = [row for row in found if row.cpu is not None or row.name not in ran]
+    found += [Row("idle", cpu) for cpu in range(schedule.cpus) if cpu not in {row.cpu for row in found}]
+    filter_rows = {"HR": 0, "LR": 1}
+    return sorted(found, key=lambda row: (row.cpu is None, row.cpu or 0, filter_rows.get(row.name, 2)))
+
+
+def bars(schedule: Schedule) -> list[Bar]:
+    """Every piece of work that was done, in the order in which the processors gave it up."""
+    found = []
+    for piece in schedule.slices:
+        row = row_of(piece.kind, piece.cpu)
+        overdue = piece.deadline if piece.end > piece.deadline else None
+        for label, start, end in piece.pieces():
+            is_switch = start < piece.start + piece.overhead
+            style = piece.kind if piece.kind.startswith(TASK) and not is_switch else label
+            found.append(Bar(row, style, start, end, piece.kind, piece.step, overdue))
+    return found
+
+
+def jobs(schedule: Schedule) -> list[JobSpan]:
+    """Every job that ever ran, by release. A job that never got the processor has no slice, so it is not here:
+    see `never_ran`."""
+    slices_of: dict[tuple[str, int], list[Slice]] = {}
+    for piece in schedule.slices:
+        slices_of.setdefault((piece.kind, piece.step), []).append(piece)
+    spans = [_span(slices, schedule.horizon) for slices in slices_of.values()]
+    return sorted(spans, key=lambda job: (job.release, job.row.name))
+
+
+def _span(slices: Sequence[Slice], horizon: int) -> JobSpan:
+    last = slices[-1]
+    finish = last.end if last.finished else None
+    missed = last.deadline <= horizon if finish is None else finish > last.deadline
+    runs = tuple((piece.start, piece.end) for piece in slices)
+    row = row_of(last.kind, last.cpu)
+    return JobSpan(row, last.kind, last.step, last.release, last.deadline, finish, missed, runs)
+
+
+def never_ran(schedule: Schedule) -> int:
+    """How many of the missed jobs had not got the processor by the horizon."""
+    return schedule.misses - sum(job.missed for job in jobs(schedule))
+
+
+def waits(job: JobSpan, horizon: int) -> list[tuple[int, int]]:
+    """When the job was released but did not run: before its first run, and whenever it was preempted."""
+    end = job.finish if job.finish is not None else horizon
+    instants = [job.release, *(instant for run in job.runs for instant in run), end]
+    return [(start, stop) for start, stop in list(pairwise(instants))[::2] if start < stop]
+
+
+def overdue_work(all_bars: Iterable[Bar]) -> list[tuple[Row, int, int]]:
+    """(row, start, end) of the work done after its deadline."""
+    return [
+        (bar.row, max(bar.start, bar.overdue), bar.end)
+        for bar in all_bars
+        if bar.overdue is not None and bar.end > bar.overdue
+    ]

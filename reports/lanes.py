@@ -1,0 +1,240 @@
+"""The rows of a Gantt panel: bars, their labels, waiting jobs, releases, deadlines and misses."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any, NamedTuple
+
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.patheffects import withStroke
+
+from reports.callouts import Callout, callouts, label_fits, shown_label
+from reports.intervals import TASK, Bar, JobSpan, Row, bars, jobs, overdue_work, rows, waits
+from reports.scale import Scale
+from reports.style import FILLS, GREY, INK, RED, SMALL_PT, TASK_FILLS, Fill, text_width_mm
+from sched_sim.schedule import Schedule
+
+Fills = Mapping[str, Fill]
+
+BAR_MM, ABOVE_MM, BELOW_MM, CALLOUT_MM, GAP_MM = 4.6, 2.7, 2.4, 3.4, 0.5
+WAIT_MM = 0.7
+SHORT_MM = 1.0
+JOINT_MM = 3.0
+"""Jobs that follow one another without a gap are parted by a line where a step is at least so long."""
+ARROW_MM = 1.2
+"""Arrows closer together than this are left out; those of missed deadlines never are."""
+MANY_BARS = 2000
+"""From here on hatches are left out: too fine to see, and slow to draw."""
+LONGEST_NAME_MM = 28.0
+
+
+class Lane(NamedTuple):
+    """One row's place in its panel: foot: of its bars, in mm above the panel's foot."""
+
+    row: Row
+    foot: float
+    callouts: Sequence[Callout]
+
+    @property
+    def head(self) -> float:
+        return self.foot + BAR_MM
+
+    @property
+    def middle(self) -> float:
+        return self.foot + BAR_MM / 2
+
+
+def fills_of(schedules: Iterable[Schedule]) -> Fills:
+    """How everything that runs in these schedules is drawn, in the order of the legend."""
+    used = {bar.style for schedule in schedules for bar in bars(schedule)}
+    tasks = sorted(style for style in used if style.startswith(TASK))
+    fills = {style: fill for style, fill in FILLS.items() if style in used}
+    for number, style in enumerate(tasks):
+        fills[style] = TASK_FILLS[number % len(TASK_FILLS)]._replace(meaning=style.removeprefix(TASK))
+    return fills
+
+
+def shortened(name: str) -> str:
+    """A row's name, cut where it would push the chart aside."""
+    if text_width_mm(plain(name)) <= LONGEST_NAME_MM:
+        return name
+    while text_width_mm(plain(name) + "…") > LONGEST_NAME_MM:
+        name = name[:-1]
+    return name + "…"
+
+
+def plain(name: str) -> str:
+    """A text as wide as `name` that is not taken for mathtext."""
+    return name.replace("$", "S")
+
+
+def lanes(schedule: Schedule, scale: Scale) -> tuple[list[Lane], float]:
+    """The rows' places, from top to bottom, and the height of the panel in mm."""
+    bars_of: defaultdict[Row, list[Bar]] = defaultdict(list)
+    for bar in bars(schedule):
+        bars_of[bar.row].append(bar)
+    found = []
+    y = 0.0
+    for row in reversed(rows(schedule)):
+        above = callouts(bars_of[row], scale)
+        found.append(Lane(row, y + BELOW_MM, above))
+        y += BELOW_MM + BAR_MM + ABOVE_MM + (CALLOUT_MM if above else 0) + GAP_MM
+    return found[::-1], y - GAP_MM
+
+
+def draw_lanes(axes: Axes, schedule: Schedule, places: Sequence[Lane], scale: Scale, fills: Fills) -> None:
+    """Draw the schedule into axes whose x is in steps and whose y is in mm."""
+    lane_of = {lane.row: lane for lane in places}
+    all_bars, all_jobs = bars(schedule), jobs(schedule)
+    _names(axes, places, schedule.cpus)
+    _waits(axes, all_jobs, lane_of, schedule.horizon, scale)
+    _bars(axes, all_bars, lane_of, scale, fills)
+    if scale.mm_per_step >= JOINT_MM:
+        _joints(axes, all_bars, lane_of, scale)
+    _overdue(axes, all_bars, lane_of, scale)
+    _labels(axes, all_bars, lane_of, scale, fills)
+    for lane in places:
+        _callouts(axes, lane, scale)
+        _arrows(axes, lane, [job for job in all_jobs if job.row == lane.row], scale)
+
+
+def _names(axes: Axes, places: Sequence[Lane], cpus: int) -> None:
+    beside = axes.get_yaxis_transform()
+    for lane in places:
+        axes.plot([0, 1], [lane.foot] * 2, transform=beside, color=GREY, lw=0.5, zorder=0.8)
+        label = f"CPU {lane.row.cpu + 1}" if cpus > 1 and lane.row.cpu is not None else ""
+        at: dict[str, Any] = {"transform": beside, "ha": "right", "va": "center"}
+        shift = 1.5 if label else 0.0
+        axes.text(-0.012, lane.middle + shift, shortened(lane.row.name), parse_math=False, **at)
+        axes.text(-0.012, lane.middle - shift, label, size=SMALL_PT, color=GREY, **at)
+
+
+def _boxes(spans: Iterable[tuple[float, float, float, float]]) -> list[list[tuple[float, float]]]:
+    """Rectangles (left, right, foot, head)."""
+    return [[(left, foot), (right, foot), (right, head), (left, head)] for left, right, foot, head in spans]
+
+
+def _waits(axes: Axes, all_jobs: Sequence[JobSpan], lane_of: Mapping[Row, Lane], horizon: int, scale: Scale) -> None:
+    boxes = []
+    for job in all_jobs:
+        middle = lane_of[job.row].middle
+        for start, end in waits(job, horizon):
+            boxes.append((scale.step(start), scale.step(end), middle - WAIT_MM / 2, middle + WAIT_MM / 2))
+    axes.add_collection(
+        PolyCollection(_boxes(boxes), facecolor=GREY, linewidth=0, zorder=1.5, snap=False), autolim=False
+    )
+
+
+def _bars(axes: Axes, all_bars: Sequence[Bar], lane_of: Mapping[Row, Lane], scale: Scale, fills: Fills) -> None:
+    by_style: defaultdict[str, list[tuple[float, float, float, float]]] = defaultdict(list)
+    for bar in all_bars:
+        lane = lane_of[bar.row]
+        by_style[bar.style].append((scale.step(bar.start), scale.step(bar.end), lane.foot, lane.head))
+    hatched = len(all_bars) < MANY_BARS
+    for style, boxes in sorted(by_style.items()):
+        fill = fills[style]
+        hatch = fill.hatch if hatched else None
+        axes.add_collection(
+            PolyCollection(
+                _boxes(boxes),
+                facecolor=fill.colour,
+                edgecolor=fill.ink,
+                hatch=hatch or None,
+                linewidth=0,
+                zorder=2,
+                snap=False,
+            ),
+            autolim=False,
+        )
+
+
+def _joints(axes: Axes, all_bars: Sequence[Bar], lane_of: Mapping[Row, Lane], scale: Scale) -> None:
+    """A fine line where one job of a row follows another without a gap."""
+    ended: dict[Row, Bar] = {}
+    lines = []
+    for bar in all_bars:
+        before = ended.get(bar.row)
+        if before is not None and before.end == bar.start and (before.kind, before.step) != (bar.kind, bar.step):
+            at, lane = scale.step(bar.start), lane_of[bar.row]
+            lines.append([(at, lane.foot), (at, lane.head)])
+        ended[bar.row] = bar
+    axes.add_collection(LineCollection(lines, color=INK, linewidth=0.3, zorder=2.1), autolim=False)
+
+
+def _overdue(axes: Axes, all_bars: Sequence[Bar], lane_of: Mapping[Row, Lane], scale: Scale) -> None:
+    boxes = [
+        (scale.step(start), scale.step(end), lane_of[row].foot, lane_of[row].head)
+        for row, start, end in overdue_work(all_bars)
+    ]
+    hatch = "xxxx" if len(all_bars) < MANY_BARS else None
+    late = PolyCollection(_boxes(boxes), facecolor="none", edgecolor=RED, hatch=hatch, linewidth=0, zorder=2.2)
+    axes.add_collection(late, autolim=False)
+
+
+def _labels(axes: Axes, all_bars: Sequence[Bar], lane_of: Mapping[Row, Lane], scale: Scale, fills: Fills) -> None:
+    for bar in all_bars:
+        if not label_fits(bar, scale):
+            continue
+        fill = fills[bar.style]
+        start, end = scale.visible_mm(bar.start, bar.end)
+        ink = fill.ink if not fill.hatch else INK
+        text = axes.text(
+            scale.at((start + end) / 2),
+            lane_of[bar.row].middle,
+            shown_label(bar),
+            ha="center",
+            va="center_baseline",
+            size=SMALL_PT,
+            color=ink,
+            parse_math=False,
+            zorder=3,
+        )
+        if fill.hatch or bar.overdue is not None:
+            text.set_path_effects([withStroke(linewidth=2.2, foreground=fill.colour)])
+
+
+def _callouts(axes: Axes, lane: Lane, scale: Scale) -> None:
+    """The label over its work, with a bracket over all of it; or a leader, if the work is too short for a bracket."""
+    foot = lane.head + ABOVE_MM
+    middle = foot + CALLOUT_MM / 2 + 0.1
+    for callout in lane.callouts:
+        start, end, centre = callout.start, callout.end, callout.centre
+        text = axes.text(
+            scale.at(centre), middle, callout.text, ha="center", va="center_baseline", size=SMALL_PT, zorder=2.9
+        )
+        text.set_path_effects([withStroke(linewidth=2.5, foreground="white")])
+        half = text_width_mm(callout.text, SMALL_PT) / 2 + 0.8
+        if end - start > 2 * half + 2:
+            bracket = [(start, foot), (start, middle), (end, middle), (end, foot)]
+            lines = [[*bracket[:2], (centre - half, middle)], [(centre + half, middle), *bracket[2:]]]
+        elif end - start > 2 * SHORT_MM:
+            lines = [[(start, foot - 0.7), (start, foot), (end, foot), (end, foot - 0.7)]]
+        else:
+            lines = [[((start + end) / 2, lane.head), ((start + end) / 2, foot), (centre, foot + 0.4)]]
+        in_steps = [[(scale.at(x), y) for x, y in line] for line in lines]
+        axes.add_collection(
+            LineCollection(in_steps, color=GREY, linewidth=0.5, zorder=2.8, clip_on=False), autolim=False
+        )
+
+
+def _arrows(axes: Axes, lane: Lane, row_jobs: Sequence[JobSpan], scale: Scale) -> None:
+    """Releases from below, deadlines from above; missed ones in red with a cross."""
+    releases = sorted({job.release for job in row_jobs if scale.shows(job.release)})
+    deadlines = sorted({job.deadline for job in row_jobs if scale.shows(job.deadline) and not job.missed})
+    missed = sorted({job.deadline for job in row_jobs if scale.shows(job.deadline) and job.missed})
+    foot, head = lane.foot, lane.head
+    if len(releases) * ARROW_MM <= scale.width_mm:
+        _arrow_row(axes, [scale.step(at) for at in releases], foot - 2.1, foot - 0.55, "^", INK)
+    if len(deadlines) * ARROW_MM <= scale.width_mm:
+        _arrow_row(axes, [scale.step(at) for at in deadlines], head + 2.1, head + 0.55, "v", INK)
+    steps = [scale.step(at) for at in missed]
+    _arrow_row(axes, steps, head + 2.1, head + 0.55, "v", RED)
+    axes.plot(steps, [head + 1.75] * len(steps), "x", color=RED, ms=4, mew=1.1, clip_on=False, zorder=3.2)
+
+
+def _arrow_row(axes: Axes, steps: Sequence[float], tail: float, tip: float, marker: str, colour: str) -> None:
+    shafts = [[(step, tail), (step, tip)] for step in steps]
+    axes.add_collection(LineCollection(shafts, color=colour, linewidth=0.7, zorder=2.6, clip_on=False), autolim=False)
+    axes.plot(steps, [tip] * len(steps), marker, color=colour, ms=3, mew=0, clip_on=False, zorder=2.7)

@@ -1,0 +1,143 @@
+"""What one Gantt panel shows: a schedule, its title, and the steps k, m, l of each cycle."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from typing import NamedTuple
+
+from sched_sim.costs import CostTable, Statistic, select
+from sched_sim.options import Options
+from sched_sim.schedule import Schedule
+from sched_sim.simulate import simulate
+from sched_sim.tasks import Task
+from sched_sim.timing import Timing
+
+METHOD_NAMES = {
+    "standard": "Standard (no delay)",
+    "recalculate": "Recalculate",
+    "larsen": "Larsen",
+    "dual-rate": "Dual-rate",
+}
+
+
+class Mark(NamedTuple):
+    """A step that the paper names. text: without dollar signs, such as "l = k+N"; cycle: from 0; is_k: whether a
+    measurement is taken there."""
+
+    step: int
+    text: str
+    cycle: int
+    is_k: bool
+
+
+@dataclass(frozen=True)
+class Panel:
+    """One schedule, simulated with keep_slices=True.
+
+    title: in bold; notes: facts behind it, such as the speed; first, last: the steps shown, by default all.
+    """
+
+    title: str
+    schedule: Schedule
+    notes: Sequence[str] = ()
+    marks: Sequence[Mark] = ()
+    first: int = 0
+    last: int | None = None
+
+    @property
+    def end(self) -> int:
+        """The step at whose start the panel ends."""
+        return self.schedule.horizon // self.schedule.period if self.last is None else self.last
+
+
+def cycle_marks(timing: Timing, cycles: int, landings: Mapping[int, int]) -> list[Mark]:
+    """k, m and l of every cycle; steps that coincide share one mark, "m = l".
+
+    landings: achieved L by cycle, for the cycles whose correction landed.
+    """
+    names: dict[int, list[Mark]] = {}
+
+    def add(step: int, text: str, cycle: int, is_k: bool = False) -> None:
+        names.setdefault(step, []).append(Mark(step, text, cycle, is_k))
+
+    for cycle in range(cycles + 1):
+        k = cycle * timing.N
+        later = "" if cycle == 0 else "+N" if cycle == 1 else f"+{cycle}N"
+        add(k, f"k{later}", cycle, True)
+        if cycle == cycles:
+            break
+        add(k + timing.M, f"m{later}", cycle)
+        if cycle in landings:
+            L = landings[cycle]
+            add(k + L, f"l{later}" if landings.get(0) == L else f"l = k{later}+{L}", cycle)
+    return [
+        Mark(step, _joined(marks), min(mark.cycle for mark in marks), any(mark.is_k for mark in marks))
+        for step, marks in sorted(names.items())
+    ]
+
+
+def _joined(marks: Sequence[Mark]) -> str:
+    """In order of their cycles: "m = k+N" where the measurement arrives as the next one is taken."""
+    return " = ".join(mark.text for mark in sorted(marks, key=lambda mark: mark.cycle))
+
+
+def landing_note(landings: Iterable[int], M: int) -> str:
+    """Where the corrections landed, in words with mathtext."""
+    reached = sorted(set(landings))
+    if not reached:
+        return "no correction lands"
+    if len(reached) > 1:
+        return f"lands at $l = k+{reached[0]}$ to $k+{reached[-1]}$"
+    return f"lands at $l = m = k+{M}$" if reached[0] == M else f"lands at $l = k+{reached[0]}$"
+
+
+def method_panel(
+    table: CostTable,
+    method: str,
+    timing: Timing,
+    speed: Fraction,
+    cycles: int = 1,
+    options: Options = Options(),
+    tasks: Sequence[Task] = (),
+    *,
+    statistic: Statistic = "minimum",
+    title: str | None = None,
+) -> Panel:
+    """Simulate one method and say in the panel's title what came out.
+
+    speed: cost units per HR period; cycles: how many measurement cycles are shown.
+    Raises InputError as `costs.select` and `simulate` do.
+    """
+    landings: dict[int, int] = {}
+    costs = select(table, method, options, statistic)
+    schedule = simulate(costs, timing, speed, cycles, options, tasks, keep_slices=True, on_landing=landings.__setitem__)
+    delay = replace(timing, M=0) if method == "standard" else timing
+    notes = [f"speed {float(speed):.4g}", landing_note(landings.values(), delay.M)]
+    if method == "standard":
+        notes[1] = "no delay: lands at $k$"
+    return Panel(
+        title=METHOD_NAMES[method] if title is None else title,
+        schedule=schedule,
+        notes=(*notes, *option_notes(options), f"{100 * float(schedule.utilization):.0f} % busy"),
+        marks=cycle_marks(delay, cycles, landings),
+    )
+
+
+def option_notes(options: Options) -> list[str]:
+    """What differs from the paper's choices."""
+    notes = []
+    if options.feedback == "same-step":
+        notes.append("same-step feedback")
+    if options.lr_propagate_by == "l":
+        notes.append("LR propagate by $l$")
+    if options.gain == "precomputed":
+        notes.append("precomputed gain")
+    if options.low_rate_noise != "exact":
+        notes.append(f"low-rate noise: {options.low_rate_noise}")
+    if options.cpus == 2:
+        notes.append("2 CPUs")
+    if options.context_switch:
+        notes.append(f"context switch {float(options.context_switch):.4g}")
+    return notes

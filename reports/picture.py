@@ -1,0 +1,48 @@
+"""A figure as the bytes of a file: SVG, PDF or PNG, the same bytes every time."""
+
+from __future__ import annotations
+
+from io import BytesIO
+from pathlib import Path
+
+from matplotlib.figure import Figure
+
+from reports.style import drawing
+from sched_sim.errors import InputError
+
+METADATA: dict[str, dict[str, str | None]] = {
+    "svg": {"Date": None, "Creator": None},
+    "pdf": {"CreationDate": None, "Creator": None, "Producer": None},
+    "png": {"Software": None},
+}
+"""What each format would otherwise write about when and with what it was made."""
+
+
+def image(figure: Figure, kind: str) -> bytes:
+    """The figure as "svg", "pdf" or "png" (300 dots per inch)."""
+    buffer = BytesIO()
+    with drawing():
+        figure.savefig(buffer, format=kind, metadata=METADATA[kind])
+    return buffer.getvalue()
+
+
+def save(figure: Figure, path: str | Path) -> None:
+    """Write the figure to `path`, in the format that its suffix names.
+
+    Raises InputError for another suffix and for a path that cannot be written; a file that is there already is
+    replaced only once the picture is complete.
+    """
+    path = Path(path)
+    kind = path.suffix.lower().removeprefix(".")
+    if kind not in METADATA:
+        raise InputError(
+            f"picture {str(path)!r}: suffix {path.suffix!r} is no picture format; end the name in .svg, .pdf or .png"
+        )
+    content = image(figure, kind)
+    try:
+        path.write_bytes(content)
+    except OSError as error:
+        raise InputError(
+            f"picture {str(path)!r} cannot be written ({error.strerror}): name a file in a folder that exists and "
+            f"that you may write to"
+        ) from None

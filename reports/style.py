@@ -1,0 +1,132 @@
+"""One hand for every picture: print sizes in millimetres, fonts, colours that survive a black-and-white copier."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from functools import cache
+from typing import NamedTuple
+
+import matplotlib.style
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.font_manager import FontProperties
+from matplotlib.textpath import text_to_path
+
+WIDTH_MM = 170.0
+"""Text width of a two-column journal page."""
+
+FONT_PT, SMALL_PT, TITLE_PT = 7.5, 7.0, 8.5
+"""Nothing is set smaller than 7 points at print size."""
+
+FAMILY = "DejaVu Sans"
+"""Comes with matplotlib, so that every machine sets the same text."""
+
+INK, GREY, PALE = "#1a1a1a", "#6b6b6b", "#d9d9d9"
+RED = "#c00000"
+
+SETTINGS = {
+    "font.family": FAMILY,
+    "font.size": FONT_PT,
+    "mathtext.fontset": "dejavusans",
+    "axes.titlesize": TITLE_PT,
+    "axes.labelsize": FONT_PT,
+    "axes.linewidth": 0.6,
+    "axes.edgecolor": INK,
+    "axes.axisbelow": True,
+    "xtick.labelsize": SMALL_PT,
+    "ytick.labelsize": SMALL_PT,
+    "xtick.major.width": 0.6,
+    "ytick.major.width": 0.6,
+    "xtick.major.size": 2.5,
+    "ytick.major.size": 2.5,
+    "legend.fontsize": SMALL_PT,
+    "legend.frameon": False,
+    "hatch.linewidth": 0.5,
+    "svg.fonttype": "path",  # looks the same in every viewer; each text stands beside its glyphs as a comment
+    "svg.hashsalt": "sched_sim",  # the ids in the file, and so its bytes, are the same every time
+    "pdf.fonttype": 42,  # embedded TrueType: text that can be searched and copied
+    "savefig.dpi": 300,
+}
+
+
+class Fill(NamedTuple):
+    """How one kind of work is drawn and named; hatch and grey level alone tell the kinds of one row apart."""
+
+    colour: str
+    ink: str
+    hatch: str
+    meaning: str
+
+
+FILLS = {
+    "P": Fill("#b3d4ee", INK, "", "propagate"),
+    "U": Fill("#11538c", "white", "", "update"),
+    "R": Fill("#dfe8f0", "#11538c", "\\\\\\\\", "replayed steps"),
+    "HRP": Fill("#b3d4ee", INK, "", "high-rate propagate"),
+    "HRU": Fill("#11538c", "white", "", "high-rate update"),
+    "LRP": Fill("#fbe3b5", "#9a6200", "////", "low-rate propagate"),
+    "LRG": Fill("#f4e9d8", "#9a6200", "\\\\\\\\", "gain, precomputed"),
+    "LRU": Fill("#dd9009", INK, "", "low-rate update"),
+    "switch": Fill("#1a1a1a", "white", "", "context switch"),
+}
+
+TASK_FILLS = (
+    Fill("#dcdcdc", GREY, "----", "user task"),
+    Fill("#b7cfbc", "#2e5937", "\\\\\\\\", "user task"),
+    Fill("#8f8f8f", INK, "", "user task"),
+    Fill("#d5c3dc", "#5c3a6b", "++++", "user task"),
+)
+"""For the user's tasks, in turn."""
+
+
+class Line(NamedTuple):
+    """How one method, or one source of numbers, is drawn in a plot: colour, dashes and marker all differ."""
+
+    colour: str
+    dashes: str | tuple[int, tuple[float, ...]]
+    marker: str
+
+
+METHOD_LINES = {
+    "standard": Line(GREY, (0, (1.0, 1.2)), "s"),
+    "recalculate": Line("#8a3b73", (0, (5.0, 1.5, 1.0, 1.5)), "D"),
+    "larsen": Line("#b8700a", (0, (4.0, 1.5)), "^"),
+    "dual-rate": Line("#11538c", "-", "o"),
+}
+
+SOURCE_LINES = (
+    Line(INK, "-", "|"),
+    Line("#11538c", "-", "o"),
+    Line("#dd9009", "-", "^"),
+    Line("#2e7d4f", "-", "s"),
+    Line("#8a3b73", "-", "D"),
+)
+"""For columns such as paper / counted / measured, in turn."""
+
+
+@contextmanager
+def drawing() -> Iterator[None]:
+    """Inside it, matplotlib has this project's settings, whatever the user's own matplotlibrc says."""
+    with matplotlib.style.context(["default", SETTINGS]):
+        yield
+
+
+def page(height_mm: float, width_mm: float = WIDTH_MM) -> Figure:
+    """An empty figure of a size in millimetres."""
+    return Figure(figsize=(width_mm / 25.4, height_mm / 25.4))
+
+
+def axes_at(figure: Figure, left: float, top: float, width: float, height: float) -> Axes:
+    """Axes placed in millimetres from the figure's left and top edge."""
+    across, down = (inches * 25.4 for inches in figure.get_size_inches())
+    return figure.add_axes((left / across, 1 - (top + height) / down, width / across, height / down))
+
+
+@cache
+def text_width_mm(text: str, points: float = FONT_PT, *, bold: bool = False) -> float:
+    """The printed width of `text`, which may hold mathtext between dollar signs."""
+    font = FontProperties(family=FAMILY, size=points, weight="bold" if bold else "normal")
+    with drawing():
+        width, _, _ = text_to_path.get_text_width_height_descent(text, font, ismath="$" in text)
+    return width / 72 * 25.4
