@@ -16,7 +16,7 @@ class Slice(NamedTuple):
 
     cpu: from 0; kind, step: of the job; begin: work of the job done before this slice, without overhead;
     overhead: ticks at the start of the slice that went into the context switch; parts: of the whole job;
-    finished: whether the job finished at `end`; release, deadline: of the job, in ticks.
+    finished: whether the job finished at `end`; release, deadline: of the job; period: the HR period, in ticks.
     """
 
     cpu: int
@@ -30,6 +30,7 @@ class Slice(NamedTuple):
     finished: bool
     release: int
     deadline: int
+    period: int
 
     def pieces(self) -> list[tuple[str, int, int]]:
         """(label, start, end) of what was done in this slice: "switch", then "HRP", "HRU", ..."""

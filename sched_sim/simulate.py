@@ -42,8 +42,9 @@ def simulate(
     """Run one filter, and the user's tasks beside it, for `cycles` measurement cycles.
 
     costs: from `costs.select`; speed: cost units the processor does per HR period.
+    keep_slices: return every `Slice`; without it memory does not grow with `cycles`.
     on_slice, on_landing: called as slices end and as corrections land, with a `Slice` and with
-    (cycle, achieved L); memory does not grow with `cycles` unless `keep_slices` is set.
+    (cycle, achieved L).
     Raises InputError for a speed that is not positive or an L the method cannot have.
     """
     positive(speed, "speed")
@@ -74,15 +75,22 @@ def simulate(
     arrives_a_step_later = isinstance(costs, RecalculateCosts | LarsenCosts) and timing.M == timing.N
     horizon = (cycles * timing.N + arrives_a_step_later) * period
     slices: list[Slice] = []
+
+    def keep(piece: Slice) -> None:
+        slices.append(piece)
+        if on_slice is not None:
+            on_slice(piece)
+
     processor = Processor(
         [source, *task_sources],
+        period,
         horizon,
         options.cpus,
         to_ticks(options.context_switch, resolution),
-        slices.append if keep_slices else on_slice,
+        keep if keep_slices else on_slice,
     )
     processor.run()
-    return replace(processor.schedule(period), achieved=achieved, slices=tuple(slices))
+    return replace(processor.schedule(), achieved=achieved, slices=tuple(slices))
 
 
 class Cpu:
@@ -120,9 +128,16 @@ class Processor:
     """Runs the jobs of `sources` from time 0 to `horizon` on `cpus` processors; all times in ticks."""
 
     def __init__(
-        self, sources: Sequence[Source], horizon: int, cpus: int, context_switch: int, on_slice: OnSlice | None
+        self,
+        sources: Sequence[Source],
+        period: int,
+        horizon: int,
+        cpus: int,
+        context_switch: int,
+        on_slice: OnSlice | None,
     ) -> None:
         self.sources = sources
+        self.period = period
         self.horizon = horizon
         self.cpus = tuple(Cpu(number) for number in range(cpus))
         self.context_switch = context_switch
@@ -165,7 +180,7 @@ class Processor:
                     if now > job.deadline:
                         self._missed(job, now)
                     if on_slice is not None:
-                        on_slice(_slice(cpu, job, now, finished=True))
+                        on_slice(self._slice(cpu, job, now, finished=True))
                     if job.then is not None:
                         for new in job.then(job, now):
                             order_of_release += 1
@@ -206,7 +221,7 @@ class Processor:
     def _preempt(self, cpu: Cpu, job: Job, now: int) -> None:
         """Book the work that `job` did since it was dispatched."""
         if self.on_slice is not None:
-            self.on_slice(_slice(cpu, job, now, finished=False))
+            self.on_slice(self._slice(cpu, job, now, finished=False))
         self.tallies[job.kind].preemptions += 1
         ran = now - cpu.since
         cpu.busy += ran
@@ -221,7 +236,7 @@ class Processor:
         if self.first_miss is None or job.deadline < self.first_miss[0]:
             self.first_miss = (job.deadline, job.kind, job.held)
 
-    def schedule(self, period: int) -> Schedule:
+    def schedule(self) -> Schedule:
         """The outcome, once `run` has reached the horizon; unfinished jobs are counted as they stand."""
         unfinished = [job for cpu in self.cpus for _, _, job in cpu.ready]
         for cpu in self.cpus:
@@ -229,7 +244,7 @@ class Processor:
                 unfinished.append(cpu.running)
                 cpu.busy += self.horizon - cpu.since
                 if self.on_slice is not None:
-                    self.on_slice(_slice(cpu, cpu.running, self.horizon, finished=False))
+                    self.on_slice(self._slice(cpu, cpu.running, self.horizon, finished=False))
         unfinished += [job for source in self.sources for job in source.waiting()]
         for job in unfinished:
             self.tallies[job.kind].releases += 1
@@ -238,7 +253,7 @@ class Processor:
         for tally in self.tallies.values():
             tally.releases += tally.finished
         return Schedule(
-            period=period,
+            period=self.period,
             horizon=self.horizon,
             cpus=len(self.cpus),
             busy=sum(cpu.busy for cpu in self.cpus),
@@ -247,19 +262,19 @@ class Processor:
             instants=self.instants,
         )
 
-
-def _slice(cpu: Cpu, job: Job, now: int, *, finished: bool) -> Slice:
-    """What `job` did on `cpu` from its dispatch until now; called before the work is booked."""
-    return Slice(
-        cpu=cpu.number,
-        start=cpu.since,
-        end=now,
-        kind=job.kind,
-        step=job.step,
-        begin=sum(work for _, work in job.parts) - job.remaining,
-        overhead=min(job.overhead, now - cpu.since),
-        parts=job.parts,
-        finished=finished,
-        release=job.release,
-        deadline=job.deadline,
-    )
+    def _slice(self, cpu: Cpu, job: Job, now: int, *, finished: bool) -> Slice:
+        """What `job` did on `cpu` from its dispatch until now; called before the work is booked."""
+        return Slice(
+            cpu=cpu.number,
+            start=cpu.since,
+            end=now,
+            kind=job.kind,
+            step=job.step,
+            begin=sum(work for _, work in job.parts) - job.remaining,
+            overhead=min(job.overhead, now - cpu.since),
+            parts=job.parts,
+            finished=finished,
+            release=job.release,
+            deadline=job.deadline,
+            period=self.period,
+        )

@@ -1,0 +1,41 @@
+"""The application: its commands, and what `sched-sim --help` says."""
+
+from __future__ import annotations
+
+from importlib.metadata import version
+from typing import Annotated
+
+import typer
+
+from sched_sim.cli import gantt, minimum, simulate
+
+app = typer.Typer(
+    no_args_is_help=True,
+    rich_markup_mode="rich",
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+    epilog="The measurement of step k = 0, N, 2N, ... arrives M steps late, at m = k + M; the correction must reach "
+    "the state by l = k + L. Steps are periods of the high-rate (HR) loop. Start with: "
+    "[bold]sched-sim minimum -N 10 -M 4 -L 8[/bold]",
+)
+
+
+def _show_version(wanted: bool) -> None:
+    if wanted:
+        print(f"sched-sim {version('sched-sim')}")
+        raise typer.Exit
+
+
+@app.callback()
+def sched_sim(
+    _version: Annotated[
+        bool, typer.Option("--version", help="Show the version.", callback=_show_version, is_eager=True)
+    ] = False,
+) -> None:
+    """Which delayed-measurement Kalman filter fits your processor, how slow a processor will do, and when does the
+    correction reach the output?"""
+
+
+app.command("minimum")(minimum.minimum)
+app.command("simulate")(simulate.simulate)
+app.command("gantt")(gantt.gantt)

@@ -1,0 +1,97 @@
+"""`sched-sim minimum`: the least processor that meets every deadline."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from sched_sim.cli import options as opt
+from sched_sim.cli.output import print_csv, print_json, print_table
+
+BINDINGS = {
+    "hr": "one HR job",
+    "lr_propagate": "LR propagate by its deadline",
+    "lr_update": "LR update between m and l",
+    "lr_total": "all LR work between k and l",
+}
+
+
+def minimum(
+    N: opt.Steps,
+    M: opt.Delay,
+    L: opt.FeedbackStep = None,
+    method: opt.Methods = None,
+    costs: opt.Costs = "steffes2014",
+    statistic: opt.WhichCost = "minimum",
+    lr_propagate_by: opt.LrPropagateBy = "m",
+    feedback: opt.FeedbackIn = "next-step",
+    gain: opt.GainAt = "at-update",
+    low_rate_noise: opt.Noise = "exact",
+    cpus: opt.Cpus = 1,
+    context_switch: opt.ContextSwitch = "0",
+    tasks: opt.Tasks = None,
+    hr_hz: opt.HrHz = None,
+    format: opt.Format = "table",
+) -> None:
+    """The least processor speed at which each method meets every deadline, and which demand fixes it.
+
+    sched-sim minimum -N 10 -M 4 -L 8
+    sched-sim minimum -N 40 -M 4 --hr-hz 400 --costs my-costs.toml --method dual-rate
+    """
+    from sched_sim.costs import load, select
+    from sched_sim.least_speed import achieved_l, least_speed
+
+    options = opt.make_options(lr_propagate_by, feedback, gain, low_rate_noise, cpus, context_switch)
+    table, others, rate = load(costs), opt.make_tasks(tasks), opt.hr_rate(hr_hz)
+    rows: list[dict[str, Any]] = []
+    shown: list[dict[str, Any]] = []
+    for name in opt.wanted_methods(method):
+        timing = opt.make_timing(N, M, L, name, options)
+        work = select(table, name, options, statistic)
+        least = least_speed(work, timing, options, others)
+        row = {
+            "method": name,
+            "N": N,
+            "M": M,
+            "L": timing.L,
+            "min_speed": float(least.speed),
+            "min_speed_exact": str(least.speed),
+            "binding": least.binding,
+        }
+        landed = achieved_l(work, timing, least.speed, options) if not (others or options.context_switch) else None
+        person = {
+            "method": name,
+            "least speed": f"{float(least.speed):.6g}",
+            "exactly": str(least.speed),
+            "fixed by": BINDINGS.get(least.binding, least.binding),
+            "lands at L": landed,
+        }
+        if rate is not None:
+            times = _absolute(rate, timing.L if landed is None else landed, float(least.speed), table.unit)
+            row |= {"hr_hz": rate, **times}
+            person |= {_heading(key, table.unit): f"{value:.6g}" for key, value in times.items()}
+        rows.append(row)
+        shown.append(person)
+    if format == "json":
+        print_json(rows)
+    elif format == "csv":
+        print_csv(rows)
+    else:
+        print_table(
+            f"Least speed, N={N} M={M} L={'latest' if L is None else L}, in {table.unit}s per HR period "
+            f"(costs: {table.name})",
+            shown,
+        )
+
+
+def _absolute(rate: float, L: int, speed: float, unit: str) -> dict[str, float]:
+    """What the design is in seconds: when the correction lands, and the work per second the processor must do."""
+    times = {"correction_ms": 1000 * L / rate, "work_per_second": speed * rate}
+    if unit == "second":
+        times["highest_hr_hz"] = 1 / speed
+    return times
+
+
+def _heading(key: str, unit: str) -> str:
+    if key == "work_per_second":
+        return "share of this processor" if unit == "second" else f"{unit}s / s"
+    return {"correction_ms": "lands after ms", "highest_hr_hz": "highest HR rate, Hz"}[key]

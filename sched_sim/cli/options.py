@@ -1,0 +1,157 @@
+"""Options that several commands share, and what they mean together."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Annotated, Literal
+
+import typer
+
+from sched_sim.costs import METHODS, Method, Statistic
+from sched_sim.errors import InputError
+from sched_sim.options import Gain, LowRateNoise, Options
+from sched_sim.tasks import Task
+from sched_sim.ticks import exact, positive
+from sched_sim.timing import Feedback, Timing, latest_feedback_step
+
+DESIGN = "Design"
+PROCESSOR = "Processor"
+OUTPUT = "Output"
+
+Steps = Annotated[int, typer.Option("-N", help="HR steps from one measurement to the next.", rich_help_panel=DESIGN)]
+Delay = Annotated[
+    int, typer.Option("-M", help="Delay of the measurement in HR steps, 0 <= M <= N.", rich_help_panel=DESIGN)
+]
+FeedbackStep = Annotated[
+    int | None,
+    typer.Option(
+        "-L",
+        help="Step by which the correction must land, M < L <= N; by default the latest possible.",
+        rich_help_panel=DESIGN,
+    ),
+]
+Methods = Annotated[
+    list[str] | None,
+    typer.Option("--method", help=f"{', '.join(METHODS)}; repeatable; by default all.", rich_help_panel=DESIGN),
+]
+OneMethod = Annotated[Method, typer.Option("--method", help="The filter to run.", rich_help_panel=DESIGN)]
+Costs = Annotated[
+    str,
+    typer.Option(
+        "--costs", help="Cost table: a shipped one by name, or your own TOML file by path.", rich_help_panel=DESIGN
+    ),
+]
+WhichCost = Annotated[
+    Statistic,
+    typer.Option("--statistic", help="Which of a measured cost's figures to plan with.", rich_help_panel=DESIGN),
+]
+LrPropagateBy = Annotated[
+    Literal["m", "l"],
+    typer.Option(
+        "--lr-propagate-by",
+        help="Deadline of LR propagate: step m (the paper's rule) or step l, which needs less power for small M.",
+        rich_help_panel=DESIGN,
+    ),
+]
+FeedbackIn = Annotated[
+    Feedback,
+    typer.Option(
+        "--feedback",
+        help="Apply the correction in the HR job of the next step (the paper), or as soon as it is known.",
+        rich_help_panel=DESIGN,
+    ),
+]
+GainAt = Annotated[
+    Gain,
+    typer.Option("--gain", help="Compute H, R, K in the LR update, or before it (III.D).", rich_help_panel=DESIGN),
+]
+Noise = Annotated[
+    LowRateNoise,
+    typer.Option("--low-rate-noise", help="Q over N steps by Eq. 18, 23 or 24.", rich_help_panel=DESIGN),
+]
+Cpus = Annotated[
+    int,
+    typer.Option(
+        "--cpus", min=1, max=2, help="2: HR jobs on one processor, LR jobs on another.", rich_help_panel=PROCESSOR
+    ),
+]
+ContextSwitch = Annotated[
+    str,
+    typer.Option(
+        "--context-switch",
+        help="Work charged each time a job is dispatched and another ran last, in cost units.",
+        rich_help_panel=PROCESSOR,
+    ),
+]
+Tasks = Annotated[
+    Path | None,
+    typer.Option(
+        "--tasks",
+        help="TOML file of your other periodic tasks: \\[\\[task]] name, period, offset, cost, priority.",
+        rich_help_panel=PROCESSOR,
+    ),
+]
+Speed = Annotated[
+    str | None,
+    typer.Option(
+        "--speed",
+        help="Cost units the processor does per HR period; by default the method's least speed.",
+        rich_help_panel=PROCESSOR,
+    ),
+]
+HrHz = Annotated[
+    str | None,
+    typer.Option("--hr-hz", help="Rate of the HR loop; adds absolute times and rates.", rich_help_panel=OUTPUT),
+]
+Format = Annotated[
+    Literal["table", "json", "csv"],
+    typer.Option("--format", help="table for people, json or csv for scripts.", rich_help_panel=OUTPUT),
+]
+Cycles = Annotated[int, typer.Option("--cycles", min=1, help="Measurement cycles to run.", rich_help_panel=OUTPUT)]
+
+
+def make_options(
+    lr_propagate_by: Literal["m", "l"],
+    feedback: Feedback,
+    gain: Gain,
+    low_rate_noise: LowRateNoise,
+    cpus: int,
+    context_switch: str,
+) -> Options:
+    return Options(
+        feedback=feedback,
+        lr_propagate_by=lr_propagate_by,
+        gain=gain,
+        low_rate_noise=low_rate_noise,
+        cpus=2 if cpus == 2 else 1,
+        context_switch=exact(context_switch, "--context-switch"),
+    )
+
+
+def make_timing(N: int, M: int, L: int | None, method: str, options: Options) -> Timing:
+    """With L the latest that the method can have, if the user did not say."""
+    if L is None:
+        latest = latest_feedback_step(N, options.feedback) if method == "dual-rate" else N
+        L = max(latest, M) if 0 <= M <= N else N
+    return Timing(N, M, L)
+
+
+def make_tasks(path: Path | None) -> Sequence[Task]:
+    if path is None:
+        return ()
+    from sched_sim.task_file import read_tasks
+
+    return read_tasks(path)
+
+
+def hr_rate(text: str | None) -> float | None:
+    return None if text is None else float(positive(text, "--hr-hz"))
+
+
+def wanted_methods(methods: Sequence[str] | None) -> Sequence[str]:
+    """Each method once, in the order given; all of them by default."""
+    for method in methods or ():
+        if method not in METHODS:
+            raise InputError(f"--method {method!r} is unknown: choose from {', '.join(METHODS)}")
+    return list(dict.fromkeys(methods)) if methods else METHODS

@@ -1,0 +1,58 @@
+"""Reading the user's other periodic tasks from TOML: `[[task]]` name, period, offset, cost, priority, cpu."""
+
+from __future__ import annotations
+
+import tomllib
+from decimal import Decimal
+from fractions import Fraction
+from pathlib import Path
+from typing import Annotated, Any
+
+from pydantic import BaseModel, BeforeValidator, ConfigDict, ValidationError
+
+from sched_sim.cost_file import problems
+from sched_sim.errors import InputError
+from sched_sim.tasks import Task
+from sched_sim.ticks import exact
+
+
+def _number(value: Any) -> Fraction:
+    if isinstance(value, bool | list | dict | str):
+        raise ValueError("must be a number")
+    return exact(value, "the number")
+
+
+class _Task(BaseModel):
+    model_config = ConfigDict(extra="forbid", arbitrary_types_allowed=True)
+    name: str
+    period: Annotated[Fraction, BeforeValidator(_number)]
+    cost: Annotated[Fraction, BeforeValidator(_number)]
+    priority: int
+    offset: Annotated[Fraction, BeforeValidator(_number)] = Fraction(0)
+    cpu: int = 1
+
+
+class _TaskFile(BaseModel):
+    model_config = ConfigDict(extra="forbid")
+    task: list[_Task]
+
+
+def read_tasks(path: Path) -> list[Task]:
+    """The tasks in `path`; raises InputError that lists every wrong entry with its value."""
+    try:
+        document = tomllib.loads(path.read_text(encoding="utf-8"), parse_float=Decimal)
+        tasks = [Task(**dict(entry)) for entry in _TaskFile.model_validate(document).task]
+    except (OSError, UnicodeDecodeError) as error:
+        raise InputError(f"--tasks {str(path)!r} cannot be read: {error}") from None
+    except tomllib.TOMLDecodeError as error:
+        raise InputError(f"--tasks {str(path)!r} is not valid TOML: {error}") from None
+    except ValidationError as error:
+        raise InputError(
+            f"--tasks {str(path)!r}: {problems(error)}; each [[task]] has name, period and offset in HR periods, cost "
+            f"in the unit of the cost table, and priority (smaller is more urgent; HR jobs 10, LR jobs 20)"
+        ) from None
+    names = [task.name for task in tasks]
+    for name in names:
+        if names.count(name) > 1:
+            raise InputError(f"--tasks {str(path)!r}: task name {name!r} is used twice; give each task its own")
+    return tasks

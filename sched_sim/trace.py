@@ -1,0 +1,102 @@
+"""Every slice of a schedule, written as it ends: CSV, or Chrome Trace Event JSON (for Perfetto, chrome://tracing)."""
+
+from __future__ import annotations
+
+import csv
+import json
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TextIO
+
+from sched_sim.errors import InputError
+from sched_sim.schedule import Slice
+
+Write = Callable[[Slice], None]
+
+COLUMNS = ("cpu", "kind", "piece", "step", "start", "end", "release", "deadline", "finished", "missed")
+
+
+@contextmanager
+def open_trace(path: Path, microseconds_per_period: float = 1000.0) -> Iterator[Write]:
+    """A function that writes one slice to `path`, in the format of its suffix.
+
+    CSV: a row for each piece of a slice, times in HR periods. JSON: one complete event for each piece, one HR period
+    lasting `microseconds_per_period`; each CPU is a process, each job kind a thread.
+    Raises InputError for another suffix and for a path that cannot be written.
+    """
+    writers = {".csv": _csv, ".json": _chrome}
+    if path.suffix not in writers:
+        raise InputError(f"--trace {str(path)!r}: the name must end in {' or '.join(sorted(writers))}")
+    try:
+        file = path.open("w", encoding="utf-8", newline="")
+    except OSError as error:
+        raise InputError(f"--trace {str(path)!r} cannot be written: {error.strerror}; give another path") from None
+    with file, writers[path.suffix](file, microseconds_per_period) as write:
+        yield write
+
+
+@contextmanager
+def _csv(file: TextIO, _scale: float) -> Iterator[Write]:
+    writer = csv.writer(file, lineterminator="\n")
+    writer.writerow(COLUMNS)
+
+    def write(piece: Slice) -> None:
+        period = piece.period
+        for label, start, end in piece.pieces():
+            writer.writerow(
+                (
+                    piece.cpu + 1,
+                    piece.kind,
+                    label,
+                    piece.step,
+                    start / period,
+                    end / period,
+                    piece.release / period,
+                    piece.deadline / period,
+                    int(piece.finished and end == piece.end),
+                    int(piece.end > piece.deadline),
+                )
+            )
+
+    yield write
+
+
+@contextmanager
+def _chrome(file: TextIO, scale: float) -> Iterator[Write]:
+    threads: dict[tuple[int, str], int] = {}
+    separator = "\n"
+
+    def event(**fields: object) -> None:
+        nonlocal separator
+        file.write(separator + json.dumps(fields))
+        separator = ",\n"
+
+    def thread(cpu: int, kind: str) -> int:
+        if (cpu, kind) not in threads:
+            threads[cpu, kind] = tid = len(threads) + 1
+            event(name="process_name", ph="M", pid=cpu, args={"name": f"CPU {cpu}"})
+            event(name="thread_name", ph="M", pid=cpu, tid=tid, args={"name": kind})
+        return threads[cpu, kind]
+
+    def write(piece: Slice) -> None:
+        cpu, period = piece.cpu + 1, piece.period
+        tid = thread(cpu, piece.kind)
+        about = {"step": piece.step, "release": piece.release / period, "deadline": piece.deadline / period}
+        for label, start, end in piece.pieces():
+            event(
+                name=label,
+                cat=piece.kind,
+                ph="X",
+                pid=cpu,
+                tid=tid,
+                ts=start * scale / period,
+                dur=(end - start) * scale / period,
+                args=about,
+            )
+        if piece.finished and piece.end > piece.deadline:
+            event(name="missed", ph="i", s="t", pid=cpu, tid=tid, ts=piece.end * scale / period, args=about)
+
+    file.write('{"displayTimeUnit": "ms", "traceEvents": [')
+    yield write
+    file.write("\n]}\n")
