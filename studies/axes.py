@@ -1,0 +1,91 @@
+"""The values of one axis of a sweep: "5", "1,2,5", "10:100:10", or lists of those."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from decimal import Decimal
+from fractions import Fraction
+from typing import TypeVar
+
+from sched_sim.errors import InputError
+from sched_sim.ticks import exact
+
+LONGEST_RANGE = 1_000_000
+
+Scalar = int | float | str | Decimal | Fraction
+Value = TypeVar("Value", int, Fraction)
+
+
+def whole_numbers(given: Scalar | Sequence[Scalar], what: str, at_least: int) -> tuple[int, ...]:
+    """The values of an axis of HR steps, sorted, each once. `what` names the option or the key, for messages.
+
+    Raises InputError for text that is no whole number or range of them, and for values below `at_least`.
+    """
+
+    def whole(text: str) -> int:
+        number = exact(text, what)
+        if number.denominator != 1 or number < at_least:
+            raise InputError(f"{what} {text!r} must be a whole number, at least {at_least}")
+        return number.numerator
+
+    return _values(given, what, whole)
+
+
+def numbers(given: Scalar | Sequence[Scalar], what: str, *, zero: bool = False) -> tuple[Fraction, ...]:
+    """The values of an axis of exact decimals or fractions, sorted, each once: 0.6:1.6:0.05 are 21 values.
+
+    Raises InputError for text that is no finite number or range, and for values that are not positive (`zero`: may
+    be 0).
+    """
+
+    def number(text: str) -> Fraction:
+        value = exact(text, what)
+        if value < 0 or (value == 0 and not zero):
+            raise InputError(f"{what} {text!r} must be {'0 or more' if zero else 'greater than 0'}")
+        return value
+
+    return _values(given, what, number)
+
+
+def words(given: str | Sequence[str], what: str, known: Sequence[str]) -> tuple[str, ...]:
+    """The values of an axis of names, in the order of `known`, each once; commas separate.
+
+    Raises InputError for a name that is not `known`.
+    """
+    given = [given] if isinstance(given, str) else given
+    found = {part.strip() for text in given for part in str(text).split(",")}
+    for word in sorted(found.difference(known)):
+        raise InputError(f"{what} {word!r} is unknown: choose from {', '.join(known)}")
+    return tuple(word for word in known if word in found)
+
+
+def _values(given: Scalar | Sequence[Scalar], what: str, value: Callable[[str], Value]) -> tuple[Value, ...]:
+    items: Iterable[Scalar] = given if isinstance(given, Sequence) and not isinstance(given, str) else [given]
+    found: set[Value] = set()
+    for item in items:
+        if isinstance(item, bool):
+            raise InputError(f"{what} {item!r}: give numbers, such as 5, 1,2,5 or 10:100:10")
+        for part in str(item).split(","):
+            found.update(_range(part.strip(), what, value))
+    if not found:
+        raise InputError(f"{what} is empty: give at least one value, such as 5, 1,2,5 or 10:100:10")
+    return tuple(sorted(found))
+
+
+def _range(text: str, what: str, value: Callable[[str], Value]) -> list[Value]:
+    """The values of one part: a single one, or "first:last" or "first:last:step" with its end in it."""
+    ends = text.split(":")
+    if len(ends) == 1:
+        return [value(text)]
+    if len(ends) > 3:
+        raise InputError(f"{what} {text!r} is no range: give first:last or first:last:step")
+    first, last = value(ends[0]), value(ends[1])
+    step = value(ends[2]) if len(ends) == 3 else value("1")
+    if step <= 0:
+        raise InputError(f"{what} {text!r}: the step must be greater than 0")
+    if last < first:
+        raise InputError(f"{what} {text!r} is an empty range: its end is below its start")
+    count = (last - first) // step + 1
+    if count > LONGEST_RANGE:
+        raise InputError(f"{what} {text!r} holds {count} values: at most {LONGEST_RANGE}; give a larger step")
+    return [first + i * step for i in range(count)]

@@ -1,0 +1,91 @@
+"""A sweep's results as CSV or Parquet: written under another name, then given their own, so never half there."""
+
+from __future__ import annotations
+
+import csv
+import os
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import IO, Any
+
+from sched_sim.errors import InputError
+from studies.rows import Row
+from studies.store import Store
+
+AT_A_TIME = 50_000
+"""Rows in memory, and in one row group of Parquet."""
+
+
+def check_export(path: Path) -> None:
+    """Raises InputError if `path` has no known suffix or cannot be written; look before hours of work, not after."""
+    if path.suffix not in WRITERS:
+        raise InputError(f"--export {path}: the name must end in {' or '.join(WRITERS)}")
+    if path.is_dir() or not path.parent.is_dir():
+        what = "is a folder" if path.is_dir() else f"lies in {path.parent}, which is no folder"
+        raise InputError(f"--export {path} {what}: give a file in a folder that exists")
+    if not os.access(path.parent, os.W_OK):
+        raise InputError(f"--export {path} cannot be written: {path.parent} is read-only; give another folder")
+
+
+def export(store: Store, path: Path) -> None:
+    """All rows of the view `results` in order of their design index, by the suffix of `path`; memory stays flat."""
+    with _replacing(path) as file:
+        WRITERS[path.suffix](store, file)
+
+
+def write_csv(store: Store, file: IO[bytes]) -> None:
+    """A header and a line for each point; empty where there is no figure, booleans as true and false."""
+    from io import TextIOWrapper
+
+    flags = [number for number, column in enumerate(store.columns) if column.kind == "bool"]
+    text = TextIOWrapper(file, encoding="utf-8", newline="", write_through=True)
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow([column.name for column in store.columns])
+    for rows in store.results(AT_A_TIME):
+        writer.writerows(_spelled(row, flags) for row in rows)
+    text.detach()
+
+
+def _spelled(row: Row, flags: Sequence[int]) -> list[Any]:
+    cells: list[Any] = list(row)
+    for number in flags:
+        cells[number] = "true" if row[number] else "false"
+    return cells
+
+
+def write_parquet(store: Store, file: IO[bytes]) -> None:
+    """A typed column for each figure, null where there is none."""
+    import pyarrow as pa
+    from pyarrow import parquet
+
+    types = {"int": pa.int64(), "bool": pa.bool_(), "float": pa.float64(), "text": pa.string()}
+    schema = pa.schema([(column.name, types[column.kind]) for column in store.columns])
+    with parquet.ParquetWriter(file, schema) as writer:
+        for rows in store.results(AT_A_TIME):
+            cells = zip(*rows, strict=True)
+            arrays = [
+                pa.array([bool(cell) for cell in column] if kind.kind == "bool" else column, types[kind.kind])
+                for kind, column in zip(store.columns, cells, strict=True)
+            ]
+            writer.write_table(pa.Table.from_arrays(arrays, schema=schema))
+
+
+WRITERS: dict[str, Callable[[Store, IO[bytes]], None]] = {".csv": write_csv, ".parquet": write_parquet}
+
+
+@contextmanager
+def _replacing(path: Path) -> Iterator[IO[bytes]]:
+    """A file that becomes `path` once it is complete; if it fails, what was there before stays."""
+    new = path.with_name(f".{path.name}.{os.getpid()}-new")
+    try:
+        try:
+            with new.open("wb") as file:
+                yield file
+                file.flush()
+                os.fsync(file.fileno())
+            new.replace(path)
+        finally:
+            new.unlink(missing_ok=True)
+    except OSError as error:
+        raise InputError(f"--export {path} cannot be written: {error.strerror}; give another file") from error

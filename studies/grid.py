@@ -1,0 +1,137 @@
+"""The grid of a sweep: its axes, and the map from a design index to a design point."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from itertools import accumulate, product
+
+from sched_sim.costs import CostTable, JobCosts, Statistic, select
+from sched_sim.errors import InputError
+from sched_sim.options import Options
+from studies.legal import Designs, Legal, law_of
+
+
+@dataclass(frozen=True, slots=True)
+class Block:
+    """The part of a grid with one cost table, one method and one set of options.
+
+    number: its position among the blocks; table: the table's name; costs: what the method's pieces cost.
+    """
+
+    number: int
+    table: str
+    method: str
+    options: Options
+    costs: JobCosts
+
+
+@dataclass(frozen=True, slots=True)
+class Chunk:
+    """Consecutive points of one block: `size` of them from the design index `start` on.
+
+    A design (N, M, L) has a point for each of `speeds`, or one if there are none: at its own least speed.
+    skip: how many points of the first design come before `start`.
+    """
+
+    block: Block
+    start: int
+    size: int
+    designs: Designs
+    speeds: tuple[Fraction, ...]
+    skip: int
+
+    @property
+    def points(self) -> range:
+        """The design indexes."""
+        return range(self.start, self.start + self.size)
+
+    @property
+    def positions(self) -> range:
+        """Of the points among all those of `designs`, speeds running fastest."""
+        return range(self.skip, self.skip + self.size)
+
+
+@dataclass(frozen=True)
+class Grid:
+    """The axes of a sweep, each sorted and without repeats; M or L may be None: all that are legal.
+
+    statistic: which figure of a measured cost. No speeds: each design is looked at at its own least speed.
+    A point's design index counts, from 0, the legal points in the order table, method, options, N, M, L, speed, the
+    last running fastest.
+    Raises InputError where a cost table lacks an entry, two tables have one name, or no point is legal.
+    """
+
+    N: tuple[int, ...]
+    M: tuple[int, ...] | None
+    L: tuple[int, ...] | None
+    speeds: tuple[Fraction, ...]
+    methods: tuple[str, ...]
+    tables: tuple[CostTable, ...]
+    options: tuple[Options, ...]
+    statistic: Statistic = "minimum"
+
+    def __post_init__(self) -> None:
+        names = [table.name for table in self.tables]
+        for name in names:
+            if names.count(name) > 1:
+                raise InputError(f"two cost tables are named {name!r}: give each file a `name` of its own")
+        if not self.size:
+            raise InputError(
+                f"the grid is empty: none of its {self.left_out} combinations is legal; N must be at least 1, "
+                f"0 <= M <= N and M < L <= N (M <= L < N with same-step feedback)"
+            )
+
+    @cached_property
+    def blocks(self) -> tuple[Block, ...]:
+        keys = product(self.tables, self.methods, self.options)
+        return tuple(
+            Block(number, table.name, method, options, select(table, method, options, self.statistic))
+            for number, (table, method, options) in enumerate(keys)
+        )
+
+    @cached_property
+    def _legal(self) -> tuple[Legal, ...]:
+        """By block; blocks under one law share theirs."""
+        laws = [law_of(block.method, block.options.feedback) for block in self.blocks]
+        of_law = {law: Legal(law, self.N, self.M, self.L) for law in set(laws)}
+        return tuple(of_law[law] for law in laws)
+
+    @cached_property
+    def _ends(self) -> tuple[int, ...]:
+        return tuple(accumulate(legal.size * self._points_per_design for legal in self._legal))
+
+    @property
+    def _points_per_design(self) -> int:
+        return max(len(self.speeds), 1)
+
+    @property
+    def size(self) -> int:
+        """How many points are legal."""
+        return self._ends[-1]
+
+    @cached_property
+    def left_out(self) -> int:
+        """How many combinations of the given values are not legal. A value that stands for all legal ones is none."""
+        return sum(legal.left_out for legal in self._legal) * self._points_per_design
+
+    def chunk(self, start: int, stop: int) -> Chunk:
+        """The points start .. stop-1, which must lie in one block (see `spans`)."""
+        block = self.blocks[next(number for number, end in enumerate(self._ends) if start < end)]
+        first = self._ends[block.number - 1] if block.number else 0
+        per_design = self._points_per_design
+        design, skip = divmod(start - first, per_design)
+        end = -(-(stop - first) // per_design)
+        designs = self._legal[block.number].designs(design, end)
+        return Chunk(block, start, stop - start, designs, self.speeds, skip)
+
+    def spans(self, indexes: range, size: Callable[[Chunk], int]) -> Iterator[range]:
+        """`indexes` cut into ranges that lie in one block each; `size` tells how many points, from the first one."""
+        start = indexes.start
+        while start < indexes.stop:
+            first = self.chunk(start, start + 1)
+            stop = min(start + max(size(first), 1), self._ends[first.block.number], indexes.stop)
+            yield range(start, stop)
+            start = stop

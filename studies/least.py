@@ -1,0 +1,141 @@
+"""The least speed of the designs of a chunk, and whether and where they land at the speeds asked for; exact."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import astuple
+from fractions import Fraction
+from math import gcd
+from typing import NamedTuple
+
+import numpy as np
+
+from sched_sim import analysis
+from sched_sim.costs import JobCosts
+from sched_sim.demand import Quotient
+from sched_sim.least_speed import least_speed
+from sched_sim.options import Options
+from sched_sim.ticks import ticks_per_unit, to_ticks
+from sched_sim.timing import Timing
+from studies.grid import Chunk
+from studies.legal import Designs, Ints
+
+
+class Least(NamedTuple):
+    """The least speed of one design in lowest terms, cost units per HR period, and what binds."""
+
+    numerator: int
+    denominator: int
+    binding: str
+
+
+class Outcome(NamedTuple):
+    """At one point's speed: whether every deadline holds, and the L at which corrections land, None if they do not."""
+
+    feasible: bool
+    achieved: int | None
+
+
+class Analysis(NamedTuple):
+    """`least` by design, `outcomes` by point."""
+
+    least: list[Least]
+    outcomes: list[Outcome]
+
+    def speed(self, chunk: Chunk, position: int) -> Fraction:
+        """The speed of the point at `position`."""
+        if chunk.speeds:
+            return chunk.speeds[position % len(chunk.speeds)]
+        return Fraction(*self.least[position][:2])
+
+
+def analyse(chunk: Chunk) -> Analysis:
+    """In closed form; with context-switch costs, which have none, by simulation."""
+    return _by_simulation(chunk) if chunk.block.options.context_switch else _in_closed_form(chunk)
+
+
+def _in_closed_form(chunk: Chunk) -> Analysis:
+    options, speeds = chunk.block.options, chunk.speeds
+    work = [Fraction(value) for value in astuple(chunk.block.costs)]
+    resolution = ticks_per_unit([*work, *speeds])
+    ticks = [to_ticks(value, resolution) for value in work]
+    costs = type(chunk.block.costs)(*ticks)
+    periods = [to_ticks(speed, resolution) for speed in speeds]
+    dtype = _dtype(sum(ticks), max(periods, default=0), int(chunk.designs.N.max()))
+    designs = Designs(*(axis.astype(dtype) for axis in chunk.designs))
+    least = analysis.least_period(costs, *designs, options)
+
+    positions = np.array(chunk.positions)
+    design = positions // max(len(speeds), 1)
+    N, M, L = designs.N[design], designs.M[design], designs.L[design]
+    at_least = Fractions(least.numerator[design], least.denominator[design])
+    at = Fractions(np.array(periods, dtype)[positions % len(speeds)], np.ones_like(N)) if speeds else at_least
+    landed = _landing(costs, N, M, at, options)
+    enough = at.numerator * at_least.denominator >= at_least.numerator * at.denominator
+    feasible = enough & (landed != analysis.NOT_LANDED) & (landed <= L)
+    return Analysis(
+        least=list(_lowest_terms(least, resolution)),
+        outcomes=[
+            Outcome(bool(holds), None if step == analysis.NOT_LANDED else step)
+            for holds, step in zip(feasible.tolist(), landed.tolist(), strict=True)
+        ],
+    )
+
+
+class Fractions(NamedTuple):
+    """Elementwise HR periods in ticks."""
+
+    numerator: Ints
+    denominator: Ints
+
+
+def _dtype(work: int, period: int, N: int) -> type:
+    """int64, or object (any integer) where the analysis could overflow: it multiplies a cycle's work, or a period, by
+    at most two numbers of steps."""
+    largest = 8 * max(work * (N + 3), period) * (N + 3) ** 2
+    return np.int64 if largest < 1 << 62 else object
+
+
+def _landing(costs: JobCosts, N: Ints, M: Ints, period: Fractions, options: Options) -> Ints:
+    """`analysis.achieved_l` at periods that need not be whole ticks: those of one denominator at a time, in finer
+    ticks."""
+    landed = np.empty_like(N)
+    for denominator in set(period.denominator.tolist()):
+        some = period.denominator == denominator
+        finer = type(costs)(*(value * denominator for value in astuple(costs)))
+        landed[some] = analysis.achieved_l(finer, N[some], M[some], period.numerator[some], options)
+    return landed
+
+
+def _lowest_terms(periods: Quotient, resolution: int) -> Iterator[Least]:
+    """The speeds of HR periods in ticks, `resolution` ticks being one cost unit."""
+    names = {code.value: code.name for code in analysis.Binding}
+    for numerator, denominator, code in zip(*(part.tolist() for part in periods), strict=True):
+        denominator *= resolution
+        common = gcd(numerator, denominator)
+        yield Least(numerator // common, denominator // common, names[code])
+
+
+def _by_simulation(chunk: Chunk) -> Analysis:
+    """A point is feasible if the simulation has no miss at its speed; it lands at the latest L of all cycles."""
+    costs, options = chunk.block.costs, chunk.block.options
+    timings = [Timing(*design) for design in zip(*(axis.tolist() for axis in chunk.designs), strict=True)]
+    found = [least_speed(costs, timing, options) for timing in timings]
+    least = [Least(item.speed.numerator, item.speed.denominator, item.binding) for item in found]
+    result = Analysis(least, [])
+    per_design = max(len(chunk.speeds), 1)
+    for position in chunk.positions:
+        timing, speed = timings[position // per_design], result.speed(chunk, position)
+        result.outcomes.append(_simulated(costs, timing, speed, options))
+    return result
+
+
+def _simulated(costs: JobCosts, timing: Timing, speed: Fraction, options: Options) -> Outcome:
+    from sched_sim.search import cycles_to_simulate
+    from sched_sim.simulate import simulate
+
+    cycles = cycles_to_simulate(timing, ())
+    schedule = simulate(costs, timing, speed, cycles, options)
+    overrun = schedule.responses["hr"].misses > 0
+    landed = None if overrun or schedule.achieved.total() < cycles else max(schedule.achieved)
+    return Outcome(schedule.misses == 0, landed)

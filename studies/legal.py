@@ -1,0 +1,121 @@
+"""Which (N, M, L) of a grid are legal, counted and found by arithmetic: the whole product is never in memory."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from sched_sim.timing import Feedback
+
+Ints: TypeAlias = npt.NDArray[Any]
+
+SLAB = 256
+"""So many values of N are expanded at a time."""
+
+
+class Law(NamedTuple):
+    """L runs from M + after to N - before; if `only_first`, an L that was not asked for is M + after alone."""
+
+    after: int
+    before: int
+    only_first: bool
+
+
+def law_of(method: str, feedback: Feedback) -> Law:
+    """What L a method may have (see `sched_sim.timing`). The serial methods land at m, whatever L is."""
+    if method != "dual-rate":
+        return Law(0, 0, only_first=True)
+    return Law(1, 0, only_first=False) if feedback == "next-step" else Law(0, 1, only_first=False)
+
+
+class Designs(NamedTuple):
+    """N, M and L of some designs: three arrays of one length."""
+
+    N: Ints
+    M: Ints
+    L: Ints
+
+
+class _Pairs(NamedTuple):
+    """Legal (N, M), each with the position (in the axis; the value if there is none) of its first L, and how many.
+
+    per_n: how many pairs each N has."""
+
+    N: Ints
+    M: Ints
+    first: Ints
+    choices: Ints
+    per_n: Ints
+
+
+class Legal:
+    """The legal designs of an N, an M and an L axis under one law, in order of N, M, L.
+
+    The axes are sorted; None instead of M or L stands for every legal value.
+    size: how many there are. left_out: how many combinations of the given values have none.
+    """
+
+    def __init__(self, law: Law, N: Sequence[int], M: Sequence[int] | None, L: Sequence[int] | None) -> None:
+        self.law = law
+        self.N = np.array(N, dtype=np.int64)
+        self.M = None if M is None else np.array(M, dtype=np.int64)
+        self.L = None if L is None else np.array(L, dtype=np.int64)
+        per_n = []
+        kept = 0
+        for begin in range(0, self.N.size, SLAB):
+            pairs = self._pairs(begin, begin + SLAB)
+            total = np.concatenate([[0], np.cumsum(pairs.choices)])
+            ends = np.cumsum(pairs.per_n)
+            per_n.append(total[ends] - total[ends - pairs.per_n])
+            kept += self._kept(pairs, self.N[begin : begin + SLAB])
+        self._before = np.concatenate([[0], np.cumsum(np.concatenate(per_n))])
+        self.size = int(self._before[-1])
+        given = self.N.size * (1 if M is None else len(M)) * (1 if L is None else len(L))
+        self.left_out = given - kept
+
+    def designs(self, start: int, stop: int) -> Designs:
+        """Those at the positions start .. stop-1, 0 <= start < stop <= size."""
+        first = int(np.searchsorted(self._before, start, "right")) - 1
+        pairs = self._pairs(first, int(np.searchsorted(self._before, stop, "left")))
+        ends = self._before[first] + np.cumsum(pairs.choices)
+        p, q = np.searchsorted(ends, [start, stop - 1], "right")
+        wanted = slice(p, q + 1)
+        begins = ends[wanted] - pairs.choices[wanted]
+        repeats = np.minimum(ends[wanted], stop) - np.maximum(begins, start)
+        position = np.repeat(pairs.first[wanted] - begins, repeats) + np.arange(start, stop)
+        L = position if self.L is None else self.L[position]
+        return Designs(np.repeat(pairs.N[wanted], repeats), np.repeat(pairs.M[wanted], repeats), L)
+
+    def _pairs(self, begin: int, end: int) -> _Pairs:
+        """The pairs of N[begin:end] that have at least one legal L."""
+        after = self.law.after
+        N = self.N[begin:end]
+        last = N - self.law.before
+        if self.L is not None:
+            below = np.searchsorted(self.L, last, "right")
+            last = np.where(below > 0, self.L[below - 1], -1)
+        largest_M = last - after
+        per_n = np.maximum(largest_M + 1, 0) if self.M is None else np.searchsorted(self.M, largest_M, "right")
+        within = np.arange(per_n.sum()) - np.repeat(np.cumsum(per_n) - per_n, per_n)
+        M = within if self.M is None else self.M[within]
+        first = M + after
+        if self.L is not None:
+            first = np.searchsorted(self.L, first, "left")
+            count = np.repeat(np.searchsorted(self.L, last, "right"), per_n) - first
+        elif self.law.only_first:
+            count = np.ones_like(first)
+        else:
+            count = np.repeat(last, per_n) - first + 1
+        return _Pairs(np.repeat(N, per_n), M, first, count, per_n)
+
+    def _kept(self, pairs: _Pairs, N: Ints) -> int:
+        """How many combinations of the given values have a legal design."""
+        if self.M is not None:
+            return int(pairs.choices.sum()) if self.L is not None else pairs.M.size
+        if self.L is None:
+            return int(np.count_nonzero(pairs.per_n))
+        below = np.searchsorted(self.L, N - self.law.before, "right")
+        return int(np.maximum(below - np.searchsorted(self.L, self.law.after, "left"), 0).sum())

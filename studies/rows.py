@@ -1,0 +1,101 @@
+"""What a sweep finds out about each design point: a row of figures, from the analysis and from the simulation."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import Literal, NamedTuple, TypeAlias
+
+from sched_sim.schedule import Schedule
+from sched_sim.timing import Timing
+from studies.grid import Chunk
+from studies.least import analyse
+
+Cell: TypeAlias = int | float | str | None
+Row: TypeAlias = tuple[Cell, ...]
+
+
+class Column(NamedTuple):
+    """A figure's name and kind."""
+
+    name: str
+    kind: Literal["int", "float", "text", "bool"]
+
+
+ANALYSIS_COLUMNS = (
+    Column("point", "int"),  # the design index
+    Column("block", "int"),
+    Column("N", "int"),
+    Column("M", "int"),
+    Column("L", "int"),
+    Column("speed", "float"),
+    Column("min_speed", "float"),
+    Column("min_speed_exact", "text"),
+    Column("binding", "text"),
+    Column("feasible", "bool"),
+    Column("achieved_l", "int"),
+)
+"""speed, min_speed in cost units per HR period; feasible: every deadline holds at `speed`; achieved_l: the L at which
+corrections land there, nothing if they do not. No speed given: `speed` is min_speed."""
+
+SIMULATION_COLUMNS = (
+    Column("misses", "int"),
+    Column("landed", "int"),
+    Column("achieved_l_min", "int"),
+    Column("achieved_l_max", "int"),
+    Column("utilization", "float"),
+    Column("preemptions", "int"),
+    Column("hr_response", "float"),
+    Column("lr_update_response", "float"),
+)
+"""Of the simulated cycles: deadlines missed, corrections that landed and the least and largest L of those, and the
+worst response times in HR periods of the HR job and the LR update (nothing if none finished)."""
+
+
+def columns(*, simulated: bool) -> tuple[Column, ...]:
+    """Those of a sweep's rows."""
+    return ANALYSIS_COLUMNS + SIMULATION_COLUMNS if simulated else ANALYSIS_COLUMNS
+
+
+def rows_of(chunk: Chunk, cycles: int | None) -> list[Row]:
+    """A row for each point, in order; `cycles` measurement cycles of each are simulated unless it is None."""
+    block = chunk.block
+    found = analyse(chunk)
+    least = [(n / d, str(n) if d == 1 else f"{n}/{d}", binding) for n, d, binding in found.least]
+    designs = list(zip(*(axis.tolist() for axis in chunk.designs), strict=True))
+    given = [float(speed) for speed in chunk.speeds]
+    per_design = max(len(given), 1)
+    rows: list[Row] = []
+    for point, position, outcome in zip(chunk.points, chunk.positions, found.outcomes, strict=True):
+        design, at = divmod(position, per_design)
+        speed = given[at] if given else least[design][0]
+        rows.append((point, block.number, *designs[design], speed, *least[design], *outcome))
+    if cycles is None:
+        return rows
+    return [
+        row + _simulation(chunk, Timing(*designs[position // per_design]), found.speed(chunk, position), cycles)
+        for row, position in zip(rows, chunk.positions, strict=True)
+    ]
+
+
+def _simulation(chunk: Chunk, timing: Timing, speed: Fraction, cycles: int) -> Row:
+    """The figures of `SIMULATION_COLUMNS`."""
+    from sched_sim.simulate import simulate
+
+    schedule = simulate(chunk.block.costs, timing, speed, cycles, chunk.block.options)
+    achieved = schedule.achieved
+    return (
+        schedule.misses,
+        achieved.total(),
+        min(achieved, default=None),
+        max(achieved, default=None),
+        float(schedule.utilization),
+        schedule.preemptions,
+        _worst_response(schedule, "hr"),
+        _worst_response(schedule, "lr_update"),
+    )
+
+
+def _worst_response(schedule: Schedule, kind: str) -> float | None:
+    """In HR periods; None if no job of the kind finished."""
+    response = schedule.responses.get(kind)
+    return response.worst / schedule.period if response and response.finished else None

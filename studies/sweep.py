@@ -1,0 +1,129 @@
+"""A sweep: the analysis, and the simulation if asked for, of every point of a grid, kept as it is done."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import astuple, dataclass
+from functools import partial
+from itertools import chain
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from sched_sim.errors import InputError
+from studies.grid import Chunk, Grid
+from studies.rows import Column, Row, columns, rows_of
+from studies.stopping import stop_signals
+from studies.store import Store, digest
+from studies.workers import WorkerDeathError, compute
+
+ANALYSED = 20_000
+"""Points between two commits where there is a closed form: some 50 ms of work."""
+
+SIMULATED_STEPS = 50_000
+"""Simulated HR steps between two commits of one worker: some 0.2 s of work."""
+
+LARGEST_TASK = 1_000
+"""Points sent to a worker at a time, at most."""
+
+LEAST_SPEED_CYCLES = 120
+"""Measurement cycles simulated for one least speed by bisection, about."""
+
+
+@dataclass(frozen=True)
+class Sweep:
+    """A grid, and over how many measurement cycles each point is simulated (None: analysis alone)."""
+
+    grid: Grid
+    cycles: int | None = None
+
+    @property
+    def columns(self) -> tuple[Column, ...]:
+        """Of the rows."""
+        return columns(simulated=self.cycles is not None)
+
+    def description(self) -> Mapping[str, Any]:
+        """All that the rows depend on, for the results file: equal for two sweeps only if all their rows are."""
+        grid = self.grid
+        return {
+            "format": 1,
+            "N": list(grid.N),
+            "M": "all legal" if grid.M is None else list(grid.M),
+            "L": "all legal" if grid.L is None else list(grid.L),
+            "speed": [str(speed) for speed in grid.speeds] or "least",
+            "method": list(grid.methods),
+            "costs": [table.name for table in grid.tables],
+            "options": [[str(value) for value in astuple(options)] for options in grid.options],
+            "work": [[str(value) for value in astuple(block.costs)] for block in grid.blocks],
+            "simulated cycles": self.cycles,
+        }
+
+    @property
+    def digest(self) -> str:
+        """Of the description, in hexadecimal."""
+        return digest(self.description())
+
+    def open(self, path: Path) -> Store:
+        """The results file: made if it is not there; one of another sweep is refused with InputError."""
+        return Store(path, self.description(), self.grid.blocks, self.columns)
+
+
+class Outcome(NamedTuple):
+    """Of a run.
+
+    before, computed: points that were in the file already, and that were added;
+    stopped: the signal that ended the run early, None if it ended by itself.
+    """
+
+    before: int
+    computed: int
+    stopped: int | None
+
+
+def run(sweep: Sweep, store: Store, workers: int, on_progress: Callable[[int], None]) -> Outcome:
+    """Do all points that `store` has not; `on_progress` is called with the number of points in the file.
+
+    Ctrl-C and SIGTERM end it early, after what is done has been kept. Simulations run in `workers` processes.
+    Raises InputError for a point whose simulation kills its process again and again.
+    """
+    before = done = store.count()
+    on_progress(done)
+    with stop_signals() as stopped:
+        for rows in _computed(sweep, store.missing(sweep.grid.size), workers, lambda: stopped() is not None):
+            store.add(rows)
+            done += len(rows)
+            on_progress(done)
+        return Outcome(before, done - before, stopped() if done < sweep.grid.size else None)
+
+
+def _computed(sweep: Sweep, missing: list[range], workers: int, stopped: Callable[[], bool]) -> Iterator[list[Row]]:
+    """The rows of the missing points in portions: first what has a closed form, here, then the rest, by the workers."""
+    grid, cycles = sweep.grid, sweep.cycles
+
+    def chunk_of(span: range) -> Chunk:
+        return grid.chunk(span.start, span.stop)
+
+    simulated: list[range] = []
+    for span in chain.from_iterable(grid.spans(gap, lambda _: ANALYSED) for gap in missing):
+        if stopped():
+            return
+        chunk = chunk_of(span)
+        if cycles is None and not chunk.block.options.context_switch:
+            yield rows_of(chunk, None)
+        else:
+            simulated.append(span)
+
+    def size(first: Chunk) -> int:
+        search = LEAST_SPEED_CYCLES if first.block.options.context_switch else 0
+        return min(SIMULATED_STEPS // (int(first.designs.N[0]) * (search + (cycles or 0))), LARGEST_TASK)
+
+    smaller = chain.from_iterable(grid.spans(span, size) for span in simulated)
+    try:
+        yield from compute(partial(rows_of, cycles=cycles), smaller, chunk_of, workers, stopped)
+    except WorkerDeathError as error:
+        point = grid.chunk(error.point, error.point + 1)
+        (N,), (M,), (L,) = point.designs
+        raise InputError(
+            f"the simulation of point {point.start} (costs {point.block.table}, method {point.block.method}, N={N}, "
+            f"M={M}, L={L}) ends its process each time, as when memory runs out: leave it out of the grid, or give "
+            f"fewer --workers; all finished points are kept"
+        ) from None

@@ -1,0 +1,145 @@
+"""What a user asks of a sweep, by flags or in a TOML file, and the sweep that it makes."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping
+from decimal import Decimal
+from fractions import Fraction
+from itertools import product
+from pathlib import Path
+from typing import Annotated, Any, Literal, get_args
+
+from pydantic import BaseModel, ConfigDict, Field, PlainValidator, StrictBool, ValidationError, ValidationInfo
+
+from sched_sim.cost_file import problems
+from sched_sim.costs import METHODS, Statistic, load, shipped_names
+from sched_sim.errors import InputError
+from sched_sim.options import Gain, LowRateNoise, Options
+from sched_sim.timing import Feedback
+from studies.axes import numbers, whole_numbers, words
+from studies.grid import Grid
+from studies.sweep import Sweep
+
+ALL = "all"
+"""Instead of values of M or L: every legal one."""
+
+
+def _called(info: ValidationInfo) -> str:
+    """The name by which the user gave the field."""
+    field = str(info.field_name)
+    if info.context != "flags":
+        return field
+    return f"-{field}" if len(field) == 1 else f"--{field.replace('_', '-')}"
+
+
+def _periods(given: Any, info: ValidationInfo) -> tuple[int, ...]:
+    return whole_numbers(given, _called(info), at_least=1)
+
+
+def _steps_or_all(given: Any, info: ValidationInfo) -> tuple[int, ...] | None:
+    return None if given in (ALL, [ALL]) else whole_numbers(given, _called(info), at_least=0)
+
+
+def _speeds(given: Any, info: ValidationInfo) -> tuple[Fraction, ...]:
+    return numbers(given, _called(info))
+
+
+def _works(given: Any, info: ValidationInfo) -> tuple[Fraction, ...]:
+    return numbers(given, _called(info), zero=True)
+
+
+def _names(given: Any, info: ValidationInfo) -> tuple[str, ...]:
+    items = [given] if isinstance(given, str) else given
+    if not isinstance(items, list) or not items or not all(isinstance(item, str) for item in items):
+        raise InputError(
+            f"{_called(info)} {given!r}: give the name of a shipped cost table, or the path of a TOML file"
+        )
+    return tuple(dict.fromkeys(items))
+
+
+def _one_of(*known: Any) -> PlainValidator:
+    def validated(given: Any, info: ValidationInfo) -> tuple[str, ...]:
+        return words(given, _called(info), [str(word) for word in known])
+
+    return PlainValidator(validated)
+
+
+class Settings(BaseModel):
+    """The axes of the grid as the user gave them, and what to do at each point; a field that is not set has its
+    default."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    N: Annotated[tuple[int, ...], PlainValidator(_periods)] = ()
+    M: Annotated[tuple[int, ...] | None, PlainValidator(_steps_or_all)] = None
+    L: Annotated[tuple[int, ...] | None, PlainValidator(_steps_or_all)] = None
+    speed: Annotated[tuple[Fraction, ...], PlainValidator(_speeds)] = ()
+    method: Annotated[tuple[str, ...], _one_of(*METHODS)] = METHODS
+    costs: Annotated[tuple[str, ...], PlainValidator(_names)] = ("steffes2014",)
+    statistic: Statistic = "minimum"
+    lr_propagate_by: Annotated[tuple[str, ...], _one_of("m", "l")] = ("m",)
+    feedback: Annotated[tuple[str, ...], _one_of(*get_args(Feedback))] = ("next-step",)
+    gain: Annotated[tuple[str, ...], _one_of(*get_args(Gain))] = ("at-update",)
+    low_rate_noise: Annotated[tuple[str, ...], _one_of(*get_args(LowRateNoise))] = ("exact",)
+    cpus: Annotated[tuple[str, ...], _one_of(1, 2)] = ("1",)
+    context_switch: Annotated[tuple[Fraction, ...], PlainValidator(_works)] = (Fraction(0),)
+    simulate: StrictBool = False
+    cycles: Annotated[int, Field(strict=True, ge=1)] = 3
+
+    def sweep(self) -> Sweep:
+        """Raises InputError without N, for a cost table that cannot be read or lacks an entry, and an empty grid."""
+        if not self.N:
+            raise InputError("N is missing: give -N (such as -N 10 or -N 10:100:10), or N = ... in the grid file")
+        grid = Grid(
+            N=self.N,
+            M=self.M,
+            L=self.L,
+            speeds=self.speed,
+            methods=self.method,
+            tables=tuple(load(name) for name in self.costs),
+            options=self._options(),
+            statistic=self.statistic,
+        )
+        return Sweep(grid, self.cycles if self.simulate else None)
+
+    def _options(self) -> tuple[Options, ...]:
+        combinations: Any = product(
+            self.feedback, self.lr_propagate_by, self.gain, self.low_rate_noise, self.cpus, self.context_switch
+        )
+        return tuple(
+            Options(feedback, by, gain, noise, 2 if cpus == "2" else 1, switch)
+            for feedback, by, gain, noise, cpus, switch in combinations
+        )
+
+
+def settings(flags: Mapping[str, Any], file: Path | None = None) -> Settings:
+    """Those of a grid file, if there is one, with those given by flags in their place.
+
+    Raises InputError that lists all that is wrong with the one or the other.
+    """
+    given = _validated({name: value for name, value in flags.items() if value is not None}, "flags", "")
+    return given if file is None else _read(file).model_copy(update=dict(given.model_dump(exclude_unset=True)))
+
+
+def _read(path: Path) -> Settings:
+    """Of a TOML file: the flags' long names with _ for -; numbers, text such as "10:100:10", or lists of them."""
+    try:
+        document = tomllib.loads(path.read_text(encoding="utf-8"), parse_float=Decimal)
+    except (OSError, UnicodeDecodeError) as error:
+        raise InputError(f"grid file {str(path)!r} cannot be read: {error}; give the path of a TOML file") from None
+    except tomllib.TOMLDecodeError as error:
+        raise InputError(f"grid file {str(path)!r} is not valid TOML: {error}") from None
+    found = _validated(document, "file", f"grid file {str(path)!r}: ")
+    shipped = shipped_names()
+    costs = tuple(name if name in shipped else str(path.parent / name) for name in found.costs)
+    return found.model_copy(update={"costs": costs})
+
+
+def _validated(given: Mapping[str, Any], kind: Literal["flags", "file"], prefix: str) -> Settings:
+    try:
+        return Settings.model_validate(given, context=kind)
+    except ValidationError as error:
+        if kind == "file":
+            raise InputError(prefix + problems(error)) from None
+        raise InputError("; ".join(item["msg"].removeprefix("Value error, ") for item in error.errors())) from None
