@@ -10,7 +10,7 @@ from matplotlib.ticker import MaxNLocator
 
 from reports.intervals import jobs, never_ran, rows
 from reports.lanes import draw_lanes, fills_of, lanes, plain, shortened
-from reports.legend import draw_legend, legend_height
+from reports.legend import draw_legend, fill_entries, legend_height, sign_entries
 from reports.marks import draw_marks
 from reports.panels import Panel, method_panel
 from reports.picture import image, save
@@ -50,8 +50,8 @@ def gantt(panels: Sequence[Panel], *, width_mm: float = WIDTH_MM) -> Figure:
         titles = [title_lines(panel, width_mm - left - EDGE_MM) for panel in panels]
         places = [lanes(panel.schedule, scale) for panel, scale in zip(panels, scales, strict=True)]
         fills = fills_of(panel.schedule for panel in panels)
-        missing = any(panel.schedule.misses for panel in panels)
-        legend_mm = legend_height(fills, missing, across)
+        legend = [*fill_entries(fills), *sign_entries(any(panel.schedule.misses for panel in panels))]
+        legend_mm = legend_height(legend, across)
 
         heads = [TITLE_MM * len(lines) + MARKS_MM for lines in titles]
         bodies = [height for _, height in places]
@@ -60,24 +60,25 @@ def gantt(panels: Sequence[Panel], *, width_mm: float = WIDTH_MM) -> Figure:
         top = EDGE_MM
         for panel, scale, lines, (rows_at, body), head in zip(panels, scales, titles, places, heads, strict=True):
             axes = axes_at(figure, left, top + head, across, body)
-            frame(axes, scale, body, with_axis=panel is panels[-1])
+            frame(axes, scale, body, panel.end, with_axis=panel is panels[-1])
             _write_title(axes, lines, scale, body + MARKS_MM)
             draw_marks(axes, panel.marks, scale, body)
             draw_lanes(axes, panel.schedule, rows_at, scale, fills)
             top += head + body + PANEL_GAP_MM
-        draw_legend(figure, fills, missing, left, top - PANEL_GAP_MM + AXIS_MM, across)
+        draw_legend(figure, legend, left, top - PANEL_GAP_MM + AXIS_MM, across)
         return figure
 
 
-def frame(axes: Axes, scale: Scale, height_mm: float, *, with_axis: bool) -> None:
-    """Axes of steps across and mm up; with numbers and a name below if they are the lowest."""
+def frame(axes: Axes, scale: Scale, height_mm: float, end: int, *, with_axis: bool) -> None:
+    """Axes of steps across and mm up, with a fine line at each step as far as `end`; with numbers and a name below
+    if they are the lowest."""
     axes.set(xlim=(scale.first, scale.end), ylim=(0, height_mm), yticks=[])
     axes.spines[["left", "right", "top"]].set_visible(False)
     axes.spines["bottom"].set_visible(with_axis)
     axes.xaxis.set_major_locator(MaxNLocator(nbins=20, integer=True, steps=[1, 2, 5, 10]))
     axes.tick_params(axis="x", bottom=with_axis, labelbottom=with_axis)
     if scale.mm_per_step >= 3:
-        for step in range(int(scale.first), int(scale.end) + 1):
+        for step in range(int(scale.first), end + 1):
             axes.axvline(step, color=PALE, lw=0.5, zorder=0.3)
     if with_axis:
         axes.set_xlabel("start of step $j$ (high-rate periods)", labelpad=2)

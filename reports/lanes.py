@@ -84,11 +84,13 @@ def lanes(schedule: Schedule, scale: Scale) -> tuple[list[Lane], float]:
     return found[::-1], y - GAP_MM
 
 
-def draw_lanes(axes: Axes, schedule: Schedule, places: Sequence[Lane], scale: Scale, fills: Fills) -> None:
-    """Draw the schedule into axes whose x is in steps and whose y is in mm."""
+def draw_lanes(
+    axes: Axes, schedule: Schedule, places: Sequence[Lane], scale: Scale, fills: Fills, *, arrows: bool = True
+) -> None:
+    """Draw the schedule into axes whose x is in steps and whose y is in mm. arrows: releases and deadlines too."""
     lane_of = {lane.row: lane for lane in places}
     all_bars, all_jobs = bars(schedule), jobs(schedule)
-    _names(axes, places, schedule.cpus)
+    _names(axes, places, schedule.cpus, min(scale.step(schedule.horizon), scale.end))
     _waits(axes, all_jobs, lane_of, schedule.horizon, scale)
     _bars(axes, all_bars, lane_of, scale, fills)
     if scale.mm_per_step >= JOINT_MM:
@@ -97,13 +99,14 @@ def draw_lanes(axes: Axes, schedule: Schedule, places: Sequence[Lane], scale: Sc
     _labels(axes, all_bars, lane_of, scale, fills)
     for lane in places:
         _callouts(axes, lane, scale)
-        _arrows(axes, lane, [job for job in all_jobs if job.row == lane.row], scale)
+        if arrows:
+            _arrows(axes, lane, [job for job in all_jobs if job.row == lane.row], scale)
 
 
-def _names(axes: Axes, places: Sequence[Lane], cpus: int) -> None:
+def _names(axes: Axes, places: Sequence[Lane], cpus: int, end: float) -> None:
     beside = axes.get_yaxis_transform()
     for lane in places:
-        axes.plot([0, 1], [lane.foot] * 2, transform=beside, color=GREY, lw=0.5, zorder=0.8)
+        axes.plot([axes.get_xlim()[0], end], [lane.foot] * 2, color=GREY, lw=0.5, zorder=0.8)
         label = f"CPU {lane.row.cpu + 1}" if cpus > 1 and lane.row.cpu is not None else ""
         at: dict[str, Any] = {"transform": beside, "ha": "right", "va": "center"}
         shift = 1.5 if label else 0.0
@@ -169,7 +172,7 @@ def _overdue(axes: Axes, all_bars: Sequence[Bar], lane_of: Mapping[Row, Lane], s
         for row, start, end in overdue_work(all_bars)
     ]
     hatch = "xxxx" if len(all_bars) < MANY_BARS else None
-    late = PolyCollection(_boxes(boxes), facecolor="none", edgecolor=RED, hatch=hatch, linewidth=0, zorder=2.2)
+    late = PolyCollection(_boxes(boxes), facecolor=(1, 1, 1, 0.55), edgecolor=RED, hatch=hatch, linewidth=0, zorder=2.2)
     axes.add_collection(late, autolim=False)
 
 
@@ -179,7 +182,7 @@ def _labels(axes: Axes, all_bars: Sequence[Bar], lane_of: Mapping[Row, Lane], sc
             continue
         fill = fills[bar.style]
         start, end = scale.visible_mm(bar.start, bar.end)
-        ink = fill.ink if not fill.hatch else INK
+        ink = INK if fill.hatch or bar.overdue is not None else fill.ink
         text = axes.text(
             scale.at((start + end) / 2),
             lane_of[bar.row].middle,
@@ -192,7 +195,8 @@ def _labels(axes: Axes, all_bars: Sequence[Bar], lane_of: Mapping[Row, Lane], sc
             zorder=3,
         )
         if fill.hatch or bar.overdue is not None:
-            text.set_path_effects([withStroke(linewidth=2.2, foreground=fill.colour)])
+            around = "white" if bar.overdue is not None else fill.colour
+            text.set_path_effects([withStroke(linewidth=2.2, foreground=around)])
 
 
 def _callouts(axes: Axes, lane: Lane, scale: Scale) -> None:

@@ -22,29 +22,34 @@ class Entry(NamedTuple):
     draw: Callable[[Axes, float, float], None]
 
 
-def entries(fills: Mapping[str, Fill], missing: bool) -> list[Entry]:
-    """What the chart's signs mean. missing: whether a deadline is missed somewhere."""
-    found = [Entry(_words(style, fill), SWATCH_MM, _swatch(fill)) for style, fill in fills.items()]
-    found += [
+def fill_entries(fills: Mapping[str, Fill]) -> list[Entry]:
+    """What runs, with its label."""
+    return [Entry(_words(style, fill), SWATCH_MM, _swatch(fill)) for style, fill in fills.items()]
+
+
+def sign_entries(missing: bool) -> list[Entry]:
+    """What the other signs mean. missing: whether a deadline is missed somewhere."""
+    found = [
         Entry("released, not running", SWATCH_MM, _thin_bar),
         Entry("release", SIGN_MM, _marker("^", INK)),
         Entry("deadline", SIGN_MM, _marker("v", INK)),
     ]
     if missing:
-        found += [Entry("missed deadline", SIGN_MM, _missed), Entry("work after its deadline", SWATCH_MM, _late)]
+        found += [
+            Entry("missed deadline", SIGN_MM, _missed),
+            Entry("work after its deadline", SWATCH_MM, _late),
+        ]
     return found
 
 
-def legend_height(fills: Mapping[str, Fill], missing: bool, width_mm: float) -> float:
+def legend_height(found: Sequence[Entry], width_mm: float) -> float:
     """The height in mm that `draw_legend` takes."""
-    return LINE_MM * len(_lines(entries(fills, missing), width_mm))
+    return LINE_MM * len(_lines(found, width_mm))
 
 
-def draw_legend(
-    figure: Figure, fills: Mapping[str, Fill], missing: bool, left: float, top: float, width_mm: float
-) -> None:
+def draw_legend(figure: Figure, found: Sequence[Entry], left: float, top: float, width_mm: float) -> None:
     """Draw it at `left`, `top` (mm from the figure's left and top edge)."""
-    lines = _lines(entries(fills, missing), width_mm)
+    lines = _lines(found, width_mm)
     height = LINE_MM * len(lines)
     axes = axes_at(figure, left, top, width_mm, height)
     axes.set(xlim=(0, width_mm), ylim=(0, height))
