@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import json
+import os
 import tomllib
+from collections.abc import Mapping
 from decimal import Decimal
 from fractions import Fraction
 from pathlib import Path
@@ -41,7 +44,6 @@ class _CostEntry(BaseModel):
     minimum: Number
     median: Number
     p95: Number
-    operations: dict[str, int] = {}
 
 
 class _CostFile(BaseModel):
@@ -78,6 +80,51 @@ def read_cost_table(path: Path, shown: str = "") -> CostTable:
     return CostTable(
         name=checked.name, unit=checked.unit, costs=costs, provenance=dict(checked.model_extra or {}), path=shown
     )
+
+
+def check_writable(path: Path) -> None:
+    """Raises InputError unless a file can be written at `path`, before the work that fills it; changes nothing."""
+    folder = path.absolute().parent
+    if path.is_dir() or not folder.is_dir() or not os.access(path if path.exists() else folder, os.W_OK):
+        raise InputError(f"{str(path)!r} cannot be written: give a file in a folder that exists and is yours to write")
+
+
+def write_cost_table(table: CostTable, path: Path) -> None:
+    """Write `table` as a TOML file that `read_cost_table` gives back; exact where its costs are decimals.
+
+    Raises InputError if the path cannot be written.
+    """
+    lines = [f"name = {_toml(table.name)}", f"unit = {_toml(table.unit)}"]
+    sections: list[str] = []
+    for key, value in table.provenance.items():
+        if isinstance(value, Mapping):
+            sections += ["", f"[{key}]", *(f"{name} = {_toml(item)}" for name, item in value.items())]
+        else:
+            lines.append(f"{key} = {_toml(value)}")
+    for method, entries in table.costs.items():
+        sections += ["", f"[costs.{method}]", *(f"{kind} = {_toml_cost(cost)}" for kind, cost in entries.items())]
+    try:
+        path.write_text("\n".join([*lines, *sections]) + "\n", encoding="utf-8")
+    except OSError as error:
+        raise InputError(f"cost table {str(path)!r} cannot be written ({error.strerror}): give another path") from None
+
+
+def _toml_cost(cost: Cost) -> str:
+    minimum, median, p95 = (_decimal(value) for value in (cost.minimum, cost.median, cost.p95))
+    if minimum == median == p95:
+        return minimum
+    return f"{{ minimum = {minimum}, median = {median}, p95 = {p95} }}"
+
+
+def _decimal(value: Fraction) -> str:
+    return str(value.numerator) if value.denominator == 1 else repr(float(value))
+
+
+def _toml(value: Any) -> str:
+    """A TOML scalar or inline table; JSON writes strings, numbers and booleans as TOML does."""
+    if isinstance(value, Mapping):
+        return "{ " + ", ".join(f"{key} = {_toml(item)}" for key, item in value.items()) + " }"
+    return json.dumps(value, ensure_ascii=False)
 
 
 def problems(error: ValidationError) -> str:

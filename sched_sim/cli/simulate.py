@@ -130,8 +130,8 @@ def _show(title: str, document: dict[str, Any], rate: float | None) -> None:
     rows = [
         {
             "job": kind,
-            "released": figures["releases"],
-            "worst response": f"{figures['max'] * scale:.4g}",
+            "jobs": figures["releases"],
+            "worst": f"{figures['max'] * scale:.4g}",
             "mean": f"{figures['mean'] * scale:.4g}",
             "missed": figures["misses"],
             "late by": f"{figures['worst_lateness'] * scale:.4g}",
@@ -141,7 +141,7 @@ def _show(title: str, document: dict[str, Any], rate: float | None) -> None:
     ]
     landings = ", ".join(runs(document["achieved_l"]))
     note = f"Corrections land at l = k + {landings}; processor busy {document['utilization']:.1%} of the time"
-    print_table(f"{title}; times in {unit}", rows, note)
+    print_table(f"{title}; response times in {unit}", rows, note)
 
 
 def runs(values: list[int | None]) -> list[str]:

@@ -1,0 +1,107 @@
+"""`sched-sim measure`: what each job really costs here."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Literal
+
+import typer
+
+from sched_sim.cli import options as opt
+from sched_sim.cli.output import print_csv, print_json, print_table
+
+SYSTEM = "System"
+
+Backend = Annotated[
+    Literal["compiled", "counted", "numpy"],
+    typer.Option(
+        "--backend",
+        help="compiled: time of code compiled by numba; counted: exact operation counts; numpy: time of NumPy calls.",
+    ),
+]
+UpdateForm = Annotated[
+    Literal["textbook", "joseph", "short"],
+    typer.Option("--update", help="Covariance update: Eq. 11, Joseph's form, or P - K (P H')'."),
+]
+Size = Annotated[int, typer.Option(min=1, help="Size of the example system.", rich_help_panel=SYSTEM)]
+OwnSystem = Annotated[
+    str | None,
+    typer.Option(
+        "--system",
+        help="Your own: package.module:function that returns a filters.systems.System.",
+        rich_help_panel=SYSTEM,
+    ),
+]
+CostFile = Annotated[
+    Path | None,
+    typer.Option("--output", "-o", help="Cost table to write, for --costs.", rich_help_panel=opt.OUTPUT),
+]
+
+
+def measure(
+    states: Size = 9,
+    inputs: Size = 3,
+    measurements: Size = 3,
+    system: OwnSystem = None,
+    backend: Backend = "compiled",
+    update: UpdateForm = "textbook",
+    thorough: Annotated[bool, typer.Option("--thorough", help="Ten times as many rounds.")] = False,
+    output: CostFile = None,
+    format: opt.Format = "table",
+) -> None:
+    """Measure what each job of each filter costs, on the real code, and write it as a cost table.
+
+    sched-sim measure --states 15 --inputs 6 --measurements 3 -o costs.toml
+    sched-sim measure --system mymodule:my_system -o costs.toml
+    """
+    from filters.systems.example import example_system
+    from sched_sim.cli.progress import progress_bar
+    from sched_sim.cost_file import check_writable, write_cost_table
+    from studies.measure import measure as run
+    from studies.user_system import load_system
+
+    if output is not None:
+        check_writable(output)
+    if system is None:
+        model, name = example_system(states, inputs, measurements), f"{backend}-{states}-{inputs}-{measurements}"
+    else:
+        model, name = load_system(system), f"{backend}-{system.replace(':', '.')}"
+    with progress_bar("Measuring") as progress:
+        table = run(model, backend, update, name=name, thorough=thorough, progress=progress)
+    normalised = table.normalised()
+    rows = [
+        {
+            "method": method,
+            "job": kind,
+            "unit": table.unit,
+            "minimum": float(cost.minimum),
+            "median": float(cost.median),
+            "p95": float(cost.p95),
+            "standard_steps": float(normalised.entry(method, kind).minimum),
+        }
+        for method, kinds in table.costs.items()
+        for kind, cost in kinds.items()
+    ]
+    if format == "json":
+        print_json(rows)
+    elif format == "csv":
+        print_csv(rows)
+    else:
+        _show(f"{table.name}, {update} update, in {table.unit}s", rows, timed=backend != "counted")
+    if output is not None:
+        write_cost_table(table, output)
+        typer.echo(f"Wrote {output}; use it with --costs {output}", err=True)
+
+
+def _show(title: str, rows: list[dict[str, object]], timed: bool) -> None:
+    figures = ("minimum", "median", "p95") if timed else ("minimum",)
+    shown = [
+        {
+            "method": row["method"],
+            "job": row["job"],
+            **{name if timed else "operations": f"{row[name]:.4g}" for name in figures},
+            "standard steps": f"{row['standard_steps']:.3f}",
+        }
+        for row in rows
+    ]
+    print_table(title, shown, "A standard step is one propagate + update of the standard filter.")

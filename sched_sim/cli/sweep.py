@@ -1,0 +1,252 @@
+"""`sched-sim sweep`: a grid of designs, each analysed and, if asked for, simulated."""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from sched_sim.cli import options as opt
+from sched_sim.cli.output import print_csv, print_json, print_table
+from sched_sim.costs import Statistic
+from sched_sim.errors import InputError
+
+if TYPE_CHECKING:
+    from studies.store import Store
+    from studies.sweep import Outcome, Sweep
+
+SHOWN = 20
+"""Rows of the table of best designs that people see; JSON and CSV have them all."""
+
+
+def _values(flag: str, text: str, panel: str = opt.DESIGN) -> Any:
+    return typer.Option(flag, help=text, rich_help_panel=panel, metavar="VALUES")
+
+
+Axis = list[str] | None
+GridFile = Annotated[
+    Path | None,
+    typer.Argument(
+        help="TOML file with the options below as keys (- becomes _); flags take precedence.", metavar="GRID"
+    ),
+]
+Ns = Annotated[Axis, _values("-N", "HR steps between measurements: 10 or 1,2,5 or 10:90:10 (end included).")]
+Ms = Annotated[Axis, _values("-M", "Delay of the measurement in HR steps; by default all that are legal.")]
+Ls = Annotated[Axis, _values("-L", "Step by which the correction must land; by default all that are legal.")]
+MethodNames = Annotated[Axis, _values("--method", "Repeatable; by default all of them.")]
+Tables = Annotated[
+    Axis, _values("--costs", "Cost table, shipped or your own file; by default steffes2014. Repeatable.")
+]
+WhichCost = Annotated[
+    Statistic | None,
+    typer.Option("--statistic", help="Which of a measured cost's figures to plan with.", rich_help_panel=opt.DESIGN),
+]
+LrPropagateBys = Annotated[Axis, _values("--lr-propagate-by", "Deadline of LR propagate: m (default), l or m,l.")]
+FeedbackIns = Annotated[Axis, _values("--feedback", "next-step (default), same-step or both.")]
+Gains = Annotated[Axis, _values("--gain", "at-update (default), precomputed or both.")]
+Noises = Annotated[Axis, _values("--low-rate-noise", "exact (default), sum, euler or several.")]
+Speeds = Annotated[
+    Axis,
+    _values("--speed", "Cost units per HR period: 0.6:1.6:0.05; by default each design's least.", opt.PROCESSOR),
+]
+CpuCounts = Annotated[Axis, _values("--cpus", "1 (default), 2 or 1,2 processors.", opt.PROCESSOR)]
+ContextSwitches = Annotated[Axis, _values("--context-switch", "Work charged at each switch of jobs.", opt.PROCESSOR)]
+Simulate = Annotated[
+    bool | None,
+    typer.Option("--simulate/--no-simulate", help="Simulate every point too.", rich_help_panel=opt.OUTPUT),
+]
+Cycles = Annotated[
+    int | None,
+    typer.Option("--cycles", min=1, help="Measurement cycles to simulate; by default 3.", rich_help_panel=opt.OUTPUT),
+]
+ResultsFile = Annotated[
+    Path | None,
+    typer.Option(
+        "--results",
+        help="SQLite file for the rows; the same sweep again goes on where it ended. By default named after the sweep.",
+        rich_help_panel=opt.OUTPUT,
+    ),
+]
+Exports = Annotated[
+    list[Path] | None,
+    typer.Option(
+        "--export", help="Write all rows to FILE.csv or FILE.parquet. Repeatable.", rich_help_panel=opt.OUTPUT
+    ),
+]
+Workers = Annotated[
+    int | None,
+    typer.Option(
+        "--workers", min=1, help="Processes that simulate; by default one for each core.", rich_help_panel=opt.OUTPUT
+    ),
+]
+
+
+def sweep(
+    grid: GridFile = None,
+    N: Ns = None,
+    M: Ms = None,
+    L: Ls = None,
+    speed: Speeds = None,
+    method: MethodNames = None,
+    costs: Tables = None,
+    statistic: WhichCost = None,
+    lr_propagate_by: LrPropagateBys = None,
+    feedback: FeedbackIns = None,
+    gain: Gains = None,
+    low_rate_noise: Noises = None,
+    cpus: CpuCounts = None,
+    context_switch: ContextSwitches = None,
+    simulate: Simulate = None,
+    cycles: Cycles = None,
+    results: ResultsFile = None,
+    export: Exports = None,
+    workers: Workers = None,
+    format: opt.Format = "table",
+) -> None:
+    """Analyse a whole grid of designs, and simulate it with --simulate; all cores, and it resumes after any stop.
+
+    sched-sim sweep -N 10:90:10 -M 1:4 --speed 0.6:1.6:0.05 --export designs.csv
+    sched-sim sweep grid.toml --simulate --results designs.sqlite
+    """
+    from studies.export import check_export
+    from studies.export import export as write
+    from studies.sweep import Outcome, run
+    from studies.sweep_settings import settings
+
+    flags = {
+        "N": N,
+        "M": M,
+        "L": L,
+        "speed": speed,
+        "method": method,
+        "costs": costs,
+        "statistic": statistic,
+        "lr_propagate_by": lr_propagate_by,
+        "feedback": feedback,
+        "gain": gain,
+        "low_rate_noise": low_rate_noise,
+        "cpus": cpus,
+        "context_switch": context_switch,
+        "simulate": simulate,
+        "cycles": cycles,
+    }
+    asked = settings(flags, grid).sweep()
+    path = results or Path(f"{grid.stem if grid else 'sweep'}-{asked.digest[:8]}.sqlite")
+    exports = export or []
+    for file in exports:
+        check_export(file)
+        if file.resolve() == path.resolve():
+            raise InputError(f"--export {file} is the results file too: give another name to one of them")
+    with asked.open(path) as store:
+        try:
+            with _progress(asked.grid.size) as show:
+                outcome = run(asked, store, workers or _cores(), show)
+            if outcome.stopped is None:
+                for file in exports:
+                    write(store, file)
+                _report(asked, store, outcome, exports, format)
+        except KeyboardInterrupt:  # while exporting
+            outcome = Outcome(store.count(), 0, signal.SIGINT)
+        if outcome.stopped is not None:
+            kept = outcome.before + outcome.computed
+            name = signal.Signals(outcome.stopped).name
+            print(
+                f"Stopped by {name}: {kept} of {asked.grid.size} points are kept in {path}; "
+                f"the same command again goes on from there.",
+                file=sys.stderr,
+            )
+            raise typer.Exit(128 + outcome.stopped)
+
+
+def _cores() -> int:
+    """Those that this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+@contextmanager
+def _progress(total: int) -> Iterator[Callable[[int], None]]:
+    """A bar with rate and time left on a terminal; nothing anywhere else."""
+    if not sys.stderr.isatty():
+        yield lambda _: None
+        return
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, ProgressColumn, Task, TimeRemainingColumn
+    from rich.text import Text
+
+    class Rate(ProgressColumn):
+        """Points per second."""
+
+        def render(self, task: Task) -> Text:
+            return Text("" if task.speed is None else f"{task.speed:,.0f} points/s")
+
+    with Progress(
+        BarColumn(), MofNCompleteColumn(), Rate(), TimeRemainingColumn(), console=Console(stderr=True), transient=True
+    ) as bar:
+        task = bar.add_task("", total=total)
+        known = False
+
+        def show(done: int) -> None:
+            nonlocal known
+            if not known:  # what was there already says nothing about the rate
+                bar.reset(task, completed=done, total=total)
+            bar.update(task, completed=done)
+            known = True
+
+        yield show
+
+
+def _report(asked: Sweep, store: Store, outcome: Outcome, exports: Sequence[Path], format: opt.Format) -> None:
+    from studies.sweep_summary import best, by_method
+
+    designs = best(store)
+    if format == "csv":
+        print_csv(designs)
+        return
+    methods = by_method(store)
+    if format == "json":
+        print_json(
+            {
+                "points": asked.grid.size,
+                "left_out": asked.grid.left_out,
+                "computed": outcome.computed,
+                "results": str(store.path),
+                "exports": [str(file) for file in exports],
+                "methods": methods,
+                "best": designs,
+            }
+        )
+        return
+    left_out = f", {asked.grid.left_out} combinations left out as not legal" if asked.grid.left_out else ""
+    before = f" ({outcome.before} of them were there before)" if outcome.before else ""
+    several = len(asked.grid.tables) > 1
+    print_table(f"{asked.grid.size} points{before}{left_out}", [_for_people(row, several) for row in methods])
+    more = f"; the first {SHOWN} of {len(designs)} (all: --format json or csv)" if len(designs) > SHOWN else ""
+    print_table(
+        f"Slowest processor that will do, for each N and M{more}",
+        [_for_people(row, several) for row in designs[:SHOWN]],
+        note="All rows: " + ", ".join(str(file) for file in (store.path, *exports)),
+    )
+
+
+HEADINGS = {
+    "feasible": "meet all deadlines",
+    "lowest_min_speed": "least speed from",
+    "highest_min_speed": "to",
+    "min_speed": "least speed",
+    "min_speed_exact": "exactly",
+    "binding": "fixed by",
+}
+
+
+def _for_people(row: dict[str, Any], several_tables: bool) -> dict[str, Any]:
+    return {
+        HEADINGS.get(key, key.replace("_", " ")): f"{value:.6g}" if isinstance(value, float) else value
+        for key, value in row.items()
+        if several_tables or key != "costs"
+    }

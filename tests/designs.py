@@ -1,0 +1,53 @@
+"""Random designs: a method's costs in whole ticks, N, M, L and options, edges included."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from hypothesis import strategies as st
+
+from sched_sim.costs import DualRateCosts, JobCosts, LarsenCosts, RecalculateCosts, StandardCosts
+from sched_sim.options import Options
+from sched_sim.timing import Timing
+
+ticks = st.integers(1, 5) | st.integers(1, 100)
+
+
+class Design(NamedTuple):
+    costs: JobCosts
+    timing: Timing
+    options: Options
+
+
+@st.composite
+def serial_designs(draw: st.DrawFn) -> Design:
+    costs = draw(
+        st.builds(StandardCosts, ticks, ticks)
+        | st.builds(RecalculateCosts, ticks, ticks, ticks)
+        | st.builds(LarsenCosts, ticks, ticks, ticks)
+    )
+    N = draw(st.integers(1, 12))
+    M = draw(st.sampled_from([0, N]) | st.integers(0, N))
+    return Design(costs, Timing(N, M, N), Options())
+
+
+@st.composite
+def dual_rate_designs(draw: st.DrawFn) -> Design:
+    precomputed = draw(st.booleans())
+    gain = draw(ticks) if precomputed else 0
+    costs = DualRateCosts(draw(ticks), draw(ticks), draw(ticks), draw(ticks), gain, draw(ticks))
+    N = draw(st.integers(1, 12))
+    M = draw(st.sampled_from([0, N - 1]) | st.integers(0, N - 1))
+    feedback = draw(st.sampled_from(["next-step", "same-step"]))
+    first, last = (M + 1, N) if feedback == "next-step" else (M, N - 1)
+    L = draw(st.sampled_from([first, last]) | st.integers(first, last))
+    options = Options(
+        feedback=feedback,
+        lr_propagate_by=draw(st.sampled_from(["m", "l"])),
+        gain="precomputed" if precomputed else "at-update",
+        cpus=draw(st.sampled_from([1, 2])),
+    )
+    return Design(costs, Timing(N, M, L), options)
+
+
+designs = serial_designs() | dual_rate_designs()

@@ -1,0 +1,90 @@
+"""The analysis and the simulation are each other's oracle: over random costs, N, M, L, methods and options."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from hypothesis import assume, example, given, settings
+from hypothesis import strategies as st
+
+from sched_sim.costs import DualRateCosts, StandardCosts
+from sched_sim.least_speed import achieved_l, least_speed, staircase
+from sched_sim.options import Options
+from sched_sim.search import least_speed_by_simulation
+from sched_sim.simulate import simulate
+from sched_sim.timing import Timing
+from tests.designs import Design, designs, dual_rate_designs
+
+CYCLES = 4
+
+lands_at_once_or_later = Design(DualRateCosts(6, 1, 5, 1, 0, 1), Timing(6, 0, 6), Options())
+feedback_spills = Design(DualRateCosts(40, 40, 30, 5, 0, 20), Timing(9, 2, 6), Options(feedback="same-step"))
+
+
+@settings(max_examples=400)
+@example(lands_at_once_or_later)
+@example(feedback_spills)
+@given(designs)
+def test_the_simulation_meets_every_deadline_at_the_least_speed_and_misses_one_tick_below(design: Design) -> None:
+    least = least_speed(*design).speed
+    assert simulate(design.costs, design.timing, least, CYCLES, design.options).misses == 0
+    slower = least - Fraction(1, least.denominator)
+    assume(slower > 0)
+    assert simulate(design.costs, design.timing, slower, CYCLES, design.options).misses > 0
+
+
+@settings(max_examples=200)
+@given(designs, st.fractions(Fraction(1, 100), Fraction(99, 100), max_denominator=100))
+def test_no_speed_below_the_least_meets_every_deadline(design: Design, share: Fraction) -> None:
+    slower = least_speed(*design).speed * share
+    assert simulate(design.costs, design.timing, slower, CYCLES, design.options).misses > 0
+
+
+@settings(max_examples=400)
+@given(designs, st.fractions(Fraction(1, 4), 4, max_denominator=64))
+def test_achieved_l_agrees_at_random_speeds(design: Design, share: Fraction) -> None:
+    costs, timing, options = design
+    speed = least_speed(*design).speed * share
+    landings: list[int] = []
+    schedule = simulate(costs, timing, speed, CYCLES, options, on_landing=lambda _cycle, L: landings.append(L))
+    last_legal = timing.N - 1 if options.feedback == "same-step" else timing.N
+    in_time = len(landings) == CYCLES and max(landings) <= last_legal
+    overruns = schedule.responses["hr"].misses > 0
+    assert achieved_l(costs, timing, speed, options) == (landings[-1] if in_time and not overruns else None)
+
+
+@settings(max_examples=60)
+@given(designs)
+def test_bisection_on_the_simulation_finds_the_closed_form(design: Design) -> None:
+    least = least_speed(*design)
+    found, binding = least_speed_by_simulation(*design, tasks=(), at_least=Fraction(0))
+    assert 0 <= found - least.speed < Fraction(1, 1000)
+    if least.speed.denominator == 1 and isinstance(design.costs, StandardCosts):
+        assert binding == least.binding
+
+
+@settings(max_examples=60)
+@given(dual_rate_designs())
+def test_a_later_l_never_needs_a_faster_processor_and_lands_no_later_than_asked(design: Design) -> None:
+    stairs = staircase(design.costs, design.timing.N, design.timing.M, design.options)
+    speeds = [stair.speed for stair in stairs]
+    assert speeds == sorted(speeds, reverse=True)
+    assert all(stair.achieved <= stair.L for stair in stairs)
+
+
+@settings(max_examples=100)
+@given(dual_rate_designs(), st.integers(1, 20))
+def test_work_is_conserved(design: Design, share: int) -> None:
+    """Utilization is the work of the jobs that ran, whatever preempted what: slices add up to it and never overlap."""
+    speed = least_speed(*design).speed * Fraction(share, 10)
+    schedule = simulate(design.costs, design.timing, speed, CYCLES, design.options, keep_slices=True)
+    assert sum(piece.end - piece.start for piece in schedule.slices) == schedule.busy
+    for cpu in range(schedule.cpus):
+        mine = sorted((piece.start, piece.end) for piece in schedule.slices if piece.cpu == cpu)
+        assert all(end <= start for (_, end), (start, _) in zip(mine, mine[1:], strict=False))
+    done: dict[tuple[str, int], int] = {}
+    for piece in schedule.slices:
+        assert piece.begin == done.get((piece.kind, piece.step), 0)
+        done[piece.kind, piece.step] = piece.begin + piece.end - piece.start
+        if piece.finished:
+            assert done[piece.kind, piece.step] == sum(work for _, work in piece.parts)
