@@ -23,7 +23,7 @@ class FileLock:
                 self._descriptor = os.open(self.path, os.O_RDWR | os.O_CREAT, 0o666)
             except OSError as error:
                 raise InputError(
-                    f"results file {path} cannot be written: {error.strerror}; give a --results that can"
+                    f"results file {path} cannot be written: {error.strerror}; give another --results"
                 ) from None
             try:
                 fcntl.flock(self._descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)

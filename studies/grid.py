@@ -79,9 +79,10 @@ class Grid:
             if names.count(name) > 1:
                 raise InputError(f"two cost tables are named {name!r}: give each file a `name` of its own")
         if not self.size:
+            given = f"N={_extent(self.N)}, M={_extent(self.M)}, L={_extent(self.L)}"
             raise InputError(
-                f"the grid is empty: none of its {self.left_out} combinations is legal; N must be at least 1, "
-                f"0 <= M <= N and M < L <= N (M <= L < N with same-step feedback)"
+                f"the grid is empty: none of the {self.left_out} combinations of {given} is legal: give 0 <= M <= N, "
+                f"and M < L <= N for dual-rate (M <= L < N with same-step feedback), M <= L <= N for the others"
             )
 
     @cached_property
@@ -135,3 +136,9 @@ class Grid:
             stop = min(start + max(size(first), 1), self._ends[first.block.number], indexes.stop)
             yield range(start, stop)
             start = stop
+
+
+def _extent(values: tuple[int, ...] | None) -> str:
+    if values is None:
+        return "all"
+    return str(values[0]) if len(values) == 1 else f"{values[0]}..{values[-1]}"

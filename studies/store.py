@@ -224,5 +224,5 @@ def _explained(path: Path) -> Iterator[None]:
         yield
     except (sqlite3.Error, OSError) as error:
         raise InputError(
-            f"results file {path} cannot be read or written: {error}; give a --results that can be written"
+            f"results file {path} cannot be read or written: {error}; give another --results or make room"
         ) from error

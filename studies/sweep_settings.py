@@ -26,10 +26,10 @@ ALL = "all"
 
 
 def _called(info: ValidationInfo) -> str:
-    """The name by which the user gave the field."""
+    """What the message calls the field: a flag by its name; that of a file's key stands before the message."""
     field = str(info.field_name)
     if info.context != "flags":
-        return field
+        return "the value"
     return f"-{field}" if len(field) == 1 else f"--{field.replace('_', '-')}"
 
 
@@ -141,5 +141,7 @@ def _validated(given: Mapping[str, Any], kind: Literal["flags", "file"], prefix:
         return Settings.model_validate(given, context=kind)
     except ValidationError as error:
         if kind == "file":
-            raise InputError(prefix + problems(error)) from None
+            unknown = any(item["type"] == "extra_forbidden" for item in error.errors())
+            keys = f"; the keys are {', '.join(Settings.model_fields)}" if unknown else ""
+            raise InputError(prefix + problems(error) + keys) from None
         raise InputError("; ".join(item["msg"].removeprefix("Value error, ") for item in error.errors())) from None

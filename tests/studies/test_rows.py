@@ -1,0 +1,133 @@
+"""The rows of a sweep against the scalar functions, one design at a time."""
+
+from fractions import Fraction
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from sched_sim.costs import KINDS, METHODS, Cost, CostTable
+from sched_sim.least_speed import achieved_l, least_speed
+from sched_sim.options import Options
+from sched_sim.simulate import simulate
+from sched_sim.timing import Timing
+from studies.grid import Grid
+from studies.rows import columns, rows_of
+
+CYCLES = 4
+
+ANALYSED = [column.name for column in columns(simulated=False)]
+SIMULATED = [column.name for column in columns(simulated=True)]
+
+# Digits of a measured cost, in ticks far beyond 64 bits, and of a printed one.
+DIGITS = st.sampled_from([2, 17])
+
+
+@st.composite
+def tables(draw):
+    places = draw(DIGITS)
+    cost = st.decimals("0.01", "1", places=places).map(Fraction).map(Cost.of)
+    return CostTable("drawn", "unit", {method: {kind: draw(cost) for kind in kinds} for method, kinds in KINDS.items()})
+
+
+OPTIONS = st.builds(
+    Options,
+    feedback=st.sampled_from(["next-step", "same-step"]),
+    lr_propagate_by=st.sampled_from(["m", "l"]),
+    gain=st.sampled_from(["at-update", "precomputed"]),
+    low_rate_noise=st.sampled_from(["exact", "sum", "euler"]),
+    cpus=st.sampled_from([1, 2]),
+)
+SPEEDS = st.lists(st.decimals("0.1", "3", places=2).map(Fraction), max_size=3, unique=True).map(sorted).map(tuple)
+
+
+def points(grid):
+    """(timing, speed or None) and the block of each point."""
+    for span in grid.spans(range(grid.size), lambda _: 50):
+        chunk = grid.chunk(span.start, span.stop)
+        for position in chunk.positions:
+            design, at = divmod(position, max(len(grid.speeds), 1))
+            timing = Timing(*(int(values[design]) for values in chunk.designs))
+            yield chunk.block, timing, grid.speeds[at] if grid.speeds else None
+
+
+def rows(grid, cycles=None):
+    names = ANALYSED if cycles is None else SIMULATED
+    for span in grid.spans(range(grid.size), lambda _: 50):
+        for row in rows_of(grid.chunk(span.start, span.stop), cycles):
+            yield dict(zip(names, row, strict=True))
+
+
+@given(tables(), st.sampled_from(METHODS), OPTIONS, SPEEDS, st.integers(1, 7))
+def test_rows_are_those_of_the_scalar_analysis_and_of_the_simulation(table, method, options, speeds, N):
+    grid = Grid((N,), None, None, speeds, (method,), (table,), (options,))
+    found = list(rows(grid, CYCLES))
+    assert [row["point"] for row in found] == list(range(grid.size))
+    for row, (block, timing, speed) in zip(found, points(grid), strict=True):
+        least = least_speed(block.costs, timing, options)
+        speed = least.speed if speed is None else speed
+        schedule = simulate(block.costs, timing, speed, CYCLES, options)
+        assert (row["N"], row["M"], row["L"]) == (timing.N, timing.M, timing.L)
+        assert row["speed"] == float(speed)
+        assert (row["min_speed"], row["min_speed_exact"], row["binding"]) == (
+            float(least.speed),
+            str(least.speed),
+            least.binding,
+        )
+        assert row["achieved_l"] == achieved_l(block.costs, timing, speed, options)
+        assert row["feasible"] == (schedule.misses == 0)
+        assert row["misses"] == schedule.misses
+        assert row["landed"] == sum(schedule.achieved.values())
+        if row["feasible"]:
+            assert row["landed"] == CYCLES
+            assert row["achieved_l_max"] == row["achieved_l"]
+        assert row["achieved_l_min"] == min(schedule.achieved, default=None)
+        assert row["achieved_l_max"] == max(schedule.achieved, default=None)
+        assert row["utilization"] == float(schedule.utilization)
+        assert row["preemptions"] == schedule.preemptions
+        hr = schedule.responses["hr"]
+        assert row["hr_response"] == (float(Fraction(hr.worst, schedule.period)) if hr.finished else None)
+        assert (row["lr_update_response"] is None) == (
+            "lr_update" not in schedule.responses or not schedule.responses["lr_update"].finished
+        )
+
+
+def steffes(N, M, L, method="dual-rate", speeds=(), **options):
+    from sched_sim.costs import load
+
+    grid = Grid((N,), (M,), L and (L,), speeds, (method,), (load("steffes2014"),), (Options(**options),))
+    return list(rows(grid, 3))
+
+
+def test_figures_of_the_paper():
+    (row,) = steffes(10, 4, 8)
+    assert (row["min_speed_exact"], row["binding"], row["feasible"], row["misses"]) == ("77/100", "lr_update", True, 0)
+    (row,) = steffes(100, 10, 80)
+    assert (row["min_speed_exact"], row["binding"], row["achieved_l"]) == ("33/50", "hr", 29)
+    (row,) = steffes(10, 4, 8, "larsen")
+    assert (row["min_speed_exact"], row["achieved_l"]) == ("147/100", 4)
+
+
+def test_too_slow_a_processor_lands_nowhere():
+    (row,) = steffes(10, 4, 8, speeds=(Fraction(1, 2),))
+    assert (row["feasible"], row["achieved_l"], row["landed"]) == (False, None, 0)
+    assert row["misses"] > 0
+    assert row["lr_update_response"] is None
+
+
+@pytest.mark.parametrize("method", ["dual-rate", "recalculate"])
+def test_context_switches_go_through_the_simulation(method):
+    switch = Fraction(1, 100)
+    found = steffes(6, 2, None, method, speeds=(), context_switch=switch)
+    for row in found:
+        from sched_sim.costs import load, select
+
+        options = Options(context_switch=switch)
+        costs = select(load("steffes2014"), method, options)
+        least = least_speed(costs, Timing(row["N"], row["M"], row["L"]), options)
+        assert (row["min_speed_exact"], row["binding"]) == (str(least.speed), least.binding)
+        assert row["feasible"]
+        assert row["misses"] == 0
+        assert row["achieved_l_min"] <= row["achieved_l"] <= row["L"]
+    (slow,) = steffes(6, 2, 4, method, speeds=(Fraction(1, 2),), context_switch=switch)
+    assert (slow["feasible"], slow["achieved_l"]) == (False, None)
