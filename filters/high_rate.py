@@ -35,7 +35,7 @@ def hr_propagate(
     Phi = system.F(j, x, u, system.parameters)
     matmul(Phi, transition.Phi, following.Phi)  # (16)
     matmul(Phi, transition.Q, work.nn1)
-    matmul_transposed(work.nn1, Phi, following.Q)
+    matmul_transposed(work.nn1, Phi, following.Q, work.nn2)
     add(following.Q, system.Q(j, system.parameters), following.Q)  # (18)
     return following
 

@@ -13,7 +13,7 @@ from filters.update_forms.form import UpdateForm
 def lr_propagate(P: FloatArray, transition: Transition, P_next: FloatArray, work: Workspace) -> None:
     """Job: P_{(k-N)^+} becomes P_{k^-}, Eq. (14)."""
     matmul(transition.Phi, P, work.nn1)
-    matmul_transposed(work.nn1, transition.Phi, P_next)
+    matmul_transposed(work.nn1, transition.Phi, P_next, work.nn2)
     add(P_next, transition.Q, P_next)
 
 

@@ -86,7 +86,7 @@ def lr_propagate_euler(
     """Job in place of `lr_propagate`: P_{k^-} = Phi (P + Q_first) Phi^T + Q_second, which is Eq. (14) with Eq. (24)."""
     add(P, transition.Q_first, work.nn1)
     matmul(transition.Phi, work.nn1, work.nn2)
-    matmul_transposed(work.nn2, transition.Phi, P_next)
+    matmul_transposed(work.nn2, transition.Phi, P_next, work.nn1)
     add(P_next, transition.Q_second, P_next)
 
 

@@ -33,18 +33,20 @@ class Transition(NamedTuple):
 
 
 class Workspace(NamedTuple):
-    """Scratch arrays, allocated once for a filter. What is in them means nothing after a job, save what is said here.
+    """Scratch arrays, allocated once for a filter. What a job leaves in them means nothing to the next.
 
-    An update form's `gain` leaves PHt for its `covariance`.
+    Two exceptions: I is the identity, never written; an update form's `gain` may leave things to its `covariance`.
     """
 
+    I: FloatArray  # noqa: E741 (n, n), as in Eq. (11)
     nn1: FloatArray  # (n, n)
     nn2: FloatArray
     nn3: FloatArray
     PHt: FloatArray  # (n, p)
     np1: FloatArray
-    np2: FloatArray
     HP: FloatArray  # (p, n)
+    pn1: FloatArray
+    pn2: FloatArray
     S: FloatArray  # (p, p)
     S_inverse: FloatArray
     pp1: FloatArray
@@ -72,7 +74,18 @@ def new_transition(system: System) -> Transition:
 def new_workspace(system: System) -> Workspace:
     """Scratch memory for all jobs of a filter."""
     n, p = system.states, system.measurements
-    shapes = Workspace._fields
-    sizes = {"nn": (n, n), "np": (n, p), "pp": (p, p)}
-    named = {"PHt": (n, p), "HP": (p, n), "S": (p, p), "S_inverse": (p, p), "n1": (n,)}
-    return Workspace(*(np.empty(named.get(field) or sizes[field[:2]]) for field in shapes))
+    return Workspace(
+        I=np.eye(n),
+        nn1=np.empty((n, n)),
+        nn2=np.empty((n, n)),
+        nn3=np.empty((n, n)),
+        PHt=np.empty((n, p)),
+        np1=np.empty((n, p)),
+        HP=np.empty((p, n)),
+        pn1=np.empty((p, n)),
+        pn2=np.empty((p, n)),
+        S=np.empty((p, p)),
+        S_inverse=np.empty((p, p)),
+        pp1=np.empty((p, p)),
+        n1=np.empty(n),
+    )

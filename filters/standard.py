@@ -7,7 +7,7 @@ import numpy as np
 from filters.arrays import FloatArray
 from filters.history import History
 from filters.kernels.backends import BackendName, arguments_for, function_for
-from filters.kernels.dense import add, add_vectors, matmul, matmul_transposed
+from filters.kernels.dense import add, add_vectors, copy, copy_vector, matmul, matmul_transposed
 from filters.problem import check_problem
 from filters.records import (
     Correction,
@@ -30,7 +30,7 @@ def propagate(
     system.f(j, before.x, u, system.parameters, after.x)  # (6)
     Phi = system.F(j, before.x, u, system.parameters)
     matmul(Phi, before.P, work.nn1)
-    matmul_transposed(work.nn1, Phi, after.P)
+    matmul_transposed(work.nn1, Phi, after.P, work.nn2)
     add(after.P, system.Q(j, system.parameters), after.P)  # (8)
     return Phi
 
@@ -74,13 +74,13 @@ def filter_all(
             estimate, spare = spare, estimate
         if j % N == 0:
             cycle = j // N
-            history.P_reference[cycle] = estimate.P
+            copy(estimate.P, history.P_reference[cycle])
             if cycle < len(measurements):
                 update(system, form, j, measurements[cycle], estimate, spare, correction, work)
                 estimate, spare = spare, estimate
-                history.innovations[cycle] = correction.z
-                history.gains[cycle] = correction.K
-        history.x[j] = estimate.x
+                copy_vector(correction.z, history.innovations[cycle])
+                copy(correction.K, history.gains[cycle])
+        copy_vector(estimate.x, history.x[j])
 
 
 def run(

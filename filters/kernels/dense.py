@@ -11,18 +11,46 @@ from filters.arrays import FloatArray
 def matmul(A: FloatArray, B: FloatArray, out: FloatArray) -> None:
     """out = A B, for A (n, m), B (m, p), out (n, p).
 
-    The innermost loop runs along a row of B and of out, which a compiler turns into vector instructions.
+    A sum of outer products: the innermost loop runs along a row of B and of out, which a compiler turns into vector
+    instructions.
     """
     for i in range(A.shape[0]):
         for j in range(B.shape[1]):
             out[i, j] = A[i, 0] * B[0, j]
-        for k in range(1, A.shape[1]):
+    for k in range(1, A.shape[1]):
+        for i in range(A.shape[0]):
+            factor = A[i, k]
             for j in range(B.shape[1]):
-                out[i, j] += A[i, k] * B[k, j]
+                out[i, j] += factor * B[k, j]
 
 
-def matmul_transposed(A: FloatArray, B: FloatArray, out: FloatArray) -> None:
-    """out = A B^T, for A (n, m), B (p, m), out (n, p)."""
+def matmul_narrow(A: FloatArray, B: FloatArray, out: FloatArray) -> None:
+    """out = A B as in `matmul`, the same operations in another order: by dot products.
+
+    Twice as fast where B has so few columns that vector instructions are of no use.
+    """
+    for i in range(A.shape[0]):
+        for j in range(B.shape[1]):
+            total = A[i, 0] * B[0, j]
+            for k in range(1, A.shape[1]):
+                total += A[i, k] * B[k, j]
+            out[i, j] = total
+
+
+def matmul_transposed(A: FloatArray, B: FloatArray, out: FloatArray, B_transposed: FloatArray) -> None:
+    """out = A B^T, for A (n, m), B (p, m), out (n, p); B_transposed (m, p) is scratch memory.
+
+    The copy is worth its time: the product then runs along rows as `matmul` does.
+    """
+    transpose(B, B_transposed)
+    matmul(A, B_transposed, out)
+
+
+def matmul_transposed_narrow(A: FloatArray, B: FloatArray, out: FloatArray) -> None:
+    """out = A B^T as in `matmul_transposed`, the same operations in another order: by dot products.
+
+    As fast without a copy where B has few rows.
+    """
     for i in range(A.shape[0]):
         for j in range(B.shape[0]):
             total = A[i, 0] * B[j, 0]
@@ -73,22 +101,34 @@ def subtract_vectors(a: FloatArray, b: FloatArray, out: FloatArray) -> None:
         out[i] = a[i] - b[i]
 
 
-def identity_minus(A: FloatArray, out: FloatArray) -> None:
-    """out = I - A, for A (n, n), out (n, n); out may be A. All n * n entries are subtracted, as Eq. (11) is written."""
+def subtract_product_of_transposed(P: FloatArray, A: FloatArray, B: FloatArray, out: FloatArray) -> None:
+    """out = P - A^T B, for P (n, n), A (m, n), B (m, n), out (n, n); out may be P."""
+    for i in range(P.shape[0]):
+        factor = A[0, i]
+        for j in range(P.shape[1]):
+            out[i, j] = P[i, j] - factor * B[0, j]
+    for k in range(1, A.shape[0]):
+        for i in range(P.shape[0]):
+            factor = A[k, i]
+            for j in range(P.shape[1]):
+                out[i, j] -= factor * B[k, j]
+
+
+def transpose(A: FloatArray, out: FloatArray) -> None:
+    """out = A^T, for A (n, m), out (m, n)."""
     for i in range(A.shape[0]):
         for j in range(A.shape[1]):
-            out[i, j] = (1.0 if i == j else 0.0) - A[i, j]
+            out[j, i] = A[i, j]
 
 
-def subtract_symmetric_product(P: FloatArray, A: FloatArray, B: FloatArray, out: FloatArray) -> None:
-    """out = P - A B^T, for symmetric P (n, n) and A, B (n, m) whose product A B^T is symmetric; out (n, n), not P.
+def copy(A: FloatArray, out: FloatArray) -> None:
+    """out = A, for matrices (n, m)."""
+    for i in range(A.shape[0]):
+        for j in range(A.shape[1]):
+            out[i, j] = A[i, j]
 
-    Only the lower triangle is computed; it is mirrored, so that out is symmetric to the last bit.
-    """
-    for i in range(P.shape[0]):
-        for j in range(i + 1):
-            total = P[i, j] - A[i, 0] * B[j, 0]
-            for k in range(1, A.shape[1]):
-                total -= A[i, k] * B[j, k]
-            out[i, j] = total
-            out[j, i] = total
+
+def copy_vector(a: FloatArray, out: FloatArray) -> None:
+    """out = a, for vectors (n,)."""
+    for i in range(a.shape[0]):
+        out[i] = a[i]

@@ -19,10 +19,10 @@ def inverse(S: FloatArray, out: FloatArray, scratch: FloatArray) -> None:
             out[i, j] = 0.0
         out[i, i] = 1.0
     for i in range(p):
-        pivot = scratch[i, i]
+        scale = 1.0 / scratch[i, i]
         for j in range(p):
-            scratch[i, j] /= pivot
-            out[i, j] /= pivot
+            scratch[i, j] *= scale
+            out[i, j] *= scale
         for row in range(p):
             if row != i:
                 factor = scratch[row, i]
@@ -47,24 +47,28 @@ def cholesky(S: FloatArray, out: FloatArray) -> None:
                 out[i, j] = total / out[j, j]
 
 
-def solve_right(C: FloatArray, B: FloatArray, out: FloatArray) -> None:
-    """out = B S^-1 where S = C C^T is given by its Cholesky factor C (p, p), for B (n, p), out (n, p); out may be B.
+def solve_cholesky(C: FloatArray, B: FloatArray, out: FloatArray) -> None:
+    """out = S^-1 B where S = C C^T is given by its Cholesky factor C (p, p), for B (p, n), out (p, n); out may be B.
 
-    All rows of B are solved forward with C, then backward with C^T. Each pivot is inverted once, for n divides cost
+    Solved forward with C, then backward with C^T, along whole rows. Each pivot is inverted once, for n divides cost
     more than n multiplies.
     """
-    n, p = B.shape
+    p, n = B.shape
     for i in range(p):
+        for j in range(n):
+            out[i, j] = B[i, j]
+        for k in range(i):
+            factor = C[i, k]
+            for j in range(n):
+                out[i, j] -= factor * out[k, j]
         scale = 1.0 / C[i, i]
-        for row in range(n):
-            total = B[row, i]
-            for k in range(i):
-                total -= C[i, k] * out[row, k]
-            out[row, i] = total * scale
+        for j in range(n):
+            out[i, j] *= scale
     for i in range(p - 1, -1, -1):
+        for k in range(i + 1, p):
+            factor = C[k, i]
+            for j in range(n):
+                out[i, j] -= factor * out[k, j]
         scale = 1.0 / C[i, i]
-        for row in range(n):
-            total = out[row, i]
-            for k in range(i + 1, p):
-                total -= C[k, i] * out[row, k]
-            out[row, i] = total * scale
+        for j in range(n):
+            out[i, j] *= scale

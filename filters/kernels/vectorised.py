@@ -21,7 +21,11 @@ def _matmul(A: FloatArray, B: FloatArray, out: FloatArray) -> None:
     np.matmul(A, B, out=out)
 
 
-def _matmul_transposed(A: FloatArray, B: FloatArray, out: FloatArray) -> None:
+def _matmul_transposed(A: FloatArray, B: FloatArray, out: FloatArray, _scratch: FloatArray) -> None:
+    np.matmul(A, B.T, out=out)
+
+
+def _matmul_transposed_narrow(A: FloatArray, B: FloatArray, out: FloatArray) -> None:
     np.matmul(A, B.T, out=out)
 
 
@@ -37,12 +41,12 @@ def _subtract(A: FloatArray, B: FloatArray, out: FloatArray) -> None:
     np.subtract(A, B, out=out)
 
 
-def _identity_minus(A: FloatArray, out: FloatArray) -> None:
-    np.subtract(np.eye(len(A)), A, out=out)
+def _subtract_product_of_transposed(P: FloatArray, A: FloatArray, B: FloatArray, out: FloatArray) -> None:
+    np.subtract(P, A.T @ B, out=out)
 
 
-def _subtract_symmetric_product(P: FloatArray, A: FloatArray, B: FloatArray, out: FloatArray) -> None:
-    np.subtract(P, A @ B.T, out=out)
+def _transpose(A: FloatArray, out: FloatArray) -> None:
+    out[:] = A.T
 
 
 def _inverse(S: FloatArray, out: FloatArray, _scratch: FloatArray) -> None:
@@ -53,25 +57,27 @@ def _cholesky(S: FloatArray, out: FloatArray) -> None:
     out[:] = np.linalg.cholesky(S)
 
 
-def _solve_right(C: FloatArray, B: FloatArray, out: FloatArray) -> None:
-    out[:] = np.linalg.solve(C @ C.T, B.T).T
+def _solve_cholesky(C: FloatArray, B: FloatArray, out: FloatArray) -> None:
+    out[:] = np.linalg.solve(np.tril(C) @ np.tril(C).T, B)
 
 
 _VERSIONS: dict[FunctionType, Any] = {
     cast(FunctionType, kernel): by_numpy
     for kernel, by_numpy in (
         (dense.matmul, _matmul),
+        (dense.matmul_narrow, _matmul),
         (dense.matmul_transposed, _matmul_transposed),
+        (dense.matmul_transposed_narrow, _matmul_transposed_narrow),
         (dense.matvec, _matmul),
         (dense.add_matvec, _add_matvec),
         (dense.add, _add),
         (dense.subtract, _subtract),
         (dense.add_vectors, _add),
         (dense.subtract_vectors, _subtract),
-        (dense.identity_minus, _identity_minus),
-        (dense.subtract_symmetric_product, _subtract_symmetric_product),
+        (dense.subtract_product_of_transposed, _subtract_product_of_transposed),
+        (dense.transpose, _transpose),
         (solve.inverse, _inverse),
         (solve.cholesky, _cholesky),
-        (solve.solve_right, _solve_right),
+        (solve.solve_cholesky, _solve_cholesky),
     )
 }

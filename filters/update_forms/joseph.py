@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from filters.arrays import FloatArray
-from filters.kernels.dense import add, identity_minus, matmul, matmul_transposed, subtract
+from filters.kernels.dense import add, matmul, matmul_narrow, matmul_transposed, subtract
 from filters.records import Workspace
 from filters.update_forms.form import UpdateForm
 from filters.update_forms.textbook import gain
@@ -14,11 +14,11 @@ def covariance(
 ) -> None:
     """P_{k^+} = [I - K H] P [I - K H]^T + K R K^T, equal to Eq. (11) for the optimal K."""
     matmul(K, H, work.nn1)
-    identity_minus(work.nn1, work.nn1)
+    subtract(work.I, work.nn1, work.nn1)
     matmul(work.nn1, P, work.nn2)
-    matmul_transposed(work.nn2, work.nn1, out)
-    matmul(K, R, work.np1)
-    matmul_transposed(work.np1, K, work.nn2)
+    matmul_transposed(work.nn2, work.nn1, out, work.nn3)
+    matmul_narrow(K, R, work.np1)
+    matmul_transposed(work.np1, K, work.nn2, work.pn1)
     add(out, work.nn2, out)
 
 
@@ -33,11 +33,11 @@ def delayed_covariance(
     work: Workspace,
 ) -> None:
     """P_{m^+} = P_{m^-} - Phi (P_{k^-} - P_{k^+}) Phi^T, equal to Eq. (21), with P_{k^+} in Joseph's form."""
-    covariance(P, H, R, K, work.nn3, work)
-    subtract(P, work.nn3, work.nn3)
-    matmul(Phi, work.nn3, work.nn1)
-    matmul_transposed(work.nn1, Phi, work.nn2)
-    subtract(P_m, work.nn2, out)
+    covariance(P, H, R, K, out, work)
+    subtract(P, out, work.nn1)
+    matmul(Phi, work.nn1, work.nn2)
+    matmul_transposed(work.nn2, Phi, work.nn1, work.nn3)
+    subtract(P_m, work.nn1, out)
 
 
 FORM = UpdateForm(gain, covariance, delayed_covariance)

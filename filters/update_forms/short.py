@@ -1,28 +1,38 @@
-"""The least work: P H^T is formed once, S is factored, and symmetry halves the last product."""
+"""The least work: H P is formed once and serves as (P H^T)^T too, S is factored, and Eq. (11) needs one thin product.
+
+Products and solves run along the rows of (p, n) matrices, which are longer than those of (n, p) ones.
+"""
 
 from __future__ import annotations
 
 from filters.arrays import FloatArray
-from filters.kernels.dense import add, matmul, matmul_transposed, subtract_symmetric_product
-from filters.kernels.solve import cholesky, solve_right
+from filters.kernels.dense import (
+    add,
+    matmul,
+    matmul_transposed_narrow,
+    subtract_product_of_transposed,
+    transpose,
+)
+from filters.kernels.solve import cholesky, solve_cholesky
 from filters.records import Workspace
 from filters.update_forms.form import UpdateForm
 
 
 def gain(P: FloatArray, H: FloatArray, R: FloatArray, K: FloatArray, work: Workspace) -> None:
-    """K = P H^T S^-1 from the Cholesky factor of S = H (P H^T) + R, Eq. (9)."""
-    matmul_transposed(P, H, work.PHt)
-    matmul(H, work.PHt, work.S)
+    """K^T = S^-1 (H P), Eq. (9) for symmetric P, from the Cholesky factor of S. Leaves H P and, in pn1, K^T."""
+    matmul(H, P, work.HP)
+    matmul_transposed_narrow(work.HP, H, work.S)
     add(work.S, R, work.S)  # innovation covariance
     cholesky(work.S, work.pp1)
-    solve_right(work.pp1, work.PHt, K)
+    solve_cholesky(work.pp1, work.HP, work.pn1)
+    transpose(work.pn1, K)
 
 
 def covariance(
-    P: FloatArray, _H: FloatArray, _R: FloatArray, K: FloatArray, out: FloatArray, work: Workspace
+    P: FloatArray, _H: FloatArray, _R: FloatArray, _K: FloatArray, out: FloatArray, work: Workspace
 ) -> None:
-    """P_{k^+} = P - K (P H^T)^T, equal to Eq. (11)."""
-    subtract_symmetric_product(P, K, work.PHt, out)
+    """P_{k^+} = P - (H P)^T K^T, equal to Eq. (11)."""
+    subtract_product_of_transposed(P, work.HP, work.pn1, out)
 
 
 def delayed_covariance(
@@ -30,15 +40,16 @@ def delayed_covariance(
     _P: FloatArray,
     _H: FloatArray,
     _R: FloatArray,
-    K: FloatArray,
+    _K: FloatArray,
     P_m: FloatArray,
     out: FloatArray,
     work: Workspace,
 ) -> None:
-    """P_{m^+} = P_{m^-} - (Phi K) (Phi P H^T)^T, equal to Eq. (21)."""
-    matmul(Phi, K, work.np1)
-    matmul(Phi, work.PHt, work.np2)
-    subtract_symmetric_product(P_m, work.np1, work.np2, out)
+    """P_{m^+} = P_{m^-} - (H P Phi^T)^T (K^T Phi^T), equal to Eq. (21)."""
+    transpose(Phi, work.nn1)
+    matmul(work.HP, work.nn1, work.pn2)
+    matmul(work.pn1, work.nn1, work.HP)
+    subtract_product_of_transposed(P_m, work.pn2, work.HP, out)
 
 
 FORM = UpdateForm(gain, covariance, delayed_covariance)
