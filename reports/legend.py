@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from reports.style import GREY, INK, RED, SMALL_PT, Fill, axes_at, text_width_mm
+from reports.style import GREY, INK, RED, SMALL_PT, Fill, Line, axes_at, text_width_mm
 
 LINE_MM, SWATCH_MM, SIGN_MM, BESIDE_MM, GAP_MM = 4.0, 5.5, 1.2, 1.2, 3.8
 
@@ -118,3 +118,22 @@ def _missed(axes: Axes, x: float, y: float) -> None:
 def _late(axes: Axes, x: float, y: float) -> None:
     box = Rectangle((x, y - 1.3), SWATCH_MM, 2.6, facecolor="none", edgecolor=RED, hatch="xxxx", lw=0)
     axes.add_patch(box)
+
+
+def line_entry(text: str, line: Line, *, dashes: bool = True) -> Entry:
+    """A curve with its marker, or the marker alone."""
+    width = SWATCH_MM + 2.5 if dashes else 2.0
+
+    def draw(axes: Axes, x: float, y: float) -> None:
+        if dashes:
+            axes.plot([x, x + width], [y, y], color=line.colour, ls=line.dashes, lw=1.2)
+        axes.plot(
+            [x + width / 2],
+            [y],
+            marker=line.marker,
+            color=line.colour,
+            ms=line.size,
+            mew=1.3 if line.marker == "|" else 0,
+        )
+
+    return Entry(text, width, draw)

@@ -8,6 +8,7 @@ from fractions import Fraction
 from typing import NamedTuple
 
 from sched_sim.costs import CostTable, Statistic, select
+from sched_sim.errors import InputError
 from sched_sim.options import Options
 from sched_sim.schedule import Schedule
 from sched_sim.simulate import simulate
@@ -20,6 +21,9 @@ METHOD_NAMES = {
     "larsen": "Larsen",
     "dual-rate": "Dual-rate",
 }
+
+
+MOST_STEPS = 20_000
 
 
 class Mark(NamedTuple):
@@ -108,8 +112,13 @@ def method_panel(
     """Simulate one method and say in the panel's title what came out.
 
     speed: cost units per HR period; cycles: how many measurement cycles are shown.
-    Raises InputError as `costs.select` and `simulate` do.
+    Raises InputError as `costs.select` and `simulate` do, and for more steps than a chart can show.
     """
+    if cycles * timing.N > MOST_STEPS:
+        raise InputError(
+            f"a Gantt chart of {cycles} cycles with N={timing.N} has {cycles * timing.N} steps; at most {MOST_STEPS} "
+            f"can be drawn: give fewer cycles, or write a trace"
+        )
     landings: dict[int, int] = {}
     costs = select(table, method, options, statistic)
     schedule = simulate(costs, timing, speed, cycles, options, tasks, keep_slices=True, on_landing=landings.__setitem__)

@@ -86,6 +86,7 @@ class Line(NamedTuple):
     colour: str
     dashes: str | tuple[int, tuple[float, ...]]
     marker: str
+    size: float = 3.8
 
 
 METHOD_LINES = {
@@ -96,7 +97,7 @@ METHOD_LINES = {
 }
 
 SOURCE_LINES = (
-    Line(INK, "-", "|"),
+    Line(INK, "-", "|", 6.0),
     Line("#11538c", "-", "o"),
     Line("#dd9009", "-", "^"),
     Line("#2e7d4f", "-", "s"),
