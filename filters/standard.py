@@ -7,7 +7,16 @@ import numpy as np
 from filters.arrays import FloatArray
 from filters.history import History
 from filters.kernels.backends import BackendName, arguments_for, function_for
-from filters.kernels.dense import add, add_vectors, copy, copy_vector, matmul, matmul_transposed
+from filters.kernels.dense import (
+    add,
+    add_vectors,
+    copy,
+    copy_vector,
+    matmul,
+    matmul_transposed,
+    store,
+    store_vector,
+)
 from filters.problem import check_problem
 from filters.records import (
     Correction,
@@ -55,32 +64,32 @@ def filter_all(
     system: System,
     form: UpdateForm,
     N: int,
-    estimate: Estimate,
+    predicted: Estimate,
     inputs: FloatArray,
     measurements: FloatArray,
     history: History,
+    corrected: Estimate,
     correction: Correction,
-    spare: Estimate,
     work: Workspace,
 ) -> None:
     """The whole filter as one kernel: all steps, with an update at k = 0, N, 2N, ... while there are measurements.
 
-    Shapes as in `run`. `estimate` holds the start; it and `spare` are overwritten; the result is in `history`.
+    Shapes as in `run`. `predicted` holds the start and is overwritten; the result is in `history`.
     """
-    steps = len(inputs)
-    for j in range(steps + 1):
+    for j in range(len(inputs) + 1):
         if j > 0:
-            propagate(system, j - 1, estimate, inputs[j - 1], spare, work)
-            estimate, spare = spare, estimate
+            propagate(system, j - 1, corrected, inputs[j - 1], predicted, work)
+        cycle = j // N
         if j % N == 0:
-            cycle = j // N
-            copy(estimate.P, history.P_reference[cycle])
-            if cycle < len(measurements):
-                update(system, form, j, measurements[cycle], estimate, spare, correction, work)
-                estimate, spare = spare, estimate
-                copy_vector(correction.z, history.innovations[cycle])
-                copy(correction.K, history.gains[cycle])
-        copy_vector(estimate.x, history.x[j])
+            store(predicted.P, history.P_reference, cycle)
+        if j % N == 0 and cycle < len(measurements):
+            update(system, form, j, measurements[cycle], predicted, corrected, correction, work)
+            store_vector(correction.z, history.innovations, cycle)
+            store(correction.K, history.gains, cycle)
+        else:
+            copy_vector(predicted.x, corrected.x)
+            copy(predicted.P, corrected.P)
+        store_vector(corrected.x, history.x, j)
 
 
 def run(
@@ -122,8 +131,8 @@ def run(
         inputs,
         measurements,
         history,
-        new_correction(system),
         new_estimate(system),
+        new_correction(system),
         new_workspace(system),
     )
     return history

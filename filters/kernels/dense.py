@@ -132,3 +132,16 @@ def copy_vector(a: FloatArray, out: FloatArray) -> None:
     """out = a, for vectors (n,)."""
     for i in range(a.shape[0]):
         out[i] = a[i]
+
+
+def store(A: FloatArray, stack: FloatArray, index: int) -> None:
+    """stack[index] = A, for A (n, m), stack (any, n, m)."""
+    for i in range(A.shape[0]):
+        for j in range(A.shape[1]):
+            stack[index, i, j] = A[i, j]
+
+
+def store_vector(a: FloatArray, stack: FloatArray, index: int) -> None:
+    """stack[index] = a, for a (n,), stack (any, n)."""
+    for i in range(a.shape[0]):
+        stack[index, i] = a[i]
