@@ -49,7 +49,7 @@ def least_speed_figure(
         figure, plots = _sheet(designs)
         for axes, design in zip(plots, designs, strict=True):
             N, M = design
-            margin = max(0.03 * (N - M), 0.25)
+            margin = max(0.03 * (N - M), 0.25) if N > M else 1.1
             axes.set(xlim=(M - margin, N + margin), ylim=limits)
             axes.set_xlabel("$L$ asked for (high-rate steps after $k$)", labelpad=2)
             axes.xaxis.set_major_locator(MaxNLocator(nbins=7, integer=True))

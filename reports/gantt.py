@@ -31,7 +31,7 @@ from reports.style import (
 __all__ = ["Panel", "gantt", "image", "method_panel", "save"]
 
 TITLE_MM, MARKS_MM, AXIS_MM, PANEL_GAP_MM, EDGE_MM, RIGHT_MM = 4.2, 4.2, 10.0, 3.5, 2.0, 7.0
-SEPARATOR = "  ·  "
+BETWEEN_MM = 4.4
 
 
 def gantt(panels: Sequence[Panel], *, width_mm: float = WIDTH_MM) -> Figure:
@@ -90,7 +90,7 @@ def title_lines(panel: Panel, width_mm: float) -> list[list[tuple[str, str]]]:
     lines: list[list[tuple[str, str]]] = [[]]
     used = 0.0
     for text, role in pieces:
-        width = _width(text, role) + text_width_mm(SEPARATOR)
+        width = _width(text, role) + BETWEEN_MM
         if lines[-1] and used + width > width_mm:
             lines.append([])
             used = 0.0
@@ -119,8 +119,8 @@ def _write_title(axes: Axes, lines: Sequence[Sequence[tuple[str, str]]], scale: 
         x, y = 0.0, foot_mm + TITLE_MM * (len(lines) - number - 1) + 0.8
         for text, role in line:
             if x:
-                axes.text(scale.at(x), y, SEPARATOR, size=FONT_PT)
-                x += text_width_mm(SEPARATOR)
+                axes.text(scale.at(x + BETWEEN_MM / 2), y, "·", size=FONT_PT, ha="center")
+                x += BETWEEN_MM
             axes.text(
                 scale.at(x),
                 y,

@@ -89,11 +89,8 @@ def check_writable(path: Path) -> None:
         raise InputError(f"{str(path)!r} cannot be written: give a file in a folder that exists and is yours to write")
 
 
-def write_cost_table(table: CostTable, path: Path) -> None:
-    """Write `table` as a TOML file that `read_cost_table` gives back; exact where its costs are decimals.
-
-    Raises InputError if the path cannot be written.
-    """
+def cost_table_text(table: CostTable) -> str:
+    """`table` as the TOML text that `read_cost_table` reads back; exact where its costs are decimals."""
     lines = [f"name = {_toml(table.name)}", f"unit = {_toml(table.unit)}"]
     sections: list[str] = []
     for key, value in table.provenance.items():
@@ -103,8 +100,13 @@ def write_cost_table(table: CostTable, path: Path) -> None:
             lines.append(f"{key} = {_toml(value)}")
     for method, entries in table.costs.items():
         sections += ["", f"[costs.{method}]", *(f"{kind} = {_toml_cost(cost)}" for kind, cost in entries.items())]
+    return "\n".join([*lines, *sections]) + "\n"
+
+
+def write_cost_table(table: CostTable, path: Path) -> None:
+    """Raises InputError if the path cannot be written."""
     try:
-        path.write_text("\n".join([*lines, *sections]) + "\n", encoding="utf-8")
+        path.write_text(cost_table_text(table), encoding="utf-8")
     except OSError as error:
         raise InputError(f"cost table {str(path)!r} cannot be written ({error.strerror}): give another path") from None
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from itertools import pairwise
 
 from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
@@ -81,7 +82,7 @@ def test_work_is_conserved(design: Design, share: int) -> None:
     assert sum(piece.end - piece.start for piece in schedule.slices) == schedule.busy
     for cpu in range(schedule.cpus):
         mine = sorted((piece.start, piece.end) for piece in schedule.slices if piece.cpu == cpu)
-        assert all(end <= start for (_, end), (start, _) in zip(mine, mine[1:], strict=False))
+        assert all(end <= start for (_, end), (start, _) in pairwise(mine))
     done: dict[tuple[str, int], int] = {}
     for piece in schedule.slices:
         assert piece.begin == done.get((piece.kind, piece.step), 0)

@@ -1,0 +1,85 @@
+"""A report as files: one Markdown template gives the Markdown file and one self-contained HTML page.
+
+Figures stand in the Markdown as links to SVG files; in the HTML page they are the SVG itself, so that it opens offline.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import re
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from jinja2 import Environment, PackageLoader, StrictUndefined
+from markdown_it import MarkdownIt
+from markupsafe import Markup
+
+from sched_sim.errors import InputError
+
+Row = Sequence[Any]
+
+
+def render(template: str, title: str, figures: Mapping[str, bytes], **values: Any) -> dict[str, bytes]:
+    """The files "index.md" and "index.html" from templates/TEMPLATE.md.j2; `figures` are SVGs by file name."""
+    environment = Environment(
+        loader=PackageLoader("reports"), undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
+    )
+    environment.filters["table"] = markdown_table
+    markdown = environment.get_template(f"{template}.md.j2").render(title=title, **values)
+    body = MarkdownIt("commonmark", {"html": True}).enable("table").render(markdown)
+    page = Environment(loader=PackageLoader("reports"), undefined=StrictUndefined, autoescape=True)
+    html = page.get_template("page.html.j2").render(title=title, body=Markup(_inlined(body, figures)))
+    return {"index.md": markdown.encode(), "index.html": html.encode()}
+
+
+def _inlined(body: str, figures: Mapping[str, bytes]) -> str:
+    """Each <img src="NAME"> as the SVG itself, as a data URI: identifiers in one SVG cannot meet those of another."""
+    from base64 import b64encode
+
+    def data_uri(match: re.Match[str]) -> str:
+        return f'src="data:image/svg+xml;base64,{b64encode(figures[match[1]]).decode()}"'
+
+    return re.sub(r'src="([^":]+\.svg)"', data_uri, body)
+
+
+def markdown_table(rows: Sequence[Row]) -> str:
+    """The first row is the heading; columns of numbers are aligned right."""
+    heading, *body = rows
+    numeric = [all(_is_number(row[column]) for row in body) for column in range(len(heading))]
+    lines = [heading, ["---:" if right else "---" for right in numeric], *body]
+    return "\n".join("| " + " | ".join(str(cell) for cell in line) + " |" for line in lines)
+
+
+def _is_number(cell: Any) -> bool:
+    return re.fullmatch(r"[-+]?[\d., ]+( ?%)?|-", str(cell)) is not None
+
+
+def csv_bytes(rows: Sequence[Row]) -> bytes:
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerows(rows)
+    return text.getvalue().encode()
+
+
+def make_folder(folder: Path) -> None:
+    """Raises InputError if there is no such folder and none can be made, or it cannot be written."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise _unwritable(folder, error) from None
+
+
+def write_report(files: Mapping[str, bytes], folder: Path) -> None:
+    """Raises InputError if the folder cannot be written."""
+    try:
+        for name, content in files.items():
+            (folder / name).write_bytes(content)
+    except OSError as error:
+        raise _unwritable(folder, error) from None
+
+
+def _unwritable(folder: Path, error: OSError) -> InputError:
+    return InputError(
+        f"--output: {str(folder)!r} cannot be written ({error.strerror}); give a folder that is yours to write"
+    )

@@ -1,0 +1,115 @@
+"""The cost table and its file."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+
+from sched_sim.cost_file import cost_table_text, read_cost_table
+from sched_sim.costs import METHODS, DualRateCosts, load, select, shipped_names
+from sched_sim.errors import InputError
+from sched_sim.options import Options
+
+BY_HAND = """
+name = "mine"
+unit = "ms"
+[costs.larsen]
+propagate = 0.21
+propagate_accumulate = 0.3
+update = { minimum = 0.4, median = 0.41, p95 = 0.55 }
+"""
+
+
+@pytest.fixture
+def file(tmp_path: Path) -> Path:
+    path = tmp_path / "mine.toml"
+    path.write_text(BY_HAND)
+    return path
+
+
+def test_a_table_written_by_hand_is_read_as_exact_decimals(file: Path) -> None:
+    costs = load(file).costs["larsen"]
+    assert costs["propagate"].p95 == Fraction(21, 100)
+    assert (costs["update"].minimum, costs["update"].p95) == (Fraction(4, 10), Fraction(55, 100))
+
+
+def test_the_chosen_statistic_is_what_is_scheduled(file: Path) -> None:
+    assert select(load(file), "larsen", Options(), "p95").update == Fraction(55, 100)  # type: ignore[union-attr]
+
+
+@pytest.mark.parametrize("name", ["steffes2014", "counted-9-3-3"])
+def test_shipped_tables_have_what_every_method_needs(name: str) -> None:
+    assert name in shipped_names()
+    for method in METHODS:
+        select(load(name), method, Options())
+
+
+def test_the_counted_table_has_what_every_option_needs() -> None:
+    split = select(load("counted-9-3-3"), "dual-rate", Options(gain="precomputed", low_rate_noise="euler"))
+    assert isinstance(split, DualRateCosts)
+    whole = select(load("counted-9-3-3"), "dual-rate", Options())
+    assert isinstance(whole, DualRateCosts)
+    assert split.lr_gain + split.lr_update == whole.lr_update
+
+
+def test_a_table_survives_being_written_and_read(tmp_path: Path) -> None:
+    for name in shipped_names():
+        table = load(name)
+        path = tmp_path / "copy.toml"
+        path.write_text(cost_table_text(table))
+        again = read_cost_table(path)
+        assert (again.name, again.unit, again.costs, again.provenance) == (
+            table.name,
+            table.unit,
+            table.costs,
+            table.provenance,
+        )
+
+
+def test_normalised_costs_have_the_standard_step_as_unit() -> None:
+    entries = load("counted-9-3-3").normalised().costs["standard"]
+    assert entries["propagate"].minimum + entries["update"].minimum == 1
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("0.21", "-0.21", ["costs.larsen.propagate", "-0.21", "greater than 0"]),
+        ("0.21", "0", ["costs.larsen.propagate", "is 0", "greater than 0"]),
+        ("0.21", "nan", ["costs.larsen.propagate", "NaN"]),
+        ("0.21", "inf", ["costs.larsen.propagate", "Infinity"]),
+        ("0.21", '"fast"', ["costs.larsen.propagate", "fast", "number"]),
+        ("0.21", "true", ["costs.larsen.propagate", "True"]),
+        ("median = 0.41, ", "", ["costs.larsen.update.median", "required"]),
+        ("update =", "updat =", ["costs.larsen", "updat", "propagate_accumulate"]),
+        ("costs.larsen", "costs.larson", ["larson", "larsen", "dual-rate"]),
+        ('unit = "ms"', "", ["unit", "required"]),
+        ("[costs.larsen]", "[costs.larsen", ["not valid TOML"]),
+    ],
+)
+def test_what_is_wrong_in_a_file_is_named(file: Path, old: str, new: str, said: list[str]) -> None:
+    file.write_text(BY_HAND.replace(old, new, 1))
+    with pytest.raises(InputError) as error:
+        load(file)
+    for words in [str(file), *said]:
+        assert words in str(error.value)
+
+
+def test_every_wrong_entry_is_named_at_once(file: Path) -> None:
+    file.write_text(BY_HAND.replace("0.21", "-1").replace("0.3", "0"))
+    with pytest.raises(InputError, match=r"costs\.larsen\.propagate:.*costs\.larsen\.propagate_accumulate:"):
+        load(file)
+
+
+def test_a_missing_entry_is_named_with_its_remedy(file: Path) -> None:
+    with pytest.raises(InputError, match=r"mine .*no entry \[costs\.dual-rate\] hr_propagate: add the line"):
+        select(load(file), "dual-rate", Options())
+    with pytest.raises(InputError, match=r"no entry \[costs\.dual-rate\] lr_gain"):
+        select(load("steffes2014"), "dual-rate", Options(gain="precomputed"))
+
+
+def test_an_unknown_table_lists_the_shipped_ones() -> None:
+    with pytest.raises(InputError, match=r"'steffes' not found: give one of counted-9-3-3, steffes2014"):
+        load("steffes")

@@ -1,0 +1,73 @@
+"""Least speed by bisection on the simulation: context switches and the user's tasks."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import pytest
+
+from sched_sim.costs import DualRateCosts, StandardCosts, load, select
+from sched_sim.errors import InputError
+from sched_sim.least_speed import least_speed
+from sched_sim.options import Options
+from sched_sim.search import cycles_to_simulate, least_speed_by_simulation
+from sched_sim.simulate import simulate
+from sched_sim.tasks import Task
+from sched_sim.timing import Timing
+
+PAPER = select(load("steffes2014"), "dual-rate", Options())
+FIGURE_3 = Timing(10, 4, 8)
+
+
+def test_a_context_switch_costs_what_one_counts_by_hand() -> None:
+    """Steps 4-7: four HR jobs and four dispatches of the LR update, 0.01 each: (4 x 0.63 + 0.56 + 8 x 0.01) / 4."""
+    options = Options(context_switch=Fraction("0.01"))
+    assert least_speed(PAPER, FIGURE_3, options) == (Fraction("0.79"), "lr_update")
+
+
+@pytest.mark.parametrize(
+    ("timing", "options", "binding"),
+    [
+        (FIGURE_3, Options(), "lr_update"),
+        (Timing(100, 10, 80), Options(), "hr"),
+        (Timing(10, 1, 8), Options(), "lr_propagate"),
+        (Timing(10, 1, 8), Options(lr_propagate_by="l"), "lr_total"),
+        (Timing(10, 0, 3), Options(), "lr_total"),
+    ],
+)
+def test_it_names_the_demand_that_binds_as_the_closed_form_does(timing: Timing, options: Options, binding: str) -> None:
+    assert least_speed(PAPER, timing, options).binding == binding
+    assert least_speed_by_simulation(PAPER, timing, options, (), at_least=Fraction(0))[1] == binding
+
+
+def test_rate_monotonic_tasks_need_what_liu_and_layland_say() -> None:
+    """C. L. Liu and J. W. Layland (1973), Theorem 3: two tasks of periods 1 and sqrt(2), here 5 and 7, costs 2 and 3
+    per the worst case C1 = T2 - T1, C2 = 2 T1 - T2: they fully use the processor, at 2/5 + 3/7 = 0.829."""
+    step = StandardCosts(Fraction(1), Fraction(1))  # the filter itself is the faster task: cost 2 each 1 HR period
+    slow = Task("slow", period=Fraction(7, 5), cost=Fraction(3), priority=20)
+    least = least_speed(step, Timing(1, 0, 1), tasks=[slow])
+    assert least.speed == 5  # one HR period is 5 units long: T1 = 5, C1 = 2, T2 = 7, C2 = 3
+    assert least.binding == "task:slow"
+
+
+def test_at_the_least_speed_with_tasks_nothing_is_missed_and_below_it_something_is() -> None:
+    tasks = [
+        Task("control", Fraction(2), Fraction("0.1"), priority=5),
+        Task("telemetry", Fraction(5), Fraction("0.3"), priority=30, offset=Fraction(1, 2)),
+    ]
+    least = least_speed(PAPER, FIGURE_3, tasks=tasks)
+    cycles = cycles_to_simulate(FIGURE_3, tasks)
+    assert simulate(PAPER, FIGURE_3, least.speed, cycles, tasks=tasks).misses == 0
+    slower = least.speed - Fraction(1, 10**7)
+    assert simulate(PAPER, FIGURE_3, slower, cycles, tasks=tasks).misses > 0
+
+
+def test_it_simulates_offset_and_two_hyperperiods() -> None:
+    tasks = [Task("a", Fraction(3, 2), Fraction(1), 30), Task("b", Fraction(4), Fraction(1), 30, offset=Fraction(50))]
+    assert cycles_to_simulate(Timing(10, 4, 8), tasks) == (50 + 2 * 60) // 10
+
+
+def test_periods_that_hardly_ever_meet_are_refused_by_name() -> None:
+    odd = Task("odd", Fraction("3.141592653"), Fraction(1), 30)
+    with pytest.raises(InputError, match=r"round their periods \(odd 3\.14159\)"):
+        least_speed(DualRateCosts(6, 1, 2, 3, 0, 5), FIGURE_3, tasks=[odd])

@@ -1,0 +1,171 @@
+"""The rules of the simulated processor, each on the smallest schedule that shows it."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import pytest
+
+from sched_sim.costs import DualRateCosts, LarsenCosts, RecalculateCosts, StandardCosts
+from sched_sim.errors import InputError
+from sched_sim.jobs import Job
+from sched_sim.options import Options
+from sched_sim.simulate import Processor, simulate
+from sched_sim.tasks import Task
+from sched_sim.timing import Timing
+
+DUAL_RATE = DualRateCosts(hr=6, hr_restart=1, hr_update=2, lr_propagate=3, lr_gain=0, lr_update=5)
+NEVER = 10**9
+
+
+class Given:
+    """A source that releases given jobs."""
+
+    def __init__(self, *jobs: Job) -> None:
+        self.jobs = sorted(jobs, key=lambda job: job.release)
+        self.next_release = self.jobs[0].release
+
+    def release(self) -> tuple[Job, ...]:
+        job = self.jobs.pop(0)
+        self.next_release = self.jobs[0].release if self.jobs else NEVER
+        return (job,)
+
+    def waiting(self) -> tuple[Job, ...]:
+        return ()
+
+
+def job(kind: str, priority: int, release: int, work: int, deadline: int = NEVER) -> Job:
+    return Job(kind, 0, priority, release, deadline, work, ((kind, work),))
+
+
+def ran(*jobs: Job, horizon: int = 100, context_switch: int = 0) -> list[tuple[str, int, int]]:
+    """(kind, start, end) of every slice."""
+    slices: list[tuple[str, int, int]] = []
+    processor = Processor(
+        [Given(job) for job in jobs],
+        period=10,
+        horizon=horizon,
+        cpus=1,
+        context_switch=context_switch,
+        on_slice=lambda piece: slices.append((piece.kind, piece.start, piece.end)),
+    )
+    processor.run()
+    return slices
+
+
+def test_a_more_urgent_job_preempts_at_once_and_the_other_resumes_where_it_stopped() -> None:
+    assert ran(job("low", 20, 0, 10), job("high", 10, 4, 3)) == [("low", 0, 4), ("high", 4, 7), ("low", 7, 13)]
+
+
+def test_equal_priorities_run_in_order_of_release_and_do_not_preempt() -> None:
+    jobs = job("first", 20, 0, 5), job("second", 20, 1, 5), job("third", 20, 2, 5)
+    assert ran(*jobs) == [("first", 0, 5), ("second", 5, 10), ("third", 10, 15)]
+
+
+def test_a_preempted_job_stays_ahead_of_a_later_one_of_its_priority() -> None:
+    jobs = job("early", 20, 0, 5), job("high", 10, 2, 4), job("late", 20, 3, 5)
+    assert ran(*jobs) == [("early", 0, 2), ("high", 2, 6), ("early", 6, 9), ("late", 9, 14)]
+
+
+def test_a_release_at_the_instant_of_a_completion_preempts_nothing() -> None:
+    assert ran(job("low", 20, 0, 4), job("high", 10, 4, 3)) == [("low", 0, 4), ("high", 4, 7)]
+
+
+def test_a_context_switch_is_charged_at_each_dispatch_of_another_job_than_ran_last() -> None:
+    jobs = job("low", 20, 0, 10), job("high", 10, 4, 3)
+    assert ran(*jobs, context_switch=1) == [("low", 0, 4), ("high", 4, 8), ("low", 8, 16)]
+
+
+def test_a_job_that_is_preempted_during_its_context_switch_pays_the_rest_and_another_one() -> None:
+    jobs = job("low", 20, 0, 10), job("high", 10, 1, 3)
+    assert ran(*jobs, context_switch=3) == [("low", 0, 1), ("high", 1, 7), ("low", 7, 7 + 2 + 3 + 10)]
+
+
+def test_a_job_that_finishes_exactly_at_its_deadline_has_met_it() -> None:
+    meets = simulate(StandardCosts(4, 6), Timing(1, 0, 1), Fraction(10), cycles=5)
+    assert (meets.misses, meets.utilization) == (0, 1)
+    misses = simulate(StandardCosts(4, 6), Timing(1, 0, 1), Fraction(99, 10), cycles=5)
+    assert misses.misses == 5
+
+
+def test_an_lr_update_that_finishes_exactly_at_the_start_of_a_step_is_applied_in_it() -> None:
+    """m = 1: 9 ticks are left in step 1 (restart) at a period of 10, 4 in each later one; the update takes 5."""
+    exactly = DualRateCosts(hr=6, hr_restart=1, hr_update=2, lr_propagate=4, lr_gain=0, lr_update=9)
+    assert simulate(exactly, Timing(5, 1, 4), Fraction(10), cycles=3).achieved == {2: 3}
+    one_more = DualRateCosts(hr=6, hr_restart=1, hr_update=2, lr_propagate=4, lr_gain=0, lr_update=10)
+    assert simulate(one_more, Timing(5, 1, 4), Fraction(10), cycles=3).achieved == {3: 3}
+
+
+def test_same_step_feedback_lands_in_the_step_in_which_the_update_finishes() -> None:
+    options = Options(feedback="same-step")
+    schedule = simulate(DUAL_RATE, Timing(6, 1, 4), Fraction(10), 3, options)
+    assert schedule.achieved == {1: 3}
+    assert schedule.responses["hr_update"].finished == 3
+    assert schedule.responses["hr_update"].worst == 2
+
+
+def test_on_two_processors_the_lr_jobs_are_never_preempted() -> None:
+    schedule = simulate(DUAL_RATE, Timing(6, 1, 4), Fraction(8), 3, Options(cpus=2))
+    assert schedule.preemptions == 0
+    assert schedule.responses["lr_propagate"].worst == 3
+    assert schedule.responses["lr_update"].worst == 5 + (6 + 3 - 8)  # propagate ends one tick after m
+    assert schedule.achieved == {2: 3}
+
+
+def test_the_precomputed_gain_leaves_only_the_correction_after_the_measurement() -> None:
+    split = DualRateCosts(hr=6, hr_restart=1, hr_update=2, lr_propagate=3, lr_gain=4, lr_update=1)
+    schedule = simulate(split, Timing(6, 2, 4), Fraction(10), 3, Options(gain="precomputed"))
+    assert schedule.responses["lr_gain"].finished == 3
+    assert schedule.responses["lr_update"].worst == 6 + 1  # behind the HR job of step m
+    assert schedule.achieved == {3: 3}
+
+
+def test_with_m_equal_n_the_measurement_of_the_old_k_is_still_used() -> None:
+    for costs, work in ((LarsenCosts(2, 3, 4), 3 + 4), (RecalculateCosts(2, 3, 1), 2 + 3 + 4)):
+        schedule = simulate(costs, Timing(4, 4, 4), Fraction(work), cycles=3)
+        assert (schedule.misses, schedule.achieved) == (0, {4: 3})
+        assert schedule.responses["hr"].worst == work
+
+
+def test_the_standard_filter_ignores_the_delay() -> None:
+    assert simulate(StandardCosts(2, 3), Timing(4, 3, 4), Fraction(5), cycles=3).achieved == {0: 3}
+
+
+def test_an_overrun_keeps_running_late_and_is_reported() -> None:
+    """Each cycle of one step brings 10 ticks of work to a period of 8: the n-th job is 2n late."""
+    schedule = simulate(StandardCosts(4, 6), Timing(1, 0, 1), Fraction(8), cycles=8)
+    hr = schedule.responses["hr"]
+    assert (hr.releases, hr.finished, hr.misses) == (8, 6, 8)
+    assert hr.worst == 6 * 10 - 5 * 8
+    assert schedule.utilization == 1
+
+
+def test_user_tasks_share_the_processor() -> None:
+    tasks = [
+        Task("control", period=Fraction(2), cost=Fraction(3), priority=5, offset=Fraction(1, 2)),
+        Task("telemetry", period=Fraction(6), cost=Fraction(4), priority=30),
+    ]
+    alone = simulate(DUAL_RATE, Timing(6, 1, 4), Fraction(10), 4)
+    shared = simulate(DUAL_RATE, Timing(6, 1, 4), Fraction(10), 4, tasks=tasks)
+    assert shared.responses["task:control"].worst * 10 == 3 * shared.period
+    assert shared.responses["hr"].worst > alone.responses["hr"].worst
+    assert shared.responses["task:telemetry"].misses == 0
+    assert shared.utilization - alone.utilization == Fraction(12 * 3 + 4 * 4, 4 * 60)
+
+
+def test_memory_does_not_grow_with_the_cycles_and_slices_are_kept_only_on_demand() -> None:
+    assert simulate(DUAL_RATE, Timing(6, 1, 4), Fraction(10), 2).slices == ()
+    seen: list[object] = []
+    schedule = simulate(DUAL_RATE, Timing(6, 1, 4), Fraction(10), 2, keep_slices=True, on_slice=seen.append)
+    assert list(schedule.slices) == seen
+
+
+@pytest.mark.parametrize(("feedback", "L"), [("next-step", 4), ("same-step", 10)])
+def test_an_l_that_dual_rate_cannot_have_is_refused(feedback: str, L: int) -> None:
+    with pytest.raises(InputError, match=f"L={L} must be"):
+        simulate(DUAL_RATE, Timing(10, 4, L), Fraction(10), 1, Options(feedback=feedback))  # type: ignore[arg-type]
+
+
+def test_a_speed_of_zero_is_refused() -> None:
+    with pytest.raises(InputError, match="speed is 0"):
+        simulate(DUAL_RATE, Timing(10, 4, 8), Fraction(0), 1)

@@ -1,0 +1,61 @@
+"""Traces hold every slice, in the formats of other tools."""
+
+from __future__ import annotations
+
+import csv
+import json
+from collections import Counter
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+
+from sched_sim.costs import load, select
+from sched_sim.errors import InputError
+from sched_sim.options import Options
+from sched_sim.schedule import Schedule
+from sched_sim.simulate import simulate
+from sched_sim.timing import Timing
+from sched_sim.trace import open_trace
+
+
+def traced(path: Path, speed: str = "0.77", scale: float = 1000.0) -> Schedule:
+    costs = select(load("steffes2014"), "dual-rate", Options())
+    with open_trace(path, scale) as write:
+        return simulate(costs, Timing(10, 4, 8), Fraction(speed), 3, on_slice=write)
+
+
+def test_csv_rows_add_up_to_the_busy_time_by_piece(tmp_path: Path) -> None:
+    schedule = traced(tmp_path / "slices.csv")
+    with (tmp_path / "slices.csv").open() as file:
+        rows = list(csv.DictReader(file))
+    work: Counter[str] = Counter()
+    for row in rows:
+        work[row["piece"]] += round((float(row["end"]) - float(row["start"])) * schedule.period)
+    assert work == {"HRP": 3 * (9 * 63 + 4), "HRU": 3 * 3, "LRP": 3 * 41, "LRU": 3 * 56}
+    assert {row["missed"] for row in rows} == {"0"}
+
+
+def test_chrome_trace_has_complete_events_in_microseconds_and_named_threads(tmp_path: Path) -> None:
+    schedule = traced(tmp_path / "trace.json", scale=2500.0)
+    events = json.loads((tmp_path / "trace.json").read_text())["traceEvents"]
+    complete = [event for event in events if event["ph"] == "X"]
+    assert sum(event["dur"] for event in complete) == pytest.approx(schedule.busy / schedule.period * 2500)
+    assert {"name", "ts", "dur", "pid", "tid"} <= set(complete[0])
+    names = {event["args"]["name"] for event in events if event["name"] == "thread_name"}
+    assert names == {"hr", "lr_propagate", "lr_update"}
+    assert not [event for event in events if event["ph"] == "i"]
+
+
+def test_misses_are_marked(tmp_path: Path) -> None:
+    schedule = traced(tmp_path / "late.json", speed="0.7")
+    events = json.loads((tmp_path / "late.json").read_text())["traceEvents"]
+    late = [event for event in events if event["ph"] == "i" and event["name"] == "missed"]
+    assert len(late) == 2
+    assert schedule.misses == 3  # the third had not finished at the horizon
+
+
+@pytest.mark.parametrize(("name", "said"), [("trace.txt", r"must end in \.csv or \.json"), ("no/t.csv", "cannot be")])
+def test_a_path_that_cannot_be_is_refused(tmp_path: Path, name: str, said: str) -> None:
+    with pytest.raises(InputError, match=said), open_trace(tmp_path / name):
+        pass
