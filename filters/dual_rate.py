@@ -37,9 +37,7 @@ class Message(NamedTuple):
 class HighRateTask:
     """The whole state x_j (n,) and the transition from the last k to j."""
 
-    def __init__(
-        self, system: System, N: int, x0: FloatArray, noise: NoiseMethod, backend: BackendName
-    ) -> None:
+    def __init__(self, system: System, N: int, x0: FloatArray, noise: NoiseMethod, backend: BackendName) -> None:
         self._size = system
         self._N = N
         self._noise = noise
@@ -59,9 +57,7 @@ class HighRateTask:
             self._transition = self._noise.start(start, j, self._N)
         else:
             following = self._noise.new(self._size)
-            self._transition = self._propagate(
-                self._system, j, x, self._transition, u, self.x, following, self._work
-            )
+            self._transition = self._propagate(self._system, j, x, self._transition, u, self.x, following, self._work)
 
     def message(self, k: int) -> Message:
         """What LR gets at k."""
@@ -111,9 +107,7 @@ class LowRateTask:
         self._correction = new_correction(self._size)
         if measured and self._gain_time == "precomputed":
             self._P = np.empty_like(P)
-            self._gain(
-                self._system, self._form, self._k, self._reference, self._P, self._correction, self._work
-            )
+            self._gain(self._system, self._form, self._k, self._reference, self._P, self._correction, self._work)
         return P
 
     def update(self, y: FloatArray) -> Correction:
@@ -122,9 +116,7 @@ class LowRateTask:
             self._correct(self._system, self._k, y, self._reference, self._correction)
         else:
             self._P = np.empty_like(self._P)
-            self._update(
-                self._system, self._form, self._k, y, self._reference, self._P, self._correction, self._work
-            )
+            self._update(self._system, self._form, self._k, y, self._reference, self._P, self._correction, self._work)
         return self._correction
 
 

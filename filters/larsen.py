@@ -93,9 +93,7 @@ def run(
                 Phi_from_k = run_propagate(model, i, before, inputs[i], estimate, work)  # the product so far, (15)
             elif i % N < M:
                 Phi_before, Phi_from_k = Phi_from_k, np.empty_like(Phi_from_k)
-                run_propagate_accumulate(
-                    model, i, before, Phi_before, inputs[i], estimate, Phi_from_k, work
-                )
+                run_propagate_accumulate(model, i, before, Phi_before, inputs[i], estimate, Phi_from_k, work)
             else:
                 run_propagate(model, i, before, inputs[i], estimate, work)
 
@@ -110,9 +108,7 @@ def run(
             if M == 0:
                 run_update_at_once(model, form, k, y, before, estimate, correction, work)
             else:
-                run_update(
-                    model, form, k, y, reference, Phi_from_k, before, estimate, correction, work
-                )
+                run_update(model, form, k, y, reference, Phi_from_k, before, estimate, correction, work)
             recorder.correction(correction)
 
         if j % N == 0 and M == N:  # the measurement that has just arrived belonged to the reference before this one

@@ -73,16 +73,12 @@ def hr_propagate_euler(
     Q = system.Q(j, system.parameters)
     if j < transition.halfway:
         add(transition.Q_first, Q, following.Q_first)
-        return HalvedTransition(
-            following.Phi, following.Q_first, transition.Q_second, transition.halfway
-        )
+        return HalvedTransition(following.Phi, following.Q_first, transition.Q_second, transition.halfway)
     add(transition.Q_second, Q, following.Q_second)
     return HalvedTransition(following.Phi, transition.Q_first, following.Q_second, transition.halfway)
 
 
-def lr_propagate_euler(
-    P: FloatArray, transition: HalvedTransition, P_next: FloatArray, work: Workspace
-) -> None:
+def lr_propagate_euler(P: FloatArray, transition: HalvedTransition, P_next: FloatArray, work: Workspace) -> None:
     """Job in place of `lr_propagate`: P_{k^-} = Phi (P + Q_first) Phi^T + Q_second, which is Eq. (14) with Eq. (24)."""
     add(P, transition.Q_first, work.nn1)
     matmul(transition.Phi, work.nn1, work.nn2)

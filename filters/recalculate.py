@@ -8,13 +8,12 @@ from __future__ import annotations
 
 import numpy as np
 
+from filters import standard
 from filters.arrays import FloatArray
 from filters.history import History, HistoryRecorder
 from filters.kernels.backends import BackendName, arguments_for, function_for
 from filters.problem import check_problem
 from filters.records import Estimate, new_correction, new_estimate, new_workspace
-from filters.standard import propagate as propagate_job
-from filters.standard import update as update_job
 from filters.systems.system import System
 from filters.update_forms import UpdateFormName, update_form
 
@@ -37,7 +36,8 @@ def run(
     Arguments, results and errors as in `standard.run`. The correction is in the state of step m, whatever L is.
     """
     check_problem(system, N, M, L, x0, P0, inputs, measurements)
-    propagate, correct = function_for(backend, propagate_job), function_for(backend, update_job)
+    propagate = function_for(backend, standard.propagate)
+    update_at_k = function_for(backend, standard.update)
     form, model = arguments_for(backend, update_form(update)), arguments_for(backend, system)
     work = new_workspace(system)
     recorder = HistoryRecorder(system)
@@ -59,7 +59,7 @@ def run(
         if k >= 0 and k % N == 0 and k // N < len(measurements):
             correction = new_correction(system)
             estimate = new_estimate(system)
-            correct(model, form, k, measurements[k // N], reference, estimate, correction, work)
+            update_at_k(model, form, k, measurements[k // N], reference, estimate, correction, work)
             for i in range(k, j):
                 estimate = propagated(i, estimate)
             recorder.correction(correction)

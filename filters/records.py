@@ -1,4 +1,4 @@
-"""The records that steps of a filter read and write. Each is a named tuple of arrays, so that numba takes it as it is."""
+"""The records that steps of a filter read and write: named tuples of arrays, which numba takes as they are."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class Workspace(NamedTuple):
     Two exceptions: I is the identity, never written; an update form's `gain` may leave things to its `covariance`.
     """
 
-    I: FloatArray  # noqa: E741 (n, n), as in Eq. (11)
+    I: FloatArray  # (n, n)
     nn1: FloatArray  # (n, n)
     nn2: FloatArray
     nn3: FloatArray

@@ -1,9 +1,9 @@
 """All methods and their jobs: whoever tests or measures them walks this and needs to know nothing else.
 
-    for method in ALL_METHODS.values():
-        for job in method.jobs(example_system(), "textbook", seed=0).values():
-            count(job.function, *job.arguments(0))
-            compiled(job.function)(*function_for("compiled", job.arguments(0)))
+for method in ALL_METHODS.values():
+    for job in method.jobs(example_system(), "textbook", seed=0).values():
+        count(job.function, *job.arguments(0))
+        function_for("numpy", job.function)(*arguments_for("numpy", job.arguments(0)))
 """
 
 from __future__ import annotations

@@ -78,6 +78,4 @@ def sample(system: System, seed: int, index: int, x0: FloatArray | None = None) 
             transition = function_for("numpy", hr_propagate)(*args)
         function_for("numpy", standard.propagate)(bound, j, now, inputs[j], after, work)
         now = after
-    return Sample(
-        k, m, reference, truth.measurements[k], correction, P_posterior, now, transition, inputs[m]
-    )
+    return Sample(k, m, reference, truth.measurements[k], correction, P_posterior, now, transition, inputs[m])

@@ -17,9 +17,7 @@ class Truth(NamedTuple):
     measurements: FloatArray
 
 
-def simulate_truth(
-    system: System, N: int, x0: FloatArray, P0: FloatArray, inputs: FloatArray, seed: int
-) -> Truth:
+def simulate_truth(system: System, N: int, x0: FloatArray, P0: FloatArray, inputs: FloatArray, seed: int) -> Truth:
     """Draw an initial state from N(x0, P0), then process and measurement noise as the model has them.
 
     inputs (steps, m): the noise-free inputs that the filter will be given too.

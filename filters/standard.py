@@ -32,9 +32,7 @@ from filters.update_forms import UpdateFormName, update_form
 from filters.update_forms.form import UpdateForm
 
 
-def propagate(
-    system: System, j: int, before: Estimate, u: FloatArray, after: Estimate, work: Workspace
-) -> FloatArray:
+def propagate(system: System, j: int, before: Estimate, u: FloatArray, after: Estimate, work: Workspace) -> FloatArray:
     """Job: the estimate at j becomes that at j + 1, Eqs. (6) and (8). Returns Phi_j."""
     system.f(j, before.x, u, system.parameters, after.x)  # (6)
     Phi = system.F(j, before.x, u, system.parameters)

@@ -19,10 +19,12 @@ import hashlib
 import inspect
 import os
 import uuid
+from importlib import import_module
 from pathlib import Path
 from types import FunctionType
 from typing import Any
 
+from filters.kernels.disk_cache import keep_on_disk
 from filters.kernels.rebind import callees, rebind
 
 # Functions in these modules neither allocate nor return arrays. numba need not count references in them, which it would
@@ -66,8 +68,6 @@ def cache_folder(function: FunctionType) -> Path:
 
 
 def _kept_on_disk(clone: FunctionType, original: FunctionType) -> Any:
-    from filters.kernels.disk_cache import keep_on_disk
-
     dispatcher = _jit(clone)
     keep_on_disk(dispatcher, cache_folder(original))
     return dispatcher
@@ -81,9 +81,8 @@ def _inlined(clone: FunctionType, original: FunctionType) -> Any:
 
 
 def _jit(clone: FunctionType, **options: bool) -> Any:
-    import numba
-
-    return numba.njit(error_model="numpy", **options)(clone)
+    njit: Any = import_module("numba").njit
+    return njit(error_model="numpy", **options)(clone)
 
 
 def _with_callees(function: FunctionType, found: dict[FunctionType, None]) -> dict[FunctionType, None]:

@@ -16,22 +16,15 @@ Wrap = Callable[[FunctionType, FunctionType], Any]
 
 def callees(function: FunctionType) -> dict[str, FunctionType]:
     """The plain functions that `function` names, through its module's globals or its closure, by that name."""
-    found = {}
-    for name in _names(function.__code__):
-        value = function.__globals__.get(name)
-        if isinstance(value, FunctionType):
-            found[name] = value
-    for name, value in _closure(function):
-        if isinstance(value, FunctionType):
-            found[name] = value
-    return found
+    named = ((name, function.__globals__.get(name)) for name in _names(function.__code__))
+    return {name: value for name, value in (*named, *_closure(function)) if isinstance(value, FunctionType)}
 
 
 def rebind(function: FunctionType, wrap: Wrap, versions: dict[FunctionType, Any]) -> Any:
     """A clone of `function` that calls clones of what it called, and so on down; recursive functions are handled.
 
     wrap(clone, original) gives the version that callers get to see.
-    versions: those known before, which are used as they are, to which the new ones are added: a function is cloned once.
+    versions: those known before, used as they are; the new ones are added, so that a function is cloned once.
     The originals and their modules are not touched.
     """
     if function in versions:

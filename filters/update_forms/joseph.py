@@ -9,9 +9,7 @@ from filters.update_forms.form import UpdateForm
 from filters.update_forms.textbook import gain
 
 
-def covariance(
-    P: FloatArray, H: FloatArray, R: FloatArray, K: FloatArray, out: FloatArray, work: Workspace
-) -> None:
+def covariance(P: FloatArray, H: FloatArray, R: FloatArray, K: FloatArray, out: FloatArray, work: Workspace) -> None:
     """P_{k^+} = [I - K H] P [I - K H]^T + K R K^T, equal to Eq. (11) for the optimal K."""
     matmul(K, H, work.nn1)
     subtract(work.I, work.nn1, work.nn1)

@@ -28,9 +28,7 @@ def gain(P: FloatArray, H: FloatArray, R: FloatArray, K: FloatArray, work: Works
     transpose(work.pn1, K)
 
 
-def covariance(
-    P: FloatArray, _H: FloatArray, _R: FloatArray, _K: FloatArray, out: FloatArray, work: Workspace
-) -> None:
+def covariance(P: FloatArray, _H: FloatArray, _R: FloatArray, _K: FloatArray, out: FloatArray, work: Workspace) -> None:
     """P_{k^+} = P - (H P)^T K^T, equal to Eq. (11)."""
     subtract_product_of_transposed(P, work.HP, work.pn1, out)
 

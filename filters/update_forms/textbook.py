@@ -26,9 +26,7 @@ def gain(P: FloatArray, H: FloatArray, R: FloatArray, K: FloatArray, work: Works
     matmul_narrow(work.PHt, work.S_inverse, K)
 
 
-def covariance(
-    P: FloatArray, H: FloatArray, _R: FloatArray, K: FloatArray, out: FloatArray, work: Workspace
-) -> None:
+def covariance(P: FloatArray, H: FloatArray, _R: FloatArray, K: FloatArray, out: FloatArray, work: Workspace) -> None:
     """P_{k^+} = [I - K H] P, Eq. (11)."""
     matmul(K, H, work.nn1)
     subtract(work.I, work.nn1, work.nn1)
