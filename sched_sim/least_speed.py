@@ -39,7 +39,8 @@ def least_speed(
     """The least speed at which every deadline holds (Steffes 2014, Sec. III.C: needed processing power).
 
     In closed form and exact; with context-switch costs or other tasks by bisection on the simulation, which is
-    exact to one tick (see `search.least_speed_by_simulation`).
+    exact to one tick (see `search.least_speed_by_simulation`). Every faster processor does too, except where landing
+    earlier costs more: the HR job of step k+1 is the longest of all, or same-step feedback spills into the next step.
     Raises InputError for an L that the method cannot have.
     """
     if isinstance(costs, DualRateCosts):

@@ -22,11 +22,18 @@ def _number(value: Any) -> Fraction:
     return exact(value, "the number")
 
 
+def _positive(value: Any) -> Fraction:
+    number = _number(value)
+    if number <= 0:
+        raise ValueError("must be greater than 0")
+    return number
+
+
 class _Task(BaseModel):
     model_config = ConfigDict(extra="forbid", arbitrary_types_allowed=True)
     name: str
-    period: Annotated[Fraction, BeforeValidator(_number)]
-    cost: Annotated[Fraction, BeforeValidator(_number)]
+    period: Annotated[Fraction, BeforeValidator(_positive)]
+    cost: Annotated[Fraction, BeforeValidator(_positive)]
     priority: int
     offset: Annotated[Fraction, BeforeValidator(_number)] = Fraction(0)
     cpu: int = 1

@@ -14,9 +14,6 @@ ChartMethods = Annotated[
     typer.Option("--method", help="Repeatable; by default larsen and dual-rate.", rich_help_panel=opt.DESIGN),
 ]
 Picture = Annotated[Path, typer.Option("--output", "-o", help="FILE.svg, .pdf or .png.", rich_help_panel=opt.OUTPUT)]
-ChartCycles = Annotated[
-    int, typer.Option("--cycles", min=1, help="Measurement cycles to draw.", rich_help_panel=opt.OUTPUT)
-]
 
 
 def gantt(
@@ -25,7 +22,7 @@ def gantt(
     L: opt.FeedbackStep = None,
     method: ChartMethods = None,
     speed: opt.Speed = None,
-    cycles: ChartCycles = 1,
+    cycles: opt.Cycles = 1,
     costs: opt.Costs = "steffes2014",
     statistic: opt.WhichCost = "minimum",
     lr_propagate_by: opt.LrPropagateBy = "m",

@@ -23,7 +23,10 @@ UpdateForm = Annotated[
     Literal["textbook", "joseph", "short"],
     typer.Option("--update", help="Covariance update: Eq. 11, Joseph's form, or P - K (P H')'."),
 ]
-Size = Annotated[int, typer.Option(min=1, help="Size of the example system.", rich_help_panel=SYSTEM)]
+Size = Annotated[
+    int,
+    typer.Option(help="Size of the example system.", parser=opt.at_least_one, metavar="COUNT", rich_help_panel=SYSTEM),
+]
 OwnSystem = Annotated[
     str | None,
     typer.Option(

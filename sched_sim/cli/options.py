@@ -19,15 +19,52 @@ DESIGN = "Design"
 PROCESSOR = "Processor"
 OUTPUT = "Output"
 
-Steps = Annotated[int, typer.Option("-N", help="HR steps from one measurement to the next.", rich_help_panel=DESIGN)]
+
+def whole(text: str) -> int:
+    """A whole number; says what was given instead, which typer itself does not."""
+    try:
+        return int(text)
+    except ValueError:
+        raise typer.BadParameter(f"{text!r} is not a whole number, such as 10.") from None
+
+
+def at_least_one(text: str) -> int:
+    number = whole(text)
+    if number < 1:
+        raise typer.BadParameter(f"{number} is too small: give at least 1.")
+    return number
+
+
+def one_or_two(text: str) -> int:
+    number = whole(text)
+    if number not in (1, 2):
+        raise typer.BadParameter(f"{number} is not possible: give 1 or 2.")
+    return number
+
+
+Steps = Annotated[
+    int,
+    typer.Option(
+        "-N", help="HR steps from one measurement to the next.", parser=whole, metavar="STEPS", rich_help_panel=DESIGN
+    ),
+]
 Delay = Annotated[
-    int, typer.Option("-M", help="Delay of the measurement in HR steps, 0 <= M <= N.", rich_help_panel=DESIGN)
+    int,
+    typer.Option(
+        "-M",
+        help="Delay of the measurement in HR steps, 0 <= M <= N.",
+        parser=whole,
+        metavar="STEPS",
+        rich_help_panel=DESIGN,
+    ),
 ]
 FeedbackStep = Annotated[
     int | None,
     typer.Option(
         "-L",
         help="Step by which the correction must land, M < L <= N; by default the latest possible.",
+        parser=whole,
+        metavar="STEPS",
         rich_help_panel=DESIGN,
     ),
 ]
@@ -73,7 +110,11 @@ Noise = Annotated[
 Cpus = Annotated[
     int,
     typer.Option(
-        "--cpus", min=1, max=2, help="2: HR jobs on one processor, LR jobs on another.", rich_help_panel=PROCESSOR
+        "--cpus",
+        help="2: HR jobs on one processor, LR jobs on another.",
+        parser=one_or_two,
+        metavar="1|2",
+        rich_help_panel=PROCESSOR,
     ),
 ]
 ContextSwitch = Annotated[
@@ -108,7 +149,12 @@ Format = Annotated[
     Literal["table", "json", "csv"],
     typer.Option("--format", help="table for people, json or csv for scripts.", rich_help_panel=OUTPUT),
 ]
-Cycles = Annotated[int, typer.Option("--cycles", min=1, help="Measurement cycles to run.", rich_help_panel=OUTPUT)]
+Cycles = Annotated[
+    int,
+    typer.Option(
+        "--cycles", help="Measurement cycles to run.", parser=at_least_one, metavar="COUNT", rich_help_panel=OUTPUT
+    ),
+]
 
 
 def make_options(

@@ -1,0 +1,198 @@
+"""The contract of the command line that scripts rely on, and what it says to wrong input."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import NamedTuple
+
+import pytest
+
+from sched_sim.cli import main
+
+
+class Result(NamedTuple):
+    code: int
+    out: str
+    err: str
+
+
+@pytest.fixture
+def sched_sim(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> Callable[[str], Result]:
+    """Runs a command line in an empty folder."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("COLUMNS", "200")
+
+    def run(line: str) -> Result:
+        monkeypatch.setattr(sys, "argv", ["sched-sim", *line.split()])
+        try:
+            main()
+            code = 0
+        except SystemExit as stop:
+            code = int(stop.code or 0)
+        return Result(code, *capsys.readouterr())
+
+    return run
+
+
+Run = Callable[[str], Result]
+DESIGN = "-N 10 -M 4 -L 8 --costs steffes2014"
+
+
+def test_minimum_prints_a_json_array_of_methods(sched_sim: Run) -> None:
+    rows = json.loads(sched_sim(f"minimum {DESIGN} --format json").out)
+    assert [row["method"] for row in rows] == ["standard", "recalculate", "larsen", "dual-rate"]
+    assert rows[-1] == {
+        "method": "dual-rate",
+        "N": 10,
+        "M": 4,
+        "L": 8,
+        "min_speed": 0.77,
+        "min_speed_exact": "77/100",
+        "binding": "lr_update",
+    }
+
+
+def test_minimum_csv_has_the_same_rows(sched_sim: Run) -> None:
+    expected = json.loads(sched_sim(f"minimum {DESIGN} --format json").out)
+    rows = list(csv.DictReader(io.StringIO(sched_sim(f"minimum {DESIGN} --format csv").out)))
+    assert [{key: str(value) for key, value in row.items()} for row in expected] == rows
+
+
+@pytest.mark.parametrize(
+    ("options", "speed"),
+    [
+        ("--lr-propagate-by m", "26/25"),
+        ("--lr-propagate-by l", "271/400"),
+        ("--feedback same-step --lr-propagate-by l", "152/225"),  # (8 x 0.63 + 0.04 + 0.41 + 0.56 + 0.03) / 9
+        ("--cpus 2", "26/25"),
+        ("--cpus 2 --lr-propagate-by l", "33/50"),
+        ("--context-switch 0.01", "53/50"),
+    ],
+)
+def test_options_of_minimum(sched_sim: Run, options: str, speed: str) -> None:
+    result = sched_sim(f"minimum -N 10 -M 1 -L 8 --method dual-rate --format json {options}")
+    assert json.loads(result.out)[0]["min_speed_exact"] == speed
+
+
+def test_a_precomputed_gain_needs_its_own_entries_and_less_power(sched_sim: Run) -> None:
+    line = "minimum -N 10 -M 4 -L 5 --method dual-rate --costs counted-9-3-3 --format json"
+    late, early = (json.loads(sched_sim(line + gain).out)[0] for gain in ("", " --gain precomputed"))
+    assert early["min_speed"] < late["min_speed"]
+
+
+def test_hr_hz_adds_absolute_times_and_rates(sched_sim: Run) -> None:
+    row = json.loads(sched_sim(f"minimum {DESIGN} --method dual-rate --hr-hz 400 --format json").out)[0]
+    assert row["correction_ms"] == 20.0
+    assert row["work_per_second"] == pytest.approx(0.77 * 400)
+    assert "lands after ms" in sched_sim(f"minimum {DESIGN} --hr-hz 400").out
+
+
+def test_simulate_prints_one_json_object(sched_sim: Run) -> None:
+    line = "simulate --method dual-rate -N 10 -M 4 --speed 0.78 --cycles 3 --costs steffes2014 --format json"
+    document = json.loads(sched_sim(line).out)
+    assert document["achieved_l"] == [8, 8, 8]
+    assert document["misses"] == 0
+    assert document["utilization"] == pytest.approx((9 * 0.63 + 0.04 + 0.03 + 0.41 + 0.56) / 7.8)
+    assert document["preemptions"] == 12
+    assert set(document["response"]) == {"hr", "lr_propagate", "lr_update"}
+    assert document["response"]["lr_propagate"]["max"] == pytest.approx(0.45 / 0.78)
+    assert document["response"]["lr_update"]["mean"] == pytest.approx((3 * 0.78 + 0.63 + 0.56 - 3 * 0.15) / 0.78)
+
+
+def test_json_and_csv_carry_no_colour_even_where_it_is_forced(sched_sim: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("FORCE_COLOR", "1")
+    for command in (f"minimum {DESIGN}", "simulate -N 10 -M 4"):
+        for form in ("json", "csv"):
+            assert "\x1b" not in sched_sim(f"{command} --format {form}").out
+
+
+def test_l_defaults_to_the_latest_that_is_legal(sched_sim: Run) -> None:
+    rows = json.loads(sched_sim("minimum -N 10 -M 4 --feedback same-step --format json").out)
+    assert {row["method"]: row["L"] for row in rows}["dual-rate"] == 9
+
+
+def test_pictures_and_traces_are_written(sched_sim: Run, tmp_path: Path) -> None:
+    result = sched_sim("simulate -N 10 -M 4 --speed 0.7 --gantt a.svg --trace a.json --trace a.csv")
+    assert result.code == 0
+    assert "12 (2 cycles)" in result.out
+    assert sched_sim("gantt -N 10 -M 4 -L 8 -o fig.pdf").code == 0
+    assert {path.name for path in tmp_path.iterdir()} == {"a.svg", "a.json", "a.csv", "fig.pdf"}
+
+
+def test_user_tasks_take_part(sched_sim: Run, tmp_path: Path) -> None:
+    (tmp_path / "tasks.toml").write_text('[[task]]\nname = "control"\nperiod = 2\ncost = 0.1\npriority = 5\n')
+    alone = json.loads(sched_sim(f"minimum {DESIGN} --format json").out)[-1]
+    shared = json.loads(sched_sim(f"minimum {DESIGN} --format json --tasks tasks.toml").out)[-1]
+    assert shared["min_speed"] == pytest.approx(alone["min_speed"] + 0.2 / 4)  # twice in the four steps from m to l
+
+
+def test_help_and_version(sched_sim: Run) -> None:
+    assert all(
+        name in sched_sim("--help").out for name in ("minimum", "simulate", "gantt", "sweep", "measure", "report")
+    )
+    assert sched_sim("--version").out.startswith("sched-sim ")
+
+
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        ("minimum -N 10 -M 4 -L 4", ["L=4", "M=4", "give L from 5 to N=10"]),
+        ("minimum -N 10 -M 4 -L 3", ["L=3", "M=4", "give L from 5"]),
+        ("minimum -N 10 -M 4 -L 11", ["L=11", "N=10"]),
+        ("minimum -N 10 -M 11", ["M=11", "N=10", "larger N or a smaller M"]),
+        ("minimum -N 10 -M 10", ["L=10", "M=10", "--method recalculate or larsen"]),
+        ("minimum -N 10 -M 4 -L 10 --feedback same-step", ["L=10", "N=10", "give L from 4 to 9"]),
+        ("minimum -N 0 -M 0", ["N=0", "at least 1"]),
+        ("minimum -N 10 -M -1", ["M=-1", "at least 0"]),
+        ("minimum -N ten -M 4", ["-N", "ten"]),
+        ("minimum -N 10 -M 4 --method larson", ["--method", "larson", "larsen"]),
+        ("minimum -N 10 -M 4 --costs nowhere.toml", ["nowhere.toml", "steffes2014"]),
+        ("minimum -N 10 -M 4 --costs bad.toml", ["bad.toml", "costs.larsen.update", "-1"]),
+        ("minimum -N 10 -M 4 --costs short.toml", ["short.toml", "[costs.standard] propagate", "measure"]),
+        ("minimum -N 10 -M 4 --gain precomputed", ["steffes2014", "lr_gain", "measure"]),
+        ("minimum -N 10 -M 4 --context-switch -1", ["context switch", "-1"]),
+        ("minimum -N 10 -M 4 --context-switch nan", ["--context-switch", "nan"]),
+        ("minimum -N 10 -M 4 --hr-hz 0", ["--hr-hz", "0", "greater than 0"]),
+        ("minimum -N 10 -M 4 --cpus 3", ["--cpus", "3"]),
+        ("minimum -N 10 -M 4 --format xml", ["--format", "xml"]),
+        ("minimum -N 10 -M 4 --tasks none.toml", ["--tasks", "none.toml"]),
+        ("minimum -N 10 -M 4 --tasks bad-tasks.toml", ["bad-tasks.toml", "task.0.period", "-2"]),
+        ("simulate -N 10 -M 4 --speed 0", ["--speed", "0", "greater than 0"]),
+        ("simulate -N 10 -M 4 --speed fast", ["--speed", "fast", "0.78"]),
+        ("simulate -N 10 -M 4 --cycles 0", ["--cycles", "0"]),
+        ("simulate -N 10 -M 4 --method kalman", ["--method", "kalman", "larsen"]),
+        ("simulate -N 10 -M 4 --trace t.txt", ["--trace", "t.txt", ".json"]),
+        ("simulate -N 10 -M 4 --trace nowhere/t.csv", ["--trace", "nowhere/t.csv"]),
+        ("simulate -N 10 -M 4 --gantt g.gif", ["g.gif", ".svg"]),
+        ("gantt -N 10 -M 4 -o nowhere/g.svg", ["nowhere/g.svg"]),
+        ("measure --states 0", ["--states", "0"]),
+        ("measure --system nowhere:system", ["--system", "nowhere"]),
+        ("measure --system json:dumps2", ["--system", "dumps2"]),
+        ("measure -o nowhere/costs.toml", ["nowhere/costs.toml"]),
+        ("report bayes", ["bayes", "steffes2014"]),
+        ("report -o file", ["file"]),
+        ("maximum", ["maximum"]),
+    ],
+)
+def test_wrong_input_ends_with_code_2_and_one_message(
+    sched_sim: Run, tmp_path: Path, line: str, said: list[str]
+) -> None:
+    (tmp_path / "bad.toml").write_text('name = "b"\nunit = "s"\n[costs.larsen]\npropagate = 1\nupdate = -1\n')
+    (tmp_path / "short.toml").write_text('name = "short"\nunit = "s"\n[costs.larsen]\npropagate = 1\n')
+    (tmp_path / "bad-tasks.toml").write_text('[[task]]\nname = "t"\nperiod = -2\ncost = 1\npriority = 5\n')
+    (tmp_path / "file").write_text("in the way of a folder")
+    before = {path: path.read_bytes() for path in tmp_path.iterdir()}
+    result = sched_sim(line)
+    assert result.code == 2
+    assert result.out == ""
+    assert "Traceback" not in result.err
+    for words in said:
+        assert words in result.err
+    assert {path: path.read_bytes() for path in tmp_path.iterdir()} == before
