@@ -19,7 +19,7 @@ class Row(NamedTuple):
 
 
 class Bar(NamedTuple):
-    """Work of one label, done without interruption in [start, end); overdue: when its deadline passed, if it did.
+    """Work of one label, done without interruption in [start, end); overdue: the deadline, if it passed before `end`.
 
     style: the label, or "task:NAME" for a user's task, whose name might be anyone's.
     """
@@ -76,10 +76,10 @@ def bars(schedule: Schedule) -> list[Bar]:
     found = []
     for piece in schedule.slices:
         row = row_of(piece.kind, piece.cpu)
-        overdue = piece.deadline if piece.end > piece.deadline else None
         for label, start, end in piece.pieces():
             is_switch = start < piece.start + piece.overhead
             style = piece.kind if piece.kind.startswith(TASK) and not is_switch else label
+            overdue = piece.deadline if end > piece.deadline else None
             found.append(Bar(row, style, start, end, piece.kind, piece.step, overdue))
     return found
 

@@ -15,6 +15,8 @@ GAP_MM = 1.2
 FARTHEST_MM = 4.0
 """A label stands no farther from its line."""
 STRIDES = (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000)
+NARROWEST_MM = 2.0
+"""A label and the gap beside it take at least so much: spares measuring labels by the thousand."""
 BEYOND_MM = 5.0
 """So far a label may reach beyond the ends of the axis."""
 
@@ -29,6 +31,8 @@ def labels(marks: Sequence[Mark], scale: Scale) -> list[tuple[Mark, float]]:
     choices = [marks, [mark for mark in marks if mark.is_k or mark.cycle == first_cycle]]
     choices += [[mark for mark in marks if mark.is_k and mark.cycle % stride == 0] for stride in STRIDES]
     for chosen in choices:
+        if len(chosen) * NARROWEST_MM > scale.width_mm:
+            continue
         centres = [scale.mm(mark.step) for mark in chosen]
         widths = [text_width_mm(f"${mark.text}$") for mark in chosen]
         placed = spread(centres, widths, -BEYOND_MM, scale.width_mm + BEYOND_MM, GAP_MM)

@@ -1,0 +1,138 @@
+"""Plots: their numbers are those of the analysis, and they can be read."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from reports.curves import achieved_curve, hr_limit, knee, speed_grid
+from reports.figures import Speeds, achieved_figure, cost_figure, least_speed_figure, table4_figure
+from reports.style import METHOD_LINES
+from sched_sim.costs import DualRateCosts, load, select
+from sched_sim.errors import InputError
+from sched_sim.least_speed import achieved_l, least_speed, staircase
+from sched_sim.options import Options
+from sched_sim.simulate import simulate
+from sched_sim.timing import Timing
+from tests.designs import Design, designs
+from tests.reports.layout import flaws, texts
+
+PAPER, COUNTED = load("steffes2014"), load("counted-9-3-3")
+DUAL_RATE = select(PAPER, "dual-rate", Options())
+BLUE = METHOD_LINES["dual-rate"].colour
+SAME_STEP = Options(feedback="same-step", lr_propagate_by="l")
+
+
+def test_the_knee_of_the_papers_last_case_is_29() -> None:
+    found = knee(staircase(DUAL_RATE, 100, 10))
+    assert found is not None
+    assert (float(found.speed), found.achieved, found.latest) == (0.66, 29, 100)
+    assert knee(staircase(DUAL_RATE, 10, 4)) is None
+    assert knee([]) is None
+
+
+def test_the_knee_is_where_the_plotted_curve_becomes_flat() -> None:
+    figure = least_speed_figure(PAPER)
+    curves = [line for line in figure.axes[1].lines if line.get_color() == BLUE and len(line.get_xdata()) > 1]
+    asked, speeds = curves[0].get_xdata(), curves[0].get_ydata()
+    assert min(L for L, speed in zip(asked, speeds, strict=True) if speed == min(speeds)) == 29
+    assert [list(asked), list(speeds)] == [
+        list(range(11, 101)),
+        [float(least_speed(DUAL_RATE, Timing(100, 10, L)).speed) for L in range(11, 101)],
+    ]
+    said = " ".join(text.get_text() for text, _ in texts(figure))
+    assert "0.66 already lands at $L = 29$" in said
+    for constant in ("2.81", "5.51", "1.47"):
+        assert constant in said
+
+
+def test_the_achieved_curve_starts_at_the_knee() -> None:
+    (curve,) = [
+        line for line in achieved_figure(PAPER).axes[1].lines if line.get_color() == BLUE and len(line.get_xdata()) > 1
+    ]
+    assert (curve.get_xdata()[0], curve.get_ydata()[0]) == (0.66, 29)
+    assert min(curve.get_ydata()) == 11
+
+
+@settings(max_examples=60)
+@given(designs, st.lists(st.fractions(Fraction(1, 4), 3, max_denominator=20), min_size=1, max_size=5))
+def test_the_achieved_curve_is_the_analysis_at_each_speed(design: Design, factors: list[Fraction]) -> None:
+    least = least_speed(*design).speed
+    speeds = [least * factor for factor in factors]
+    N, M = design.timing.N, design.timing.M
+    expected = [achieved_l(design.costs, design.timing, speed, design.options) for speed in speeds]
+    assert achieved_curve(design.costs, N, M, speeds, design.options) == expected
+
+
+@settings(max_examples=60)
+@given(designs)
+def test_below_the_hatched_limit_the_hr_loop_overruns(design: Design) -> None:
+    if not isinstance(design.costs, DualRateCosts):
+        return
+    limit = Fraction(hr_limit(design.costs, design.timing.N, design.options))
+    slower = limit - Fraction(1, 1000)
+    schedule = simulate(design.costs, design.timing, slower, 3, design.options)
+    lands = achieved_l(design.costs, design.timing, slower, design.options)
+    assert lands is None or lands == 1 or schedule.responses["hr"].misses > 0
+
+
+def test_a_speed_grid_holds_what_it_must() -> None:
+    grid = speed_grid(0.5, 2, 5, [Fraction(2, 3)])
+    assert grid == sorted(grid)
+    assert Fraction(2, 3) in grid
+    assert (grid[0], grid[-1]) == (Fraction(1, 2), 2)
+
+
+@pytest.mark.parametrize("draw", [least_speed_figure, achieved_figure])
+@pytest.mark.parametrize(
+    ("table", "plots", "options"),
+    [
+        (PAPER, [(10, 4), (100, 10)], Options()),
+        (COUNTED, [(10, 4), (100, 10)], Options()),
+        (PAPER, [(10, 1), (30, 0)], SAME_STEP),
+        (PAPER, [(10, 10), (1, 0)], Options()),
+        (PAPER, [(20, 3)], Options(cpus=2)),
+    ],
+)
+def test_plots_can_be_read(draw, table, plots, options) -> None:  # type: ignore[no-untyped-def]
+    assert flaws(draw(table, plots, options)) == []
+
+
+def test_costs_of_several_tables_beside_one_another() -> None:
+    figure = cost_figure({"paper": PAPER, "counted": COUNTED})
+    assert flaws(figure) == []
+    shown = {float(line.get_xdata()[0]) for line in figure.axes[0].lines if line.get_marker() in "|o"}
+    assert {0.45, 0.66, 0.81, 0.63, 0.04, 0.03, 0.41, 0.56} <= shown
+    assert "HR propagate, $Q'$" not in [text.get_text() for text, _ in texts(figure)]  # the paper has no such cost
+
+
+def test_one_table_shows_all_its_jobs_and_how_far_they_spread() -> None:
+    update = replace(COUNTED.costs["larsen"]["update"], p95=Fraction(20000))
+    spread_out = replace(COUNTED, costs={**COUNTED.costs, "larsen": {**COUNTED.costs["larsen"], "update": update}})
+    figure = cost_figure({"measured": spread_out})
+    assert flaws(figure) == []
+    normalised = spread_out.normalised().costs["larsen"]["update"]
+    ranges = [tuple(line.get_xdata()) for line in figure.axes[0].lines if len(line.get_xdata()) == 2]
+    assert (float(normalised.minimum), float(normalised.p95)) in ranges
+
+
+def test_table_4_as_dots() -> None:
+    rows = [(Timing(10, 4, 8), 2.81, 1.47, 0.78), (Timing(100, 10, 80), 5.45, 1.47, 0.64)]
+    cells = [
+        Speeds(timing, method, {"paper": speed, "counted": 1.04 * speed})
+        for timing, *speeds in rows
+        for method, speed in zip(("recalculate", "larsen", "dual-rate"), speeds, strict=True)
+    ]
+    figure = table4_figure(cells)
+    assert flaws(figure) == []
+    dots = [[x for line in axes.lines if line.get_marker() == "|" for x in line.get_xdata()] for axes in figure.axes]
+    assert dots[:3] == [[2.81, 5.45], [1.47, 1.47], [0.78, 0.64]]
+
+
+def test_more_sources_than_signs_are_refused() -> None:
+    with pytest.raises(InputError, match="6 sources of numbers"):
+        cost_figure({str(number): PAPER for number in range(6)})

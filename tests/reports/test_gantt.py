@@ -1,0 +1,162 @@
+"""Gantt charts: what they draw, what they say, and that they can be read."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from collections.abc import Callable
+from fractions import Fraction
+
+import pytest
+from matplotlib.collections import PolyCollection
+
+from reports.gantt import Panel, gantt
+from reports.intervals import bars, jobs
+from reports.panels import cycle_marks, method_panel
+from reports.style import RED
+from sched_sim.costs import load
+from sched_sim.errors import InputError
+from sched_sim.options import Options
+from sched_sim.tasks import Task
+from sched_sim.timing import Timing
+from tests.reports.layout import flaws, texts
+
+PAPER = load("steffes2014")
+TASKS = [
+    Task("control law", Fraction(1), Fraction("0.1"), 5),
+    Task("a task_with $a long name$ that does not end", Fraction(5), Fraction("0.3"), 30, Fraction("0.5")),
+]
+SAME_STEP = Options(feedback="same-step")
+
+
+def panel(method: str, N: int, M: int, L: int, speed: str, cycles: int = 1, **more: object) -> Panel:
+    return method_panel(PAPER, method, Timing(N, M, L), Fraction(speed), cycles, **more)  # type: ignore[arg-type]
+
+
+def figure_3() -> list[Panel]:
+    """Larsen and dual-rate, each at its least speed (Steffes 2014, Fig. 3)."""
+    return [panel("larsen", 10, 4, 8, "1.47"), panel("dual-rate", 10, 4, 8, "0.77")]
+
+
+CASES: dict[str, Callable[[], list[Panel]]] = {
+    "figure 3": figure_3,
+    "every method": lambda: [
+        panel("standard", 10, 4, 8, "1"),
+        panel("recalculate", 10, 4, 8, "2.81"),
+        *figure_3(),
+    ],
+    "100 steps": lambda: [
+        panel("larsen", 100, 10, 80, "1.47"),
+        panel("dual-rate", 100, 10, 80, "0.66"),
+        panel("recalculate", 100, 10, 80, "5.51"),
+    ],
+    "N = 1": lambda: [panel("dual-rate", 1, 0, 1, "1.7"), panel("larsen", 1, 1, 1, "1.5")],
+    "edges": lambda: [
+        panel("dual-rate", 10, 0, 1, "1.7"),
+        panel("dual-rate", 10, 9, 10, "1.25", 2),
+        panel("larsen", 10, 10, 10, "1.47"),
+    ],
+    "overload": lambda: [
+        panel("dual-rate", 10, 4, 8, "0.64"),
+        panel("larsen", 10, 4, 8, "1.2"),
+        panel("dual-rate", 10, 4, 8, "0.5"),
+        panel("dual-rate", 10, 4, 8, "0.645", 6),
+    ],
+    "2 CPUs": lambda: [
+        panel("dual-rate", 10, 4, 8, "0.66", options=Options(cpus=2)),
+        panel("larsen", 10, 4, 8, "1.47", options=Options(cpus=2)),
+    ],
+    "same step": lambda: [
+        panel("dual-rate", 10, 4, 8, "0.78", options=SAME_STEP),
+        panel("dual-rate", 10, 4, 4, "1.7", options=SAME_STEP),
+    ],
+    "context switch": lambda: [panel("dual-rate", 10, 4, 8, "0.9", options=Options(context_switch=Fraction("0.02")))],
+    "tasks": lambda: [panel("dual-rate", 10, 4, 8, "1.1", 2, tasks=TASKS)],
+    "3 cycles": lambda: [panel("dual-rate", 10, 4, 8, "0.78", 3), panel("larsen", 10, 4, 8, "1.47", 3)],
+    "30 cycles": lambda: [panel("dual-rate", 10, 4, 8, "0.78", 30)],
+}
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_texts_neither_overlap_nor_leave_the_page_and_none_is_small(case: str) -> None:
+    assert flaws(gantt(CASES[case]())) == []
+
+
+@pytest.mark.parametrize("case", ["figure 3", "overload", "2 CPUs", "context switch", "tasks"])
+def test_what_is_drawn_is_what_ran(case: str) -> None:
+    panels = CASES[case]()
+    for axes, shown in zip(gantt(panels).axes, panels, strict=False):
+        drawn = set()
+        for collection in axes.collections:
+            if isinstance(collection, PolyCollection):
+                assert set(collection.get_linewidth()) <= {0}, "an edge would paint a gap as busy"
+                for path in collection.get_paths():
+                    across = path.vertices[:, 0]
+                    drawn.add((round(across.min(), 9), round(across.max(), 9)))
+        period = shown.schedule.period
+        assert {(round(bar.start / period, 9), round(bar.end / period, 9)) for bar in bars(shown.schedule)} <= drawn
+
+
+def test_each_missed_deadline_has_a_red_cross_and_the_title_counts_them() -> None:
+    panels = CASES["overload"]()
+    for axes, shown in zip(gantt(panels).axes, panels, strict=False):
+        crosses = [line for line in axes.lines if line.get_marker() == "x" and line.get_color() == RED]
+        found = sorted(step for line in crosses for step in line.get_xdata())
+        period, end = shown.schedule.period, shown.end
+        missed = sorted(job.deadline / period for job in jobs(shown.schedule) if job.missed)
+        assert found == [step for step in missed if step <= end]
+        (said,) = [text.get_text() for text in axes.texts if "deadline" in text.get_text()]
+        assert said.startswith(f"✗ {shown.schedule.misses} of ")
+
+
+def test_no_miss_no_red() -> None:
+    figure = gantt(figure_3())
+    assert not [text for text, _ in texts(figure) if text.get_color() == RED]
+    said = [text.get_text() for text, _ in texts(figure)]
+    assert said.count("no deadline missed") == 2
+    assert "work after its deadline" not in said
+
+
+def test_figure_3_says_what_the_paper_says() -> None:
+    said = [text.get_text() for text, _ in texts(gantt(figure_3()))]
+    for expected in (
+        *("$k$", "$m = l$", "$k+N$", "$m$", "$l$"),
+        *("HRP", "HRU", "LRP", "LRU", "P", "U"),
+        *("speed 1.47", "speed 0.77", "lands at $l = m = k+4$", "lands at $l = k+8$"),
+    ):
+        assert expected in said
+
+
+def test_labels_inside_bars_are_dropped_when_there_is_no_room() -> None:
+    labels = [text.get_text() for text, _ in texts(gantt(CASES["30 cycles"]()))]
+    assert not {"HRP", "HRU", "LRP", "LRU"} & set(labels)
+    assert "HRP  high-rate propagate" in labels
+
+
+@pytest.mark.parametrize(
+    ("timing", "cycles", "landings", "expected"),
+    [
+        (Timing(10, 4, 8), 1, {0: 8}, {0: "k", 4: "m", 8: "l", 10: "k+N"}),
+        (Timing(10, 4, 4), 1, {0: 4}, {0: "k", 4: "m = l", 10: "k+N"}),
+        (Timing(10, 4, 8), 1, {}, {0: "k", 4: "m", 10: "k+N"}),
+        (Timing(5, 0, 5), 1, {0: 5}, {0: "k = m", 5: "l = k+N"}),
+        (Timing(5, 5, 5), 1, {0: 5}, {0: "k", 5: "m = l = k+N"}),
+        (Timing(4, 1, 3), 2, {0: 2, 1: 2}, {0: "k", 1: "m", 2: "l", 4: "k+N", 5: "m+N", 6: "l+N", 8: "k+2N"}),
+        (Timing(4, 1, 3), 2, {0: 3, 1: 2}, {0: "k", 1: "m", 3: "l", 4: "k+N", 5: "m+N", 6: "l = k+N+2", 8: "k+2N"}),
+    ],
+)
+def test_steps_are_named_as_in_the_paper(
+    timing: Timing, cycles: int, landings: dict[int, int], expected: dict[int, str]
+) -> None:
+    assert {mark.step: mark.text for mark in cycle_marks(timing, cycles, landings)} == expected
+
+
+def test_too_many_steps_are_refused() -> None:
+    with pytest.raises(InputError, match=r"1000000 cycles .* give fewer cycles"):
+        panel("larsen", 10, 4, 8, "1.47", 1_000_000)
+
+
+def test_drawing_does_not_import_pyplot() -> None:
+    code = "import sys, reports.gantt, reports.timelines, reports.figures; print('matplotlib.pyplot' in sys.modules)"
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert run.stdout.strip() == "False"

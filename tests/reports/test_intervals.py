@@ -1,0 +1,128 @@
+"""What a Gantt chart draws is what the simulation did: intervals, not pixels."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import replace
+from fractions import Fraction
+from itertools import pairwise
+
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
+
+from reports.intervals import bars, jobs, never_ran, overdue_work, rows, waits
+from reports.placing import spread, worst_shift
+from sched_sim.costs import DualRateCosts
+from sched_sim.least_speed import least_speed
+from sched_sim.options import Options
+from sched_sim.schedule import Schedule
+from sched_sim.simulate import simulate
+from sched_sim.tasks import Task
+from sched_sim.timing import Timing
+from tests.designs import Design, designs
+
+overload = Design(DualRateCosts(63, 4, 3, 41, 0, 56), Timing(10, 4, 8), Options())
+
+
+@st.composite
+def schedules(draw: st.DrawFn) -> Schedule:
+    """At speeds around the least, so that about half of them miss deadlines; some with context switches and tasks."""
+    design = draw(designs)
+    speed = least_speed(*design).speed * Fraction(draw(st.integers(2, 8)), 4)
+    options = replace(design.options, context_switch=Fraction(draw(st.sampled_from([0, 0, 1, 3]))))
+    task = Task("telemetry", Fraction(5, 2), speed / 3, draw(st.sampled_from([5, 15, 30])), cpu=options.cpus)
+    tasks = [task] if draw(st.booleans()) else []
+    return simulate(design.costs, design.timing, speed, 3, options, tasks, keep_slices=True)
+
+
+too_slow = simulate(overload.costs, overload.timing, Fraction(30), 3, overload.options, keep_slices=True)
+starved = simulate(
+    overload.costs,
+    overload.timing,
+    Fraction(77),
+    1,
+    Options(),
+    [Task("hog", Fraction(1), Fraction(77), 1)],
+    keep_slices=True,
+)
+
+
+@settings(max_examples=80)
+@example(too_slow)
+@example(starved)
+@given(schedules())
+def test_bars_cover_the_slices_exactly_and_never_overlap(schedule: Schedule) -> None:
+    drawn = bars(schedule)
+    assert all(bar.start < bar.end for bar in drawn)
+    assert sum(bar.end - bar.start for bar in drawn) == schedule.busy
+    covered: Counter[tuple[int, int]] = Counter()
+    for bar in drawn:
+        assert bar.row.cpu is not None
+        covered[bar.row.cpu, bar.start] += 1
+        covered[bar.row.cpu, bar.end] -= 1
+    ran: Counter[tuple[int, int]] = Counter()
+    for piece in schedule.slices:
+        ran[piece.cpu, piece.start] += 1
+        ran[piece.cpu, piece.end] -= 1
+    assert {at: change for at, change in covered.items() if change} == {at: c for at, c in ran.items() if c}
+    for cpu in range(schedule.cpus):
+        of_cpu = sorted((bar.start, bar.end) for bar in drawn if bar.row.cpu == cpu)
+        assert all(before[1] <= after[0] for before, after in pairwise(of_cpu))
+
+
+@settings(max_examples=80)
+@example(too_slow)
+@example(starved)
+@given(schedules())
+def test_misses_are_flagged_exactly_where_the_schedule_has_them(schedule: Schedule) -> None:
+    flagged = Counter(job.kind for job in jobs(schedule) if job.missed)
+    seen = Counter(job.kind for job in jobs(schedule))
+    for kind, response in schedule.responses.items():
+        not_seen = response.releases - seen[kind]
+        assert 0 <= response.misses - flagged[kind] <= not_seen
+    assert flagged.total() + never_ran(schedule) == schedule.misses
+    late = {(job.row, job.step) for job in jobs(schedule) if job.missed}
+    for row, start, end in overdue_work(bars(schedule)):
+        assert start < end
+        assert any(row == of_job for of_job, _ in late)
+
+
+@settings(max_examples=80)
+@given(schedules())
+def test_a_job_runs_or_waits_from_its_release_to_its_finish(schedule: Schedule) -> None:
+    for job in jobs(schedule):
+        end = schedule.horizon if job.finish is None else job.finish
+        stretches = sorted([*job.runs, *waits(job, schedule.horizon)])
+        assert [stretches[0][0], stretches[-1][1]] == [job.release, end]
+        assert all(before[1] == after[0] for before, after in pairwise(stretches))
+
+
+@given(schedules())
+def test_every_bar_has_its_row_and_every_processor_one(schedule: Schedule) -> None:
+    found = rows(schedule)
+    assert {bar.row for bar in bars(schedule)} <= set(found)
+    assert len(set(found)) == len(found)
+    assert {row.cpu for row in found} >= set(range(schedule.cpus))
+
+
+def test_a_starved_job_class_has_an_empty_row() -> None:
+    names = [row.name for row in rows(starved)]
+    assert names == ["hog", "HR", "LR"]
+    assert never_ran(starved) == starved.misses > 0
+
+
+@given(
+    st.lists(st.floats(0, 100), max_size=8),
+    st.lists(st.floats(0.5, 12), min_size=8, max_size=8),
+    st.floats(0, 3),
+)
+def test_spread_labels_neither_overlap_nor_leave_the_line(wished: list[float], sizes: list[float], gap: float) -> None:
+    centres, widths = sorted(wished), sizes[: len(wished)]
+    placed = spread(centres, widths, -10, 140, gap)
+    assert len(placed) == len(centres)
+    edges = [(at - width / 2, at + width / 2) for at, width in zip(placed, widths, strict=True)]
+    assert all(before[1] + gap <= after[0] + 1e-9 for before, after in pairwise(edges))
+    assert all(start >= -10 - 1e-9 and end <= 140 + 1e-9 for start, end in edges)
+    free = all(b - a >= (u + v) / 2 + gap for (a, b), (u, v) in zip(pairwise(centres), pairwise(widths), strict=True))
+    if free and all(w / 2 - 10 <= c <= 140 - w / 2 for c, w in zip(centres, widths, strict=True)):
+        assert worst_shift(centres, placed) < 1e-9
