@@ -123,7 +123,7 @@ def method_panel(
     costs = select(table, method, options, statistic)
     schedule = simulate(costs, timing, speed, cycles, options, tasks, keep_slices=True, on_landing=landings.__setitem__)
     delay = replace(timing, M=0) if method == "standard" else timing
-    notes = [f"speed {float(speed):.4g}", landing_note(landings.values(), delay.M)]
+    notes = [f"speed {_number(speed)}", landing_note(landings.values(), delay.M)]
     if method == "standard":
         notes[1] = "no delay: lands at $k$"
     return Panel(
@@ -148,5 +148,10 @@ def option_notes(options: Options) -> list[str]:
     if options.cpus == 2:
         notes.append("2 CPUs")
     if options.context_switch:
-        notes.append(f"context switch {float(options.context_switch):.4g}")
+        notes.append(f"context switch {_number(options.context_switch)}")
     return notes
+
+
+def _number(value: Fraction) -> str:
+    """Four digits, and large numbers in full."""
+    return f"{float(value):.4g}" if value < 1000 else f"{float(value):.0f}"
