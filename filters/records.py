@@ -54,21 +54,21 @@ class Workspace(NamedTuple):
 
 
 def new_estimate(system: System) -> Estimate:
-    """Memory for an estimate, not yet filled."""
+    """Memory for an estimate, zero."""
     n = system.states
-    return Estimate(np.empty(n), np.empty((n, n)))
+    return Estimate(np.zeros(n), np.zeros((n, n)))
 
 
 def new_correction(system: System) -> Correction:
-    """Memory for a correction, not yet filled."""
+    """Memory for a correction, zero."""
     n, p = system.states, system.measurements
-    return Correction(np.empty(p), np.empty((n, p)), np.empty(n))
+    return Correction(np.zeros(p), np.zeros((n, p)), np.zeros(n))
 
 
 def new_transition(system: System) -> Transition:
-    """Memory for a transition, not yet filled."""
+    """Memory for a transition, zero."""
     n = system.states
-    return Transition(np.empty((n, n)), np.empty((n, n)))
+    return Transition(np.zeros((n, n)), np.zeros((n, n)))
 
 
 def new_workspace(system: System) -> Workspace:
@@ -76,16 +76,16 @@ def new_workspace(system: System) -> Workspace:
     n, p = system.states, system.measurements
     return Workspace(
         I=np.eye(n),
-        nn1=np.empty((n, n)),
-        nn2=np.empty((n, n)),
-        nn3=np.empty((n, n)),
-        PHt=np.empty((n, p)),
-        np1=np.empty((n, p)),
-        HP=np.empty((p, n)),
-        pn1=np.empty((p, n)),
-        pn2=np.empty((p, n)),
-        S=np.empty((p, p)),
-        S_inverse=np.empty((p, p)),
-        pp1=np.empty((p, p)),
-        n1=np.empty(n),
+        nn1=np.zeros((n, n)),
+        nn2=np.zeros((n, n)),
+        nn3=np.zeros((n, n)),
+        PHt=np.zeros((n, p)),
+        np1=np.zeros((n, p)),
+        HP=np.zeros((p, n)),
+        pn1=np.zeros((p, n)),
+        pn2=np.zeros((p, n)),
+        S=np.zeros((p, p)),
+        S_inverse=np.zeros((p, p)),
+        pp1=np.zeros((p, p)),
+        n1=np.zeros(n),
     )

@@ -24,8 +24,10 @@ from pathlib import Path
 from types import FunctionType
 from typing import Any
 
+import numpy as np
+
 from filters.kernels.disk_cache import keep_on_disk
-from filters.kernels.rebind import callees, rebind
+from filters.kernels.rebind import callees, named_values, rebind
 
 # Functions in these modules neither allocate nor return arrays. numba need not count references in them, which it would
 # do for every array taken out of a record, and LLVM would not remove all of it: half the time of a short update.
@@ -54,10 +56,18 @@ def inlined(function: FunctionType) -> Any:
 
 
 def source_hash(function: FunctionType) -> str:
-    """A hash of the source of a function and of all plain functions that it calls, in whatever file."""
+    """A hash of the source of a function and of all that it calls, in whatever file, and of the constants they name.
+
+    numba writes constants of a module or a closure, arrays too, into the machine code.
+    """
     digest = hashlib.sha256(Path(__file__).read_bytes())  # the way of compiling counts too
     for item in _with_callees(function, {}):
         digest.update(f"{item.__module__}.{item.__qualname__}\n{_source(item)}\n".encode())
+        for name, value in named_values(item).items():
+            if isinstance(value, np.ndarray):
+                digest.update(f"{name} {value.dtype} {value.shape}".encode() + value.tobytes())
+            elif isinstance(value, int | float | complex | str | tuple):
+                digest.update(f"{name} {value!r}".encode())
     return digest.hexdigest()[:24]
 
 

@@ -14,10 +14,18 @@ from typing import Any
 Wrap = Callable[[FunctionType, FunctionType], Any]
 
 
+def named_values(function: FunctionType) -> dict[str, Any]:
+    """What the names in `function` stand for that come from its module's globals or from its closure."""
+    names = _names(function.__code__)
+    return {
+        **{name: function.__globals__[name] for name in names if name in function.__globals__},
+        **dict(_closure(function)),
+    }
+
+
 def callees(function: FunctionType) -> dict[str, FunctionType]:
-    """The plain functions that `function` names, through its module's globals or its closure, by that name."""
-    named = ((name, function.__globals__.get(name)) for name in _names(function.__code__))
-    return {name: value for name, value in (*named, *_closure(function)) if isinstance(value, FunctionType)}
+    """The plain functions among its `named_values`."""
+    return {name: value for name, value in named_values(function).items() if isinstance(value, FunctionType)}
 
 
 def rebind(function: FunctionType, wrap: Wrap, versions: dict[FunctionType, Any]) -> Any:
