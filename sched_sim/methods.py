@@ -106,8 +106,8 @@ class DualRate(HrSource):
         self.update_due = correction_due * period
         self.propagate_due = self.update_due if by_l else timing.M * period
         self.restart_offset = 1 % timing.N
-        self.hr_parts: Parts = (("HRP", costs.hr),)
-        self.restart_parts: Parts = (("HRP", costs.hr_restart),)
+        self.ordinary: Parts = (("HRP", costs.hr),)
+        self.restart: Parts = (("HRP", costs.hr_restart),)
         self.to_apply: deque[int] = deque()  # cycles whose LR update has finished, not yet in the state
         self.lr_queue: deque[Job] = deque()
         self.lr_busy = False
@@ -118,10 +118,8 @@ class DualRate(HrSource):
         step, start = self.step, self.next_release
         self.step, self.next_release = step + 1, start + self.period
         offset = step % self.N
-        if offset == self.restart_offset:
-            work, parts = self.costs.hr_restart, self.restart_parts
-        else:
-            work, parts = self.costs.hr, self.hr_parts
+        parts = self.restart if offset == self.restart_offset else self.ordinary
+        work = parts[0][1]
         if self.to_apply:
             corrections = self._apply(step)
             work += corrections * self.costs.hr_update

@@ -203,7 +203,16 @@ class Processor:
                     if running is None:
                         cpu.entry = heappop(ready)
                     else:
-                        self._preempt(cpu, running, now)
+                        ran = now - cpu.since
+                        if on_slice is not None:
+                            on_slice(self._slice(cpu, running, now, finished=False))
+                        if running.overhead:
+                            overhead = min(ran, running.overhead)
+                            running.overhead -= overhead
+                            running.remaining += overhead
+                        running.remaining -= ran
+                        cpu.busy += ran
+                        tallies[running.kind].preemptions += 1
                         cpu.entry = heapreplace(ready, cpu.entry)
                     running = cpu.running = cpu.entry[2]
                     if context_switch and running is not cpu.last:
@@ -217,17 +226,6 @@ class Processor:
             yield timeout(until - now)
             now = until
         self.instants = instants
-
-    def _preempt(self, cpu: Cpu, job: Job, now: int) -> None:
-        """Book the work that `job` did since it was dispatched."""
-        if self.on_slice is not None:
-            self.on_slice(self._slice(cpu, job, now, finished=False))
-        self.tallies[job.kind].preemptions += 1
-        ran = now - cpu.since
-        cpu.busy += ran
-        overhead = min(ran, job.overhead)
-        job.overhead -= overhead
-        job.remaining -= ran - overhead
 
     def _missed(self, job: Job, now: int) -> None:
         tally = self.tallies[job.kind]

@@ -1,0 +1,18 @@
+"""Run all benchmarks and print each figure beside its target; exit code 1 if one is missed."""
+
+from __future__ import annotations
+
+import sys
+
+from benchmarks import analysis, filter_step, simulation, start_up
+
+missed = 0
+for part in (simulation, analysis, filter_step, start_up):
+    for result in part.results():
+        missed += not result.met
+        bound = "at least" if result.higher else "at most"
+        verdict = "met" if result.met else "MISSED"
+        print(
+            f"{result.name:60} {result.value:9.2f} {result.unit:20} {bound:8} {result.target:g}  {verdict}", flush=True
+        )
+sys.exit(1 if missed else 0)

@@ -1,0 +1,30 @@
+"""The least time of several runs, and one line of the result."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from time import perf_counter
+from typing import Any, NamedTuple
+
+
+class Result(NamedTuple):
+    """A figure beside its target. higher: whether more is better."""
+
+    name: str
+    value: float
+    target: float
+    higher: bool = True
+    unit: str = "times"
+
+    @property
+    def met(self) -> bool:
+        return self.value >= self.target if self.higher else self.value <= self.target
+
+
+def seconds(run: Callable[[], Any], repeats: int = 5) -> float:
+    times = []
+    for _ in range(repeats):
+        start = perf_counter()
+        run()
+        times.append(perf_counter() - start)
+    return min(times)
