@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -10,7 +11,7 @@ from typing import Any
 class _QuietCache:
     """numba's cache of one function, in which an unreadable or unwritable entry counts as absent.
 
-    An entry is unreadable when it was made for a user's own model whose module cannot be imported now.
+    Entries are unreadable when one of them was made for a user's own model whose module cannot be imported now.
     """
 
     def __init__(self, cache: Any) -> None:
@@ -23,13 +24,13 @@ class _QuietCache:
         try:
             return self._cache.load_overload(signature, target_context)
         except Exception:
+            with suppress(Exception):
+                self._cache.flush()  # the good entries go too, or nothing could be added to them
             return None
 
     def save_overload(self, signature: Any, data: Any) -> None:
-        try:
+        with suppress(Exception):
             self._cache.save_overload(signature, data)
-        except Exception:
-            return
 
 
 def keep_on_disk(dispatcher: Any, folder: Path) -> None:
@@ -39,8 +40,10 @@ def keep_on_disk(dispatcher: Any, folder: Path) -> None:
     previous = config.CACHE_DIR
     config.CACHE_DIR = str(folder)  # read once, when a cache is made
     try:
-        dispatcher._cache = _QuietCache(new_cache(dispatcher.py_func))
+        cache = new_cache(dispatcher.py_func)
     except (RuntimeError, OSError):  # no source file, or no folder that can be written
         return
     finally:
         config.CACHE_DIR = previous
+    if Path(cache.cache_path).is_relative_to(folder):  # else numba chose a place where entries go stale
+        dispatcher._cache = _QuietCache(cache)

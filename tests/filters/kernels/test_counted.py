@@ -1,0 +1,72 @@
+"""Counting scalars: what is counted, what is not, and that the values come out right."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from filters.kernels.counted import Operations, Scalar, Tally, count
+
+
+class Pair(NamedTuple):
+    gain: float
+    values: Any
+
+
+def test_kinds_of_operations() -> None:
+    def work(a: Any, b: Any) -> None:
+        results = [a + b, 1.0 + a, a - b, 1.0 - a, a * b, 2.0 * a, a / b, 1.0 / a, a**2, a**3, -a, +a, abs(a)]
+        assert [float(result) for result in results] == [7, 4, -1, -2, 12, 6, 0.75, 1 / 3, 9, 27, -3, 3, 3]
+        assert a < b
+        assert b >= a
+        assert a <= 3.0
+        assert b > 3.0
+        assert a == 3.0
+
+    assert count(work, 3.0, 4.0) == Operations(multiply=3, add=4, divide=2, function=1)
+
+
+def test_functions_of_numpy() -> None:
+    def work(x: Any, row: Any) -> None:
+        assert float(np.sqrt(x)) == 2.0
+        assert float(np.sin(x)) == np.sin(4.0)
+        assert float(np.arctan2(x, x)) == np.arctan2(4.0, 4.0)
+        np.cos(row)
+        row @ row
+
+    assert count(work, 4.0, np.ones(3)) == Operations(multiply=3, add=2, sqrt=1, function=5)
+
+
+def test_records_and_functions_inside_the_arguments_count() -> None:
+    def model(x: Any) -> Any:
+        matrix = np.eye(2)
+        matrix[0, 1] = x * x
+        return matrix
+
+    def work(functions: tuple[Any, ...], record: Pair, whole: int, out: Any) -> None:
+        matrix = functions[0](record.gain)
+        out[0] = matrix[0, 0] + matrix[1, 1]  # ones that the model wrote count from here on
+        out[1] = record.values[whole]
+
+    assert count(work, (model,), Pair(2.0, np.ones(3)), 1, np.zeros(2)) == Operations(multiply=1, add=1)
+
+
+def test_arguments_are_not_changed() -> None:
+    def work(values: Any) -> None:
+        values[0] = values[1] * 2.0
+
+    values = np.ones(2)
+    count(work, values)
+    np.testing.assert_array_equal(values, np.ones(2))
+
+
+def test_division_by_zero_is_that_of_the_hardware() -> None:
+    assert float(Scalar(1.0, Tally()) / 0.0) == np.inf
+    assert np.isnan(float(0.0 / Scalar(0.0, Tally())))
+
+
+def test_counts_add_up() -> None:
+    both = Operations(1, 2, 3, 4, 5) + Operations(10, 20, 30, 40, 50)
+    assert both == Operations(11, 22, 33, 44, 55)
+    assert both.total == 165

@@ -1,0 +1,203 @@
+"""Every job of every method: same results in every version, known operation counts, inputs left as they are."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from filters.kernels.backends import arguments_for, function_for
+from filters.kernels.counted import Operations, count
+from filters.kernels.repeat import repeat
+from filters.registry import ALL_METHODS, Job
+from filters.systems.example import example_system
+from filters.systems.navigation import simulate_drive
+from filters.update_forms import UPDATE_FORMS
+from tests.filters.cases import CASES, Case, arrays_in
+from tests.strategies import problem
+
+KINDS = {
+    "standard": ["propagate", "update"],
+    "recalculate": ["propagate", "update", "replay"],
+    "larsen": ["propagate", "propagate_accumulate", "update"],
+    "dual-rate": [
+        "hr_restart", "hr_propagate", "hr_propagate_sum", "hr_propagate_euler", "hr_update",
+        "lr_propagate", "lr_propagate_euler", "lr_update", "lr_gain", "lr_correct",
+    ],
+}  # fmt: skip
+
+FORM_DEPENDENT = [("standard", "update"), ("larsen", "update"), ("dual-rate", "lr_update")]
+
+
+def all_jobs(form: str = "textbook") -> dict[tuple[str, str], Job]:
+    system = example_system(4, 2, 2, seed=5)
+    return {
+        (method.name, kind): job
+        for method in ALL_METHODS.values()
+        for kind, job in method.jobs(system, form, seed=1).items()
+    }
+
+
+each_job = pytest.mark.parametrize("key", list(all_jobs()), ids="-".join)
+
+
+def test_names_of_methods_and_kinds() -> None:
+    found = {name: list(method.jobs(example_system(2, 1, 1))) for name, method in ALL_METHODS.items()}
+    assert found == KINDS
+    assert all(job.kind == kind for (_, kind), job in all_jobs().items())
+
+
+def results(backend: str, job: Job, index: int = 0) -> list[np.ndarray]:
+    arguments = arguments_for(backend, job.arguments(index))
+    returned = function_for(backend, job.function)(*arguments)
+    return arrays_in((arguments, returned))
+
+
+@each_job
+@pytest.mark.parametrize("form", UPDATE_FORMS)
+def test_numpy_does_what_the_loops_do(key: tuple[str, str], form: str) -> None:
+    job = all_jobs(form)[key]
+    for found, expected in zip(results("numpy", job), results("reference", job), strict=True):
+        np.testing.assert_allclose(found, expected, rtol=1e-11, atol=1e-13)
+
+
+@each_job
+def test_compiled_does_what_the_loops_do(key: tuple[str, str]) -> None:
+    job = all_jobs()[key]
+    for found, expected in zip(results("compiled", job), results("reference", job), strict=True):
+        np.testing.assert_allclose(found, expected, rtol=1e-13, atol=1e-15)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("key", FORM_DEPENDENT, ids="-".join)
+@pytest.mark.parametrize("form", ["joseph", "short"])
+def test_compiled_forms_do_what_the_loops_do(key: tuple[str, str], form: str) -> None:
+    job = all_jobs(form)[key]
+    for found, expected in zip(results("compiled", job), results("reference", job), strict=True):
+        np.testing.assert_allclose(found, expected, rtol=1e-13, atol=1e-15)
+
+
+@each_job
+@pytest.mark.parametrize("form", UPDATE_FORMS)
+def test_a_job_leaves_its_inputs_so_that_it_can_be_repeated(key: tuple[str, str], form: str) -> None:
+    job = all_jobs(form)[key]
+    arguments = job.arguments(0)
+    once = [array.copy() for array in arrays_in((arguments, job.function(*arguments)))]
+    twice = arrays_in((arguments, job.function(*arguments)))
+    for first, second in zip(once, twice, strict=True):
+        np.testing.assert_array_equal(first, second)
+
+
+@each_job
+def test_argument_sets_differ_and_are_reproducible(key: tuple[str, str]) -> None:
+    job = all_jobs()[key]
+    first, again, other = (arrays_in(job.arguments(index)) for index in (0, 0, 1))
+    assert all(np.array_equal(a, b) for a, b in zip(first, again, strict=True))
+    assert [a.shape for a in first] == [b.shape for b in other]
+    assert not all(np.array_equal(a, b) for a, b in zip(first, other, strict=True))
+    assert not any(np.shares_memory(a, b) for a in first[10:] for b in other[10:])
+
+
+@pytest.mark.slow
+def test_repeating_in_compiled_code_gives_the_same_as_once() -> None:
+    job = all_jobs()["larsen", "update"]
+    arguments = job.arguments(0)
+    function_for("compiled", repeat)(arguments_for("compiled", job.function), arguments_for("compiled", arguments), 5)
+    for found, expected in zip(arrays_in(arguments), results("compiled", job), strict=True):
+        np.testing.assert_allclose(found, expected, rtol=1e-13, atol=1e-15)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("method", ALL_METHODS)
+def test_whole_runs_agree_between_backends(method: str) -> None:
+    case = next((case for case in CASES if case.method == method), Case(method, {}, "at-arrival"))
+    data = problem(example_system(4, 2, 2, seed=5), 5, 2, 4, 17, seed=2)
+    for noise in ("exact", "sum", "euler") if method == "dual-rate" else (None,):
+        options = {"low_rate_noise": noise} if noise else {}
+        expected = case.run(data, backend="reference", **options)
+        for backend in ("numpy", "compiled"):
+            for found, value in zip(case.run(data, backend=backend, **options), expected, strict=True):
+                np.testing.assert_allclose(found, value, rtol=1e-11, atol=1e-12)
+
+
+@pytest.mark.slow
+def test_a_nonlinear_model_is_compiled_too() -> None:
+    drive = simulate_drive(steps=40, N=10, seed=0)
+    arguments = (drive.system, 10, 4, 8, drive.x0, drive.P0, drive.inputs, drive.truth.measurements)
+    run = ALL_METHODS["dual-rate"].run
+    for found, value in zip(run(*arguments, backend="compiled"), run(*arguments), strict=True):
+        np.testing.assert_allclose(found, value, rtol=1e-10, atol=1e-12)
+
+
+def test_jobs_of_a_nonlinear_model_start_from_its_typical_state() -> None:
+    drive = simulate_drive(steps=1, N=1, seed=0)
+    job = ALL_METHODS["standard"].jobs(drive.system, "textbook", seed=0, x0=drive.x0)["propagate"]
+    operations = count(job.function, *job.arguments(0))
+    assert operations.function == 4  # sin and cos, in f and in F
+    assert abs(job.arguments(0)[2].x[3] - drive.x0[3]) < 10
+
+
+def product(n: int, m: int, p: int) -> Operations:
+    return Operations(multiply=n * m * p, add=n * (m - 1) * p)
+
+
+@pytest.mark.parametrize(("n", "u", "p"), [(9, 3, 3), (4, 2, 1), (5, 1, 3)])
+def test_operations_of_the_jobs_in_textbook_form(n: int, u: int, p: int) -> None:
+    system = example_system(n, u, p)
+    found = {
+        (name, kind): count(job.function, *job.arguments(0))
+        for name, method in ALL_METHODS.items()
+        for kind, job in method.jobs(system).items()
+    }
+    square, vector = Operations(add=n * n), Operations(add=n)
+    f = product(n, n, 1) + Operations(multiply=n * u, add=n * u)
+    cube = product(n, n, n)
+    inverse = Operations(2 * p * p + 2 * p * p * (p - 1), 2 * p * p * (p - 1), p)
+    H_P_Ht = product(n, n, p) + product(p, n, n) + product(p, n, p) + Operations(add=p * p)
+    gain = H_P_Ht + inverse + product(n, p, p)
+    error = product(p, n, 1) + Operations(add=p) + product(n, p, 1)
+    covariance = product(n, p, n) + square + cube
+    quadratic = cube + cube + square
+    expected = {
+        ("standard", "propagate"): f + quadratic,
+        ("standard", "update"): gain + covariance + error + vector,
+        ("larsen", "propagate_accumulate"): f + quadratic + cube,
+        ("larsen", "update"): gain + error + product(n, n, 1) + vector
+        + product(n, n, p) + product(n, p, n) + cube + cube + square,
+        ("dual-rate", "hr_restart"): f,
+        ("dual-rate", "hr_propagate"): f + cube + quadratic,
+        ("dual-rate", "hr_propagate_sum"): f + cube + square,
+        ("dual-rate", "hr_propagate_euler"): f + cube + square,
+        ("dual-rate", "hr_update"): product(n, n, 1) + vector,
+        ("dual-rate", "lr_propagate"): quadratic,
+        ("dual-rate", "lr_propagate_euler"): quadratic + square,
+        ("dual-rate", "lr_update"): gain + covariance + error,
+        ("dual-rate", "lr_gain"): gain + covariance,
+        ("dual-rate", "lr_correct"): error,
+    }  # fmt: skip
+    expected["recalculate", "propagate"] = expected["recalculate", "replay"] = expected["standard", "propagate"]
+    expected["larsen", "propagate"] = expected["standard", "propagate"]
+    expected["recalculate", "update"] = expected["standard", "update"]
+    assert found == expected
+
+
+def test_operation_counts_reach_the_printed_tables() -> None:
+    """Steffes 2014, Tables 1 to 3: 9 states, 3 inputs, 3 measurements, M = 4; standard propagate + update = 1."""
+    costs = {
+        (name, kind): count(job.function, *job.arguments(0)).total
+        for name, method in ALL_METHODS.items()
+        for kind, job in method.jobs(example_system(9, 3, 3)).items()
+    }
+    unit = costs["standard", "propagate"] + costs["standard", "update"]
+    replayed = costs["recalculate", "update"] + 4 * costs["recalculate", "replay"]
+    printed_and_counted = [
+        (0.45, costs["recalculate", "propagate"]), (2.36, replayed), (0.45, costs["recalculate", "propagate"]),
+        (0.66, costs["larsen", "propagate_accumulate"]), (0.66, costs["larsen", "propagate_accumulate"]),
+        (0.81, costs["larsen", "update"]), (0.45, costs["larsen", "propagate"]),
+        (0.04, costs["dual-rate", "hr_restart"]), (0.63, costs["dual-rate", "hr_propagate"]),
+        (0.03, costs["dual-rate", "hr_update"]), (0.63, costs["dual-rate", "hr_propagate"]),
+        (0.41, costs["dual-rate", "lr_propagate"]), (0.56, costs["dual-rate", "lr_update"]),
+    ]  # fmt: skip
+    squares = [(counted / unit - printed) ** 2 for printed, counted in printed_and_counted]
+    assert math.sqrt(sum(squares) / len(squares)) < 0.05
