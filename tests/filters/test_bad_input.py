@@ -1,0 +1,97 @@
+"""Errors name the argument, its value and what is needed."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from filters import dual_rate, larsen
+from filters.kernels.backends import function_for
+from filters.systems.example import example_system
+from filters.systems.linear import linear_system
+from tests.strategies import problem
+
+MATRICES: dict[str, Any] = {
+    "Phi": np.eye(3), "B": np.ones((3, 2)), "H": np.ones((1, 3)), "Q": np.eye(3), "R": np.eye(1),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "message"),
+    [
+        ("Phi", np.ones((3, 2)), r"Phi has shape \(3, 2\), needed is \(3, 3\)"),
+        ("B", np.ones((2, 2)), r"B has shape \(2, 2\), needed is \(3, 2\)"),
+        ("H", np.ones((5, 1, 4)), r"H has shape \(1, 4\), needed is \(1, 3\)"),
+        ("Q", np.eye(2), r"Q has shape \(2, 2\), needed is \(3, 3\)"),
+        ("R", np.eye(2), r"R has shape \(2, 2\), needed is \(1, 1\)"),
+        ("R", np.ones(1), r"R has shape \(1,\); needed is a matrix \(2-D\), or one per step \(3-D\)"),
+        ("Q", np.full((3, 3), np.nan), "Q holds a value that is not finite"),
+    ],
+)
+def test_matrices_of_a_linear_system(name: str, value: Any, message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        linear_system(**{**MATRICES, name: value})
+
+
+def test_matrices_may_vary_with_different_periods() -> None:
+    system = linear_system(**{**MATRICES, "Phi": np.array([1, 2, 3])[:, None, None] * np.eye(3)})
+    assert [system.F(j, np.zeros(3), np.zeros(2), system.parameters)[0, 0] for j in range(5)] == [1, 2, 3, 1, 2]
+    assert system.Q(4, system.parameters).shape == (3, 3)
+
+
+def test_a_linear_system_does_not_share_its_matrices() -> None:
+    Phi = np.eye(3)
+    system = linear_system(**{**MATRICES, "Phi": Phi})
+    Phi[0, 0] = 5.0
+    assert system.parameters.Phi[0, 0, 0] == 1.0
+
+
+def test_sizes_of_the_example_system() -> None:
+    with pytest.raises(ValueError, match="states=0, inputs=3, measurements=3 must all be at least 1"):
+        example_system(0)
+
+
+GOOD = problem(example_system(3, 2, 1), 5, 2, 4, 12, seed=0)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"N": 0}, "N=0 must be at least 1"),
+        ({"M": -1}, "M=-1, L=4, N=5 must satisfy 0 <= M <= L <= N"),
+        ({"M": 5}, "M=5, L=4, N=5 must satisfy 0 <= M <= L <= N"),
+        ({"L": 6}, "M=2, L=6, N=5 must satisfy 0 <= M <= L <= N"),
+        ({"x0": np.zeros(2)}, r"x0 has shape \(2,\), the system needs \(3,\)"),
+        ({"P0": np.zeros((3, 2))}, r"P0 has shape \(3, 2\), the system needs \(3, 3\)"),
+        ({"inputs": np.zeros((12, 3))}, r"inputs has shape \(12, 3\), the system needs \(12, 2\)"),
+        ({"measurements": np.zeros(3)}, r"measurements has shape \(3,\), the system needs \(3, 1\)"),
+    ],
+)
+def test_arguments_of_a_run(change: dict[str, Any], message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        larsen.run(*GOOD._replace(**change))
+
+
+@pytest.mark.parametrize(
+    ("change", "options", "message"),
+    [
+        ({"L": 2}, {}, "L=2 must be > M=2"),
+        ({"M": 5, "L": 5}, {}, "L=5 must be > M=5"),
+        ({"L": 5}, {"feedback": "same-step"}, "L=5 must be < N=5 with same-step feedback"),
+        ({}, {"feedback": "never"}, "feedback='never' is unknown; give one of next-step, same-step"),
+        ({}, {"gain": "later"}, "gain='later' is unknown"),
+        ({}, {"low_rate_noise": "none"}, "low_rate_noise='none' is unknown"),
+        ({}, {"update": "fast"}, "update form 'fast' is unknown; give one of textbook, joseph, short"),
+        ({}, {"backend": "gpu"}, "backend 'gpu' is unknown; give one of reference, compiled, numpy"),
+    ],
+)
+def test_options_of_the_dual_rate_filter(change: dict[str, Any], options: dict[str, Any], message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        dual_rate.run(*GOOD._replace(**change), **options)
+
+
+def test_only_plain_functions_can_be_run_by_a_backend() -> None:
+    with pytest.raises(TypeError, match="is not a plain Python function"):
+        function_for("compiled", max)
