@@ -76,7 +76,7 @@ class CostTable:
         except KeyError:
             where = f"{self.name} ({self.path})" if self.path else self.name
             raise InputError(
-                f"cost table {where} has no entry [costs.{method}] {kind}: add the line `{kind} = <{self.unit}s>` "
+                f"cost table {where} has no entry [costs.{method}] {kind}: add the line `{kind} = ...` "
                 f"there, choose another --method or option, or measure it with `sched-sim measure`"
             ) from None
 

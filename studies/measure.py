@@ -1,7 +1,7 @@
 """What each job of each filter costs, from its real code: counted, compiled or as NumPy calls.
 
 Protocol of the timed backends: each job runs `repetitions` times inside one call, on arguments that rotate from call
-to call; jobs are shuffled in each of `rounds` rounds, garbage collection is off, the time of an empty loop is
+to call; jobs are shuffled in each of `rounds` rounds, garbage collection is off, the least time of an empty loop is
 subtracted. A round gives one figure per job: its mean time. Minimum, median and 95th percentile are over rounds.
 """
 
@@ -133,17 +133,22 @@ def _time(
         progress(done, total, f"preparing {key[0]} {key[1]}")
         runs[key] = _timer(job.function, job.arguments, backend, protocol.repetitions)
     empty = _timer(_nothing, lambda _: (), backend, protocol.repetitions)
-    times: dict[tuple[str, str], list[float]] = {key: [] for key in jobs}
+    empty_loops: list[int] = []
+    loops: dict[tuple[str, str], list[int]] = {key: [] for key in jobs}
     order, shuffle = list(jobs), random.Random(seed)
     with _no_garbage_collection():
         for round_number in range(protocol.rounds):
             progress(len(jobs) + round_number, total, "timing")
             shuffle.shuffle(order)
-            overhead = empty(round_number)
+            empty_loops.append(empty(round_number))
             for key in order:
-                times[key].append(max(runs[key](round_number) - overhead, 1) / protocol.repetitions / 1e9)
+                loops[key].append(runs[key](round_number))
     progress(total, total, "timed")
-    return times
+    overhead = min(empty_loops)
+    return {
+        key: [max(found - overhead, 1) / protocol.repetitions / 1e9 for found in nanoseconds]
+        for key, nanoseconds in loops.items()
+    }
 
 
 def _timer(

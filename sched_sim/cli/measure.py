@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import typer
 
 from sched_sim.cli import options as opt
-from sched_sim.cli.output import print_csv, print_json, print_table
+from sched_sim.cli.output import print_csv, print_json, print_table, units
 
 SYSTEM = "System"
 
@@ -90,21 +90,26 @@ def measure(
     elif format == "csv":
         print_csv(rows)
     else:
-        _show(f"{table.name}, {update} update, in {table.unit}s", rows, timed=backend != "counted")
+        _show(
+            f"{table.name}, {update} update, in {'ns' if table.unit == 'second' else units(table.unit)}",
+            rows,
+            timed=backend != "counted",
+        )
     if output is not None:
         write_cost_table(table, output)
         typer.echo(f"Wrote {output}; use it with --costs {output}", err=True)
 
 
-def _show(title: str, rows: list[dict[str, object]], timed: bool) -> None:
-    figures = ("minimum", "median", "p95") if timed else ("minimum",)
-    shown = [
-        {
-            "method": row["method"],
-            "job": row["job"],
-            **{name if timed else "operations": f"{row[name]:.4g}" for name in figures},
-            "standard steps": f"{row['standard_steps']:.3f}",
-        }
-        for row in rows
-    ]
-    print_table(title, shown, "A standard step is one propagate + update of the standard filter.")
+def _show(title: str, rows: list[dict[str, Any]], timed: bool) -> None:
+    """Times in nanoseconds, operations as they are."""
+    shown = []
+    for row in rows:
+        figures = (
+            {name: f"{1e9 * row[name]:.1f}" for name in ("minimum", "median", "p95")}
+            if timed
+            else {"operations": f"{row['minimum']:.0f}"}
+        )
+        shown.append(
+            {"method": row["method"], "job": row["job"], **figures, "std steps": f"{row['standard_steps']:.3f}"}
+        )
+    print_table(title, shown, "std steps: relative to one propagate + update of the standard filter.")

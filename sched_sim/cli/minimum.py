@@ -5,14 +5,17 @@ from __future__ import annotations
 from typing import Any
 
 from sched_sim.cli import options as opt
-from sched_sim.cli.output import print_csv, print_json, print_table
+from sched_sim.cli.output import print_csv, print_json, print_table, units
 
 BINDINGS = {
     "hr": "one HR job",
-    "lr_propagate": "LR propagate by its deadline",
-    "lr_update": "LR update between m and l",
-    "lr_total": "all LR work between k and l",
+    "lr_propagate": "LR propagate",
+    "lr_update": "LR update, m to l",
+    "lr_total": "all LR work, k to l",
 }
+
+LARGEST_DENOMINATOR = 10_000
+"""A fraction with a larger one (of measured costs) tells a person nothing; --format json has it."""
 
 
 def minimum(
@@ -61,14 +64,14 @@ def minimum(
         person = {
             "method": name,
             "least speed": f"{float(least.speed):.6g}",
-            "exactly": str(least.speed),
+            "exactly": str(least.speed) if least.speed.denominator <= LARGEST_DENOMINATOR else "-",
             "fixed by": BINDINGS.get(least.binding, least.binding),
             "lands at L": landed,
         }
         if rate is not None:
             times = _absolute(rate, timing.L if landed is None else landed, float(least.speed), table.unit)
             row |= {"hr_hz": rate, **times}
-            person |= {_heading(key, table.unit): f"{value:.6g}" for key, value in times.items()}
+            person |= {_heading(key, table.unit): f"{value:.4g}" for key, value in times.items()}
         rows.append(row)
         shown.append(person)
     if format == "json":
@@ -77,7 +80,7 @@ def minimum(
         print_csv(rows)
     else:
         print_table(
-            f"Least speed, N={N} M={M} L={'latest' if L is None else L}, in {table.unit}s per HR period "
+            f"Least speed, N={N} M={M} L={'latest' if L is None else L}, in {units(table.unit)} per HR period "
             f"(costs: {table.name})",
             shown,
         )
@@ -93,5 +96,5 @@ def _absolute(rate: float, L: int, speed: float, unit: str) -> dict[str, float]:
 
 def _heading(key: str, unit: str) -> str:
     if key == "work_per_second":
-        return "share of this processor" if unit == "second" else f"{unit}s / s"
-    return {"correction_ms": "lands after ms", "highest_hr_hz": "highest HR rate, Hz"}[key]
+        return "share of processor" if unit == "second" else f"{units(unit)} per s"
+    return {"correction_ms": "lands after, ms", "highest_hr_hz": "highest HR Hz"}[key]

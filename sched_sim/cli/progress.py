@@ -1,4 +1,7 @@
-"""A progress bar on standard error, where that is a terminal; nothing otherwise."""
+"""A progress bar on standard error, where that is a terminal; nothing otherwise.
+
+It is drawn when there is progress, not by a thread of its own, which would disturb what is being timed.
+"""
 
 from __future__ import annotations
 
@@ -17,6 +20,10 @@ def progress_bar(title: str) -> Iterator[Callable[[int, int, str], None]]:
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
     columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+    with Progress(*columns, console=Console(stderr=True), transient=True, auto_refresh=False) as bar:
         task = bar.add_task(title)
-        yield lambda done, total, what: bar.update(task, completed=done, total=total, description=f"{title}: {what}")
+
+        def show(done: int, total: int, what: str) -> None:
+            bar.update(task, completed=done, total=total, description=f"{title}: {what}", refresh=True)
+
+        yield show

@@ -91,7 +91,7 @@ def test_hr_hz_adds_absolute_times_and_rates(sched_sim: Run) -> None:
     row = json.loads(sched_sim(f"minimum {DESIGN} --method dual-rate --hr-hz 400 --format json").out)[0]
     assert row["correction_ms"] == 20.0
     assert row["work_per_second"] == pytest.approx(0.77 * 400)
-    assert "lands after ms" in sched_sim(f"minimum {DESIGN} --hr-hz 400").out
+    assert "lands after, ms" in sched_sim(f"minimum {DESIGN} --hr-hz 400").out
 
 
 def test_simulate_prints_one_json_object(sched_sim: Run) -> None:
