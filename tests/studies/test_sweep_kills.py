@@ -99,7 +99,7 @@ def test_kill_9_of_the_parent(tmp_path, uninterrupted):
     with begun(tmp_path) as process:
         acknowledged = wait_for(lambda: rows_in(tmp_path))
         process.kill()
-        process.communicate()
+        process.communicate(timeout=5)
         wait_for(lambda: not processes_of(process.pid), seconds=5)
     kept = rows_in(tmp_path)
     assert acknowledged <= kept < uninterrupted.count(b"\n") - 1
