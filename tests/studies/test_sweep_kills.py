@@ -16,8 +16,8 @@ pytestmark = [
     pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="looks at processes in /proc"),
 ]
 
-# Some 3 s of work for one core, in 50 portions.
-GRID = ["-N", "10:40:10", "-M", "1:4", "--simulate", "--cycles", "100", "--workers", "2"]
+# Some 2 s of work for one core, in 20 portions.
+GRID = ["-N", "10:40:10", "-M", "1:4", "--simulate", "--cycles", "60", "--workers", "2"]
 ROOT = Path(__file__).resolve().parents[2]
 
 
@@ -77,7 +77,7 @@ def rows_in(folder):
         return connection.execute("SELECT COUNT(*) FROM rows").fetchone()[0]
 
 
-def wait_for(condition, seconds=10.0):
+def wait_for(condition, seconds=20.0):
     """What the condition came to, once it is true."""
     end = time.monotonic() + seconds
     while not (found := condition()):
