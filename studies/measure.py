@@ -1,8 +1,9 @@
 """What each job of each filter costs, from its real code: counted, compiled or as NumPy calls.
 
 Protocol of the timed backends: each job runs `repetitions` times inside one call, on arguments that rotate from call
-to call; jobs are shuffled in each of `rounds` rounds, garbage collection is off, the least time of an empty loop is
-subtracted. A round gives one figure per job: its mean time. Minimum, median and 95th percentile are over rounds.
+to call; jobs are shuffled in each of `rounds` rounds, garbage collection is off, and the least time of a loop that
+does nothing with the same arguments is subtracted (passing them costs as much as the smallest jobs). A round gives one
+figure per job: its mean time. Minimum, median and 95th percentile are over rounds.
 """
 
 from __future__ import annotations
@@ -128,27 +129,24 @@ def _time(
 ) -> dict[tuple[str, str], list[float]]:  # fmt: skip
     """Seconds per run of each job, one figure a round."""
     total = len(jobs) + protocol.rounds
-    runs: dict[tuple[str, str], Callable[[int], int]] = {}
+    runs, empty_runs = {}, {}
     for done, (key, job) in enumerate(jobs.items()):
         progress(done, total, f"preparing {key[0]} {key[1]}")
         runs[key] = _timer(job.function, job.arguments, backend, protocol.repetitions)
-    empty = _timer(_nothing, lambda _: (), backend, protocol.repetitions)
-    empty_loops: list[int] = []
-    loops: dict[tuple[str, str], list[int]] = {key: [] for key in jobs}
+        empty_runs[key] = _timer(_nothing, job.arguments, backend, protocol.repetitions)
+    found: dict[tuple[str, str], list[int]] = {key: [] for key in jobs}
+    overhead: dict[tuple[str, str], list[int]] = {key: [] for key in jobs}
     order, shuffle = list(jobs), random.Random(seed)
     with _no_garbage_collection():
         for round_number in range(protocol.rounds):
             progress(len(jobs) + round_number, total, "timing")
             shuffle.shuffle(order)
-            empty_loops.append(empty(round_number))
             for key in order:
-                loops[key].append(runs[key](round_number))
+                found[key].append(runs[key](round_number))
+                overhead[key].append(empty_runs[key](round_number))
     progress(total, total, "timed")
-    overhead = min(empty_loops)
-    return {
-        key: [max(found - overhead, 1) / protocol.repetitions / 1e9 for found in nanoseconds]
-        for key, nanoseconds in loops.items()
-    }
+    scale = protocol.repetitions * 1e9
+    return {key: [max(each - min(overhead[key]), 1) / scale for each in found[key]] for key in jobs}
 
 
 def _timer(
@@ -173,7 +171,7 @@ def _timer(
     return run
 
 
-def _nothing() -> None:
+def _nothing(*_arguments: Any) -> None:
     pass
 
 
