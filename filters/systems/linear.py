@@ -43,29 +43,34 @@ def linear_system(Phi: ArrayLike, B: ArrayLike, H: ArrayLike, Q: ArrayLike, R: A
     return System(n, m, p, _f, _F, _Q, _h, _H, _R, matrices)
 
 
+def _row(j: int, steps: int) -> int:
+    """Which matrix step j uses. Constant matrices are spared the division, for it takes longer than a small product."""
+    return j % steps if steps > 1 else 0
+
+
 def _f(j: int, x: FloatArray, u: FloatArray, matrices: LinearParameters, out: FloatArray) -> None:
-    matvec(matrices.Phi[j % len(matrices.Phi)], x, out)
-    add_matvec(matrices.B[j % len(matrices.B)], u, out)
+    matvec(matrices.Phi[_row(j, len(matrices.Phi))], x, out)
+    add_matvec(matrices.B[_row(j, len(matrices.B))], u, out)
 
 
 def _F(j: int, _x: FloatArray, _u: FloatArray, matrices: LinearParameters) -> FloatArray:
-    return matrices.Phi[j % len(matrices.Phi)]
+    return matrices.Phi[_row(j, len(matrices.Phi))]
 
 
 def _Q(j: int, matrices: LinearParameters) -> FloatArray:
-    return matrices.Q[j % len(matrices.Q)]
+    return matrices.Q[_row(j, len(matrices.Q))]
 
 
 def _h(k: int, x: FloatArray, matrices: LinearParameters, out: FloatArray) -> None:
-    matvec(matrices.H[k % len(matrices.H)], x, out)
+    matvec(matrices.H[_row(k, len(matrices.H))], x, out)
 
 
 def _H(k: int, _x: FloatArray, matrices: LinearParameters) -> FloatArray:
-    return matrices.H[k % len(matrices.H)]
+    return matrices.H[_row(k, len(matrices.H))]
 
 
 def _R(k: int, matrices: LinearParameters) -> FloatArray:
-    return matrices.R[k % len(matrices.R)]
+    return matrices.R[_row(k, len(matrices.R))]
 
 
 def _by_step(name: str, value: ArrayLike) -> FloatArray:
