@@ -58,4 +58,5 @@ def hr_limit(costs: DualRateCosts, N: int, options: Options = Options()) -> Frac
     step l, which also applies the correction."""
     ordinary = costs.hr if N > 1 else costs.hr_restart  # with N = 1, every step is a step k+1
     longest = max(ordinary, costs.hr_restart)
-    return max(longest, ordinary + costs.hr_update) if options.feedback == "next-step" else longest
+    limit: Fraction = max(longest, ordinary + costs.hr_update) if options.feedback == "next-step" else longest
+    return limit

@@ -141,7 +141,8 @@ def select(table: CostTable, method: str, options: Options, statistic: Statistic
     """
 
     def cost(kind: str) -> Fraction:
-        return getattr(table.entry(method, kind), statistic)
+        value: Fraction = getattr(table.entry(method, kind), statistic)
+        return value
 
     if method == "standard":
         return StandardCosts(cost("propagate"), cost("update"))

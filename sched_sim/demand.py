@@ -9,11 +9,11 @@ from __future__ import annotations
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
-import numpy.typing as npt
 
 from sched_sim.costs import DualRateCosts
 
-Ints: TypeAlias = npt.NDArray[Any]
+Ints: TypeAlias = Any
+"""An array of integers: of any integer type, or (dtype=object) of Python's, which cannot overflow."""
 
 
 class Quotient(NamedTuple):

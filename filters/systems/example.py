@@ -36,10 +36,11 @@ def example_system(states: int = 9, inputs: int = 3, measurements: int = 3, seed
 
 def _stable(random: np.random.Generator, n: int) -> FloatArray:
     rotation, _ = np.linalg.qr(np.eye(n) + 0.3 * random.normal(size=(n, n)))
-    return rotation * random.uniform(0.9, 1.0, size=n)
+    Phi: FloatArray = rotation * random.uniform(0.9, 1.0, size=n)
+    return Phi
 
 
 def _covariance(random: np.random.Generator, n: int) -> FloatArray:
     rotation, _ = np.linalg.qr(random.normal(size=(n, n)))
-    root = rotation * np.sqrt(random.uniform(0.5, 1.5, size=n))
+    root: FloatArray = rotation * np.sqrt(random.uniform(0.5, 1.5, size=n))
     return root @ root.T

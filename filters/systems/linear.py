@@ -54,11 +54,13 @@ def _f(j: int, x: FloatArray, u: FloatArray, matrices: LinearParameters, out: Fl
 
 
 def _F(j: int, _x: FloatArray, _u: FloatArray, matrices: LinearParameters) -> FloatArray:
-    return matrices.Phi[_row(j, len(matrices.Phi))]
+    Phi: FloatArray = matrices.Phi[_row(j, len(matrices.Phi))]
+    return Phi
 
 
 def _Q(j: int, matrices: LinearParameters) -> FloatArray:
-    return matrices.Q[_row(j, len(matrices.Q))]
+    Q: FloatArray = matrices.Q[_row(j, len(matrices.Q))]
+    return Q
 
 
 def _h(k: int, x: FloatArray, matrices: LinearParameters, out: FloatArray) -> None:
@@ -66,11 +68,13 @@ def _h(k: int, x: FloatArray, matrices: LinearParameters, out: FloatArray) -> No
 
 
 def _H(k: int, _x: FloatArray, matrices: LinearParameters) -> FloatArray:
-    return matrices.H[_row(k, len(matrices.H))]
+    H: FloatArray = matrices.H[_row(k, len(matrices.H))]
+    return H
 
 
 def _R(k: int, matrices: LinearParameters) -> FloatArray:
-    return matrices.R[_row(k, len(matrices.R))]
+    R: FloatArray = matrices.R[_row(k, len(matrices.R))]
+    return R
 
 
 def _by_step(name: str, value: ArrayLike) -> FloatArray:
