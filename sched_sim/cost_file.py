@@ -95,12 +95,24 @@ def cost_table_text(table: CostTable) -> str:
     sections: list[str] = []
     for key, value in table.provenance.items():
         if isinstance(value, Mapping):
-            sections += ["", f"[{key}]", *(f"{name} = {_toml(item)}" for name, item in value.items())]
+            sections += _sections(key, value)
         else:
             lines.append(f"{key} = {_toml(value)}")
     for method, entries in table.costs.items():
         sections += ["", f"[costs.{method}]", *(f"{kind} = {_toml_cost(cost)}" for kind, cost in entries.items())]
     return "\n".join([*lines, *sections]) + "\n"
+
+
+def _sections(name: str, values: Mapping[str, Any]) -> list[str]:
+    """A TOML table, or one for each of its values where these are tables themselves."""
+    if not all(isinstance(value, Mapping) for value in values.values()):
+        values, name = {name: values}, ""
+    prefix = f"{name}." if name else ""
+    return [
+        line
+        for key, entries in values.items()
+        for line in ("", f"[{prefix}{key}]", *(f"{entry} = {_toml(value)}" for entry, value in entries.items()))
+    ]
 
 
 def write_cost_table(table: CostTable, path: Path) -> None:

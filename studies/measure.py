@@ -18,10 +18,10 @@ from datetime import UTC, datetime
 from fractions import Fraction
 from importlib.metadata import version
 from time import perf_counter_ns
-from typing import Any, Literal, NamedTuple
+from typing import Any, Literal, NamedTuple, TypeVar
 
 from filters.kernels.backends import arguments_for, function_for
-from filters.kernels.counted import count
+from filters.kernels.counted import Operations, count
 from filters.kernels.repeat import repeat
 from filters.registry import ALL_METHODS, Job
 from filters.systems.system import System
@@ -84,9 +84,7 @@ def measure(
     if backend == "counted":
         operations = {key: count(job.function, *job.arguments(0)) for key, job in jobs.items()}
         about["source"] = "exact operation counts: multiply, add, divide and square root count one each"
-        for method, kind in operations:
-            found = operations[method, kind]._asdict()
-            about.setdefault(f"operations.{method}", {})[kind] = {k: n for k, n in found.items() if n}
+        about["operations"] = _by_method({key: _nonzero(found) for key, found in operations.items()})
         costs = {key: Cost.of(Fraction(found.total)) for key, found in operations.items()}
         return CostTable(name, "operation", _by_method(costs), about)
     protocol = _protocol(backend, thorough)
@@ -192,8 +190,15 @@ def _cost(seconds: Sequence[float]) -> Cost:
     return Cost(*(Fraction(f"{figure:.4g}") for figure in figures))
 
 
-def _by_method(costs: Mapping[tuple[str, str], Cost]) -> dict[str, dict[str, Cost]]:
-    result: dict[str, dict[str, Cost]] = {}
-    for (method, kind), cost in costs.items():
-        result.setdefault(method, {})[kind] = cost
+def _nonzero(operations: Operations) -> dict[str, int]:
+    return {kind: number for kind, number in operations._asdict().items() if number}
+
+
+Value = TypeVar("Value")
+
+
+def _by_method(values: Mapping[tuple[str, str], Value]) -> dict[str, dict[str, Value]]:
+    result: dict[str, dict[str, Value]] = {}
+    for (method, kind), value in values.items():
+        result.setdefault(method, {})[kind] = value
     return result

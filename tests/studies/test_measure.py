@@ -1,0 +1,98 @@
+"""Measured cost tables: what they hold, for any size and for a user's own system."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from filters.systems.example import example_system
+from filters.systems.navigation import vehicle
+from sched_sim.costs import KINDS, METHODS, select
+from sched_sim.errors import InputError
+from sched_sim.options import Options
+from studies.measure import measure
+from studies.user_system import load_system
+
+OWN_SYSTEM = """
+import numpy as np
+from filters.systems.linear import linear_system
+
+def car():
+    return linear_system(Phi=[[1.0, 0.1], [0.0, 1.0]], B=[[0.005], [0.1]], H=[[1.0, 0.0]],
+                         Q=0.01 * np.eye(2), R=[[1.0]])
+
+def wrong():
+    return linear_system(Phi=[[1.0, 0.1]], B=[[0.005], [0.1]], H=[[1.0, 0.0]], Q=np.eye(2), R=[[1.0]])
+
+def number():
+    return 9
+"""
+
+
+@pytest.mark.parametrize("backend", ["compiled", "counted", "numpy"])
+def test_a_measured_table_has_every_entry_and_says_where_it_comes_from(backend: str) -> None:
+    table = measure(example_system(2, 1, 1), backend, "short", name="small")  # type: ignore[arg-type]
+    assert {method: tuple(sorted(kinds)) for method, kinds in table.costs.items()} == {
+        method: tuple(sorted(kinds)) for method, kinds in KINDS.items()
+    }
+    for method in METHODS:
+        select(table, method, Options())
+    for kinds in table.costs.values():
+        assert all(0 < cost.minimum <= cost.median <= cost.p95 for cost in kinds.values())
+    assert table.provenance["update_form"] == "short"
+    if backend != "counted":
+        assert {"machine", "date", "versions", "protocol"} <= set(table.provenance)
+        assert table.provenance["protocol"]["rounds"] >= 61
+
+
+def test_counts_grow_with_the_cube_of_the_states() -> None:
+    costs = [
+        measure(example_system(n, 1, 1), "counted", name="n").entry("dual-rate", "lr_propagate").minimum
+        for n in (2, 4, 8)
+    ]
+    assert costs == [2 * (2 * n**3 - n**2) + n**2 for n in (2, 4, 8)]  # two products and a sum
+
+
+def test_a_nonlinear_system_can_be_counted_and_its_model_counts_too() -> None:
+    model = measure(vehicle(), "counted", name="vehicle")
+    linear = measure(example_system(6, 2, 2), "counted", name="linear")
+    assert model.provenance["operations"]["standard"]["propagate"]["function"] == 4  # sin and cos, in f and in F
+    assert model.entry("dual-rate", "lr_propagate") == linear.entry("dual-rate", "lr_propagate")
+
+
+def test_progress_reaches_its_end() -> None:
+    seen: list[tuple[int, int]] = []
+    measure(example_system(1, 1, 1), "numpy", name="n", progress=lambda done, total, _what: seen.append((done, total)))
+    assert seen[0][0] == 0
+    assert seen[-1][0] == seen[-1][1]
+
+
+@pytest.fixture
+def own_module(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "own_system.py").write_text(OWN_SYSTEM)
+    monkeypatch.chdir(tmp_path)
+
+
+@pytest.mark.usefixtures("own_module")
+def test_the_users_own_system_is_found_in_the_current_folder() -> None:
+    system = load_system("own_system:car")
+    assert (system.states, system.inputs, system.measurements) == (2, 1, 1)
+
+
+@pytest.mark.usefixtures("own_module")
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [
+        ("own_system", "name a function"),
+        ("own_system:", "name a function"),
+        ("not_there:car", "'not_there' cannot be imported"),
+        ("own_system:truck", "has no function 'truck'"),
+        ("own_system:number", "returned a int"),
+        ("own_system:wrong", r"wrong\(\) failed: linear_system: Phi"),
+    ],
+)
+def test_what_is_wrong_with_a_users_system_is_named(name: str, said: str) -> None:
+    with pytest.raises(InputError, match=said) as error:
+        load_system(name)
+    assert f"--system {name!r}" in str(error.value)
