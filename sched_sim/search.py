@@ -33,10 +33,7 @@ def least_speed_by_simulation(
     Raises InputError if the tasks repeat with the measurements only after a very long time.
     """
     cycles = cycles_to_simulate(timing, tasks)
-    work = [Fraction(value) for value in astuple(costs)]
-    resolution = ticks_per_unit([options.context_switch, *work, *(task.cost for task in tasks)])
-    while max(work) * resolution < TICKS_PER_LOOP:
-        resolution *= 10
+    resolution = search_resolution(costs, options, tasks)
 
     def run(period: int) -> Schedule:
         return simulate(costs, timing, Fraction(period, resolution), cycles, options, tasks)
@@ -53,6 +50,16 @@ def least_speed_by_simulation(
             enough = middle
     binding = _binding(run(too_slow), costs, timing, options) if too_slow else "hr"
     return Fraction(enough, resolution), binding
+
+
+def search_resolution(costs: JobCosts, options: Options, tasks: Sequence[Task]) -> int:
+    """Ticks per cost unit to which the least speed is searched: all work is whole, the largest piece at least
+    TICKS_PER_LOOP."""
+    work = [Fraction(value) for value in astuple(costs)]
+    resolution = ticks_per_unit([options.context_switch, *work, *(task.cost for task in tasks)])
+    while max(work) * resolution < TICKS_PER_LOOP:
+        resolution *= 10
+    return resolution
 
 
 def cycles_to_simulate(timing: Timing, tasks: Sequence[Task]) -> int:

@@ -36,11 +36,6 @@ def tracked_files() -> list[Path]:
     return [name for name in names if (ROOT / name).is_file()]
 
 
-def needs_cli() -> None:
-    if importlib.util.find_spec("sched_sim.cli") is None:
-        pytest.skip("sched_sim.cli is not written yet")
-
-
 # -------------------- version
 
 
@@ -91,7 +86,6 @@ def test_wheel_metadata(wheel):
 
 
 def test_wheel_runs_without_the_source_tree(wheel, tmp_path):
-    needs_cli()
     with zipfile.ZipFile(wheel) as archive:
         archive.extractall(tmp_path)
     environment = os.environ | {"PYTHONPATH": str(tmp_path)}  # comes before the editable installation
@@ -193,7 +187,6 @@ def test_only_main_imports_the_command_line():
 
 
 def test_the_command_line_imports_nothing_slow():
-    needs_cli()
     slow = {"matplotlib.pyplot", "numba", "pyarrow", "simpy"}
     code = f"import sys, sched_sim.cli; print(*sorted({slow!r} & set(sys.modules)))"
     run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)

@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from sched_sim.costs import DualRateCosts, StandardCosts, load, select
 from sched_sim.errors import InputError
 from sched_sim.least_speed import least_speed
 from sched_sim.options import Options
-from sched_sim.search import cycles_to_simulate, least_speed_by_simulation
+from sched_sim.search import cycles_to_simulate, least_speed_by_simulation, search_resolution
 from sched_sim.simulate import simulate
 from sched_sim.tasks import Task
 from sched_sim.timing import Timing
+from tests.designs import Design, designs
 
 PAPER = select(load("steffes2014"), "dual-rate", Options())
 FIGURE_3 = Timing(10, 4, 8)
@@ -23,6 +27,18 @@ def test_a_context_switch_costs_what_one_counts_by_hand() -> None:
     """Steps 4-7: four HR jobs and four dispatches of the LR update, 0.01 each: (4 x 0.63 + 0.56 + 8 x 0.01) / 4."""
     options = Options(context_switch=Fraction("0.01"))
     assert least_speed(PAPER, FIGURE_3, options) == (Fraction("0.79"), "lr_update")
+
+
+@settings(max_examples=40)
+@given(designs, st.fractions(Fraction(1, 10), 3, max_denominator=10))
+def test_with_context_switches_it_is_exact_to_one_tick(design: Design, context_switch: Fraction) -> None:
+    costs, timing, options = design
+    options = replace(options, context_switch=context_switch)
+    speed = least_speed(costs, timing, options).speed
+    cycles = cycles_to_simulate(timing, ())
+    assert simulate(costs, timing, speed, cycles, options).misses == 0
+    slower = speed - Fraction(1, search_resolution(costs, options, ()))
+    assert simulate(costs, timing, slower, cycles, options).misses > 0
 
 
 @pytest.mark.parametrize(
@@ -58,7 +74,7 @@ def test_at_the_least_speed_with_tasks_nothing_is_missed_and_below_it_something_
     least = least_speed(PAPER, FIGURE_3, tasks=tasks)
     cycles = cycles_to_simulate(FIGURE_3, tasks)
     assert simulate(PAPER, FIGURE_3, least.speed, cycles, tasks=tasks).misses == 0
-    slower = least.speed - Fraction(1, 10**7)
+    slower = least.speed - Fraction(1, search_resolution(PAPER, Options(), tasks))
     assert simulate(PAPER, FIGURE_3, slower, cycles, tasks=tasks).misses > 0
 
 
