@@ -7,7 +7,7 @@ import numpy as np
 from filters.arrays import FloatArray
 from filters.history import History, HistoryRecorder
 from filters.kernels.backends import BackendName, arguments_for, function_for
-from filters.kernels.dense import add_vectors, matmul, matvec
+from filters.kernels.dense import add_vectors, matvec
 from filters.problem import check_problem
 from filters.records import Correction, Estimate, Workspace, new_correction, new_estimate, new_workspace
 from filters.standard import propagate
@@ -20,6 +20,7 @@ from filters.update_forms.form import UpdateForm
 
 def propagate_accumulate(
     system: System,
+    form: UpdateForm,
     j: int,
     before: Estimate,
     Phi_from_k: FloatArray,
@@ -29,8 +30,8 @@ def propagate_accumulate(
     work: Workspace,
 ) -> None:
     """Job: the estimate at j becomes that at j + 1, and Phi_{k->j} becomes Phi_{k->j+1}, Eqs. (6), (8) and (16)."""
-    Phi = propagate(system, j, before, u, after, work)
-    matmul(Phi, Phi_from_k, Phi_next)  # (16)
+    Phi = propagate(system, form, j, before, u, after, work)
+    form.product(Phi, Phi_from_k, Phi_next)  # (16)
 
 
 def extrapolated_update(
@@ -90,12 +91,14 @@ def run(
         if j > 0:
             i, before, estimate = j - 1, estimate, new_estimate(system)
             if i % N == 0:
-                Phi_from_k = run_propagate(model, i, before, inputs[i], estimate, work)  # the product so far, (15)
+                Phi_from_k = run_propagate(
+                    model, form, i, before, inputs[i], estimate, work
+                )  # the product so far, (15)
             elif i % N < M:
                 Phi_before, Phi_from_k = Phi_from_k, np.empty_like(Phi_from_k)
-                run_propagate_accumulate(model, i, before, Phi_before, inputs[i], estimate, Phi_from_k, work)
+                run_propagate_accumulate(model, form, i, before, Phi_before, inputs[i], estimate, Phi_from_k, work)
             else:
-                run_propagate(model, i, before, inputs[i], estimate, work)
+                run_propagate(model, form, i, before, inputs[i], estimate, work)
 
         if j % N == 0 and M < N:
             reference = estimate

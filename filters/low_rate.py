@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 from filters.arrays import FloatArray
-from filters.kernels.dense import add, matmul, matmul_transposed
 from filters.records import Correction, Estimate, Transition, Workspace
 from filters.systems.system import System
 from filters.update import update_covariance, update_error
 from filters.update_forms.form import UpdateForm
 
 
-def lr_propagate(P: FloatArray, transition: Transition, P_next: FloatArray, work: Workspace) -> None:
+def lr_propagate(form: UpdateForm, P: FloatArray, transition: Transition, P_next: FloatArray, work: Workspace) -> None:
     """Job: P_{(k-N)^+} becomes P_{k^-}, Eq. (14)."""
-    matmul(transition.Phi, P, work.nn1)
-    matmul_transposed(work.nn1, transition.Phi, P_next, work.nn2)
-    add(P_next, transition.Q, P_next)
+    form.propagation(transition.Phi, P, transition.Q, P_next, work)
 
 
 def lr_update(

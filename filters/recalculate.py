@@ -44,7 +44,7 @@ def run(
 
     def propagated(j: int, before: Estimate) -> Estimate:
         after = new_estimate(system)
-        propagate(model, j, before, inputs[j], after, work)
+        propagate(model, form, j, before, inputs[j], after, work)
         return after
 
     estimate = reference = Estimate(np.array(x0, dtype=np.float64), np.array(P0, dtype=np.float64))

@@ -74,8 +74,8 @@ def sample(system: System, seed: int, index: int, x0: FloatArray | None = None) 
     for j in range(k, m):
         after = new_estimate(system)
         if j > k:
-            args = (bound, j, now.x, transition, inputs[j], x, new_transition(system), work)
+            args = (bound, form, j, now.x, transition, inputs[j], x, new_transition(system), work)
             transition = function_for("numpy", hr_propagate)(*args)
-        function_for("numpy", standard.propagate)(bound, j, now, inputs[j], after, work)
+        function_for("numpy", standard.propagate)(bound, form, j, now, inputs[j], after, work)
         now = after
     return Sample(k, m, reference, truth.measurements[k], correction, P_posterior, now, transition, inputs[m])

@@ -8,12 +8,9 @@ from filters.arrays import FloatArray
 from filters.history import History
 from filters.kernels.backends import BackendName, arguments_for, function_for
 from filters.kernels.dense import (
-    add,
     add_vectors,
     copy,
     copy_vector,
-    matmul,
-    matmul_transposed,
     store,
     store_vector,
 )
@@ -32,13 +29,19 @@ from filters.update_forms import UpdateFormName, update_form
 from filters.update_forms.form import UpdateForm
 
 
-def propagate(system: System, j: int, before: Estimate, u: FloatArray, after: Estimate, work: Workspace) -> FloatArray:
+def propagate(
+    system: System,
+    form: UpdateForm,
+    j: int,
+    before: Estimate,
+    u: FloatArray,
+    after: Estimate,
+    work: Workspace,
+) -> FloatArray:
     """Job: the estimate at j becomes that at j + 1, Eqs. (6) and (8). Returns Phi_j."""
     system.f(j, before.x, u, system.parameters, after.x)  # (6)
     Phi = system.F(j, before.x, u, system.parameters)
-    matmul(Phi, before.P, work.nn1)
-    matmul_transposed(work.nn1, Phi, after.P, work.nn2)
-    add(after.P, system.Q(j, system.parameters), after.P)  # (8)
+    form.propagation(Phi, before.P, system.Q(j, system.parameters), after.P, work)  # (8)
     return Phi
 
 
@@ -76,7 +79,7 @@ def filter_all(
     """
     for j in range(len(inputs) + 1):
         if j > 0:
-            propagate(system, j - 1, corrected, inputs[j - 1], predicted, work)
+            propagate(system, form, j - 1, corrected, inputs[j - 1], predicted, work)
         cycle = j // N
         if j % N == 0:
             store(predicted.P, history.P_reference, cycle)

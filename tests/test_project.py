@@ -23,9 +23,7 @@ VERSION = PYPROJECT["project"]["version"]
 UV_LOCK = {package["name"]: package for package in tomllib.loads((ROOT / "uv.lock").read_text())["package"]}
 REQUIREMENTS_LOCK = (ROOT / "requirements.lock").read_text()
 PINS = [
-    Requirement(line.rstrip(" \\"))
-    for line in REQUIREMENTS_LOCK.splitlines()
-    if re.match(r"[A-Za-z0-9].*==", line)
+    Requirement(line.rstrip(" \\")) for line in REQUIREMENTS_LOCK.splitlines() if re.match(r"[A-Za-z0-9].*==", line)
 ]
 
 

@@ -6,7 +6,7 @@ from filters.arrays import FloatArray
 from filters.kernels.dense import add, matmul, matmul_narrow, matmul_transposed, subtract
 from filters.records import Workspace
 from filters.update_forms.form import UpdateForm
-from filters.update_forms.textbook import gain
+from filters.update_forms.textbook import gain, propagation
 
 
 def covariance(P: FloatArray, H: FloatArray, R: FloatArray, K: FloatArray, out: FloatArray, work: Workspace) -> None:
@@ -38,4 +38,4 @@ def delayed_covariance(
     subtract(P_m, work.nn1, out)
 
 
-FORM = UpdateForm(gain, covariance, delayed_covariance)
+FORM = UpdateForm(matmul, propagation, gain, covariance, delayed_covariance)

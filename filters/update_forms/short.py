@@ -8,9 +8,11 @@ from __future__ import annotations
 from filters.arrays import FloatArray
 from filters.kernels.dense import (
     add,
-    matmul,
+    add_matmul_blocked,
+    matmul_blocked,
+    matmul_narrow,
     matmul_transposed_narrow,
-    subtract_product_of_transposed,
+    negate,
     transpose,
 )
 from filters.kernels.solve import cholesky, solve_cholesky
@@ -18,9 +20,16 @@ from filters.records import Workspace
 from filters.update_forms.form import UpdateForm
 
 
+def propagation(Phi: FloatArray, P: FloatArray, Q: FloatArray, out: FloatArray, work: Workspace) -> None:
+    """Phi P Phi^T + Q, Eqs. (8), (14) and (18)."""
+    matmul_blocked(Phi, P, work.nn1)
+    transpose(Phi, work.nn2)
+    add_matmul_blocked(Q, work.nn1, work.nn2, out)
+
+
 def gain(P: FloatArray, H: FloatArray, R: FloatArray, K: FloatArray, work: Workspace) -> None:
     """K^T = S^-1 (H P), Eq. (9) for symmetric P, from the Cholesky factor of S. Leaves H P and, in pn1, K^T."""
-    matmul(H, P, work.HP)
+    matmul_blocked(H, P, work.HP)
     matmul_transposed_narrow(work.HP, H, work.S)
     add(work.S, R, work.S)  # innovation covariance
     cholesky(work.S, work.pp1)
@@ -28,9 +37,10 @@ def gain(P: FloatArray, H: FloatArray, R: FloatArray, K: FloatArray, work: Works
     transpose(work.pn1, K)
 
 
-def covariance(P: FloatArray, _H: FloatArray, _R: FloatArray, _K: FloatArray, out: FloatArray, work: Workspace) -> None:
-    """P_{k^+} = P - (H P)^T K^T, equal to Eq. (11)."""
-    subtract_product_of_transposed(P, work.HP, work.pn1, out)
+def covariance(P: FloatArray, _H: FloatArray, _R: FloatArray, K: FloatArray, out: FloatArray, work: Workspace) -> None:
+    """P_{k^+} = P - K (H P), equal to Eq. (11)."""
+    negate(K, work.np1)
+    add_matmul_blocked(P, work.np1, work.HP, out)
 
 
 def delayed_covariance(
@@ -38,16 +48,17 @@ def delayed_covariance(
     _P: FloatArray,
     _H: FloatArray,
     _R: FloatArray,
-    _K: FloatArray,
+    K: FloatArray,
     P_m: FloatArray,
     out: FloatArray,
     work: Workspace,
 ) -> None:
-    """P_{m^+} = P_{m^-} - (H P Phi^T)^T (K^T Phi^T), equal to Eq. (21)."""
+    """P_{m^+} = P_{m^-} - (Phi K) (H P Phi^T), equal to Eq. (21)."""
+    matmul_narrow(Phi, K, work.np1)
+    negate(work.np1, work.np1)
     transpose(Phi, work.nn1)
-    matmul(work.HP, work.nn1, work.pn2)
-    matmul(work.pn1, work.nn1, work.HP)
-    subtract_product_of_transposed(P_m, work.pn2, work.HP, out)
+    matmul_blocked(work.HP, work.nn1, work.pn1)
+    add_matmul_blocked(P_m, work.np1, work.pn1, out)
 
 
-FORM = UpdateForm(gain, covariance, delayed_covariance)
+FORM = UpdateForm(matmul_blocked, propagation, gain, covariance, delayed_covariance)

@@ -16,6 +16,13 @@ from filters.records import Workspace
 from filters.update_forms.form import UpdateForm
 
 
+def propagation(Phi: FloatArray, P: FloatArray, Q: FloatArray, out: FloatArray, work: Workspace) -> None:
+    """Phi P Phi^T + Q, Eqs. (8), (14) and (18)."""
+    matmul(Phi, P, work.nn1)
+    matmul_transposed(work.nn1, Phi, out, work.nn2)
+    add(out, Q, out)
+
+
 def gain(P: FloatArray, H: FloatArray, R: FloatArray, K: FloatArray, work: Workspace) -> None:
     """K = P H^T [H P H^T + R]^-1, Eq. (9)."""
     matmul_transposed_narrow(P, H, work.PHt)
@@ -51,4 +58,4 @@ def delayed_covariance(
     subtract(P_m, work.nn1, out)
 
 
-FORM = UpdateForm(gain, covariance, delayed_covariance)
+FORM = UpdateForm(matmul, propagation, gain, covariance, delayed_covariance)

@@ -51,7 +51,7 @@ def updated(system: System, k: int, y: FloatArray, before: Estimate) -> Estimate
 
 def propagated(system: System, j: int, before: Estimate, u: FloatArray) -> tuple[Estimate, FloatArray]:
     after = new_estimate(system)
-    Phi = propagate(system, j, before, u, after, new_workspace(system))
+    Phi = propagate(system, FORM, j, before, u, after, new_workspace(system))
     return after, Phi
 
 

@@ -135,7 +135,7 @@ def test_jobs_of_a_nonlinear_model_start_from_its_typical_state() -> None:
     job = ALL_METHODS["standard"].jobs(drive.system, "textbook", seed=0, x0=drive.x0)["propagate"]
     operations = count(job.function, *job.arguments(0))
     assert operations.function == 4  # sin and cos, in f and in F
-    assert abs(job.arguments(0)[2].x[3] - drive.x0[3]) < 10
+    assert abs(job.arguments(0)[3].x[3] - drive.x0[3]) < 10
 
 
 def product(n: int, m: int, p: int) -> Operations:
