@@ -1,6 +1,7 @@
 """The least work: H P is formed once and serves as (P H^T)^T too, S is factored, and Eq. (11) needs one thin product.
 
-Products and solves run along the rows of (p, n) matrices, which are longer than those of (n, p) ones.
+Products are blocked, and sums are made within them. Solves run along the rows of (p, n) matrices, which are longer than
+those of (n, p) ones.
 """
 
 from __future__ import annotations
@@ -28,7 +29,7 @@ def propagation(Phi: FloatArray, P: FloatArray, Q: FloatArray, out: FloatArray, 
 
 
 def gain(P: FloatArray, H: FloatArray, R: FloatArray, K: FloatArray, work: Workspace) -> None:
-    """K^T = S^-1 (H P), Eq. (9) for symmetric P, from the Cholesky factor of S. Leaves H P and, in pn1, K^T."""
+    """K^T = S^-1 (H P), Eq. (9) for symmetric P, from the Cholesky factor of S. Leaves H P."""
     matmul_blocked(H, P, work.HP)
     matmul_transposed_narrow(work.HP, H, work.S)
     add(work.S, R, work.S)  # innovation covariance

@@ -27,7 +27,12 @@ KINDS = {
     ],
 }  # fmt: skip
 
-FORM_DEPENDENT = [("standard", "update"), ("larsen", "update"), ("dual-rate", "lr_update")]
+FORM_DEPENDENT = [
+    ("standard", "propagate"), ("standard", "update"),
+    ("larsen", "propagate_accumulate"), ("larsen", "update"),
+    ("dual-rate", "hr_propagate"), ("dual-rate", "hr_propagate_sum"), ("dual-rate", "hr_propagate_euler"),
+    ("dual-rate", "lr_propagate"), ("dual-rate", "lr_propagate_euler"), ("dual-rate", "lr_update"),
+]  # fmt: skip
 
 
 def all_jobs(form: str = "textbook") -> dict[tuple[str, str], Job]:
@@ -180,6 +185,34 @@ def test_operations_of_the_jobs_in_textbook_form(n: int, u: int, p: int) -> None
     expected["larsen", "propagate"] = expected["standard", "propagate"]
     expected["recalculate", "update"] = expected["standard", "update"]
     assert found == expected
+
+
+PROPAGATE = [key for key in all_jobs() if "propagate" in key[1] or key[1] == "replay"]
+
+
+@pytest.mark.parametrize("key", PROPAGATE, ids="-".join)
+@pytest.mark.parametrize("form", ["joseph", "short"])
+def test_every_form_propagates_with_as_many_operations(key: tuple[str, str], form: str) -> None:
+    job, literal = all_jobs(form)[key], all_jobs("textbook")[key]
+    assert count(job.function, *job.arguments(0)) == count(literal.function, *literal.arguments(0))
+
+
+@pytest.mark.parametrize(("n", "u", "p"), [(9, 3, 3), (4, 2, 1), (5, 1, 4)])
+def test_operations_of_the_updates_in_short_form(n: int, u: int, p: int) -> None:
+    jobs = {name: method.jobs(example_system(n, u, p), "short") for name, method in ALL_METHODS.items()}
+    S = product(p, n, n) + product(p, n, p) + Operations(add=p * p)
+    factor = Operations((p - 1) * p * (p + 1) // 6, (p - 1) * p * (p + 1) // 6, p * (p - 1) // 2, p)
+    solve = Operations(p * (p - 1) * n + 2 * p * n, p * (p - 1) * n, 2 * p)
+    error = product(p, n, 1) + Operations(add=p) + product(n, p, 1)
+    covariance = Operations(multiply=n * n * p, add=n * n * p)
+    found = {name: count(jobs[name][kind].function, *jobs[name][kind].arguments(0))
+             for name, kind in (("standard", "update"), ("larsen", "update"), ("dual-rate", "lr_update"))}  # fmt: skip
+    assert found == {
+        "standard": S + factor + solve + error + covariance + Operations(add=n),
+        "larsen": S + factor + solve + error + covariance + product(n, n, 1) + Operations(add=n)
+        + product(n, n, p) + product(p, n, n),
+        "dual-rate": S + factor + solve + error + covariance,
+    }  # fmt: skip
 
 
 def test_operation_counts_reach_the_printed_tables() -> None:
