@@ -11,6 +11,8 @@ from typing import Any, Literal, NamedTuple, TypeAlias
 import numpy as np
 
 from filters.arrays import FloatArray
+from filters.covariance_forms import CovarianceFormName, covariance_form
+from filters.covariance_forms.form import CovarianceForm
 from filters.high_rate import hr_restart, hr_update
 from filters.history import History, HistoryRecorder
 from filters.kernels.backends import BackendName, arguments_for, function_for
@@ -19,8 +21,6 @@ from filters.low_rate_noise import NOISE_METHODS, LowRateNoise, NoiseMethod
 from filters.problem import check_choice, check_problem
 from filters.records import Correction, Estimate, new_correction, new_workspace
 from filters.systems.system import System
-from filters.update_forms import UpdateFormName, update_form
-from filters.update_forms.form import UpdateForm
 
 GainTime: TypeAlias = Literal["at-update", "precomputed"]
 Feedback: TypeAlias = Literal["next-step", "same-step"]
@@ -43,7 +43,7 @@ class HighRateTask:
         N: int,
         x0: FloatArray,
         noise: NoiseMethod,
-        form: UpdateForm,
+        form: CovarianceForm,
         backend: BackendName,
     ) -> None:
         self._size = system
@@ -89,7 +89,7 @@ class LowRateTask:
         system: System,
         P0: FloatArray,
         noise: NoiseMethod,
-        form: UpdateForm,
+        form: CovarianceForm,
         gain: GainTime,
         backend: BackendName,
     ) -> None:
@@ -141,7 +141,7 @@ def run(
     inputs: FloatArray,
     measurements: FloatArray,
     *,
-    update: UpdateFormName = "textbook",
+    update: CovarianceFormName = "textbook",
     low_rate_noise: LowRateNoise = "exact",
     gain: GainTime = "at-update",
     feedback: Feedback = "next-step",
@@ -160,7 +160,7 @@ def run(
     check_choice("gain", gain, ("at-update", "precomputed"))
     check_choice("feedback", feedback, ("next-step", "same-step"))
     _check_feedback_step(N, M, L, feedback)
-    noise, form = NOISE_METHODS[low_rate_noise], update_form(update)
+    noise, form = NOISE_METHODS[low_rate_noise], covariance_form(update)
     high_rate = HighRateTask(system, N, x0, noise, form, backend)
     low_rate = LowRateTask(system, P0, noise, form, gain, backend)
     recorder = HistoryRecorder(system)

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from filters.arrays import FloatArray
+from filters.covariance_forms.form import CovarianceForm
 from filters.kernels.dense import add_vectors, matvec
 from filters.records import Transition, Workspace
 from filters.systems.system import System
-from filters.update_forms.form import UpdateForm
 
 
 def hr_restart(system: System, j: int, x: FloatArray, u: FloatArray, x_next: FloatArray) -> Transition:
@@ -20,7 +20,7 @@ def hr_restart(system: System, j: int, x: FloatArray, u: FloatArray, x_next: Flo
 
 def hr_propagate(
     system: System,
-    form: UpdateForm,
+    form: CovarianceForm,
     j: int,
     x: FloatArray,
     transition: Transition,

@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from filters.arrays import FloatArray
+from filters.covariance_forms import CovarianceFormName, covariance_form
+from filters.covariance_forms.form import CovarianceForm
 from filters.history import History, HistoryRecorder
 from filters.kernels.backends import BackendName, arguments_for, function_for
 from filters.kernels.dense import add_vectors, matvec
@@ -14,13 +16,11 @@ from filters.standard import propagate
 from filters.standard import update as update_at_once
 from filters.systems.system import System
 from filters.update import update_error
-from filters.update_forms import UpdateFormName, update_form
-from filters.update_forms.form import UpdateForm
 
 
 def propagate_accumulate(
     system: System,
-    form: UpdateForm,
+    form: CovarianceForm,
     j: int,
     before: Estimate,
     Phi_from_k: FloatArray,
@@ -36,7 +36,7 @@ def propagate_accumulate(
 
 def extrapolated_update(
     system: System,
-    form: UpdateForm,
+    form: CovarianceForm,
     k: int,
     y: FloatArray,
     reference: Estimate,
@@ -69,7 +69,7 @@ def run(
     inputs: FloatArray,
     measurements: FloatArray,
     *,
-    update: UpdateFormName = "textbook",
+    update: CovarianceFormName = "textbook",
     backend: BackendName = "reference",
 ) -> History:
     """Filter a record of data in which the measurement of step k can be read from step m = k + M on.
@@ -81,7 +81,7 @@ def run(
     run_propagate_accumulate = function_for(backend, propagate_accumulate)
     run_update_at_once = function_for(backend, update_at_once)
     run_update = function_for(backend, extrapolated_update)
-    form, model = arguments_for(backend, update_form(update)), arguments_for(backend, system)
+    form, model = arguments_for(backend, covariance_form(update)), arguments_for(backend, system)
     work = new_workspace(system)
     recorder = HistoryRecorder(system)
 

@@ -8,12 +8,12 @@ from typing import Any, Literal, NamedTuple, TypeAlias
 import numpy as np
 
 from filters.arrays import FloatArray
+from filters.covariance_forms.form import CovarianceForm
 from filters.high_rate import hr_propagate
 from filters.kernels.dense import add
 from filters.low_rate import lr_propagate
 from filters.records import Transition, Workspace, new_transition
 from filters.systems.system import System
-from filters.update_forms.form import UpdateForm
 
 LowRateNoise: TypeAlias = Literal["exact", "sum", "euler"]
 
@@ -43,7 +43,7 @@ class NoiseMethod(NamedTuple):
 
 def hr_propagate_sum(
     system: System,
-    form: UpdateForm,
+    form: CovarianceForm,
     j: int,
     x: FloatArray,
     transition: Transition,
@@ -61,7 +61,7 @@ def hr_propagate_sum(
 
 def hr_propagate_euler(
     system: System,
-    form: UpdateForm,
+    form: CovarianceForm,
     j: int,
     x: FloatArray,
     transition: HalvedTransition,
@@ -82,7 +82,7 @@ def hr_propagate_euler(
 
 
 def lr_propagate_euler(
-    form: UpdateForm, P: FloatArray, transition: HalvedTransition, P_next: FloatArray, work: Workspace
+    form: CovarianceForm, P: FloatArray, transition: HalvedTransition, P_next: FloatArray, work: Workspace
 ) -> None:
     """Job in place of `lr_propagate`: P_{k^-} = Phi (P + Q_first) Phi^T + Q_second, which is Eq. (14) with Eq. (24)."""
     add(P, transition.Q_first, work.nn3)

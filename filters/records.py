@@ -35,7 +35,7 @@ class Transition(NamedTuple):
 class Workspace(NamedTuple):
     """Scratch arrays, allocated once for a filter. What a job leaves in them means nothing to the next.
 
-    Two exceptions: I is the identity, never written; a form's `gain` may leave things to its `covariance`.
+    Two exceptions: I is the identity, never written; a covariance form's `gain` may leave things to its `covariance`.
     """
 
     I: FloatArray  # (n, n)

@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from filters.arrays import FloatArray
+from filters.covariance_forms import CovarianceFormName, covariance_form
+from filters.covariance_forms.form import CovarianceForm
 from filters.history import History
 from filters.kernels.backends import BackendName, arguments_for, function_for
 from filters.kernels.dense import (
@@ -25,13 +27,11 @@ from filters.records import (
 )
 from filters.systems.system import System
 from filters.update import update_covariance, update_error
-from filters.update_forms import UpdateFormName, update_form
-from filters.update_forms.form import UpdateForm
 
 
 def propagate(
     system: System,
-    form: UpdateForm,
+    form: CovarianceForm,
     j: int,
     before: Estimate,
     u: FloatArray,
@@ -47,7 +47,7 @@ def propagate(
 
 def update(
     system: System,
-    form: UpdateForm,
+    form: CovarianceForm,
     k: int,
     y: FloatArray,
     before: Estimate,
@@ -63,7 +63,7 @@ def update(
 
 def filter_all(
     system: System,
-    form: UpdateForm,
+    form: CovarianceForm,
     N: int,
     predicted: Estimate,
     inputs: FloatArray,
@@ -103,7 +103,7 @@ def run(
     inputs: FloatArray,
     measurements: FloatArray,
     *,
-    update: UpdateFormName = "textbook",
+    update: CovarianceFormName = "textbook",
     backend: BackendName = "reference",
 ) -> History:
     """Filter a record of data as if measurements came without delay: used in the step in which they are taken.
@@ -126,7 +126,7 @@ def run(
     start = Estimate(np.array(x0, dtype=np.float64), np.array(P0, dtype=np.float64))
     function_for(backend, filter_all)(
         arguments_for(backend, system),
-        arguments_for(backend, update_form(update)),
+        arguments_for(backend, covariance_form(update)),
         N,
         start,
         inputs,

@@ -7,13 +7,13 @@ import math
 import numpy as np
 import pytest
 
+from filters.covariance_forms import COVARIANCE_FORMS
 from filters.kernels.backends import arguments_for, function_for
 from filters.kernels.counted import Operations, count
 from filters.kernels.repeat import repeat
 from filters.registry import ALL_METHODS, Job
 from filters.systems.example import example_system
 from filters.systems.navigation import simulate_drive
-from filters.update_forms import UPDATE_FORMS
 from tests.filters.cases import CASES, Case, arrays_in
 from tests.strategies import problem
 
@@ -60,7 +60,7 @@ def results(backend: str, job: Job, index: int = 0) -> list[np.ndarray]:
 
 
 @each_job
-@pytest.mark.parametrize("form", UPDATE_FORMS)
+@pytest.mark.parametrize("form", COVARIANCE_FORMS)
 def test_numpy_does_what_the_loops_do(key: tuple[str, str], form: str) -> None:
     job = all_jobs(form)[key]
     for found, expected in zip(results("numpy", job), results("reference", job), strict=True):
@@ -84,7 +84,7 @@ def test_compiled_forms_do_what_the_loops_do(key: tuple[str, str], form: str) ->
 
 
 @each_job
-@pytest.mark.parametrize("form", UPDATE_FORMS)
+@pytest.mark.parametrize("form", COVARIANCE_FORMS)
 def test_a_job_leaves_its_inputs_so_that_it_can_be_repeated(key: tuple[str, str], form: str) -> None:
     job = all_jobs(form)[key]
     arguments = job.arguments(0)

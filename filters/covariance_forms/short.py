@@ -7,6 +7,7 @@ those of (n, p) ones.
 from __future__ import annotations
 
 from filters.arrays import FloatArray
+from filters.covariance_forms.form import CovarianceForm
 from filters.kernels.dense import (
     add,
     add_matmul_blocked,
@@ -18,7 +19,6 @@ from filters.kernels.dense import (
 )
 from filters.kernels.solve import cholesky, solve_cholesky
 from filters.records import Workspace
-from filters.update_forms.form import UpdateForm
 
 
 def propagation(Phi: FloatArray, P: FloatArray, Q: FloatArray, out: FloatArray, work: Workspace) -> None:
@@ -62,4 +62,4 @@ def delayed_covariance(
     add_matmul_blocked(P_m, work.np1, work.pn1, out)
 
 
-FORM = UpdateForm(matmul_blocked, propagation, gain, covariance, delayed_covariance)
+FORM = CovarianceForm(matmul_blocked, propagation, gain, covariance, delayed_covariance)

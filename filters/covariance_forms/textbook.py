@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from filters.arrays import FloatArray
+from filters.covariance_forms.form import CovarianceForm
 from filters.kernels.dense import (
     add,
     matmul,
@@ -13,7 +14,6 @@ from filters.kernels.dense import (
 )
 from filters.kernels.solve import inverse
 from filters.records import Workspace
-from filters.update_forms.form import UpdateForm
 
 
 def propagation(Phi: FloatArray, P: FloatArray, Q: FloatArray, out: FloatArray, work: Workspace) -> None:
@@ -58,4 +58,4 @@ def delayed_covariance(
     subtract(P_m, work.nn1, out)
 
 
-FORM = UpdateForm(matmul, propagation, gain, covariance, delayed_covariance)
+FORM = CovarianceForm(matmul, propagation, gain, covariance, delayed_covariance)

@@ -1,4 +1,4 @@
-"""What an update form is."""
+"""What a covariance form is."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ DelayedCovariance: TypeAlias = Callable[
 ]
 
 
-class UpdateForm(NamedTuple):
-    """The places in which forms differ: all products of matrices with n rows or columns.
+class CovarianceForm(NamedTuple):
+    """The places in which forms differ: everything that takes a product of matrices.
 
     product(A, B, out): writes A B, all (n, n), Eq. (16).
     propagation(Phi, P, Q, out, work): writes Phi P Phi^T + Q, all (n, n), Eqs. (8), (14) and (18); P may be work.nn3.
