@@ -11,6 +11,8 @@ from typing import Any, Literal, NamedTuple, TypeAlias
 import numpy as np
 
 from filters.arrays import FloatArray
+from filters.covariance_forms import CovarianceFormName, covariance_form
+from filters.covariance_forms.form import CovarianceForm
 from filters.high_rate import hr_restart, hr_update
 from filters.history import History, HistoryRecorder
 from filters.kernels.backends import BackendName, arguments_for, function_for
@@ -19,8 +21,6 @@ from filters.low_rate_noise import NOISE_METHODS, LowRateNoise, NoiseMethod
 from filters.problem import check_choice, check_problem
 from filters.records import Correction, Estimate, new_correction, new_workspace
 from filters.systems.system import System
-from filters.update_forms import UpdateFormName, update_form
-from filters.update_forms.form import UpdateForm
 
 GainTime: TypeAlias = Literal["at-update", "precomputed"]
 Feedback: TypeAlias = Literal["next-step", "same-step"]
@@ -37,12 +37,21 @@ class Message(NamedTuple):
 class HighRateTask:
     """The whole state x_j (n,) and the transition from the last k to j."""
 
-    def __init__(self, system: System, N: int, x0: FloatArray, noise: NoiseMethod, backend: BackendName) -> None:
+    def __init__(
+        self,
+        system: System,
+        N: int,
+        x0: FloatArray,
+        noise: NoiseMethod,
+        form: CovarianceForm,
+        backend: BackendName,
+    ) -> None:
         self._size = system
         self._N = N
         self._noise = noise
         self._work = new_workspace(system)
         self._system = arguments_for(backend, system)
+        self._form = arguments_for(backend, form)
         self._restart = function_for(backend, hr_restart)
         self._propagate = function_for(backend, noise.propagate)
         self._update = function_for(backend, hr_update)
@@ -57,7 +66,9 @@ class HighRateTask:
             self._transition = self._noise.start(start, j, self._N)
         else:
             following = self._noise.new(self._size)
-            self._transition = self._propagate(self._system, j, x, self._transition, u, self.x, following, self._work)
+            self._transition = self._propagate(
+                self._system, self._form, j, x, self._transition, u, self.x, following, self._work
+            )
 
     def message(self, k: int) -> Message:
         """What LR gets at k."""
@@ -78,7 +89,7 @@ class LowRateTask:
         system: System,
         P0: FloatArray,
         noise: NoiseMethod,
-        form: UpdateForm,
+        form: CovarianceForm,
         gain: GainTime,
         backend: BackendName,
     ) -> None:
@@ -101,7 +112,7 @@ class LowRateTask:
         P = self._P
         if message.transition is not None:
             P = np.empty_like(P)
-            self._propagate(self._P, message.transition, P, self._work)
+            self._propagate(self._form, self._P, message.transition, P, self._work)
         self._k, self._reference = message.k, Estimate(message.x, P)
         self._P = P  # stays so if the measurement is missing
         self._correction = new_correction(self._size)
@@ -130,7 +141,7 @@ def run(
     inputs: FloatArray,
     measurements: FloatArray,
     *,
-    update: UpdateFormName = "textbook",
+    update: CovarianceFormName = "textbook",
     low_rate_noise: LowRateNoise = "exact",
     gain: GainTime = "at-update",
     feedback: Feedback = "next-step",
@@ -149,9 +160,9 @@ def run(
     check_choice("gain", gain, ("at-update", "precomputed"))
     check_choice("feedback", feedback, ("next-step", "same-step"))
     _check_feedback_step(N, M, L, feedback)
-    noise = NOISE_METHODS[low_rate_noise]
-    high_rate = HighRateTask(system, N, x0, noise, backend)
-    low_rate = LowRateTask(system, P0, noise, update_form(update), gain, backend)
+    noise, form = NOISE_METHODS[low_rate_noise], covariance_form(update)
+    high_rate = HighRateTask(system, N, x0, noise, form, backend)
+    low_rate = LowRateTask(system, P0, noise, form, gain, backend)
     recorder = HistoryRecorder(system)
 
     correction: Correction | None = None

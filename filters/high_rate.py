@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from filters.arrays import FloatArray
-from filters.kernels.dense import add, add_vectors, matmul, matmul_transposed, matvec
+from filters.covariance_forms.form import CovarianceForm
+from filters.kernels.dense import add_vectors, matvec
 from filters.records import Transition, Workspace
 from filters.systems.system import System
 
@@ -19,6 +20,7 @@ def hr_restart(system: System, j: int, x: FloatArray, u: FloatArray, x_next: Flo
 
 def hr_propagate(
     system: System,
+    form: CovarianceForm,
     j: int,
     x: FloatArray,
     transition: Transition,
@@ -33,10 +35,8 @@ def hr_propagate(
     """
     system.f(j, x, u, system.parameters, x_next)  # (6)
     Phi = system.F(j, x, u, system.parameters)
-    matmul(Phi, transition.Phi, following.Phi)  # (16)
-    matmul(Phi, transition.Q, work.nn1)
-    matmul_transposed(work.nn1, Phi, following.Q, work.nn2)
-    add(following.Q, system.Q(j, system.parameters), following.Q)  # (18)
+    form.product(Phi, transition.Phi, following.Phi)  # (16)
+    form.propagation(Phi, transition.Q, system.Q(j, system.parameters), following.Q, work)  # (18)
     return following
 
 

@@ -5,21 +5,22 @@ from __future__ import annotations
 import numpy as np
 
 from filters.arrays import FloatArray
+from filters.covariance_forms import CovarianceFormName, covariance_form
+from filters.covariance_forms.form import CovarianceForm
 from filters.history import History, HistoryRecorder
 from filters.kernels.backends import BackendName, arguments_for, function_for
-from filters.kernels.dense import add_vectors, matmul, matvec
+from filters.kernels.dense import add_vectors, matvec
 from filters.problem import check_problem
 from filters.records import Correction, Estimate, Workspace, new_correction, new_estimate, new_workspace
 from filters.standard import propagate
 from filters.standard import update as update_at_once
 from filters.systems.system import System
 from filters.update import update_error
-from filters.update_forms import UpdateFormName, update_form
-from filters.update_forms.form import UpdateForm
 
 
 def propagate_accumulate(
     system: System,
+    form: CovarianceForm,
     j: int,
     before: Estimate,
     Phi_from_k: FloatArray,
@@ -29,13 +30,13 @@ def propagate_accumulate(
     work: Workspace,
 ) -> None:
     """Job: the estimate at j becomes that at j + 1, and Phi_{k->j} becomes Phi_{k->j+1}, Eqs. (6), (8) and (16)."""
-    Phi = propagate(system, j, before, u, after, work)
-    matmul(Phi, Phi_from_k, Phi_next)  # (16)
+    Phi = propagate(system, form, j, before, u, after, work)
+    form.product(Phi, Phi_from_k, Phi_next)  # (16)
 
 
 def extrapolated_update(
     system: System,
-    form: UpdateForm,
+    form: CovarianceForm,
     k: int,
     y: FloatArray,
     reference: Estimate,
@@ -68,7 +69,7 @@ def run(
     inputs: FloatArray,
     measurements: FloatArray,
     *,
-    update: UpdateFormName = "textbook",
+    update: CovarianceFormName = "textbook",
     backend: BackendName = "reference",
 ) -> History:
     """Filter a record of data in which the measurement of step k can be read from step m = k + M on.
@@ -80,7 +81,7 @@ def run(
     run_propagate_accumulate = function_for(backend, propagate_accumulate)
     run_update_at_once = function_for(backend, update_at_once)
     run_update = function_for(backend, extrapolated_update)
-    form, model = arguments_for(backend, update_form(update)), arguments_for(backend, system)
+    form, model = arguments_for(backend, covariance_form(update)), arguments_for(backend, system)
     work = new_workspace(system)
     recorder = HistoryRecorder(system)
 
@@ -90,12 +91,14 @@ def run(
         if j > 0:
             i, before, estimate = j - 1, estimate, new_estimate(system)
             if i % N == 0:
-                Phi_from_k = run_propagate(model, i, before, inputs[i], estimate, work)  # the product so far, (15)
+                Phi_from_k = run_propagate(
+                    model, form, i, before, inputs[i], estimate, work
+                )  # the product so far, (15)
             elif i % N < M:
                 Phi_before, Phi_from_k = Phi_from_k, np.empty_like(Phi_from_k)
-                run_propagate_accumulate(model, i, before, Phi_before, inputs[i], estimate, Phi_from_k, work)
+                run_propagate_accumulate(model, form, i, before, Phi_before, inputs[i], estimate, Phi_from_k, work)
             else:
-                run_propagate(model, i, before, inputs[i], estimate, work)
+                run_propagate(model, form, i, before, inputs[i], estimate, work)
 
         if j % N == 0 and M < N:
             reference = estimate

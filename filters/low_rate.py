@@ -3,23 +3,22 @@
 from __future__ import annotations
 
 from filters.arrays import FloatArray
-from filters.kernels.dense import add, matmul, matmul_transposed
+from filters.covariance_forms.form import CovarianceForm
 from filters.records import Correction, Estimate, Transition, Workspace
 from filters.systems.system import System
 from filters.update import update_covariance, update_error
-from filters.update_forms.form import UpdateForm
 
 
-def lr_propagate(P: FloatArray, transition: Transition, P_next: FloatArray, work: Workspace) -> None:
+def lr_propagate(
+    form: CovarianceForm, P: FloatArray, transition: Transition, P_next: FloatArray, work: Workspace
+) -> None:
     """Job: P_{(k-N)^+} becomes P_{k^-}, Eq. (14)."""
-    matmul(transition.Phi, P, work.nn1)
-    matmul_transposed(work.nn1, transition.Phi, P_next, work.nn2)
-    add(P_next, transition.Q, P_next)
+    form.propagation(transition.Phi, P, transition.Q, P_next, work)
 
 
 def lr_update(
     system: System,
-    form: UpdateForm,
+    form: CovarianceForm,
     k: int,
     y: FloatArray,
     reference: Estimate,
@@ -34,7 +33,7 @@ def lr_update(
 
 def lr_gain(
     system: System,
-    form: UpdateForm,
+    form: CovarianceForm,
     k: int,
     reference: Estimate,
     P_posterior: FloatArray,

@@ -8,8 +8,9 @@ from typing import Any, Literal, NamedTuple, TypeAlias
 import numpy as np
 
 from filters.arrays import FloatArray
+from filters.covariance_forms.form import CovarianceForm
 from filters.high_rate import hr_propagate
-from filters.kernels.dense import add, matmul, matmul_transposed
+from filters.kernels.dense import add
 from filters.low_rate import lr_propagate
 from filters.records import Transition, Workspace, new_transition
 from filters.systems.system import System
@@ -42,6 +43,7 @@ class NoiseMethod(NamedTuple):
 
 def hr_propagate_sum(
     system: System,
+    form: CovarianceForm,
     j: int,
     x: FloatArray,
     transition: Transition,
@@ -52,13 +54,14 @@ def hr_propagate_sum(
 ) -> Transition:
     """Job in place of `hr_propagate`: Q_{k->j} is only summed, Eq. (23), which saves two n x n x n products."""
     system.f(j, x, u, system.parameters, x_next)  # (6)
-    matmul(system.F(j, x, u, system.parameters), transition.Phi, following.Phi)  # (16)
+    form.product(system.F(j, x, u, system.parameters), transition.Phi, following.Phi)  # (16)
     add(transition.Q, system.Q(j, system.parameters), following.Q)  # (23)
     return following
 
 
 def hr_propagate_euler(
     system: System,
+    form: CovarianceForm,
     j: int,
     x: FloatArray,
     transition: HalvedTransition,
@@ -69,7 +72,7 @@ def hr_propagate_euler(
 ) -> HalvedTransition:
     """Job in place of `hr_propagate`: one of the two sums of Eq. (24) grows, the other is handed on as it is."""
     system.f(j, x, u, system.parameters, x_next)  # (6)
-    matmul(system.F(j, x, u, system.parameters), transition.Phi, following.Phi)  # (16)
+    form.product(system.F(j, x, u, system.parameters), transition.Phi, following.Phi)  # (16)
     Q = system.Q(j, system.parameters)
     if j < transition.halfway:
         add(transition.Q_first, Q, following.Q_first)
@@ -78,12 +81,12 @@ def hr_propagate_euler(
     return HalvedTransition(following.Phi, transition.Q_first, following.Q_second, transition.halfway)
 
 
-def lr_propagate_euler(P: FloatArray, transition: HalvedTransition, P_next: FloatArray, work: Workspace) -> None:
+def lr_propagate_euler(
+    form: CovarianceForm, P: FloatArray, transition: HalvedTransition, P_next: FloatArray, work: Workspace
+) -> None:
     """Job in place of `lr_propagate`: P_{k^-} = Phi (P + Q_first) Phi^T + Q_second, which is Eq. (14) with Eq. (24)."""
-    add(P, transition.Q_first, work.nn1)
-    matmul(transition.Phi, work.nn1, work.nn2)
-    matmul_transposed(work.nn2, transition.Phi, P_next, work.nn1)
-    add(P_next, transition.Q_second, P_next)
+    add(P, transition.Q_first, work.nn3)
+    form.propagation(transition.Phi, work.nn3, transition.Q_second, P_next, work)
 
 
 def _start_halved(transition: Transition, k: int, N: int) -> HalvedTransition:

@@ -10,12 +10,12 @@ import numpy as np
 
 from filters import standard
 from filters.arrays import FloatArray
+from filters.covariance_forms import CovarianceFormName, covariance_form
 from filters.history import History, HistoryRecorder
 from filters.kernels.backends import BackendName, arguments_for, function_for
 from filters.problem import check_problem
 from filters.records import Estimate, new_correction, new_estimate, new_workspace
 from filters.systems.system import System
-from filters.update_forms import UpdateFormName, update_form
 
 
 def run(
@@ -28,7 +28,7 @@ def run(
     inputs: FloatArray,
     measurements: FloatArray,
     *,
-    update: UpdateFormName = "textbook",
+    update: CovarianceFormName = "textbook",
     backend: BackendName = "reference",
 ) -> History:
     """Filter a record of data in which the measurement of step k can be read from step m = k + M on.
@@ -38,13 +38,13 @@ def run(
     check_problem(system, N, M, L, x0, P0, inputs, measurements)
     propagate = function_for(backend, standard.propagate)
     update_at_k = function_for(backend, standard.update)
-    form, model = arguments_for(backend, update_form(update)), arguments_for(backend, system)
+    form, model = arguments_for(backend, covariance_form(update)), arguments_for(backend, system)
     work = new_workspace(system)
     recorder = HistoryRecorder(system)
 
     def propagated(j: int, before: Estimate) -> Estimate:
         after = new_estimate(system)
-        propagate(model, j, before, inputs[j], after, work)
+        propagate(model, form, j, before, inputs[j], after, work)
         return after
 
     estimate = reference = Estimate(np.array(x0, dtype=np.float64), np.array(P0, dtype=np.float64))

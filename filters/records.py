@@ -35,7 +35,7 @@ class Transition(NamedTuple):
 class Workspace(NamedTuple):
     """Scratch arrays, allocated once for a filter. What a job leaves in them means nothing to the next.
 
-    Two exceptions: I is the identity, never written; an update form's `gain` may leave things to its `covariance`.
+    Two exceptions: I is the identity, never written; a covariance form's `gain` may leave things to its `covariance`.
     """
 
     I: FloatArray  # (n, n)
@@ -46,7 +46,6 @@ class Workspace(NamedTuple):
     np1: FloatArray
     HP: FloatArray  # (p, n)
     pn1: FloatArray
-    pn2: FloatArray
     S: FloatArray  # (p, p)
     S_inverse: FloatArray
     pp1: FloatArray
@@ -83,7 +82,6 @@ def new_workspace(system: System) -> Workspace:
         np1=np.zeros((n, p)),
         HP=np.zeros((p, n)),
         pn1=np.zeros((p, n)),
-        pn2=np.zeros((p, n)),
         S=np.zeros((p, p)),
         S_inverse=np.zeros((p, p)),
         pp1=np.zeros((p, p)),

@@ -15,6 +15,8 @@ import numpy as np
 
 from filters import dual_rate, larsen, recalculate, standard
 from filters.arrays import FloatArray
+from filters.covariance_forms import CovarianceFormName, covariance_form
+from filters.covariance_forms.form import CovarianceForm
 from filters.high_rate import hr_propagate, hr_restart, hr_update
 from filters.history import History
 from filters.low_rate import lr_correct, lr_gain, lr_propagate, lr_update
@@ -33,8 +35,6 @@ from filters.records import (
 )
 from filters.samples import Sample, sample
 from filters.systems.system import System
-from filters.update_forms import UpdateFormName, update_form
-from filters.update_forms.form import UpdateForm
 
 
 class Job(NamedTuple):
@@ -54,7 +54,8 @@ class Method(NamedTuple):
     """A filter for delayed measurements.
 
     run(system, N, M, L, x0, P0, inputs, measurements, *, update, backend): see `standard.run`.
-    jobs(system, update_form, seed, x0): its jobs by kind; x0 (n,) is a typical state, zero if not given.
+    jobs(system, update, seed, x0): its jobs by kind; x0 (n,) is a typical state, zero if not given.
+        update: the name of a covariance form.
     """
 
     name: str
@@ -63,52 +64,52 @@ class Method(NamedTuple):
 
 
 def _standard_jobs(
-    system: System, update: UpdateFormName = "textbook", seed: int = 0, x0: FloatArray | None = None
+    system: System, update: CovarianceFormName = "textbook", seed: int = 0, x0: FloatArray | None = None
 ) -> dict[str, Job]:
-    form = update_form(update)
     return _by_kind(
         system,
+        covariance_form(update),
         seed,
         x0,
         ("propagate", standard.propagate, _propagate),
-        ("update", standard.update, lambda s, at: _update(s, form, at)),
+        ("update", standard.update, _update),
     )
 
 
 def _recalculate_jobs(
-    system: System, update: UpdateFormName = "textbook", seed: int = 0, x0: FloatArray | None = None
+    system: System, update: CovarianceFormName = "textbook", seed: int = 0, x0: FloatArray | None = None
 ) -> dict[str, Job]:
-    form = update_form(update)
     return _by_kind(
         system,
+        covariance_form(update),
         seed,
         x0,
         ("propagate", standard.propagate, _propagate),
-        ("update", standard.update, lambda s, at: _update(s, form, at)),
+        ("update", standard.update, _update),
         ("replay", standard.propagate, _propagate),
     )
 
 
 def _larsen_jobs(
-    system: System, update: UpdateFormName = "textbook", seed: int = 0, x0: FloatArray | None = None
+    system: System, update: CovarianceFormName = "textbook", seed: int = 0, x0: FloatArray | None = None
 ) -> dict[str, Job]:
-    form = update_form(update)
     return _by_kind(
         system,
+        covariance_form(update),
         seed,
         x0,
         ("propagate", standard.propagate, _propagate),
         ("propagate_accumulate", larsen.propagate_accumulate, _propagate_accumulate),
-        ("update", larsen.extrapolated_update, lambda s, at: _extrapolated_update(s, form, at)),
+        ("update", larsen.extrapolated_update, _extrapolated_update),
     )
 
 
 def _dual_rate_jobs(
-    system: System, update: UpdateFormName = "textbook", seed: int = 0, x0: FloatArray | None = None
+    system: System, update: CovarianceFormName = "textbook", seed: int = 0, x0: FloatArray | None = None
 ) -> dict[str, Job]:
-    form = update_form(update)
     return _by_kind(
         system,
+        covariance_form(update),
         seed,
         x0,
         ("hr_restart", hr_restart, _hr_restart),
@@ -118,8 +119,8 @@ def _dual_rate_jobs(
         ("hr_update", hr_update, _hr_update),
         ("lr_propagate", lr_propagate, _lr_propagate),
         ("lr_propagate_euler", lr_propagate_euler, _lr_propagate_euler),
-        ("lr_update", lr_update, lambda s, at: _lr_update(s, form, at)),
-        ("lr_gain", lr_gain, lambda s, at: _lr_gain(s, form, at)),
+        ("lr_update", lr_update, _lr_update),
+        ("lr_gain", lr_gain, _lr_gain),
         ("lr_correct", lr_correct, _lr_correct),
     )
 
@@ -134,78 +135,79 @@ ALL_METHODS: dict[str, Method] = {
     )
 }
 
-Arguments = Callable[[System, Sample], tuple[Any, ...]]
+Arguments = Callable[[System, CovarianceForm, Sample], tuple[Any, ...]]
 
 
 def _by_kind(
     system: System,
+    form: CovarianceForm,
     seed: int,
     x0: FloatArray | None,
     *jobs: tuple[str, Callable[..., Any], Arguments],
 ) -> dict[str, Job]:
     def arguments_of(make: Arguments) -> Callable[[int], tuple[Any, ...]]:
-        return lambda index: make(system, sample(system, seed, index, x0))
+        return lambda index: make(system, form, sample(system, seed, index, x0))
 
     return {kind: Job(kind, function, arguments_of(make)) for kind, function, make in jobs}
 
 
-def _propagate(system: System, at: Sample) -> tuple[Any, ...]:
-    return system, at.m, at.now, at.u, new_estimate(system), new_workspace(system)
+def _propagate(system: System, form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
+    return system, form, at.m, at.now, at.u, new_estimate(system), new_workspace(system)
 
 
-def _update(system: System, form: UpdateForm, at: Sample) -> tuple[Any, ...]:
+def _update(system: System, form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
     after, correction = new_estimate(system), new_correction(system)
     return system, form, at.k, at.y, at.reference, after, correction, new_workspace(system)
 
 
-def _propagate_accumulate(system: System, at: Sample) -> tuple[Any, ...]:
+def _propagate_accumulate(system: System, form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
     after, Phi_next = new_estimate(system), np.empty_like(at.transition.Phi)
-    return system, at.m, at.now, at.transition.Phi, at.u, after, Phi_next, new_workspace(system)
+    return system, form, at.m, at.now, at.transition.Phi, at.u, after, Phi_next, new_workspace(system)
 
 
-def _extrapolated_update(system: System, form: UpdateForm, at: Sample) -> tuple[Any, ...]:
+def _extrapolated_update(system: System, form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
     after, correction, work = new_estimate(system), new_correction(system), new_workspace(system)
     return system, form, at.k, at.y, at.reference, at.transition.Phi, at.now, after, correction, work
 
 
-def _hr_restart(system: System, at: Sample) -> tuple[Any, ...]:
+def _hr_restart(system: System, _form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
     return system, at.m, at.now.x, at.u, np.empty_like(at.now.x)
 
 
-def _hr_propagate(system: System, at: Sample) -> tuple[Any, ...]:
+def _hr_propagate(system: System, form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
     x_next, following = np.empty_like(at.now.x), new_transition(system)
-    return system, at.m, at.now.x, at.transition, at.u, x_next, following, new_workspace(system)
+    return system, form, at.m, at.now.x, at.transition, at.u, x_next, following, new_workspace(system)
 
 
-def _hr_propagate_euler(system: System, at: Sample) -> tuple[Any, ...]:
+def _hr_propagate_euler(system: System, form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
     x_next, following = np.empty_like(at.now.x), _halved(new_transition(system), at)
-    return system, at.m, at.now.x, _halved(at.transition, at), at.u, x_next, following, new_workspace(system)
+    return system, form, at.m, at.now.x, _halved(at.transition, at), at.u, x_next, following, new_workspace(system)
 
 
-def _hr_update(system: System, at: Sample) -> tuple[Any, ...]:
+def _hr_update(system: System, _form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
     return at.now.x, at.transition.Phi, at.correction.delta_x, np.empty_like(at.now.x), new_workspace(system)
 
 
-def _lr_propagate(system: System, at: Sample) -> tuple[Any, ...]:
-    return at.P_posterior, at.transition, np.empty_like(at.P_posterior), new_workspace(system)
+def _lr_propagate(system: System, form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
+    return form, at.P_posterior, at.transition, np.empty_like(at.P_posterior), new_workspace(system)
 
 
-def _lr_propagate_euler(system: System, at: Sample) -> tuple[Any, ...]:
+def _lr_propagate_euler(system: System, form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
     P_next = np.empty_like(at.P_posterior)
-    return at.P_posterior, _halved(at.transition, at), P_next, new_workspace(system)
+    return form, at.P_posterior, _halved(at.transition, at), P_next, new_workspace(system)
 
 
-def _lr_update(system: System, form: UpdateForm, at: Sample) -> tuple[Any, ...]:
+def _lr_update(system: System, form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
     P_posterior, correction = np.empty_like(at.P_posterior), new_correction(system)
     return system, form, at.k, at.y, at.reference, P_posterior, correction, new_workspace(system)
 
 
-def _lr_gain(system: System, form: UpdateForm, at: Sample) -> tuple[Any, ...]:
+def _lr_gain(system: System, form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
     P_posterior, correction = np.empty_like(at.P_posterior), new_correction(system)
     return system, form, at.k, at.reference, P_posterior, correction, new_workspace(system)
 
 
-def _lr_correct(system: System, at: Sample) -> tuple[Any, ...]:
+def _lr_correct(system: System, _form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
     correction = new_correction(system)
     correction.K[:] = at.correction.K
     return system, at.k, at.y, at.reference, correction

@@ -8,6 +8,7 @@ import numpy as np
 
 from filters import standard
 from filters.arrays import FloatArray
+from filters.covariance_forms import COVARIANCE_FORMS
 from filters.high_rate import hr_propagate, hr_restart
 from filters.kernels.backends import arguments_for, function_for
 from filters.records import (
@@ -22,7 +23,6 @@ from filters.records import (
 from filters.simulation import simulate_truth
 from filters.systems.system import System
 from filters.update import update_covariance, update_error
-from filters.update_forms import UPDATE_FORMS
 
 WARM_UP = 12  # steps with a measurement each, after which the covariance is far from its start
 DELAY = 4  # steps from k to m
@@ -65,7 +65,7 @@ def sample(system: System, seed: int, index: int, x0: FloatArray | None = None) 
     work = new_workspace(system)
     correction, P_posterior = new_correction(system), np.empty_like(P0)
     bound = arguments_for("numpy", system)
-    form = arguments_for("numpy", UPDATE_FORMS["joseph"])
+    form = arguments_for("numpy", COVARIANCE_FORMS["joseph"])
     function_for("numpy", update_covariance)(bound, form, k, reference, correction.K, P_posterior, work)
     function_for("numpy", update_error)(bound, k, truth.measurements[k], reference.x, correction)
 
@@ -74,8 +74,8 @@ def sample(system: System, seed: int, index: int, x0: FloatArray | None = None) 
     for j in range(k, m):
         after = new_estimate(system)
         if j > k:
-            args = (bound, j, now.x, transition, inputs[j], x, new_transition(system), work)
+            args = (bound, form, j, now.x, transition, inputs[j], x, new_transition(system), work)
             transition = function_for("numpy", hr_propagate)(*args)
-        function_for("numpy", standard.propagate)(bound, j, now, inputs[j], after, work)
+        function_for("numpy", standard.propagate)(bound, form, j, now, inputs[j], after, work)
         now = after
     return Sample(k, m, reference, truth.measurements[k], correction, P_posterior, now, transition, inputs[m])

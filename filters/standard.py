@@ -5,15 +5,14 @@ from __future__ import annotations
 import numpy as np
 
 from filters.arrays import FloatArray
+from filters.covariance_forms import CovarianceFormName, covariance_form
+from filters.covariance_forms.form import CovarianceForm
 from filters.history import History
 from filters.kernels.backends import BackendName, arguments_for, function_for
 from filters.kernels.dense import (
-    add,
     add_vectors,
     copy,
     copy_vector,
-    matmul,
-    matmul_transposed,
     store,
     store_vector,
 )
@@ -28,23 +27,27 @@ from filters.records import (
 )
 from filters.systems.system import System
 from filters.update import update_covariance, update_error
-from filters.update_forms import UpdateFormName, update_form
-from filters.update_forms.form import UpdateForm
 
 
-def propagate(system: System, j: int, before: Estimate, u: FloatArray, after: Estimate, work: Workspace) -> FloatArray:
+def propagate(
+    system: System,
+    form: CovarianceForm,
+    j: int,
+    before: Estimate,
+    u: FloatArray,
+    after: Estimate,
+    work: Workspace,
+) -> FloatArray:
     """Job: the estimate at j becomes that at j + 1, Eqs. (6) and (8). Returns Phi_j."""
     system.f(j, before.x, u, system.parameters, after.x)  # (6)
     Phi = system.F(j, before.x, u, system.parameters)
-    matmul(Phi, before.P, work.nn1)
-    matmul_transposed(work.nn1, Phi, after.P, work.nn2)
-    add(after.P, system.Q(j, system.parameters), after.P)  # (8)
+    form.propagation(Phi, before.P, system.Q(j, system.parameters), after.P, work)  # (8)
     return Phi
 
 
 def update(
     system: System,
-    form: UpdateForm,
+    form: CovarianceForm,
     k: int,
     y: FloatArray,
     before: Estimate,
@@ -60,7 +63,7 @@ def update(
 
 def filter_all(
     system: System,
-    form: UpdateForm,
+    form: CovarianceForm,
     N: int,
     predicted: Estimate,
     inputs: FloatArray,
@@ -76,7 +79,7 @@ def filter_all(
     """
     for j in range(len(inputs) + 1):
         if j > 0:
-            propagate(system, j - 1, corrected, inputs[j - 1], predicted, work)
+            propagate(system, form, j - 1, corrected, inputs[j - 1], predicted, work)
         cycle = j // N
         if j % N == 0:
             store(predicted.P, history.P_reference, cycle)
@@ -100,7 +103,7 @@ def run(
     inputs: FloatArray,
     measurements: FloatArray,
     *,
-    update: UpdateFormName = "textbook",
+    update: CovarianceFormName = "textbook",
     backend: BackendName = "reference",
 ) -> History:
     """Filter a record of data as if measurements came without delay: used in the step in which they are taken.
@@ -123,7 +126,7 @@ def run(
     start = Estimate(np.array(x0, dtype=np.float64), np.array(P0, dtype=np.float64))
     function_for(backend, filter_all)(
         arguments_for(backend, system),
-        arguments_for(backend, update_form(update)),
+        arguments_for(backend, covariance_form(update)),
         N,
         start,
         inputs,

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from filters.arrays import FloatArray
+from filters.covariance_forms.form import CovarianceForm
 from filters.kernels.dense import matvec, subtract_vectors
 from filters.records import Correction, Estimate, Workspace
 from filters.systems.system import System
-from filters.update_forms.form import UpdateForm
 
 
 def update_covariance(
     system: System,
-    form: UpdateForm,
+    form: CovarianceForm,
     k: int,
     reference: Estimate,
     K: FloatArray,

@@ -20,12 +20,12 @@ from importlib.metadata import version
 from time import perf_counter_ns
 from typing import Any, Literal, NamedTuple, TypeVar
 
+from filters.covariance_forms import CovarianceFormName
 from filters.kernels.backends import arguments_for, function_for
 from filters.kernels.counted import Operations, count
 from filters.kernels.repeat import repeat
 from filters.registry import ALL_METHODS, Job
 from filters.systems.system import System
-from filters.update_forms import UpdateFormName
 from sched_sim.costs import Cost, CostTable
 
 BackendName = Literal["compiled", "counted", "numpy"]
@@ -56,7 +56,7 @@ def silent(_done: int, _total: int, _what: str) -> None:
 def measure(
     system: System,
     backend: BackendName = "compiled",
-    update: UpdateFormName = "textbook",
+    update: CovarianceFormName = "textbook",
     *,
     name: str,
     thorough: bool = False,

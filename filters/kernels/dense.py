@@ -37,6 +37,50 @@ def matmul_narrow(A: FloatArray, B: FloatArray, out: FloatArray) -> None:
             out[i, j] = total
 
 
+def matmul_blocked(A: FloatArray, B: FloatArray, out: FloatArray) -> None:
+    """out = A B as in `matmul`, the same operations in another order: three outer products at a time.
+
+    `out` is then read and written a third as often. Two thirds of the time for 9 x 9.
+    """
+    if A.shape[1] < 3:
+        matmul(A, B, out)
+        return
+    for i in range(A.shape[0]):
+        a, b, c = A[i, 0], A[i, 1], A[i, 2]
+        for j in range(B.shape[1]):
+            out[i, j] = a * B[0, j] + b * B[1, j] + c * B[2, j]
+    _add_terms_from(3, A, B, out)
+
+
+def add_matmul_blocked(P: FloatArray, A: FloatArray, B: FloatArray, out: FloatArray) -> None:
+    """out = P + A B, for P (n, p), A (n, m), B (m, p), out (n, p); out may be P. Otherwise as `matmul_blocked`."""
+    if A.shape[1] < 3:
+        copy(P, out)
+        _add_terms_from(0, A, B, out)
+        return
+    for i in range(A.shape[0]):
+        a, b, c = A[i, 0], A[i, 1], A[i, 2]
+        for j in range(B.shape[1]):
+            out[i, j] = P[i, j] + (a * B[0, j] + b * B[1, j] + c * B[2, j])
+    _add_terms_from(3, A, B, out)
+
+
+def _add_terms_from(start: int, A: FloatArray, B: FloatArray, out: FloatArray) -> None:
+    """out += A B without the first terms of each dot product."""
+    m = A.shape[1]
+    single = m - (m - start) % 3
+    for k in range(start, single, 3):
+        for i in range(A.shape[0]):
+            a, b, c = A[i, k], A[i, k + 1], A[i, k + 2]
+            for j in range(B.shape[1]):
+                out[i, j] += a * B[k, j] + b * B[k + 1, j] + c * B[k + 2, j]
+    for k in range(single, m):
+        for i in range(A.shape[0]):
+            factor = A[i, k]
+            for j in range(B.shape[1]):
+                out[i, j] += factor * B[k, j]
+
+
 def matmul_transposed(A: FloatArray, B: FloatArray, out: FloatArray, B_transposed: FloatArray) -> None:
     """out = A B^T, for A (n, m), B (p, m), out (n, p); B_transposed (m, p) is scratch memory.
 
@@ -101,17 +145,11 @@ def subtract_vectors(a: FloatArray, b: FloatArray, out: FloatArray) -> None:
         out[i] = a[i] - b[i]
 
 
-def subtract_product_of_transposed(P: FloatArray, A: FloatArray, B: FloatArray, out: FloatArray) -> None:
-    """out = P - A^T B, for P (n, n), A (m, n), B (m, n), out (n, n); out may be P."""
-    for i in range(P.shape[0]):
-        factor = A[0, i]
-        for j in range(P.shape[1]):
-            out[i, j] = P[i, j] - factor * B[0, j]
-    for k in range(1, A.shape[0]):
-        for i in range(P.shape[0]):
-            factor = A[k, i]
-            for j in range(P.shape[1]):
-                out[i, j] -= factor * B[k, j]
+def negate(A: FloatArray, out: FloatArray) -> None:
+    """out = -A, for matrices (n, m); out may be A."""
+    for i in range(A.shape[0]):
+        for j in range(A.shape[1]):
+            out[i, j] = -A[i, j]
 
 
 def transpose(A: FloatArray, out: FloatArray) -> None:

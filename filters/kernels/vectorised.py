@@ -41,8 +41,12 @@ def _subtract(A: FloatArray, B: FloatArray, out: FloatArray) -> None:
     np.subtract(A, B, out=out)
 
 
-def _subtract_product_of_transposed(P: FloatArray, A: FloatArray, B: FloatArray, out: FloatArray) -> None:
-    np.subtract(P, A.T @ B, out=out)
+def _add_matmul(P: FloatArray, A: FloatArray, B: FloatArray, out: FloatArray) -> None:
+    np.add(P, A @ B, out=out)
+
+
+def _negate(A: FloatArray, out: FloatArray) -> None:
+    np.negative(A, out=out)
 
 
 def _transpose(A: FloatArray, out: FloatArray) -> None:
@@ -66,6 +70,7 @@ _VERSIONS: dict[FunctionType, Any] = {
     for kernel, by_numpy in (
         (dense.matmul, _matmul),
         (dense.matmul_narrow, _matmul),
+        (dense.matmul_blocked, _matmul),
         (dense.matmul_transposed, _matmul_transposed),
         (dense.matmul_transposed_narrow, _matmul_transposed_narrow),
         (dense.matvec, _matmul),
@@ -74,7 +79,8 @@ _VERSIONS: dict[FunctionType, Any] = {
         (dense.subtract, _subtract),
         (dense.add_vectors, _add),
         (dense.subtract_vectors, _subtract),
-        (dense.subtract_product_of_transposed, _subtract_product_of_transposed),
+        (dense.add_matmul_blocked, _add_matmul),
+        (dense.negate, _negate),
         (dense.transpose, _transpose),
         (solve.inverse, _inverse),
         (solve.cholesky, _cholesky),

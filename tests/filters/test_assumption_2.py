@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from filters.arrays import FloatArray
+from filters.covariance_forms import covariance_form
 from filters.kernels.dense import matmul
 from filters.larsen import extrapolated_update
 from filters.records import Estimate, new_correction, new_estimate, new_workspace
@@ -16,10 +17,9 @@ from filters.standard import propagate, update
 from filters.systems.example import example_system
 from filters.systems.linear import linear_system
 from filters.systems.system import System
-from filters.update_forms import update_form
 
 M = 6
-FORM = update_form("textbook")
+FORM = covariance_form("textbook")
 
 
 class TwoSensors(NamedTuple):
@@ -51,7 +51,7 @@ def updated(system: System, k: int, y: FloatArray, before: Estimate) -> Estimate
 
 def propagated(system: System, j: int, before: Estimate, u: FloatArray) -> tuple[Estimate, FloatArray]:
     after = new_estimate(system)
-    Phi = propagate(system, j, before, u, after, new_workspace(system))
+    Phi = propagate(system, FORM, j, before, u, after, new_workspace(system))
     return after, Phi
 
 

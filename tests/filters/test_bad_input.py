@@ -83,7 +83,7 @@ def test_arguments_of_a_run(change: dict[str, Any], message: str) -> None:
         ({}, {"feedback": "never"}, "feedback='never' is unknown; give one of next-step, same-step"),
         ({}, {"gain": "later"}, "gain='later' is unknown"),
         ({}, {"low_rate_noise": "none"}, "low_rate_noise='none' is unknown"),
-        ({}, {"update": "fast"}, "update form 'fast' is unknown; give one of textbook, joseph, short"),
+        ({}, {"update": "fast"}, "covariance form 'fast' is unknown; give one of textbook, joseph, short"),
         ({}, {"backend": "gpu"}, "backend 'gpu' is unknown; give one of reference, compiled, numpy"),
     ],
 )

@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from filters.covariance_forms import COVARIANCE_FORMS
 from filters.systems.example import example_system
-from filters.update_forms import UPDATE_FORMS
 from tests.filters.cases import Case, each_case, relative_difference, standard_run
 from tests.strategies import Problem, problem
 
@@ -65,7 +65,7 @@ def test_every_legal_delay_and_feedback_step_of_short_cycles(case: Case, N: int)
 @given(data=DATA)
 def test_covariances_stay_symmetric_and_positive_definite(case: Case, data: st.DataObject) -> None:
     given_problem = data.draw(case.problems())
-    for form in UPDATE_FORMS:
+    for form in COVARIANCE_FORMS:
         P = case.run(given_problem, update=form).P_reference
         assert relative_difference(P, P.transpose(0, 2, 1)) <= 1e-12
         assert np.linalg.eigvalsh(P).min() > 0
@@ -73,9 +73,9 @@ def test_covariances_stay_symmetric_and_positive_definite(case: Case, data: st.D
 
 @each_case
 @given(data=DATA)
-def test_update_forms_agree(case: Case, data: st.DataObject) -> None:
+def test_covariance_forms_agree(case: Case, data: st.DataObject) -> None:
     given_problem = data.draw(case.problems())
-    textbook, joseph, short = (case.run(given_problem, update=form) for form in UPDATE_FORMS)
+    textbook, joseph, short = (case.run(given_problem, update=form) for form in COVARIANCE_FORMS)
     for other in (joseph, short):
         for found, expected in zip(other, textbook, strict=True):
             assert np.abs(found - expected).max(initial=0.0) <= 1e-10 * (1 + np.abs(textbook.x).max())
@@ -104,7 +104,7 @@ def test_missing_measurements_leave_the_prediction(case: Case, data: st.DataObje
         assert np.abs(found.x[last] - expected.x[last]).max() <= RELATIVE * np.abs(expected.x).max()
 
 
-@pytest.mark.parametrize("form", UPDATE_FORMS)
+@pytest.mark.parametrize("form", COVARIANCE_FORMS)
 @given(data=DATA)
 def test_a_precomputed_gain_changes_nothing(form: str, data: st.DataObject) -> None:
     case = Case("dual-rate", {"update": form}, "next-step")

@@ -7,13 +7,13 @@ import math
 import numpy as np
 import pytest
 
+from filters.covariance_forms import COVARIANCE_FORMS
 from filters.kernels.backends import arguments_for, function_for
 from filters.kernels.counted import Operations, count
 from filters.kernels.repeat import repeat
 from filters.registry import ALL_METHODS, Job
 from filters.systems.example import example_system
 from filters.systems.navigation import simulate_drive
-from filters.update_forms import UPDATE_FORMS
 from tests.filters.cases import CASES, Case, arrays_in
 from tests.strategies import problem
 
@@ -27,7 +27,12 @@ KINDS = {
     ],
 }  # fmt: skip
 
-FORM_DEPENDENT = [("standard", "update"), ("larsen", "update"), ("dual-rate", "lr_update")]
+FORM_DEPENDENT = [
+    ("standard", "propagate"), ("standard", "update"),
+    ("larsen", "propagate_accumulate"), ("larsen", "update"),
+    ("dual-rate", "hr_propagate"), ("dual-rate", "hr_propagate_sum"), ("dual-rate", "hr_propagate_euler"),
+    ("dual-rate", "lr_propagate"), ("dual-rate", "lr_propagate_euler"), ("dual-rate", "lr_update"),
+]  # fmt: skip
 
 
 def all_jobs(form: str = "textbook") -> dict[tuple[str, str], Job]:
@@ -55,7 +60,7 @@ def results(backend: str, job: Job, index: int = 0) -> list[np.ndarray]:
 
 
 @each_job
-@pytest.mark.parametrize("form", UPDATE_FORMS)
+@pytest.mark.parametrize("form", COVARIANCE_FORMS)
 def test_numpy_does_what_the_loops_do(key: tuple[str, str], form: str) -> None:
     job = all_jobs(form)[key]
     for found, expected in zip(results("numpy", job), results("reference", job), strict=True):
@@ -79,7 +84,7 @@ def test_compiled_forms_do_what_the_loops_do(key: tuple[str, str], form: str) ->
 
 
 @each_job
-@pytest.mark.parametrize("form", UPDATE_FORMS)
+@pytest.mark.parametrize("form", COVARIANCE_FORMS)
 def test_a_job_leaves_its_inputs_so_that_it_can_be_repeated(key: tuple[str, str], form: str) -> None:
     job = all_jobs(form)[key]
     arguments = job.arguments(0)
@@ -135,7 +140,7 @@ def test_jobs_of_a_nonlinear_model_start_from_its_typical_state() -> None:
     job = ALL_METHODS["standard"].jobs(drive.system, "textbook", seed=0, x0=drive.x0)["propagate"]
     operations = count(job.function, *job.arguments(0))
     assert operations.function == 4  # sin and cos, in f and in F
-    assert abs(job.arguments(0)[2].x[3] - drive.x0[3]) < 10
+    assert abs(job.arguments(0)[3].x[3] - drive.x0[3]) < 10
 
 
 def product(n: int, m: int, p: int) -> Operations:
@@ -180,6 +185,34 @@ def test_operations_of_the_jobs_in_textbook_form(n: int, u: int, p: int) -> None
     expected["larsen", "propagate"] = expected["standard", "propagate"]
     expected["recalculate", "update"] = expected["standard", "update"]
     assert found == expected
+
+
+PROPAGATE = [key for key in all_jobs() if "propagate" in key[1] or key[1] == "replay"]
+
+
+@pytest.mark.parametrize("key", PROPAGATE, ids="-".join)
+@pytest.mark.parametrize("form", ["joseph", "short"])
+def test_every_form_propagates_with_as_many_operations(key: tuple[str, str], form: str) -> None:
+    job, literal = all_jobs(form)[key], all_jobs("textbook")[key]
+    assert count(job.function, *job.arguments(0)) == count(literal.function, *literal.arguments(0))
+
+
+@pytest.mark.parametrize(("n", "u", "p"), [(9, 3, 3), (4, 2, 1), (5, 1, 4)])
+def test_operations_of_the_updates_in_short_form(n: int, u: int, p: int) -> None:
+    jobs = {name: method.jobs(example_system(n, u, p), "short") for name, method in ALL_METHODS.items()}
+    S = product(p, n, n) + product(p, n, p) + Operations(add=p * p)
+    factor = Operations((p - 1) * p * (p + 1) // 6, (p - 1) * p * (p + 1) // 6, p * (p - 1) // 2, p)
+    solve = Operations(p * (p - 1) * n + 2 * p * n, p * (p - 1) * n, 2 * p)
+    error = product(p, n, 1) + Operations(add=p) + product(n, p, 1)
+    covariance = Operations(multiply=n * n * p, add=n * n * p)
+    found = {name: count(jobs[name][kind].function, *jobs[name][kind].arguments(0))
+             for name, kind in (("standard", "update"), ("larsen", "update"), ("dual-rate", "lr_update"))}  # fmt: skip
+    assert found == {
+        "standard": S + factor + solve + error + covariance + Operations(add=n),
+        "larsen": S + factor + solve + error + covariance + product(n, n, 1) + Operations(add=n)
+        + product(n, n, p) + product(p, n, n),
+        "dual-rate": S + factor + solve + error + covariance,
+    }  # fmt: skip
 
 
 def test_operation_counts_reach_the_printed_tables() -> None:

@@ -8,11 +8,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from filters import standard
+from filters.covariance_forms import COVARIANCE_FORMS
 from filters.systems.example import example_system
-from filters.update_forms import UPDATE_FORMS
 from tests.strategies import Problem, problem, systems
 
-each_form = pytest.mark.parametrize("form", UPDATE_FORMS)
+each_form = pytest.mark.parametrize("form", COVARIANCE_FORMS)
 problems = st.builds(
     problem, systems(), st.integers(1, 5), st.just(0), st.just(0), st.integers(0, 12), st.integers(0, 99)
 )

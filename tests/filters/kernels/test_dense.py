@@ -39,13 +39,16 @@ def test_products(backend: BackendName, n: int, m: int, p: int, seed: int) -> No
     A, B, x, y = normal(seed, (n, m), (m, p), (m,), (n,))
     out, scratch = np.empty((n, p)), np.empty((m, p))
     transposed = np.ascontiguousarray(B.T)
-    for kernel in (dense.matmul, dense.matmul_narrow):
+    for kernel in (dense.matmul, dense.matmul_narrow, dense.matmul_blocked):
         function_for(backend, kernel)(A, B, out)
         close(out, A @ B)
     function_for(backend, dense.matmul_transposed)(A, transposed, out, scratch)
     close(out, A @ B)
     function_for(backend, dense.matmul_transposed_narrow)(A, transposed, out)
     close(out, A @ B)
+    (P,) = normal(seed + 1, (n, p))
+    function_for(backend, dense.add_matmul_blocked)(P, A, B, out)
+    close(out, P + A @ B)
     vector = np.empty(n)
     function_for(backend, dense.matvec)(A, x, vector)
     close(vector, A @ x)
@@ -57,16 +60,16 @@ def test_products(backend: BackendName, n: int, m: int, p: int, seed: int) -> No
 @each_backend
 @given(n=lengths, m=lengths, seed=seeds)
 def test_sums_and_copies(backend: BackendName, n: int, m: int, seed: int) -> None:
-    A, B, P, a, b = normal(seed, (n, m), (n, m), (m, m), (n,), (n,))
-    out, vector, square, turned = np.empty((n, m)), np.empty(n), np.empty((m, m)), np.empty((m, n))
+    A, B, a, b = normal(seed, (n, m), (n, m), (n,), (n,))
+    out, vector, turned = np.empty((n, m)), np.empty(n), np.empty((m, n))
     for kernel, expected in ((dense.add, A + B), (dense.subtract, A - B)):
         function_for(backend, kernel)(A, B, out)
         close(out, expected)
     for kernel, expected in ((dense.add_vectors, a + b), (dense.subtract_vectors, a - b)):
         function_for(backend, kernel)(a, b, vector)
         close(vector, expected)
-    function_for(backend, dense.subtract_product_of_transposed)(P, A, B, square)
-    close(square, P - A.T @ B)
+    function_for(backend, dense.negate)(A, out)
+    close(out, -A)
     function_for(backend, dense.transpose)(A, turned)
     close(turned, A.T)
     function_for(backend, dense.copy)(A, out)
@@ -94,6 +97,14 @@ def test_solves(backend: BackendName, p: int, n: int, seed: int) -> None:
     close(solved, np.linalg.solve(S, B))
 
 
+@given(n=lengths, m=lengths, seed=seeds)
+def test_a_product_may_be_added_in_place(n: int, m: int, seed: int) -> None:
+    A, B, P = normal(seed, (n, m), (m, n), (n, n))
+    expected = P + A @ B
+    dense.add_matmul_blocked(P, A, B, P)
+    close(P, expected)
+
+
 @pytest.mark.parametrize("kernel", [dense.add, dense.subtract])
 def test_a_sum_may_be_written_over_its_terms(kernel: Callable[..., None]) -> None:
     A, B = normal(0, (3, 4), (3, 4))
@@ -112,15 +123,17 @@ def test_operations_of_products(n: int, m: int, p: int) -> None:
     out, turned = np.ones((n, p)), np.ones((p, m))
     assert count(dense.matmul, A, B, out) == product
     assert count(dense.matmul_narrow, A, B, out) == product
+    assert count(dense.matmul_blocked, A, B, out) == product
+    assert count(dense.add_matmul_blocked, out, A, B, out) == product + Operations(add=n * p)
     assert count(dense.matmul_transposed, A, turned, out, np.ones((m, p))) == product
     assert count(dense.matmul_transposed_narrow, A, turned, out) == product
     assert count(dense.matvec, A, x, np.ones(n)) == Operations(multiply=n * m, add=n * (m - 1))
     assert count(dense.add_matvec, A, x, np.ones(n)) == Operations(multiply=n * m, add=n * m)
     assert count(dense.add, A, A, A) == count(dense.subtract, A, A, A) == Operations(add=n * m)
     assert count(dense.add_vectors, x, x, x) == count(dense.subtract_vectors, x, x, x) == Operations(add=m)
-    P = np.ones((m, m))
-    assert count(dense.subtract_product_of_transposed, P, A, A, P) == Operations(n * m * m, n * m * m)
-    assert count(dense.transpose, A, np.ones((m, n))) == count(dense.copy, A, A) == Operations()
+    for kernel in (dense.copy, dense.negate):
+        assert count(kernel, A, A) == Operations()
+    assert count(dense.transpose, A, np.ones((m, n))) == Operations()
 
 
 @given(p=lengths, n=lengths)

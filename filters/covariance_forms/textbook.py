@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from filters.arrays import FloatArray
+from filters.covariance_forms.form import CovarianceForm
 from filters.kernels.dense import (
     add,
     matmul,
@@ -13,7 +14,13 @@ from filters.kernels.dense import (
 )
 from filters.kernels.solve import inverse
 from filters.records import Workspace
-from filters.update_forms.form import UpdateForm
+
+
+def propagation(Phi: FloatArray, P: FloatArray, Q: FloatArray, out: FloatArray, work: Workspace) -> None:
+    """Phi P Phi^T + Q, Eqs. (8), (14) and (18)."""
+    matmul(Phi, P, work.nn1)
+    matmul_transposed(work.nn1, Phi, out, work.nn2)
+    add(out, Q, out)
 
 
 def gain(P: FloatArray, H: FloatArray, R: FloatArray, K: FloatArray, work: Workspace) -> None:
@@ -51,4 +58,4 @@ def delayed_covariance(
     subtract(P_m, work.nn1, out)
 
 
-FORM = UpdateForm(gain, covariance, delayed_covariance)
+FORM = CovarianceForm(matmul, propagation, gain, covariance, delayed_covariance)

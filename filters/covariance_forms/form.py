@@ -1,4 +1,4 @@
-"""What an update form is."""
+"""What a covariance form is."""
 
 from __future__ import annotations
 
@@ -8,6 +8,8 @@ from typing import NamedTuple, TypeAlias
 from filters.arrays import FloatArray
 from filters.records import Workspace
 
+Product: TypeAlias = Callable[[FloatArray, FloatArray, FloatArray], None]
+Propagation: TypeAlias = Callable[[FloatArray, FloatArray, FloatArray, FloatArray, Workspace], None]
 Gain: TypeAlias = Callable[[FloatArray, FloatArray, FloatArray, FloatArray, Workspace], None]
 Covariance: TypeAlias = Callable[[FloatArray, FloatArray, FloatArray, FloatArray, FloatArray, Workspace], None]
 DelayedCovariance: TypeAlias = Callable[
@@ -15,15 +17,21 @@ DelayedCovariance: TypeAlias = Callable[
 ]
 
 
-class UpdateForm(NamedTuple):
-    """The three places in which forms differ. All take P_{k^-} (n, n), H_k (p, n), R_k (p, p), K_k (n, p).
+class CovarianceForm(NamedTuple):
+    """The places in which forms differ: everything that takes a product of matrices.
 
+    product(A, B, out): writes A B, all (n, n), Eq. (16).
+    propagation(Phi, P, Q, out, work): writes Phi P Phi^T + Q, all (n, n), Eqs. (8), (14) and (18); P may be work.nn3.
+
+    The others take P_{k^-} (n, n), H_k (p, n), R_k (p, p), K_k (n, p).
     gain(P, H, R, K, work): writes K, Eq. (9).
     covariance(P, H, R, K, out, work): writes P_{k^+}, Eq. (11), right after `gain`.
     delayed_covariance(Phi, P, H, R, K, P_m, out, work): writes P_{m^+} from Phi_{k->m} and P_{m^-}, Eq. (21), right
     after `gain`.
     """
 
+    product: Product
+    propagation: Propagation
     gain: Gain
     covariance: Covariance
     delayed_covariance: DelayedCovariance

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from filters.arrays import FloatArray
+from filters.covariance_forms.form import CovarianceForm
+from filters.covariance_forms.textbook import gain, propagation
 from filters.kernels.dense import add, matmul, matmul_narrow, matmul_transposed, subtract
 from filters.records import Workspace
-from filters.update_forms.form import UpdateForm
-from filters.update_forms.textbook import gain
 
 
 def covariance(P: FloatArray, H: FloatArray, R: FloatArray, K: FloatArray, out: FloatArray, work: Workspace) -> None:
@@ -38,4 +38,4 @@ def delayed_covariance(
     subtract(P_m, work.nn1, out)
 
 
-FORM = UpdateForm(gain, covariance, delayed_covariance)
+FORM = CovarianceForm(matmul, propagation, gain, covariance, delayed_covariance)

@@ -1,0 +1,65 @@
+"""The least work: H P is formed once and serves as (P H^T)^T too, S is factored, and Eq. (11) needs one thin product.
+
+Products are blocked, and sums are made within them. Solves run along the rows of (p, n) matrices, which are longer than
+those of (n, p) ones.
+"""
+
+from __future__ import annotations
+
+from filters.arrays import FloatArray
+from filters.covariance_forms.form import CovarianceForm
+from filters.kernels.dense import (
+    add,
+    add_matmul_blocked,
+    matmul_blocked,
+    matmul_narrow,
+    matmul_transposed_narrow,
+    negate,
+    transpose,
+)
+from filters.kernels.solve import cholesky, solve_cholesky
+from filters.records import Workspace
+
+
+def propagation(Phi: FloatArray, P: FloatArray, Q: FloatArray, out: FloatArray, work: Workspace) -> None:
+    """Phi P Phi^T + Q, Eqs. (8), (14) and (18)."""
+    matmul_blocked(Phi, P, work.nn1)
+    transpose(Phi, work.nn2)
+    add_matmul_blocked(Q, work.nn1, work.nn2, out)
+
+
+def gain(P: FloatArray, H: FloatArray, R: FloatArray, K: FloatArray, work: Workspace) -> None:
+    """K^T = S^-1 (H P), Eq. (9) for symmetric P, from the Cholesky factor of S. Leaves H P."""
+    matmul_blocked(H, P, work.HP)
+    matmul_transposed_narrow(work.HP, H, work.S)
+    add(work.S, R, work.S)  # innovation covariance
+    cholesky(work.S, work.pp1)
+    solve_cholesky(work.pp1, work.HP, work.pn1)
+    transpose(work.pn1, K)
+
+
+def covariance(P: FloatArray, _H: FloatArray, _R: FloatArray, K: FloatArray, out: FloatArray, work: Workspace) -> None:
+    """P_{k^+} = P - K (H P), equal to Eq. (11)."""
+    negate(K, work.np1)
+    add_matmul_blocked(P, work.np1, work.HP, out)
+
+
+def delayed_covariance(
+    Phi: FloatArray,
+    _P: FloatArray,
+    _H: FloatArray,
+    _R: FloatArray,
+    K: FloatArray,
+    P_m: FloatArray,
+    out: FloatArray,
+    work: Workspace,
+) -> None:
+    """P_{m^+} = P_{m^-} - (Phi K) (H P Phi^T), equal to Eq. (21)."""
+    matmul_narrow(Phi, K, work.np1)
+    negate(work.np1, work.np1)
+    transpose(Phi, work.nn1)
+    matmul_blocked(work.HP, work.nn1, work.pn1)
+    add_matmul_blocked(P_m, work.np1, work.pn1, out)
+
+
+FORM = CovarianceForm(matmul_blocked, propagation, gain, covariance, delayed_covariance)
