@@ -63,92 +63,23 @@ class Method(NamedTuple):
     jobs: Callable[..., dict[str, Job]]
 
 
-def _standard_jobs(
-    system: System, update: CovarianceFormName = "textbook", seed: int = 0, x0: FloatArray | None = None
-) -> dict[str, Job]:
-    return _by_kind(
-        system,
-        covariance_form(update),
-        seed,
-        x0,
-        ("propagate", standard.propagate, _propagate),
-        ("update", standard.update, _update),
-    )
-
-
-def _recalculate_jobs(
-    system: System, update: CovarianceFormName = "textbook", seed: int = 0, x0: FloatArray | None = None
-) -> dict[str, Job]:
-    return _by_kind(
-        system,
-        covariance_form(update),
-        seed,
-        x0,
-        ("propagate", standard.propagate, _propagate),
-        ("update", standard.update, _update),
-        ("replay", standard.propagate, _propagate),
-    )
-
-
-def _larsen_jobs(
-    system: System, update: CovarianceFormName = "textbook", seed: int = 0, x0: FloatArray | None = None
-) -> dict[str, Job]:
-    return _by_kind(
-        system,
-        covariance_form(update),
-        seed,
-        x0,
-        ("propagate", standard.propagate, _propagate),
-        ("propagate_accumulate", larsen.propagate_accumulate, _propagate_accumulate),
-        ("update", larsen.extrapolated_update, _extrapolated_update),
-    )
-
-
-def _dual_rate_jobs(
-    system: System, update: CovarianceFormName = "textbook", seed: int = 0, x0: FloatArray | None = None
-) -> dict[str, Job]:
-    return _by_kind(
-        system,
-        covariance_form(update),
-        seed,
-        x0,
-        ("hr_restart", hr_restart, _hr_restart),
-        ("hr_propagate", hr_propagate, _hr_propagate),
-        ("hr_propagate_sum", hr_propagate_sum, _hr_propagate),
-        ("hr_propagate_euler", hr_propagate_euler, _hr_propagate_euler),
-        ("hr_update", hr_update, _hr_update),
-        ("lr_propagate", lr_propagate, _lr_propagate),
-        ("lr_propagate_euler", lr_propagate_euler, _lr_propagate_euler),
-        ("lr_update", lr_update, _lr_update),
-        ("lr_gain", lr_gain, _lr_gain),
-        ("lr_correct", lr_correct, _lr_correct),
-    )
-
-
-ALL_METHODS: dict[str, Method] = {
-    method.name: method
-    for method in (
-        Method("standard", standard.run, _standard_jobs),
-        Method("recalculate", recalculate.run, _recalculate_jobs),
-        Method("larsen", larsen.run, _larsen_jobs),
-        Method("dual-rate", dual_rate.run, _dual_rate_jobs),
-    )
-}
-
 Arguments = Callable[[System, CovarianceForm, Sample], tuple[Any, ...]]
 
 
-def _by_kind(
-    system: System,
-    form: CovarianceForm,
-    seed: int,
-    x0: FloatArray | None,
-    *jobs: tuple[str, Callable[..., Any], Arguments],
-) -> dict[str, Job]:
-    def arguments_of(make: Arguments) -> Callable[[int], tuple[Any, ...]]:
-        return lambda index: make(system, form, sample(system, seed, index, x0))
+def _jobs(*described: tuple[str, Callable[..., Any], Arguments]) -> Callable[..., dict[str, Job]]:
+    """`Method.jobs` of a method, given the kind, the function and the arguments of each job."""
 
-    return {kind: Job(kind, function, arguments_of(make)) for kind, function, make in jobs}
+    def jobs(
+        system: System, update: CovarianceFormName = "textbook", seed: int = 0, x0: FloatArray | None = None
+    ) -> dict[str, Job]:
+        form = covariance_form(update)
+
+        def arguments_of(make: Arguments) -> Callable[[int], tuple[Any, ...]]:
+            return lambda index: make(system, form, sample(system, seed, index, x0))
+
+        return {kind: Job(kind, function, arguments_of(make)) for kind, function, make in described}
+
+    return jobs
 
 
 def _propagate(system: System, form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
@@ -215,3 +146,40 @@ def _lr_correct(system: System, _form: CovarianceForm, at: Sample) -> tuple[Any,
 
 def _halved(transition: Transition, at: Sample) -> HalvedTransition:
     return HalvedTransition(transition.Phi, transition.Q.copy(), transition.Q.copy(), at.m)
+
+
+_PROPAGATE = ("propagate", standard.propagate, _propagate)
+_UPDATE = ("update", standard.update, _update)
+
+ALL_METHODS: dict[str, Method] = {
+    method.name: method
+    for method in (
+        Method("standard", standard.run, _jobs(_PROPAGATE, _UPDATE)),
+        Method("recalculate", recalculate.run, _jobs(_PROPAGATE, _UPDATE, ("replay", standard.propagate, _propagate))),
+        Method(
+            "larsen",
+            larsen.run,
+            _jobs(
+                _PROPAGATE,
+                ("propagate_accumulate", larsen.propagate_accumulate, _propagate_accumulate),
+                ("update", larsen.extrapolated_update, _extrapolated_update),
+            ),
+        ),
+        Method(
+            "dual-rate",
+            dual_rate.run,
+            _jobs(
+                ("hr_restart", hr_restart, _hr_restart),
+                ("hr_propagate", hr_propagate, _hr_propagate),
+                ("hr_propagate_sum", hr_propagate_sum, _hr_propagate),
+                ("hr_propagate_euler", hr_propagate_euler, _hr_propagate_euler),
+                ("hr_update", hr_update, _hr_update),
+                ("lr_propagate", lr_propagate, _lr_propagate),
+                ("lr_propagate_euler", lr_propagate_euler, _lr_propagate_euler),
+                ("lr_update", lr_update, _lr_update),
+                ("lr_gain", lr_gain, _lr_gain),
+                ("lr_correct", lr_correct, _lr_correct),
+            ),
+        ),
+    )
+}
