@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 
 from reports.style import drawing
 from sched_sim.errors import InputError
+from sched_sim.files import check_writable
 
 METADATA: dict[str, dict[str, str | None]] = {
     "svg": {"Date": None, "Creator": None},
@@ -26,6 +27,18 @@ def image(figure: Figure, kind: str) -> bytes:
     return buffer.getvalue()
 
 
+def check_picture(path: Path) -> str:
+    """The format that the suffix of `path` names. Raises InputError for another one, and for a path that cannot be
+    written: to be called before the work that makes the picture."""
+    kind = path.suffix.lower().removeprefix(".")
+    if kind not in METADATA:
+        raise InputError(
+            f"picture {str(path)!r}: suffix {path.suffix!r} is no picture format; end the name in .svg, .pdf or .png"
+        )
+    check_writable(path, "picture")
+    return kind
+
+
 def save(figure: Figure, path: str | Path) -> None:
     """Write the figure to `path`, in the format that its suffix names.
 
@@ -33,12 +46,7 @@ def save(figure: Figure, path: str | Path) -> None:
     replaced only once the picture is complete.
     """
     path = Path(path)
-    kind = path.suffix.lower().removeprefix(".")
-    if kind not in METADATA:
-        raise InputError(
-            f"picture {str(path)!r}: suffix {path.suffix!r} is no picture format; end the name in .svg, .pdf or .png"
-        )
-    content = image(figure, kind)
+    content = image(figure, check_picture(path))
     try:
         path.write_bytes(content)
     except OSError as error:

@@ -65,7 +65,7 @@ def _longest_serial_job(costs: StandardCosts | RecalculateCosts | LarsenCosts, N
         case RecalculateCosts(propagate, update, replay):
             return propagate + update + replay * M
         case LarsenCosts(propagate, accumulate, update):
-            return np.where(M >= 2, max(accumulate + update, propagate), propagate + update)
+            return np.where(M >= 2, 0 * N + max(accumulate + update, propagate), 0 * N + propagate + update)
 
 
 def _next_step(demand: DualRateDemand, L: Ints, by_m: bool) -> Quotient:

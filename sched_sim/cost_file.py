@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import json
-import os
 import tomllib
 from collections.abc import Mapping
 from decimal import Decimal
 from fractions import Fraction
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Self
 
-from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, ValidationError
+from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, ValidationError, model_validator
 
 from sched_sim.costs import KINDS, Cost, CostTable, positive_cost, shipped_names
 from sched_sim.errors import InputError
@@ -44,6 +43,12 @@ class _CostEntry(BaseModel):
     minimum: Number
     median: Number
     p95: Number
+
+    @model_validator(mode="after")
+    def _in_order(self) -> Self:
+        if not self.minimum <= self.median <= self.p95:
+            raise ValueError("minimum, median and p95 must not fall")
+        return self
 
 
 class _CostFile(BaseModel):
@@ -80,13 +85,6 @@ def read_cost_table(path: Path, shown: str = "") -> CostTable:
     return CostTable(
         name=checked.name, unit=checked.unit, costs=costs, provenance=dict(checked.model_extra or {}), path=shown
     )
-
-
-def check_writable(path: Path) -> None:
-    """Raises InputError unless a file can be written at `path`, before the work that fills it; changes nothing."""
-    folder = path.absolute().parent
-    if path.is_dir() or not folder.is_dir() or not os.access(path if path.exists() else folder, os.W_OK):
-        raise InputError(f"{str(path)!r} cannot be written: give a file in a folder that exists and is yours to write")
 
 
 def cost_table_text(table: CostTable) -> str:

@@ -75,10 +75,15 @@ class CostTable:
             return self.costs[method][kind]
         except KeyError:
             where = f"{self.name} ({self.path})" if self.path else self.name
-            raise InputError(
-                f"cost table {where} has no entry [costs.{method}] {kind}: add the line `{kind} = ...` "
-                f"there, choose another --method or option, or measure it with `sched-sim measure`"
-            ) from None
+            raise InputError(f"cost table {where} has no entry [costs.{method}] {kind}: {self._remedy(kind)}") from None
+
+    def _remedy(self, kind: str) -> str:
+        if self.name in shipped_names():
+            return "use --costs counted-9-3-3, or a table that `sched-sim measure` writes"
+        return (
+            f"add the line `{kind} = ...` there, choose a --method or option that does not need it, or measure it "
+            f"with `sched-sim measure`"
+        )
 
     def normalised(self) -> CostTable:
         """The same costs with the standard filter's propagate + update as the unit, as Steffes prints them."""

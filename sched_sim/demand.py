@@ -60,19 +60,29 @@ class DualRateDemand(NamedTuple):
     M: Ints
     separate: bool
 
+    @property
+    def _zero(self) -> Ints:
+        """Zeros of the arrays' own type, so that what is added to them cannot overflow if they cannot."""
+        return 0 * self.N
+
+    @property
+    def _restart_or_hr(self) -> tuple[Ints, Ints]:
+        return self._zero + self.costs.hr_restart, self._zero + self.costs.hr
+
     def hr_job(self, step: Ints | int) -> Ints:
         """The HR job of one step, without the HR update."""
-        return np.where((step == 1) | (self.N == 1), self.costs.hr_restart, self.costs.hr)
+        return self._zero + np.where((step == 1) | (self.N == 1), *self._restart_or_hr)
 
     def longest_hr_job(self) -> Ints:
         """The longest HR job of the cycle, without the HR update."""
-        c = self.costs
-        return np.where(self.N == 1, c.hr_restart, max(c.hr, c.hr_restart))
+        restart, hr = self._restart_or_hr
+        return np.where(self.N == 1, restart, np.maximum(restart, hr))
 
     def hr_work(self, first: Ints | int, end: Ints | int) -> Ints:
         """All HR jobs of steps first .. end-1 without HR updates, 0 <= first <= end <= N."""
         c = self.costs
-        restarts = np.where(self.N == 1, np.subtract(end, first), (np.less_equal(first, 1)) & (np.greater(end, 1)))
+        once = self._zero + (np.less_equal(first, 1) & np.greater(end, 1))
+        restarts = np.where(self.N == 1, np.subtract(end, first), once)
         return np.subtract(end, first) * c.hr + restarts * (c.hr_restart - c.hr)
 
     def before_lr(self, steps: Ints | int) -> Ints:
@@ -96,7 +106,7 @@ class DualRateDemand(NamedTuple):
     def propagate_window(self, code: int, more: Any = 0) -> Quotient:
         """LR propagate (and gain) between k and m; nothing where m = k."""
         M = np.maximum(self.M, 1)
-        work = np.where(self.M == 0, 0, self.before_lr(M) + self.lr_early + more)
+        work = np.where(self.M == 0, self._zero, self.before_lr(M) + self.lr_early + more)
         return quotient(work, M, code)
 
     def first_end(self, period: Ints, scale: Ints | int = 1) -> Ints:
@@ -109,7 +119,7 @@ class DualRateDemand(NamedTuple):
             return np.maximum(M + _steps(update, period), _steps(first + total, period))
         slack = period - c.hr * scale
         saved = (c.hr_restart - c.hr) * scale
-        by_update = M + _steps(update + np.where(M <= 1, saved, 0), slack)
+        by_update = M + _steps(update + saved * (self._zero + (M <= 1)), slack)
         end = np.maximum(np.maximum(by_update, _steps(total + saved, slack)), 2)
         within_first = (M == 0) & (period - self.hr_job(0) * scale >= total)
         return np.where(within_first, 1, end)

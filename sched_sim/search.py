@@ -19,7 +19,7 @@ from sched_sim.timing import Timing
 TICKS_PER_LOOP = 1_000_000
 """The least speed is found to this many ticks in the filter's largest job, or finer."""
 
-LONGEST_HYPERPERIOD = 1_000_000
+LONGEST_HYPERPERIOD = 200_000
 
 
 def least_speed_by_simulation(

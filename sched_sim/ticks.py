@@ -12,6 +12,9 @@ from math import lcm
 
 from sched_sim.errors import InputError
 
+LARGEST_EXPONENT = 18
+"""Costs and speeds of any unit lie well within; what does not is a slip of the keyboard."""
+
 
 def exact(value: int | str | float | Decimal | Fraction, what: str) -> Fraction:
     """The exact fraction that `value` writes: "0.78" is 78/100, "77/100" too; a float stands for its
@@ -23,7 +26,12 @@ def exact(value: int | str | float | Decimal | Fraction, what: str) -> Fraction:
         return Fraction(value)
     text = str(value).strip()
     try:
-        return Fraction(text) if "/" in text else Fraction(Decimal(text))
+        number = Decimal(1) if "/" in text else Decimal(text)
+        if number and not -LARGEST_EXPONENT <= number.adjusted() <= LARGEST_EXPONENT:
+            raise InputError(f"{what} is {text}: give a number between 1e-{LARGEST_EXPONENT} and 1e{LARGEST_EXPONENT}")
+        return Fraction(text) if "/" in text else Fraction(number)
+    except InputError:
+        raise
     except (InvalidOperation, ValueError, OverflowError, ZeroDivisionError):
         raise InputError(f"{what} is {text!r}: give a finite number such as 0.78 or 77/100") from None
 

@@ -7,19 +7,25 @@ import sys
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
+from filters.arrays import FloatArray
 from filters.systems.system import System
 from sched_sim.errors import InputError
 
 HOW = (
-    "name a function without arguments that returns a filters.systems.System, as in --system mymodule:my_system "
+    "name a function without arguments that returns a filters.systems.system.System, as in --system mymodule:my_system "
     "for a file mymodule.py in this folder"
 )
 
 
-def load_system(name: str) -> System:
-    """The system that the function `package.module:function` returns; the current folder is searched first.
+def load_system(name: str) -> tuple[System, FloatArray]:
+    """The system that the function `package.module:function` returns, and a typical state of it (n,).
 
-    Raises InputError that says what is wrong with the name, the module or what the function returned.
+    The function may return the system alone; then the state is zero. The current folder is searched first. All model
+    functions are tried at that state.
+    Raises InputError that says what is wrong with the name, the module, what the function returned, or which model
+    function fails or gives what.
     """
     module_name, colon, function_name = name.partition(":")
     if not (colon and module_name and function_name):
@@ -27,15 +33,59 @@ def load_system(name: str) -> System:
     sys.path.insert(0, str(Path.cwd()))
     try:
         module = importlib.import_module(module_name)
-    except ImportError as error:
-        raise InputError(f"--system {name!r}: module {module_name!r} cannot be imported ({error}); {HOW}") from None
+    except Exception as error:
+        raise InputError(f"--system {name!r}: module {module_name!r} cannot be imported ({error}); {HOW}") from error
     function: Any = getattr(module, function_name, None)
     if not callable(function):
         raise InputError(f"--system {name!r}: module {module_name!r} has no function {function_name!r}; {HOW}")
     try:
-        system = function()
-    except (TypeError, ValueError) as error:
+        returned = function()
+    except Exception as error:
         raise InputError(f"--system {name!r}: {function_name}() failed: {error}") from error
+    system, x0 = returned if type(returned) is tuple and len(returned) == 2 else (returned, None)
     if not isinstance(system, System):
         raise InputError(f"--system {name!r}: {function_name}() returned a {type(system).__name__}; {HOW}")
-    return system
+    if min(system.states, system.inputs, system.measurements) < 1:
+        raise InputError(
+            f"--system {name!r}: states={system.states}, inputs={system.inputs}, measurements={system.measurements} "
+            f"must all be at least 1"
+        )
+    state = np.zeros(system.states) if x0 is None else np.array(x0, dtype=np.float64)
+    _try_model(name, system, state)
+    return system, state
+
+
+def _try_model(name: str, system: System, x: FloatArray) -> None:
+    """Call each model function once and look at what it gives."""
+    n, m, p = system.states, system.inputs, system.measurements
+    u, parameters = np.zeros(m), system.parameters
+    _expect(name, "the typical state", lambda: x, (n,))
+    _expect(name, "f(j, x, u, p, out)", lambda: _filled(n, lambda out: system.f(0, x, u, parameters, out)), (n,))
+    _expect(name, "F(j, x, u, p)", lambda: system.F(0, x, u, parameters), (n, n))
+    _expect(name, "Q(j, p)", lambda: system.Q(0, parameters), (n, n))
+    _expect(name, "h(k, x, p, out)", lambda: _filled(p, lambda out: system.h(0, x, parameters, out)), (p,))
+    _expect(name, "H(k, x, p)", lambda: system.H(0, x, parameters), (p, n))
+    _expect(name, "R(k, p)", lambda: system.R(0, parameters), (p, p))
+
+
+def _filled(length: int, fill: Any) -> FloatArray:
+    out = np.full(length, np.nan)
+    fill(out)
+    return out
+
+
+def _expect(name: str, what: str, call: Any, shape: tuple[int, ...]) -> None:
+    try:
+        with np.errstate(all="ignore"):
+            value = call()
+    except Exception as error:
+        raise InputError(
+            f"--system {name!r}: {what} failed: {type(error).__name__}: {error} (p is the system's `parameters`)"
+        ) from error
+    if np.shape(value) != shape:
+        raise InputError(f"--system {name!r}: {what} has shape {np.shape(value)}; needed is {shape}")
+    if not np.isfinite(np.asarray(value, dtype=np.float64)).all():
+        raise InputError(
+            f"--system {name!r}: {what} is not finite at the typical state; return (system, x0) with a state where it "
+            f"is (without x0, it is tried at zero)"
+        )

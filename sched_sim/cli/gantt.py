@@ -40,10 +40,12 @@ def gantt(
     """
     from reports.gantt import gantt as draw
     from reports.gantt import method_panel, save
+    from reports.picture import check_picture
     from sched_sim.costs import load, select
     from sched_sim.least_speed import least_speed
     from sched_sim.ticks import positive
 
+    check_picture(output)
     options = opt.make_options(lr_propagate_by, feedback, gain, low_rate_noise, cpus, context_switch)
     table, others = load(costs), opt.make_tasks(tasks)
     panels = []

@@ -31,7 +31,7 @@ OwnSystem = Annotated[
     str | None,
     typer.Option(
         "--system",
-        help="Your own: package.module:function that returns a filters.systems.System.",
+        help="Your own: package.module:function that returns a System, or a System and a typical state.",
         rich_help_panel=SYSTEM,
     ),
 ]
@@ -59,18 +59,21 @@ def measure(
     """
     from filters.systems.example import example_system
     from sched_sim.cli.progress import progress_bar
-    from sched_sim.cost_file import check_writable, write_cost_table
+    from sched_sim.cost_file import write_cost_table
+    from sched_sim.files import check_writable
     from studies.measure import measure as run
     from studies.user_system import load_system
 
     if output is not None:
-        check_writable(output)
+        check_writable(output, "--output")
     if system is None:
-        model, name = example_system(states, inputs, measurements), f"{backend}-{states}-{inputs}-{measurements}"
+        model, x0 = example_system(states, inputs, measurements), None
+        name = f"{backend}-{states}-{inputs}-{measurements}"
     else:
-        model, name = load_system(system), f"{backend}-{system.replace(':', '.')}"
+        model, x0 = load_system(system)
+        name = f"{backend}-{system.replace(':', '.')}"
     with progress_bar("Measuring") as progress:
-        table = run(model, backend, update, name=name, thorough=thorough, progress=progress)
+        table = run(model, backend, update, name=name, thorough=thorough, x0=x0, progress=progress)
     normalised = table.normalised()
     rows = [
         {

@@ -14,6 +14,9 @@ BINDINGS = {
     "lr_total": "all LR work, k to l",
 }
 
+SECONDS = {"second": 1.0, "seconds": 1.0, "s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
+"""Units of costs that are times: then work per second is a share of the processor on which they were found."""
+
 LARGEST_DENOMINATOR = 10_000
 """A fraction with a larger one (of measured costs) tells a person nothing; --format json has it."""
 
@@ -42,6 +45,8 @@ def minimum(
     """
     from sched_sim.costs import load, select
     from sched_sim.least_speed import achieved_l, least_speed
+    from sched_sim.search import cycles_to_simulate
+    from sched_sim.simulate import simulate
 
     options = opt.make_options(lr_propagate_by, feedback, gain, low_rate_noise, cpus, context_switch)
     table, others, rate = load(costs), opt.make_tasks(tasks), opt.hr_rate(hr_hz)
@@ -60,16 +65,22 @@ def minimum(
             "min_speed_exact": str(least.speed),
             "binding": least.binding,
         }
-        landed = achieved_l(work, timing, least.speed, options) if not (others or options.context_switch) else None
+        landed: int | None
+        if others or options.context_switch:
+            cycles = cycles_to_simulate(timing, others)
+            landed = max(simulate(work, timing, least.speed, cycles, options, others).achieved)
+        else:
+            landed = achieved_l(work, timing, least.speed, options)
         person = {
-            "method": name,
+            "method": "standard (no delay)" if name == "standard" else name,
             "least speed": f"{float(least.speed):.6g}",
             "exactly": str(least.speed) if least.speed.denominator <= LARGEST_DENOMINATOR else "-",
             "fixed by": BINDINGS.get(least.binding, least.binding),
             "lands at L": landed,
         }
         if rate is not None:
-            times = _absolute(rate, timing.L if landed is None else landed, float(least.speed), table.unit)
+            assert landed is not None
+            times = _absolute(rate, landed, float(least.speed), table.unit)
             row |= {"hr_hz": rate, **times}
             person |= {_heading(key, table.unit): f"{value:.4g}" for key, value in times.items()}
         rows.append(row)
@@ -88,13 +99,13 @@ def minimum(
 
 def _absolute(rate: float, L: int, speed: float, unit: str) -> dict[str, float]:
     """What the design is in seconds: when the correction lands, and the work per second the processor must do."""
-    times = {"correction_ms": 1000 * L / rate, "work_per_second": speed * rate}
-    if unit == "second":
-        times["highest_hr_hz"] = 1 / speed
+    times = {"correction_ms": 1000 * L / rate, "work_per_second": speed * rate * SECONDS.get(unit, 1)}
+    if unit in SECONDS:
+        times["highest_hr_hz"] = 1 / (speed * SECONDS[unit])
     return times
 
 
 def _heading(key: str, unit: str) -> str:
     if key == "work_per_second":
-        return "share of processor" if unit == "second" else f"{units(unit)} per s"
+        return "share of processor" if unit in SECONDS else f"{units(unit)} per s"
     return {"correction_ms": "lands after, ms", "highest_hr_hz": "highest HR Hz"}[key]

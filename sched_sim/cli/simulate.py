@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -58,10 +57,15 @@ def simulate(
 
     from sched_sim.costs import load, select
     from sched_sim.least_speed import least_speed
+    from sched_sim.search import cycles_to_simulate
     from sched_sim.simulate import simulate as run
     from sched_sim.ticks import positive
     from sched_sim.trace import open_trace
 
+    if gantt is not None:
+        from reports.picture import check_picture
+
+        check_picture(gantt)
     options = opt.make_options(lr_propagate_by, feedback, gain, low_rate_noise, cpus, context_switch)
     timing = opt.make_timing(N, M, L, method, options)
     table, others, rate = load(costs), opt.make_tasks(tasks), opt.hr_rate(hr_hz)
@@ -95,6 +99,10 @@ def simulate(
         from reports.gantt import method_panel, save
 
         save(draw([method_panel(table, method, timing, pace, cycles, options, others, statistic=statistic)]), gantt)
+    if others and cycles < (whole := cycles_to_simulate(timing, others)):
+        typer.echo(
+            f"Note: {cycles} cycles are shown; with these tasks all is seen after {whole}: --cycles {whole}", err=True
+        )
     response = {kind: _response(figures, schedule.period) for kind, figures in schedule.responses.items()}
     document = {
         "achieved_l": achieved,
@@ -116,8 +124,8 @@ def simulate(
 
 def _response(figures: Response, period: int) -> dict[str, Any]:
     return {
-        "max": figures.worst / period,
-        "mean": float(figures.mean / period),
+        "max": figures.worst / period if figures.finished else None,
+        "mean": float(figures.mean / period) if figures.finished else None,
         "releases": figures.releases,
         "misses": figures.misses,
         "worst_lateness": figures.worst_lateness / period,
@@ -131,24 +139,34 @@ def _show(title: str, document: dict[str, Any], rate: float | None) -> None:
         {
             "job": kind,
             "jobs": figures["releases"],
-            "worst": f"{figures['max'] * scale:.4g}",
-            "mean": f"{figures['mean'] * scale:.4g}",
+            "worst": _scaled(figures["max"], scale),
+            "mean": _scaled(figures["mean"], scale),
             "missed": figures["misses"],
-            "late by": f"{figures['worst_lateness'] * scale:.4g}",
+            "late by": _scaled(figures["worst_lateness"], scale),
             "preempted": figures["preemptions"],
         }
         for kind, figures in document["response"].items()
     ]
-    landings = ", ".join(runs(document["achieved_l"]))
-    note = f"Corrections land at l = k + {landings}; processor busy {document['utilization']:.1%} of the time"
+    note = f"{landings(document['achieved_l'])}; processor busy {document['utilization']:.1%} of the time"
+    if any(figures["max"] is None or figures["misses"] for figures in document["response"].values()):
+        note += (
+            "\nJobs that have not finished count as missed, not in worst and mean, and are late by that much or more"
+        )
     print_table(f"{title}; response times in {unit}", rows, note)
 
 
-def runs(values: list[int | None]) -> list[str]:
-    """Equal neighbours in one: [8, 8, 8, 9] is ["8 (3 cycles)", "9 (1 cycle)"]."""
-    found = []
-    for value, group in groupby(values):
-        count = len(list(group))
-        name = "(not within the simulated time)" if value is None else str(value)
-        found.append(f"{name} ({count} cycle{'s' if count > 1 else ''})")
-    return found
+def _scaled(periods: float | None, scale: float) -> str:
+    return "-" if periods is None else f"{periods * scale:.4g}"
+
+
+def landings(achieved: list[int | None]) -> str:
+    """Where the corrections of all cycles landed, in words."""
+    landed = [at for at in achieved if at is not None]
+    lost = len(achieved) - len(landed)
+    if not landed:
+        return "No correction lands within the simulated time"
+    first, last = min(landed), max(landed)
+    where = f"l = k + {first}" if first == last else f"l = k + {first} to k + {last}"
+    return f"Corrections land at {where}" + (
+        f", {lost} of {len(achieved)} not within the simulated time" if lost else ""
+    )

@@ -121,7 +121,7 @@ def test_l_defaults_to_the_latest_that_is_legal(sched_sim: Run) -> None:
 def test_pictures_and_traces_are_written(sched_sim: Run, tmp_path: Path) -> None:
     result = sched_sim("simulate -N 10 -M 4 --speed 0.7 --gantt a.svg --trace a.json --trace a.csv")
     assert result.code == 0
-    assert "12 (2 cycles)" in result.out
+    assert "land at l = k + 12, 1 of 3 not within" in result.out
     assert sched_sim("gantt -N 10 -M 4 -L 8 -o fig.pdf").code == 0
     assert {path.name for path in tmp_path.iterdir()} == {"a.svg", "a.json", "a.csv", "fig.pdf"}
 
@@ -131,6 +131,35 @@ def test_user_tasks_take_part(sched_sim: Run, tmp_path: Path) -> None:
     alone = json.loads(sched_sim(f"minimum {DESIGN} --format json").out)[-1]
     shared = json.loads(sched_sim(f"minimum {DESIGN} --format json --tasks tasks.toml").out)[-1]
     assert shared["min_speed"] == pytest.approx(alone["min_speed"] + 0.2 / 4)  # twice in the four steps from m to l
+
+
+def test_with_tasks_the_landing_is_the_simulated_one_and_too_few_cycles_are_told(
+    sched_sim: Run, tmp_path: Path
+) -> None:
+    """Two tasks that meet the measurements only after 91 cycles: three cycles do not show it all."""
+    task = '[[task]]\nname = "{}"\nperiod = {}\ncost = 0.1\npriority = {}\n'
+    (tmp_path / "tasks.toml").write_text(task.format("a", 7, 5) + task.format("b", 13, 15))
+    line = "-N 10 -M 4 --method larsen --tasks tasks.toml --format json"
+    assert json.loads(sched_sim(f"minimum {line} --hr-hz 400").out)[0]["correction_ms"] == 10.0
+    result = sched_sim(f"simulate {line} --speed 1.56")
+    assert result.code == 0
+    assert "after 182: --cycles 182" in result.err
+
+
+def test_costs_in_milliseconds_give_a_share_of_the_processor(sched_sim: Run, tmp_path: Path) -> None:
+    entries = "[costs.larsen]\npropagate = 0.21\npropagate_accumulate = 0.3\nupdate = 0.42\n"
+    (tmp_path / "ms.toml").write_text('name = "m"\nunit = "ms"\n' + entries)
+    line = "minimum -N 80 -M 40 --method larsen --costs ms.toml --hr-hz 400 --format json"
+    row = json.loads(sched_sim(line).out)[0]
+    assert row["work_per_second"] == pytest.approx(0.72e-3 * 400)
+    assert row["highest_hr_hz"] == pytest.approx(1000 / 0.72)
+
+
+def test_costs_beyond_64_bits_stay_exact(sched_sim: Run, tmp_path: Path) -> None:
+    entries = "[costs.larsen]\npropagate = 1e17\npropagate_accumulate = 1e-17\nupdate = 1\n"
+    (tmp_path / "wide.toml").write_text('name = "w"\nunit = "u"\n' + entries)
+    row = json.loads(sched_sim("minimum -N 8 -M 4 --method larsen --costs wide.toml --format json").out)[0]
+    assert row["min_speed_exact"] == str(10**17)
 
 
 def test_help_and_version(sched_sim: Run) -> None:
@@ -160,6 +189,8 @@ def test_help_and_version(sched_sim: Run) -> None:
         ("minimum -N 10 -M 4 --context-switch -1", ["context switch", "-1"]),
         ("minimum -N 10 -M 4 --context-switch nan", ["--context-switch", "nan"]),
         ("minimum -N 10 -M 4 --hr-hz 0", ["--hr-hz", "0", "greater than 0"]),
+        ("minimum -N 10 -M 4 --hr-hz 1e400", ["--hr-hz", "1e400", "1e18"]),
+        ("simulate -N 10 -M 4 --speed 1e5000", ["--speed", "1e5000", "1e18"]),
         ("minimum -N 10 -M 4 --cpus 3", ["--cpus", "3"]),
         ("minimum -N 10 -M 4 --format xml", ["--format", "xml"]),
         ("minimum -N 10 -M 4 --tasks none.toml", ["--tasks", "none.toml"]),

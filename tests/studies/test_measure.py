@@ -22,6 +22,21 @@ def car():
     return linear_system(Phi=[[1.0, 0.1], [0.0, 1.0]], B=[[0.005], [0.1]], H=[[1.0, 0.0]],
                          Q=0.01 * np.eye(2), R=[[1.0]])
 
+def moving_car():
+    return car(), [3.0, 7.0]
+
+def raising():
+    raise RuntimeError("boom")
+
+def wrong_shape():
+    return car()._replace(F=lambda j, x, u, p: np.eye(3))
+
+def not_finite():
+    return car()._replace(H=lambda k, x, p: np.array([[np.nan, 0.0]]))
+
+def failing():
+    return car()._replace(Q=lambda j, p: p[9][9])
+
 def wrong():
     return linear_system(Phi=[[1.0, 0.1]], B=[[0.005], [0.1]], H=[[1.0, 0.0]], Q=np.eye(2), R=[[1.0]])
 
@@ -76,8 +91,14 @@ def own_module(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.usefixtures("own_module")
 def test_the_users_own_system_is_found_in_the_current_folder() -> None:
-    system = load_system("own_system:car")
+    system, x0 = load_system("own_system:car")
     assert (system.states, system.inputs, system.measurements) == (2, 1, 1)
+    assert x0.tolist() == [0, 0]
+
+
+@pytest.mark.usefixtures("own_module")
+def test_the_user_may_give_a_typical_state() -> None:
+    assert load_system("own_system:moving_car")[1].tolist() == [3, 7]
 
 
 @pytest.mark.usefixtures("own_module")
@@ -89,6 +110,10 @@ def test_the_users_own_system_is_found_in_the_current_folder() -> None:
         ("not_there:car", "'not_there' cannot be imported"),
         ("own_system:truck", "has no function 'truck'"),
         ("own_system:number", "returned a int"),
+        ("own_system:raising", r"raising\(\) failed: boom"),
+        ("own_system:wrong_shape", r"F\(j, x, u, p\) has shape \(3, 3\); needed is \(2, 2\)"),
+        ("own_system:not_finite", r"H\(k, x, p\) is not finite.*return \(system, x0\)"),
+        ("own_system:failing", r"Q\(j, p\) failed: IndexError"),
         ("own_system:wrong", r"wrong\(\) failed: linear_system: Phi"),
     ],
 )
