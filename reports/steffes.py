@@ -10,6 +10,7 @@ from reports.figures import achieved_figure, least_speed_figure
 from reports.gantt import gantt, image, method_panel
 from reports.render import csv_bytes, render
 from reports.timelines import dual_rate_timeline, serial_timeline
+from sched_sim.analysis import BINDING_WORDS
 from sched_sim.cost_file import cost_table_text
 from sched_sim.costs import METHODS, CostTable, load, select
 from sched_sim.least_speed import achieved_l, least_speed
@@ -145,7 +146,7 @@ def _simulated(paper: CostTable) -> list[list[Any]]:
             (landed,) = schedule.achieved
             rows.append(
                 [
-                    *(timing.N, timing.M, timing.L, method, _number(least.speed), least.binding),
+                    *(timing.N, timing.M, timing.L, method, _number(least.speed), BINDING_WORDS[least.binding]),
                     *(schedule.misses, landed, f"{float(schedule.utilization):.0%}", slower.misses),
                 ]
             )

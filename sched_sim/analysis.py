@@ -31,6 +31,14 @@ class Binding(IntEnum):
     lr_total = 3
 
 
+BINDING_WORDS = {
+    "hr": "one HR job",
+    "lr_propagate": "LR propagate",
+    "lr_update": "LR update, m to l",
+    "lr_total": "all LR work, k to l",
+}
+"""The bindings as a person reads them."""
+
 NOT_LANDED = -1
 """Instead of an achieved L where an HR job overruns its step, or nothing lands before the next measurement."""
 

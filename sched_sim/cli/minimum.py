@@ -7,13 +7,6 @@ from typing import Any
 from sched_sim.cli import options as opt
 from sched_sim.cli.output import print_csv, print_json, print_table, units
 
-BINDINGS = {
-    "hr": "one HR job",
-    "lr_propagate": "LR propagate",
-    "lr_update": "LR update, m to l",
-    "lr_total": "all LR work, k to l",
-}
-
 SECONDS = {"second": 1.0, "seconds": 1.0, "s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
 """Units of costs that are times: then work per second is a share of the processor on which they were found."""
 
@@ -43,6 +36,7 @@ def minimum(
     sched-sim minimum -N 10 -M 4 -L 8
     sched-sim minimum -N 40 -M 4 --hr-hz 400 --costs my-costs.toml --method dual-rate
     """
+    from sched_sim.analysis import BINDING_WORDS
     from sched_sim.costs import load, select
     from sched_sim.least_speed import achieved_l, least_speed
     from sched_sim.search import cycles_to_simulate
@@ -75,7 +69,7 @@ def minimum(
             "method": "standard (no delay)" if name == "standard" else name,
             "least speed": f"{float(least.speed):.6g}",
             "exactly": str(least.speed) if least.speed.denominator <= LARGEST_DENOMINATOR else "-",
-            "fixed by": BINDINGS.get(least.binding, least.binding),
+            "fixed by": BINDING_WORDS.get(least.binding, least.binding),
             "lands at L": landed,
         }
         if rate is not None:
