@@ -16,6 +16,7 @@ from heapq import heapify, heappop, heappush, heapreplace
 import simpy
 
 from sched_sim.costs import JobCosts, LarsenCosts, RecalculateCosts
+from sched_sim.errors import InputError
 from sched_sim.jobs import Job, Source
 from sched_sim.methods import OnLanding, method_source
 from sched_sim.options import Options
@@ -45,9 +46,12 @@ def simulate(
     keep_slices: return every `Slice`; without it memory does not grow with `cycles`.
     on_slice, on_landing: called as slices end and as corrections land, with a `Slice` and with
     (cycle, achieved L).
-    Raises InputError for a speed that is not positive or an L the method cannot have.
+    Raises InputError for a speed that is not positive, an L the method cannot have, and a task on a missing CPU.
     """
     positive(speed, "speed")
+    for task in tasks:
+        if task.cpu > options.cpus:
+            raise InputError(f"task {task.name!r}: cpu {task.cpu} is not there; give --cpus {task.cpu}, or cpu = 1")
     work = [Fraction(value) for value in astuple(costs)]
     times = [speed * time for task in tasks for time in (task.period, task.offset)]
     resolution = ticks_per_unit([speed, options.context_switch, *work, *times, *(task.cost for task in tasks)])
@@ -154,8 +158,7 @@ class Processor:
     def _timeline(self, environment: simpy.Environment) -> Generator[simpy.Event, None, None]:
         """Waits from one instant at which something happens to the next.
 
-        One process with its state in local names: twice as fast as small methods, and this loop is what every
-        simulated second costs.
+        One process with its state in local names and no small methods: this loop is what every simulated second costs.
         """
         timeout, horizon, cpus = environment.timeout, self.horizon, self.cpus
         tallies, on_slice, context_switch = self.tallies, self.on_slice, self.context_switch

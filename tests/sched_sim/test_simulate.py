@@ -166,6 +166,13 @@ def test_an_l_that_dual_rate_cannot_have_is_refused(feedback: str, L: int) -> No
         simulate(DUAL_RATE, Timing(10, 4, L), Fraction(10), 1, Options(feedback=feedback))  # type: ignore[arg-type]
 
 
+def test_a_task_on_a_processor_that_is_not_there_is_refused() -> None:
+    task = Task("camera", period=Fraction(2), cost=Fraction(1), priority=30, cpu=2)
+    with pytest.raises(InputError, match="task 'camera': cpu 2 is not there; give --cpus 2"):
+        simulate(DUAL_RATE, Timing(10, 4, 8), Fraction(10), 1, tasks=[task])
+    assert simulate(DUAL_RATE, Timing(10, 4, 8), Fraction(10), 1, Options(cpus=2), [task]).misses == 0
+
+
 def test_a_speed_of_zero_is_refused() -> None:
     with pytest.raises(InputError, match="speed is 0"):
         simulate(DUAL_RATE, Timing(10, 4, 8), Fraction(0), 1)
