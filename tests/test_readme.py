@@ -10,6 +10,9 @@ from pathlib import Path
 import pytest
 
 from sched_sim.cli import main
+from sched_sim.costs import load
+from sched_sim.timing import Timing
+from studies.steffes import cells, least_speeds
 
 README = (Path(__file__).parents[1] / "README.md").read_text()
 BLOCKS = re.findall(r"```(\w*)\n(.*?)```", README, re.DOTALL)
@@ -59,3 +62,23 @@ def test_every_command_runs(monkeypatch: pytest.MonkeyPatch) -> None:
     assert len(lines) >= 9
     for line in lines:
         run(line, monkeypatch)
+
+
+def test_the_table_of_least_speeds_is_what_the_analysis_gives() -> None:
+    """Each row of "What it finds": printed, from the paper's costs, from counted operations."""
+    timing = None
+    rows = re.findall(r"^\| (.*) \|$", README.partition("## What it finds")[2].partition("Larsen's method")[0], re.M)
+    paper, counted = load("steffes2014"), load("counted-9-3-3")
+    cell_of = {(cell.timing, cell.method): cell for cell in cells(paper)}
+    checked = 0
+    for row in rows[2:]:
+        *design, name, printed, analysed, by_counts = (part.strip(" *") for part in row.split("|"))
+        timing = Timing(*map(int, design)) if design[0] else timing
+        assert timing is not None
+        method = {"Larsen": "larsen"}.get(name, name)
+        cell = cell_of[timing, method]
+        assert float(printed) == float(cell.printed)
+        assert analysed in (f"{float(cell.computed.speed):.2f}", f"{float(cell.computed.speed):.3f}")
+        assert by_counts == f"{float(least_speeds(counted, timing)[method].speed):.2f}"
+        checked += 1
+    assert checked == 9
