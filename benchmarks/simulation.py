@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tracemalloc
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
 from fractions import Fraction
 
 import simpy
@@ -28,11 +28,11 @@ def ours(cycles: int = CYCLES) -> Schedule:
 def bare_loop(events: int) -> None:
     env = simpy.Environment()
 
-    def loop() -> Iterator[simpy.Event]:
+    def loop() -> Generator[simpy.Event, None, None]:
         for _ in range(events):
             yield env.timeout(1)
 
-    env.process(loop())  # type: ignore[arg-type]
+    env.process(loop())
     env.run()
 
 

@@ -61,5 +61,6 @@ class Source(Protocol):
     def release(self) -> tuple[Job, ...]:
         """The jobs released at that instant; moves on to the next one."""
 
-    def waiting(self) -> tuple[Job, ...]:
-        """At the horizon: jobs whose release has come but which wait for another job to finish first."""
+    def at_horizon(self) -> tuple[Job, ...]:
+        """Called once, when the simulated time is over: the jobs whose release has come but which wait for another job
+        to finish first."""

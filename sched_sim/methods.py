@@ -52,7 +52,7 @@ class HrSource(Source):
         self.next_release = 0
         self.on_landing = on_landing
 
-    def waiting(self) -> tuple[Job, ...]:
+    def at_horizon(self) -> tuple[Job, ...]:
         return ()
 
 
@@ -129,7 +129,7 @@ class DualRate(HrSource):
             return (job, *self._measurement(step - offset, start))
         return (job,)
 
-    def waiting(self) -> tuple[Job, ...]:
+    def at_horizon(self) -> tuple[Job, ...]:
         """The horizon is the start of a step: what has finished by then lands in it."""
         self._apply(self.step)
         return (*self.lr_queue, *self.arrived)

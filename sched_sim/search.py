@@ -19,7 +19,8 @@ from sched_sim.timing import Timing
 TICKS_PER_LOOP = 1_000_000
 """The least speed is found to this many ticks in the filter's largest job, or finer."""
 
-LONGEST_HYPERPERIOD = 200_000
+LONGEST_SEARCH = 400_000
+"""HR periods that one simulation of the search may take."""
 
 
 def least_speed_by_simulation(
@@ -28,11 +29,16 @@ def least_speed_by_simulation(
     """(least speed, binding): no deadline is missed there, and one is at one tick of period less.
 
     at_least: a speed below which it cannot be: that of the same filter alone on the processor.
-    With context-switch costs a slightly slower processor may be lucky and do again (it switches less often): what is
-    returned is the end of the stretch of speeds that holds from a large speed down to it.
+    Where a slower processor may be lucky and do again (with context-switch costs, it may switch less often), there are
+    several such speeds, and this is one of them.
     Raises InputError if the tasks repeat with the measurements only after a very long time.
     """
     cycles = cycles_to_simulate(timing, tasks)
+    if tasks and cycles * timing.N > LONGEST_SEARCH:
+        raise InputError(
+            f"the tasks repeat together with the measurements only after {cycles * timing.N / 2:.3g} HR periods: round "
+            f"their periods ({', '.join(f'{task.name} {float(task.period):g}' for task in tasks)}) to a common grid"
+        )
     resolution = search_resolution(costs, options, tasks)
 
     def run(period: int) -> Schedule:
@@ -68,12 +74,6 @@ def cycles_to_simulate(timing: Timing, tasks: Sequence[Task]) -> int:
     for task in tasks:
         hyperperiod = Fraction(
             lcm(hyperperiod.numerator, task.period.numerator), gcd(hyperperiod.denominator, task.period.denominator)
-        )
-    if hyperperiod > LONGEST_HYPERPERIOD:
-        raise InputError(
-            f"the tasks repeat together with the measurements only after {float(hyperperiod):.3g} HR periods: "
-            f"round their periods ({', '.join(f'{task.name} {float(task.period):g}' for task in tasks)}) to a "
-            f"common grid"
         )
     latest_offset = max((task.offset for task in tasks), default=Fraction(0))
     return max(4, ceil((latest_offset + 2 * hyperperiod) / timing.N))

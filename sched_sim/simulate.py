@@ -246,7 +246,7 @@ class Processor:
                 cpu.busy += self.horizon - cpu.since
                 if self.on_slice is not None:
                     self.on_slice(self._slice(cpu, cpu.running, self.horizon, finished=False))
-        unfinished += [job for source in self.sources for job in source.waiting()]
+        unfinished += [job for source in self.sources for job in source.at_horizon()]
         for job in unfinished:
             self.tallies[job.kind].releases += 1
             if job.deadline <= self.horizon:

@@ -53,5 +53,5 @@ class TaskSource:
         parts = ((task.name, self.cost),)
         return (Job(f"task:{task.name}", number, task.priority, start, due, self.cost, parts, cpu=task.cpu - 1),)
 
-    def waiting(self) -> tuple[Job, ...]:
+    def at_horizon(self) -> tuple[Job, ...]:
         return ()

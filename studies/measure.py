@@ -122,9 +122,12 @@ def _protocol(backend: BackendName, thorough: bool) -> Protocol:
 
 
 def _time(
-    jobs: Mapping[tuple[str, str], Job], backend: Literal["compiled", "numpy"], protocol: Protocol, seed: int,
+    jobs: Mapping[tuple[str, str], Job],
+    backend: Literal["compiled", "numpy"],
+    protocol: Protocol,
+    seed: int,
     progress: Progress,
-) -> dict[tuple[str, str], list[float]]:  # fmt: skip
+) -> dict[tuple[str, str], list[float]]:
     """Seconds per run of each job, one figure a round."""
     total = len(jobs) + protocol.rounds
     runs, empty_runs = {}, {}
@@ -148,9 +151,11 @@ def _time(
 
 
 def _timer(
-    function: Callable[..., Any], arguments: Callable[[int], tuple[Any, ...]], backend: Literal["compiled", "numpy"],
+    function: Callable[..., Any],
+    arguments: Callable[[int], tuple[Any, ...]],
+    backend: Literal["compiled", "numpy"],
     repetitions: int,
-) -> Callable[[int], int]:  # fmt: skip
+) -> Callable[[int], int]:
     """A function that runs the job and says how many nanoseconds all repetitions took; compiled and warm."""
     sets = [arguments_for(backend, arguments(index)) for index in range(ARGUMENT_SETS)]
     if backend == "compiled":

@@ -146,6 +146,15 @@ def test_with_tasks_the_landing_is_the_simulated_one_and_too_few_cycles_are_told
     assert "after 182: --cycles 182" in result.err
 
 
+def test_tasks_whose_periods_hardly_ever_meet_the_measurements_can_be_simulated(sched_sim: Run, tmp_path: Path) -> None:
+    """Only the search for the least speed needs the schedule to repeat."""
+    (tmp_path / "odd.toml").write_text('[[task]]\nname = "odd"\nperiod = 3.141592653\ncost = 0.1\npriority = 30\n')
+    assert sched_sim("simulate -N 10 -M 4 --speed 0.9 --tasks odd.toml").code == 0
+    refused = sched_sim("minimum -N 10 -M 4 --tasks odd.toml")
+    assert refused.code == 2
+    assert "odd 3.14159" in refused.err
+
+
 def test_costs_in_milliseconds_give_a_share_of_the_processor(sched_sim: Run, tmp_path: Path) -> None:
     entries = "[costs.larsen]\npropagate = 0.21\npropagate_accumulate = 0.3\nupdate = 0.42\n"
     (tmp_path / "ms.toml").write_text('name = "m"\nunit = "ms"\n' + entries)

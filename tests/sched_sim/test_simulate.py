@@ -12,7 +12,7 @@ from sched_sim.jobs import Job
 from sched_sim.options import Options
 from sched_sim.simulate import Processor, simulate
 from sched_sim.tasks import Task
-from sched_sim.timing import Timing
+from sched_sim.timing import Feedback, Timing
 
 DUAL_RATE = DualRateCosts(hr=6, hr_restart=1, hr_update=2, lr_propagate=3, lr_gain=0, lr_update=5)
 NEVER = 10**9
@@ -30,7 +30,7 @@ class Given:
         self.next_release = self.jobs[0].release if self.jobs else NEVER
         return (job,)
 
-    def waiting(self) -> tuple[Job, ...]:
+    def at_horizon(self) -> tuple[Job, ...]:
         return ()
 
 
@@ -161,9 +161,9 @@ def test_memory_does_not_grow_with_the_cycles_and_slices_are_kept_only_on_demand
 
 
 @pytest.mark.parametrize(("feedback", "L"), [("next-step", 4), ("same-step", 10)])
-def test_an_l_that_dual_rate_cannot_have_is_refused(feedback: str, L: int) -> None:
+def test_an_l_that_dual_rate_cannot_have_is_refused(feedback: Feedback, L: int) -> None:
     with pytest.raises(InputError, match=f"L={L} must be"):
-        simulate(DUAL_RATE, Timing(10, 4, L), Fraction(10), 1, Options(feedback=feedback))  # type: ignore[arg-type]
+        simulate(DUAL_RATE, Timing(10, 4, L), Fraction(10), 1, Options(feedback=feedback))
 
 
 def test_a_task_on_a_processor_that_is_not_there_is_refused() -> None:

@@ -11,7 +11,7 @@ from filters.systems.navigation import vehicle
 from sched_sim.costs import KINDS, METHODS, select
 from sched_sim.errors import InputError
 from sched_sim.options import Options
-from studies.measure import measure
+from studies.measure import BackendName, measure
 from studies.user_system import load_system
 
 OWN_SYSTEM = """
@@ -46,8 +46,8 @@ def number():
 
 
 @pytest.mark.parametrize("backend", ["compiled", "counted", "numpy"])
-def test_a_measured_table_has_every_entry_and_says_where_it_comes_from(backend: str) -> None:
-    table = measure(example_system(2, 1, 1), backend, "short", name="small")  # type: ignore[arg-type]
+def test_a_measured_table_has_every_entry_and_says_where_it_comes_from(backend: BackendName) -> None:
+    table = measure(example_system(2, 1, 1), backend, "short", name="small")
     assert {method: tuple(sorted(kinds)) for method, kinds in table.costs.items()} == {
         method: tuple(sorted(kinds)) for method, kinds in KINDS.items()
     }
