@@ -12,8 +12,14 @@ from sched_sim.errors import InputError
 from sched_sim.options import Options
 from sched_sim.ticks import positive
 
-Method = Literal["standard", "recalculate", "larsen", "dual-rate"]
-METHODS: tuple[Method, ...] = get_args(Method)
+DelayedMethod = Literal["standard", "recalculate", "larsen", "dual-rate"]
+MultirateMethod = Literal["multirate", "multirate-square-root", "multirate-ud"]
+Method = Literal[DelayedMethod, MultirateMethod]
+DELAYED_METHODS: tuple[DelayedMethod, ...] = get_args(DelayedMethod)
+"""One measurement every N steps, that comes M steps late; and the standard filter, for which it is never late."""
+MULTIRATE_METHODS: tuple[MultirateMethod, ...] = get_args(MultirateMethod)
+"""A measurement in every step, covariance and gain every N-th ("Optimal covariance filtering", a patent, Eq. 1)."""
+METHODS: tuple[Method, ...] = (*DELAYED_METHODS, *MULTIRATE_METHODS)
 
 Statistic = Literal["minimum", "median", "p95"]
 
@@ -33,6 +39,7 @@ KINDS: Mapping[str, tuple[str, ...]] = {
         "lr_gain",
         "lr_correct",
     ),
+    **dict.fromkeys(MULTIRATE_METHODS, ("state_update", "covariance_gain")),
 }
 """Every entry a table may hold, by method. Those a run needs depend on its options: see `select`."""
 
@@ -135,7 +142,16 @@ class DualRateCosts:
     lr_update: Any
 
 
-JobCosts = StandardCosts | RecalculateCosts | LarsenCosts | DualRateCosts
+@dataclass(frozen=True, slots=True)
+class MultirateCosts:
+    """Work of the pieces of the multirate gain; state_update: the HR job of each step, with a measurement in it;
+    covariance_gain: the LR job, once in N steps."""
+
+    state_update: Any
+    covariance_gain: Any
+
+
+JobCosts = StandardCosts | RecalculateCosts | LarsenCosts | DualRateCosts | MultirateCosts
 """What one method's pieces cost: fractions of the table's unit, or whole ticks; one number type throughout."""
 
 
@@ -166,6 +182,8 @@ def select(table: CostTable, method: str, options: Options, statistic: Statistic
             lr_gain=cost("lr_gain") if early else Fraction(0),
             lr_update=cost("lr_correct" if early else "lr_update"),
         )
+    if method in MULTIRATE_METHODS:
+        return MultirateCosts(cost("state_update"), cost("covariance_gain"))
     raise InputError(f"method {method!r} is unknown: choose from {', '.join(METHODS)}")
 
 
