@@ -13,7 +13,7 @@ from enum import IntEnum
 
 import numpy as np
 
-from sched_sim.costs import DualRateCosts, JobCosts, LarsenCosts, RecalculateCosts, StandardCosts
+from sched_sim.costs import DualRateCosts, JobCosts, LarsenCosts, MultirateCosts, RecalculateCosts, StandardCosts
 from sched_sim.demand import DualRateDemand, Ints, Quotient, choose, largest, quotient, smaller
 from sched_sim.options import Options
 
@@ -22,13 +22,14 @@ class Binding(IntEnum):
     """Which demand fixes the least speed.
 
     hr: one HR job; lr_propagate: LR propagate by its deadline; lr_update: the LR update between m and l;
-    lr_total: all LR work between k and l.
+    lr_total: all LR work between k and l; lr_gain: covariance and gain of a multirate method by l.
     """
 
     hr = 0
     lr_propagate = 1
     lr_update = 2
     lr_total = 3
+    lr_gain = 4
 
 
 BINDING_WORDS = {
@@ -36,6 +37,7 @@ BINDING_WORDS = {
     "lr_propagate": "LR propagate",
     "lr_update": "LR update, m to l",
     "lr_total": "all LR work, k to l",
+    "lr_gain": "covariance and gain",
 }
 """The bindings as a person reads them."""
 
@@ -49,6 +51,9 @@ def least_period(costs: JobCosts, N: Ints, M: Ints, L: Ints, options: Options) -
     costs in ticks; N, M, L: integer arrays of one shape, legal for the method. `options.context_switch` is not
     looked at: see `sched_sim.search`.
     """
+    if isinstance(costs, MultirateCosts):
+        least = _next_step(_multirate_demand(costs, N, options), L, by_m=False)
+        return least._replace(code=np.where(least.code == Binding.hr, Binding.hr, Binding.lr_gain))
     if isinstance(costs, DualRateCosts):
         demand = DualRateDemand(costs, N, M, separate=options.cpus == 2)
         by_m = options.lr_propagate_by == "m"
@@ -57,7 +62,10 @@ def least_period(costs: JobCosts, N: Ints, M: Ints, L: Ints, options: Options) -
 
 
 def achieved_l(costs: JobCosts, N: Ints, M: Ints, period: Ints, options: Options) -> Ints:
-    """The L at which corrections land at an HR period of `period` ticks, or NOT_LANDED."""
+    """The L at which corrections land (or gains are in use) at an HR period of `period` ticks, or NOT_LANDED."""
+    if isinstance(costs, MultirateCosts):
+        demand = _multirate_demand(costs, N, options)
+        return np.where(period >= demand.longest_hr_job(), _landing_next_step(demand, period), NOT_LANDED)
     if not isinstance(costs, DualRateCosts):
         landed = 0 * M if isinstance(costs, StandardCosts) else M
         return np.where(period >= _longest_serial_job(costs, N, M), landed, NOT_LANDED)
@@ -74,6 +82,14 @@ def _longest_serial_job(costs: StandardCosts | RecalculateCosts | LarsenCosts, N
             return propagate + update + replay * M
         case LarsenCosts(propagate, accumulate, update):
             return np.where(M >= 2, 0 * N + max(accumulate + update, propagate), 0 * N + propagate + update)
+
+
+def _multirate_demand(costs: MultirateCosts, N: Ints, options: Options) -> DualRateDemand:
+    """That of a dual-rate filter whose measurement comes at once and whose HR jobs are all alike: covariance and gain
+    are its LR update."""
+    state, gain = costs.state_update, costs.covariance_gain
+    alike = DualRateCosts(hr=state, hr_restart=state, hr_update=0, lr_propagate=0, lr_gain=0, lr_update=gain)
+    return DualRateDemand(alike, N, 0 * N, separate=options.cpus == 2)
 
 
 def _next_step(demand: DualRateDemand, L: Ints, by_m: bool) -> Quotient:

@@ -6,13 +6,13 @@ from collections import deque
 from collections.abc import Callable
 from dataclasses import replace
 
-from sched_sim.costs import DualRateCosts, JobCosts, LarsenCosts, RecalculateCosts, StandardCosts
+from sched_sim.costs import DualRateCosts, JobCosts, LarsenCosts, MultirateCosts, RecalculateCosts, StandardCosts
 from sched_sim.jobs import HR, LR, Job, Parts, Source
 from sched_sim.options import Options
-from sched_sim.timing import Timing, check_dual_rate
+from sched_sim.timing import Timing, check_dual_rate, check_multirate
 
 OnLanding = Callable[[int, int], None]
-"""Called with (cycle, achieved L) when a correction has reached the state."""
+"""Called with (cycle, achieved L) when a correction has reached the state, or a gain is in use."""
 
 Then = Callable[[Job, int], tuple[Job, ...]]
 
@@ -20,7 +20,7 @@ Then = Callable[[Job, int], tuple[Job, ...]]
 def method_source(costs: JobCosts, timing: Timing, options: Options, period: int, on_landing: OnLanding) -> HrSource:
     """The jobs of one filter; `costs` and `period` (the HR period) in ticks.
 
-    Raises InputError for an L that the dual-rate filter cannot have.
+    Raises InputError for an L that the method cannot have.
     """
     M = timing.M
     match costs:
@@ -34,6 +34,10 @@ def method_source(costs: JobCosts, timing: Timing, options: Options, period: int
         case DualRateCosts():
             check_dual_rate(timing, options.feedback)
             return DualRate(costs, timing, options, period, on_landing)
+        case MultirateCosts(state_update, covariance_gain):
+            undelayed = replace(timing, M=0)
+            check_multirate(undelayed)
+            return Multirate(state_update, covariance_gain, undelayed, options, period, on_landing)
 
 
 def step_at(finish: int, period: int) -> int:
@@ -200,3 +204,49 @@ class DualRate(HrSource):
             return ()
         self.lr_busy = True
         return (self.lr_queue.popleft(),)
+
+
+class Multirate(HrSource):
+    """A state update each step; once in N steps, from step k on, covariance and gain below it, in use by step l."""
+
+    def __init__(
+        self,
+        state_update: int,
+        covariance_gain: int,
+        timing: Timing,
+        options: Options,
+        period: int,
+        on_landing: OnLanding,
+    ) -> None:
+        super().__init__(timing, period, on_landing)
+        self.state_update: Parts = (("SU", state_update),)
+        self.covariance_gain: Parts = (("CG", covariance_gain),)
+        self.due = timing.L * period
+        self.lr_cpu = options.cpus - 1
+        self.ready: list[int] = []  # steps k whose gain is computed, not yet in use
+
+    def release(self) -> tuple[Job, ...]:
+        step, start = self.step, self.next_release
+        self.step, self.next_release = step + 1, start + self.period
+        self._use(step)
+        then = None if step % self.N else self._state_updated
+        work = self.state_update[0][1]
+        return (Job("hr", step, HR, start, self.next_release, work, self.state_update, then),)
+
+    def at_horizon(self) -> tuple[Job, ...]:
+        self._use(self.step)
+        return ()
+
+    def _use(self, step: int) -> None:
+        for k in self.ready:
+            self.on_landing(k // self.N, step - k)
+        self.ready.clear()
+
+    def _state_updated(self, job: Job, now: int) -> tuple[Job, ...]:
+        parts, k = self.covariance_gain, job.step
+        due = k * self.period + self.due
+        return (Job("lr_gain", k, LR, now, due, parts[0][1], parts, self._computed, self.lr_cpu),)
+
+    def _computed(self, job: Job, _now: int) -> tuple[Job, ...]:
+        self.ready.append(job.step)
+        return ()

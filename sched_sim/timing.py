@@ -61,3 +61,11 @@ def check_dual_rate(timing: Timing, feedback: Feedback) -> None:
     if feedback == "same-step" and L >= N:
         advice = f"give L from {M} to {N - 1}" if M < N else "give a larger N, or --method recalculate or larsen"
         raise InputError(f"L={L} must be < N={N} with same-step feedback: the correction lands during step l; {advice}")
+
+
+def check_multirate(timing: Timing) -> None:
+    """Raises InputError unless 1 <= L: a gain computed from step k on can be in use in step k + 1 at the earliest."""
+    if timing.L < 1:
+        raise InputError(
+            f"L={timing.L} must be at least 1: a multirate gain is in use from the next step on; give L from 1 to N={timing.N}"
+        )

@@ -6,7 +6,7 @@ from fractions import Fraction
 
 import pytest
 
-from sched_sim.costs import DualRateCosts, LarsenCosts, RecalculateCosts, StandardCosts
+from sched_sim.costs import DualRateCosts, LarsenCosts, MultirateCosts, RecalculateCosts, StandardCosts
 from sched_sim.errors import InputError
 from sched_sim.jobs import Job
 from sched_sim.options import Options
@@ -176,3 +176,20 @@ def test_a_task_on_a_processor_that_is_not_there_is_refused() -> None:
 def test_a_speed_of_zero_is_refused() -> None:
     with pytest.raises(InputError, match="speed is 0"):
         simulate(DUAL_RATE, Timing(10, 4, 8), Fraction(0), 1)
+
+
+def test_a_multirate_gain_is_computed_below_the_state_updates_and_used_from_the_next_step_on() -> None:
+    """Covariance and gain, 8, fill what the state updates, 4 of each 6 ticks, leave: 2 in each of the steps 0 to 3."""
+    schedule = simulate(MultirateCosts(4, 8), Timing(5, 0, 4), Fraction(6), cycles=2, keep_slices=True)
+    runs = [(piece.start, piece.end) for piece in schedule.slices if piece.kind == "lr_gain" and piece.step == 0]
+    assert runs == [(4, 6), (10, 12), (16, 18), (22, 24)]
+    assert (schedule.misses, schedule.achieved) == (0, {4: 2})
+
+
+def test_a_gain_that_is_not_ready_in_time_is_a_miss() -> None:
+    assert simulate(MultirateCosts(4, 9), Timing(5, 0, 4), Fraction(6), cycles=2).responses["lr_gain"].misses == 2
+
+
+def test_a_multirate_gain_cannot_land_in_the_step_it_is_computed_from() -> None:
+    with pytest.raises(InputError, match="L=0 must be at least 1"):
+        simulate(MultirateCosts(4, 8), Timing(5, 0, 0), Fraction(6), cycles=1)

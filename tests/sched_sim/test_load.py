@@ -1,0 +1,38 @@
+"""The load in closed form is what the simulated processor does."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from hypothesis import given, settings
+
+from sched_sim.costs import MultirateCosts
+from sched_sim.least_speed import least_speed
+from sched_sim.load import load, work_of_cycle
+from sched_sim.simulate import simulate
+from sched_sim.timing import Timing
+from tests.designs import Design, designs
+
+
+@settings(max_examples=200)
+@given(designs)
+def test_each_cycle_does_the_work_of_a_cycle(design: Design) -> None:
+    costs, timing, options = design
+    speed = least_speed(*design).speed
+
+    def busy(cycles: int) -> Fraction:
+        schedule = simulate(costs, timing, speed, cycles, options)
+        return Fraction(schedule.busy) * speed / schedule.period
+
+    assert busy(7) - busy(4) == 3 * work_of_cycle(costs, timing)
+
+
+@given(designs)
+def test_at_the_least_speed_the_load_is_at_most_that_of_the_processors(design: Design) -> None:
+    assert 0 < load(design.costs, design.timing, least_speed(*design).speed) <= design.options.cpus
+
+
+def test_the_patents_loading_of_one_measurement_a_second_and_a_gain_every_five() -> None:
+    """166,870 us / 5 s + 7,626 us / 1 s = 4.1 % (printed)."""
+    costs = MultirateCosts(state_update=7626, covariance_gain=166870)
+    assert load(costs, Timing(5, 0, 5), speed=Fraction(10**6)) == Fraction("0.0410")
