@@ -16,7 +16,7 @@ from reports.legend import draw_legend, legend_height, line_entry
 from reports.panels import METHOD_NAMES
 from reports.placing import spread
 from reports.style import GREY, INK, METHOD_LINES, PALE, SMALL_PT, TITLE_PT, WIDTH_MM, axes_at, drawing, page
-from sched_sim.costs import METHODS, CostTable, DualRateCosts, select
+from sched_sim.costs import DELAYED_METHODS, CostTable, DualRateCosts, select
 from sched_sim.least_speed import Stair, staircase
 from sched_sim.options import Options
 
@@ -110,7 +110,7 @@ def achieved_figure(
 
 
 def _flights(table: CostTable, design: Design, options: Options) -> Mapping[str, Sequence[Stair]]:
-    return {method: staircase(select(table, method, options), *design, options) for method in METHODS}
+    return {method: staircase(select(table, method, options), *design, options) for method in DELAYED_METHODS}
 
 
 def _limits(flights: Mapping[Design, Mapping[str, Sequence[Stair]]], below: float) -> tuple[float, float]:
@@ -121,7 +121,7 @@ def _limits(flights: Mapping[Design, Mapping[str, Sequence[Stair]]], below: floa
 
 def _sheet(designs: Sequence[Design]) -> tuple[Figure, list[Axes]]:
     """A page with a plot for each design side by side, and the methods' legend below."""
-    legend = [line_entry(METHOD_NAMES[method], METHOD_LINES[method]) for method in METHODS]
+    legend = [line_entry(METHOD_NAMES[method], METHOD_LINES[method]) for method in DELAYED_METHODS]
     across = WIDTH_MM - LEFT_MM - RIGHT_MM
     width = (across - GAP_MM * (len(designs) - 1)) / len(designs)
     legend_top = EDGE_MM + TITLE_MM + PLOT_MM + AXIS_MM

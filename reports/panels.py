@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import NamedTuple
 
-from sched_sim.costs import CostTable, Statistic, select
+from sched_sim.costs import MULTIRATE_METHODS, CostTable, Statistic, select
 from sched_sim.errors import InputError
 from sched_sim.options import Options
 from sched_sim.schedule import Schedule
@@ -20,6 +20,9 @@ METHOD_NAMES = {
     "recalculate": "Recalculate",
     "larsen": "Larsen",
     "dual-rate": "Dual-rate",
+    "multirate": "Multirate gain",
+    "multirate-square-root": "Multirate gain, square root",
+    "multirate-ud": "Multirate gain, U-D",
 }
 
 
@@ -56,10 +59,10 @@ class Panel:
         return self.schedule.horizon // self.schedule.period if self.last is None else self.last
 
 
-def cycle_marks(timing: Timing, cycles: int, landings: Mapping[int, int]) -> list[Mark]:
+def cycle_marks(timing: Timing, cycles: int, landings: Mapping[int, int], *, arrives: bool = True) -> list[Mark]:
     """k, m and l of every cycle; steps that coincide share one mark, "m = l".
 
-    landings: achieved L by cycle, for the cycles whose correction landed.
+    landings: achieved L by cycle, for the cycles whose correction landed; arrives: whether there is an m.
     """
     names: dict[int, list[Mark]] = {}
 
@@ -72,7 +75,8 @@ def cycle_marks(timing: Timing, cycles: int, landings: Mapping[int, int]) -> lis
         add(k, f"k{later}", cycle, True)
         if cycle == cycles:
             break
-        add(k + timing.M, f"m{later}", cycle)
+        if arrives:
+            add(k + timing.M, f"m{later}", cycle)
         if cycle in landings:
             L = landings[cycle]
             add(k + L, f"l{later}" if landings.get(0) == L else f"l = k{later}+{L}", cycle)
@@ -122,15 +126,18 @@ def method_panel(
     landings: dict[int, int] = {}
     costs = select(table, method, options, statistic)
     schedule = simulate(costs, timing, speed, cycles, options, tasks, keep_slices=True, on_landing=landings.__setitem__)
-    delay = replace(timing, M=0) if method == "standard" else timing
+    multirate = method in MULTIRATE_METHODS
+    delay = replace(timing, M=0) if multirate or method == "standard" else timing
     notes = [f"speed {_number(speed)}", landing_note(landings.values(), delay.M)]
     if method == "standard":
         notes[1] = "no delay: lands at $k$"
+    if multirate:
+        notes[1] = notes[1].replace("correction", "gain").replace("lands at", "gain in use from")
     return Panel(
         title=METHOD_NAMES[method] if title is None else title,
         schedule=schedule,
         notes=(*notes, *option_notes(options), f"{100 * float(schedule.utilization):.0f} % busy"),
-        marks=cycle_marks(delay, cycles, landings),
+        marks=cycle_marks(delay, cycles, landings, arrives=not multirate),
     )
 
 

@@ -12,7 +12,7 @@ from reports.render import csv_bytes, render
 from reports.timelines import dual_rate_timeline, serial_timeline
 from sched_sim.analysis import BINDING_WORDS
 from sched_sim.cost_file import cost_table_text
-from sched_sim.costs import METHODS, CostTable, load, select
+from sched_sim.costs import DELAYED_METHODS, CostTable, load, select
 from sched_sim.least_speed import achieved_l, least_speed
 from sched_sim.options import Options
 from sched_sim.simulate import simulate
@@ -137,7 +137,7 @@ def _simulated(paper: CostTable) -> list[list[Any]]:
     heading = ["N", "M", "L", "Method", "least speed", "fixed by", "misses", "achieved L", "busy"]
     rows: list[list[Any]] = [[*heading, "misses one tick slower"]]
     for timing in steffes.cases():
-        for method in METHODS:
+        for method in DELAYED_METHODS:
             costs = select(paper, method, Options())
             least = least_speed(costs, timing)
             schedule = simulate(costs, timing, least.speed, cycles=4)

@@ -68,6 +68,8 @@ FILLS = {
     "LRP": Fill("#fbe3b5", "#9a6200", "////", "low-rate propagate"),
     "LRG": Fill("#f4e9d8", "#9a6200", "\\\\\\\\", "gain, precomputed"),
     "LRU": Fill("#dd9009", INK, "", "low-rate update"),
+    "SU": Fill("#b3d4ee", INK, "", "state update"),
+    "CG": Fill("#dd9009", INK, "", "covariance and gain"),
     "switch": Fill("#1a1a1a", "white", "", "context switch"),
 }
 

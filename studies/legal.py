@@ -8,6 +8,7 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
+from sched_sim.costs import MULTIRATE_METHODS
 from sched_sim.timing import Feedback
 
 Ints: TypeAlias = npt.NDArray[Any]
@@ -17,15 +18,20 @@ SLAB = 256
 
 
 class Law(NamedTuple):
-    """L runs from M + after to N - before; if `only_first`, an L that was not asked for is M + after alone."""
+    """L runs from M + after to N - before; if `only_first`, an L that was not asked for is M + after alone.
+
+    undelayed: M is 0."""
 
     after: int
     before: int
     only_first: bool
+    undelayed: bool = False
 
 
 def law_of(method: str, feedback: Feedback) -> Law:
     """What L a method may have (see `sched_sim.timing`). The serial methods land at m, whatever L is."""
+    if method in MULTIRATE_METHODS:
+        return Law(1, 0, only_first=False, undelayed=True)
     if method != "dual-rate":
         return Law(0, 0, only_first=True)
     return Law(1, 0, only_first=False) if feedback == "next-step" else Law(0, 1, only_first=False)
@@ -61,7 +67,8 @@ class Legal:
     def __init__(self, law: Law, N: Sequence[int], M: Sequence[int] | None, L: Sequence[int] | None) -> None:
         self.law = law
         self.N = np.array(N, dtype=np.int64)
-        self.M = None if M is None else np.array(M, dtype=np.int64)
+        wanted_M = _undelayed(M) if law.undelayed else M
+        self.M = None if wanted_M is None else np.array(wanted_M, dtype=np.int64)
         self.L = None if L is None else np.array(L, dtype=np.int64)
         per_n = []
         kept = 0
@@ -119,3 +126,7 @@ class Legal:
             return int(np.count_nonzero(pairs.per_n))
         below = np.searchsorted(self.L, N - self.law.before, "right")
         return int(np.maximum(below - np.searchsorted(self.L, self.law.after, "left"), 0).sum())
+
+
+def _undelayed(M: Sequence[int] | None) -> Sequence[int]:
+    return [0] if M is None or 0 in M else []

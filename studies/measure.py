@@ -84,9 +84,9 @@ def measure(
     if backend == "counted":
         operations = {key: count(job.function, *job.arguments(0)) for key, job in jobs.items()}
         about["source"] = "exact operation counts: multiply, add, divide and square root count one each"
-        about["operations"] = _by_method({key: _nonzero(found) for key, found in operations.items()})
+        counts = {key: _nonzero(found) for key, found in operations.items()}
         costs = {key: Cost.of(Fraction(found.total)) for key, found in operations.items()}
-        return CostTable(name, "operation", _by_method(costs), about)
+        return CostTable(name, "operation", _by_method(costs), about, operations=_by_method(counts))
     protocol = _protocol(backend, thorough)
     times = _time(jobs, backend, protocol, seed, progress)
     about |= {

@@ -13,7 +13,7 @@ from typing import Annotated, Any, Literal, get_args
 from pydantic import BaseModel, ConfigDict, Field, PlainValidator, StrictBool, ValidationError, ValidationInfo
 
 from sched_sim.cost_file import problems
-from sched_sim.costs import METHODS, Statistic, load, shipped_names
+from sched_sim.costs import DELAYED_METHODS, METHODS, Statistic, load, shipped_names
 from sched_sim.errors import InputError
 from sched_sim.options import Gain, LowRateNoise, Options
 from sched_sim.timing import Feedback
@@ -75,7 +75,7 @@ class Settings(BaseModel):
     M: Annotated[tuple[int, ...] | None, PlainValidator(_steps_or_all)] = None
     L: Annotated[tuple[int, ...] | None, PlainValidator(_steps_or_all)] = None
     speed: Annotated[tuple[Fraction, ...], PlainValidator(_speeds)] = ()
-    method: Annotated[tuple[str, ...], _one_of(*METHODS)] = METHODS
+    method: Annotated[tuple[str, ...], _one_of(*METHODS)] = DELAYED_METHODS
     costs: Annotated[tuple[str, ...], PlainValidator(_names)] = ("steffes2014",)
     statistic: Statistic = "minimum"
     lr_propagate_by: Annotated[tuple[str, ...], _one_of("m", "l")] = ("m",)

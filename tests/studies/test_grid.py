@@ -7,10 +7,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from sched_sim.costs import METHODS, load
+from sched_sim.costs import DELAYED_METHODS, METHODS, MULTIRATE_METHODS, load
 from sched_sim.errors import InputError
 from sched_sim.options import Options
-from sched_sim.timing import Timing, check_dual_rate, latest_feedback_step
+from sched_sim.timing import Timing, check_dual_rate, check_multirate, latest_feedback_step
 from studies.grid import Grid
 from studies.legal import Legal, law_of
 
@@ -29,17 +29,20 @@ def is_legal(method, feedback, N, M, L):
         timing = Timing(N, M, L)
         if method == "dual-rate":
             check_dual_rate(timing, feedback)
+        if method in MULTIRATE_METHODS:
+            check_multirate(timing)
     except InputError:
         return False
-    return True
+    return M == 0 or method not in MULTIRATE_METHODS
 
 
 def legal_designs(method, feedback, Ns, Ms, Ls):
     """One by one, by the rules of `sched_sim.timing`."""
     for N in Ns:
         for M in Ms or range(N + 1):
-            only_m = method != "dual-rate"
-            every_L = [M] if only_m else range(latest_feedback_step(N, feedback) + 1)
+            only_m = method in ("standard", "recalculate", "larsen")
+            latest = latest_feedback_step(N, feedback) if method == "dual-rate" else N
+            every_L = [M] if only_m else range(latest + 1)
             for L in Ls or every_L:
                 if is_legal(method, feedback, N, M, L):
                     yield N, M, L
@@ -81,7 +84,7 @@ def points(grid, start, stop):
     Ms=st.none() | axis(0),
     Ls=st.none() | axis(0),
     speeds=st.integers(0, 3),
-    methods=st.lists(METHOD, min_size=1, unique=True),
+    methods=st.lists(st.sampled_from(DELAYED_METHODS), min_size=1, unique=True),
     feedbacks=st.lists(FEEDBACK, min_size=1, unique=True),
     data=st.data(),
 )
@@ -116,14 +119,14 @@ def test_a_grid_far_larger_than_memory_is_only_counted():
 
 def test_an_empty_grid_says_what_was_given():
     with pytest.raises(InputError, match=r"none of the 4 combinations of N=5, M=6, L=all is legal: give 0 <= M <= N"):
-        Grid((5,), (6,), None, (), METHODS, (STEFFES,), (Options(),))
+        Grid((5,), (6,), None, (), DELAYED_METHODS, (STEFFES,), (Options(),))
 
 
 def test_tables_of_one_name_are_refused():
     with pytest.raises(InputError, match="two cost tables are named 'steffes2014'"):
-        Grid((5,), None, None, (), METHODS, (STEFFES, STEFFES), (Options(),))
+        Grid((5,), None, None, (), DELAYED_METHODS, (STEFFES, STEFFES), (Options(),))
 
 
 def test_a_missing_entry_of_a_table_is_an_error():
     with pytest.raises(InputError, match=r"no entry \[costs.dual-rate\] lr_gain"):
-        Grid((5,), None, None, (), METHODS, (STEFFES,), (Options(gain="precomputed"),))
+        Grid((5,), None, None, (), DELAYED_METHODS, (STEFFES,), (Options(gain="precomputed"),))

@@ -72,7 +72,7 @@ def test_counts_grow_with_the_cube_of_the_states() -> None:
 def test_a_nonlinear_system_can_be_counted_and_its_model_counts_too() -> None:
     model = measure(vehicle(), "counted", name="vehicle")
     linear = measure(example_system(6, 2, 2), "counted", name="linear")
-    assert model.provenance["operations"]["standard"]["propagate"]["function"] == 4  # sin and cos, in f and in F
+    assert model.operations["standard"]["propagate"]["function"] == 4  # sin and cos, in f and in F
     assert model.entry("dual-rate", "lr_propagate") == linear.entry("dual-rate", "lr_propagate")
 
 
