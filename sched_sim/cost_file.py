@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from decimal import Decimal
 from fractions import Fraction
 from pathlib import Path
@@ -12,20 +12,51 @@ from typing import Annotated, Any, Self
 
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, ValidationError, model_validator
 
-from sched_sim.costs import KINDS, Cost, CostTable, positive_cost, shipped_names
+from sched_sim.costs import (
+    ARITHMETIC,
+    KINDS,
+    OPERATION_KINDS,
+    Cost,
+    CostTable,
+    arithmetic,
+    positive_cost,
+    shipped_names,
+)
 from sched_sim.errors import InputError
 
+Entries = dict[str, Any]
+"""One method's entries, by job kind."""
 
-def _known_kinds(costs: dict[str, dict[str, Any]]) -> dict[str, dict[str, Any]]:
-    for method, entries in costs.items():
-        if method not in KINDS:
-            raise ValueError(f"[costs.{method}] is no method: choose from {', '.join(KINDS)}")
-        for kind in entries:
-            if kind not in KINDS[method]:
-                raise ValueError(f"[costs.{method}] {kind} is no job kind: choose from {', '.join(KINDS[method])}")
-    if not costs:
-        raise ValueError("[costs] is empty: give at least one method's entries")
-    return costs
+
+def _known_kinds(section: str) -> Callable[[dict[str, Entries]], dict[str, Entries]]:
+    """A check that a section's methods and job kinds exist."""
+
+    def check(methods: dict[str, Entries]) -> dict[str, Entries]:
+        for method, entries in methods.items():
+            if method not in KINDS:
+                raise ValueError(f"[{section}.{method}] is no method: choose from {', '.join(KINDS)}")
+            for kind in entries:
+                if kind not in KINDS[method]:
+                    known = ", ".join(KINDS[method])
+                    raise ValueError(f"[{section}.{method}] {kind} is no job kind: choose from {known}")
+        return methods
+
+    return check
+
+
+def _number(value: Any) -> int:
+    if isinstance(value, bool) or not isinstance(value, int) or value < 0:
+        raise ValueError("must be a whole number of operations, 0 or more")
+    return value
+
+
+def _counts(counts: dict[str, int]) -> dict[str, int]:
+    for kind in counts:
+        if kind not in OPERATION_KINDS:
+            raise ValueError(f"{kind} is no kind of operation: choose from {', '.join(OPERATION_KINDS)}")
+    if not arithmetic(counts):
+        raise ValueError(f"a job does at least one of {', '.join(ARITHMETIC)}: give its number, or leave the job out")
+    return counts
 
 
 def _cost(value: Any) -> Any:
@@ -51,11 +82,27 @@ class _CostEntry(BaseModel):
         return self
 
 
+_Cost = Annotated[_CostEntry, BeforeValidator(_cost)]
+_Counts = Annotated[dict[str, Annotated[int, BeforeValidator(_number)]], AfterValidator(_counts)]
+
+
 class _CostFile(BaseModel):
     model_config = ConfigDict(extra="allow")
     name: str
     unit: str
-    costs: Annotated[dict[str, dict[str, Annotated[_CostEntry, BeforeValidator(_cost)]]], AfterValidator(_known_kinds)]
+    costs: Annotated[dict[str, dict[str, _Cost]], AfterValidator(_known_kinds("costs"))] = {}
+    operations: Annotated[dict[str, dict[str, _Counts]], AfterValidator(_known_kinds("operations"))] = {}
+
+    @model_validator(mode="after")
+    def _something_to_schedule(self) -> Self:
+        if not self.costs and not self.operations:
+            raise ValueError("no [costs] and no [operations]: give at least one method's entries")
+        if not self.costs and self.unit != "operation":
+            raise ValueError(
+                f'[operations] without [costs] have the unit "operation", this table says {self.unit!r}: '
+                f'write unit = "operation", or give the costs too'
+            )
+        return self
 
 
 def read_cost_table(path: Path, shown: str = "") -> CostTable:
@@ -81,10 +128,11 @@ def read_cost_table(path: Path, shown: str = "") -> CostTable:
     costs = {
         method: {kind: Cost(entry.minimum, entry.median, entry.p95) for kind, entry in entries.items()}
         for method, entries in checked.costs.items()
+    } or {
+        method: {kind: Cost.of(Fraction(arithmetic(counts))) for kind, counts in entries.items()}
+        for method, entries in checked.operations.items()
     }
-    return CostTable(
-        name=checked.name, unit=checked.unit, costs=costs, provenance=dict(checked.model_extra or {}), path=shown
-    )
+    return CostTable(checked.name, checked.unit, costs, dict(checked.model_extra or {}), shown, checked.operations)
 
 
 def cost_table_text(table: CostTable) -> str:
@@ -96,6 +144,8 @@ def cost_table_text(table: CostTable) -> str:
             sections += _sections(key, value)
         else:
             lines.append(f"{key} = {_toml(value)}")
+    if table.operations:
+        sections += _sections("operations", table.operations)
     for method, entries in table.costs.items():
         sections += ["", f"[costs.{method}]", *(f"{kind} = {_toml_cost(cost)}" for kind, cost in entries.items())]
     return "\n".join([*lines, *sections]) + "\n"

@@ -43,6 +43,14 @@ KINDS: Mapping[str, tuple[str, ...]] = {
 }
 """Every entry a table may hold, by method. Those a run needs depend on its options: see `select`."""
 
+ARITHMETIC = ("multiply", "add", "divide", "sqrt", "function")
+"""Kinds of floating-point operation. A subtraction is an add; a function is sin, cos, exp and the like."""
+OPERATION_KINDS = (*ARITHMETIC, "logic")
+"""logic: what the arithmetic needs around it: loads, stores, index arithmetic, comparisons, branches."""
+
+Counts = Mapping[str, int]
+"""How often one job does each kind of operation."""
+
 SHIPPED = Path(__file__).parent / "cost_tables"
 
 
@@ -67,7 +75,8 @@ class CostTable:
     """Costs by method and job kind, all in one `unit` ("standard step", "seconds", "operations").
 
     `provenance` holds whatever else the file says of where they come from: source, update form, machine,
-    versions, protocol, date. `path` is where it was read from, for messages.
+    versions, protocol, date. `path` is where it was read from, for messages. `operations` holds the counts of
+    operations by method and job kind, where they are known; `processor.on_processor` turns them into time.
     """
 
     name: str
@@ -75,14 +84,21 @@ class CostTable:
     costs: Mapping[str, Mapping[str, Cost]]
     provenance: Mapping[str, Any] = field(default_factory=dict)
     path: str = ""
+    operations: Mapping[str, Mapping[str, Counts]] = field(default_factory=dict)
 
     def entry(self, method: str, kind: str) -> Cost:
         """Raises InputError that names the missing entry and how to supply it."""
         try:
             return self.costs[method][kind]
         except KeyError:
-            where = f"{self.name} ({self.path})" if self.path else self.name
-            raise InputError(f"cost table {where} has no entry [costs.{method}] {kind}: {self._remedy(kind)}") from None
+            raise InputError(
+                f"cost table {self.shown} has no entry [costs.{method}] {kind}: {self._remedy(kind)}"
+            ) from None
+
+    @property
+    def shown(self) -> str:
+        """Name and path, for messages."""
+        return f"{self.name} ({self.path})" if self.path else self.name
 
     def _remedy(self, kind: str) -> str:
         if self.name in shipped_names():
@@ -185,6 +201,11 @@ def select(table: CostTable, method: str, options: Options, statistic: Statistic
     if method in MULTIRATE_METHODS:
         return MultirateCosts(cost("state_update"), cost("covariance_gain"))
     raise InputError(f"method {method!r} is unknown: choose from {', '.join(METHODS)}")
+
+
+def arithmetic(counts: Counts) -> int:
+    """Floating-point operations in `counts`, each counted once whatever its kind; logic is none."""
+    return sum(number for kind, number in counts.items() if kind in ARITHMETIC)
 
 
 def shipped_names() -> list[str]:

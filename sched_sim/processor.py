@@ -1,0 +1,119 @@
+"""A processor by its data sheet: operation counts become time. Everything is exact."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from pathlib import Path
+
+from sched_sim.costs import Cost, CostTable, Counts, arithmetic
+from sched_sim.errors import InputError
+from sched_sim.ticks import positive
+
+SHIPPED = Path(__file__).parent / "processors"
+
+
+@dataclass(frozen=True)
+class Processor:
+    """What each kind of operation takes on one processor.
+
+    seconds: by kind of operation (`costs.OPERATION_KINDS`), those that the file gives. clock_hz: None if the file
+    gives times instead of cycles. precision: of the arithmetic, "single" or "double". logic_per_arithmetic: logic
+    operations around each arithmetic one, for jobs that do not count their own. sources: where each figure is from,
+    by its name in the file. path: where the file was read from, for messages.
+    """
+
+    name: str
+    title: str
+    precision: str
+    clock_hz: Fraction | None
+    seconds: Mapping[str, Fraction]
+    logic_per_arithmetic: Fraction
+    sources: Mapping[str, str]
+    path: str = ""
+
+    def at_clock(self, clock_hz: Fraction) -> Processor:
+        """The same processor on another clock: the same cycles, so other times.
+
+        Raises InputError for a clock that is not above 0 and for a processor that is described by times.
+        """
+        if self.clock_hz is None:
+            raise InputError(f"processor {self.name!r} has times, not cycles: leave its clock as it is")
+        scale = self.clock_hz / positive(clock_hz, "clock")
+        return replace(
+            self, clock_hz=Fraction(clock_hz), seconds={kind: time * scale for kind, time in self.seconds.items()}
+        )
+
+
+def shipped_processors() -> list[str]:
+    """The names of the processors that come with the project."""
+    return sorted(path.stem for path in SHIPPED.glob("*.toml"))
+
+
+def load_processor(name_or_path: str | Path) -> Processor:
+    """A shipped processor by its name, or a user's own by the path of its file.
+
+    Raises InputError that names the file, every wrong entry in it, and the remedy.
+    """
+    from sched_sim.processor_file import read_processor
+
+    text = str(name_or_path)
+    path = SHIPPED / f"{text}.toml" if text in shipped_processors() else Path(text)
+    return read_processor(path, shown=text)
+
+
+def on_processor(table: CostTable, processor: Processor) -> CostTable:
+    """The jobs of `table` whose operations are counted, with the seconds that `processor` takes for them.
+
+    A job's time is the sum over its operations, one after another. Logic that a job does not count is
+    `logic_per_arithmetic` for each arithmetic operation. Raises InputError for a table without counts and for a kind
+    of operation that a job needs and the processor does not give.
+    """
+    if not table.operations:
+        raise InputError(
+            f"cost table {table.shown} has no operation counts to run on processor {processor.name!r}: use "
+            f"--costs counted-9-3-3, or count with `sched-sim measure --backend counted -o FILE`"
+        )
+    costs = {
+        method: {
+            kind: Cost.of(_seconds(counts, processor, f"[operations.{method}] {kind} of cost table {table.shown}"))
+            for kind, counts in entries.items()
+        }
+        for method, entries in table.operations.items()
+    }
+    return replace(
+        table,
+        name=f"{table.name} on {processor.name}",
+        unit="second",
+        costs=costs,
+        provenance={**table.provenance, "machine": processor.title, "processor": _about(processor)},
+    )
+
+
+def _seconds(counts: Counts, processor: Processor, job: str) -> Fraction:
+    logic = Fraction(counts.get("logic", processor.logic_per_arithmetic * arithmetic(counts)))
+    needed = {kind: Fraction(number) for kind, number in counts.items() if kind != "logic" and number}
+    if logic:
+        needed["logic"] = logic
+    for kind in needed:
+        if kind not in processor.seconds:
+            section = "microseconds" if processor.clock_hz is None else "cycles"
+            where = f"{processor.name!r} ({processor.path})" if processor.path else repr(processor.name)
+            raise InputError(
+                f"processor {where} gives no time for {kind}, which {job} needs: add the line `{kind} = ...` to "
+                f"[{section}] in a copy of its file, or choose another processor"
+            )
+    return sum((number * processor.seconds[kind] for kind, number in needed.items()), Fraction(0))
+
+
+def _about(processor: Processor) -> dict[str, str]:
+    """What a cost table says of the processor that its times are for."""
+    clock = {} if processor.clock_hz is None else {"clock_mhz": str(processor.clock_hz / 10**6)}
+    return {
+        "name": processor.name,
+        "precision": processor.precision,
+        **clock,
+        "logic_per_arithmetic": str(processor.logic_per_arithmetic),
+        **{f"{figure}_source": source for figure, source in processor.sources.items()},
+    }

@@ -1,0 +1,128 @@
+"""Reading a processor's TOML file. Numbers are read as exact decimals, or as quotients in a string."""
+
+from __future__ import annotations
+
+import tomllib
+from decimal import Decimal
+from fractions import Fraction
+from pathlib import Path
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, model_validator
+
+from sched_sim.cost_file import problems
+from sched_sim.costs import OPERATION_KINDS
+from sched_sim.errors import InputError
+from sched_sim.processor import Processor, shipped_processors
+from sched_sim.ticks import exact, positive
+
+HERTZ_PER_MHZ = 10**6
+MICROSECONDS_PER_SECOND = 10**6
+
+
+def _value(value: Any) -> Fraction:
+    if isinstance(value, bool | list | dict):
+        raise ValueError("must be a number")
+    return exact(value, "the number")
+
+
+class _Figure(BaseModel):
+    """One number of a data sheet: what it is and where it is printed."""
+
+    model_config = ConfigDict(extra="forbid", arbitrary_types_allowed=True)
+    value: Annotated[Fraction, BeforeValidator(_value)]
+    is_: Annotated[Literal["latency", "throughput", "time"] | None, Field(alias="is")] = None
+    source: str = ""
+
+
+def _figure(value: Any) -> Any:
+    return value if isinstance(value, dict) else {"value": value}
+
+
+def _positive(figure: _Figure) -> _Figure:
+    positive(figure.value, "the number")
+    return figure
+
+
+def _not_negative(figure: _Figure) -> _Figure:
+    if figure.value < 0:
+        raise ValueError(f"the number is {figure.value}: it must be 0 or more")
+    return figure
+
+
+_PositiveFigure = Annotated[_Figure, BeforeValidator(_figure), AfterValidator(_positive)]
+_Ratio = Annotated[_Figure, BeforeValidator(_figure), AfterValidator(_not_negative)]
+
+
+def _known_kinds(figures: dict[str, _Figure]) -> dict[str, _Figure]:
+    for kind in figures:
+        if kind not in OPERATION_KINDS:
+            raise ValueError(f"{kind} is no kind of operation: choose from {', '.join(OPERATION_KINDS)}")
+    return figures
+
+
+_Figures = Annotated[dict[str, _PositiveFigure], AfterValidator(_known_kinds)]
+
+
+class _ProcessorFile(BaseModel):
+    model_config = ConfigDict(extra="forbid")
+    name: str
+    title: str
+    precision: Literal["single", "double", "unstated"]
+    clock_mhz: _PositiveFigure | None = None
+    logic_per_arithmetic: _Ratio
+    cycles: _Figures = {}
+    microseconds: _Figures = {}
+
+    @model_validator(mode="after")
+    def _cycles_or_times(self) -> Self:
+        if bool(self.cycles) == bool(self.microseconds):
+            raise ValueError("give either [cycles] with clock_mhz, or [microseconds]")
+        if self.cycles and not self.clock_mhz:
+            raise ValueError("[cycles] need the clock: add the line `clock_mhz = ...`, or give [microseconds]")
+        if self.microseconds and self.clock_mhz:
+            raise ValueError("clock_mhz has no meaning for [microseconds]: delete it, or give [cycles]")
+        if self.logic_per_arithmetic.value and "logic" not in self.figures:
+            raise ValueError("logic_per_arithmetic needs the time of one: add the line `logic = ...`, or set it to 0")
+        return self
+
+    @property
+    def figures(self) -> dict[str, _Figure]:
+        return self.cycles or self.microseconds
+
+
+def read_processor(path: Path, shown: str = "") -> Processor:
+    """The processor in `path`; `shown` is what the user called it.
+
+    Raises InputError that lists every wrong entry of the file with its value.
+    """
+    shown = shown or str(path)
+    try:
+        document = tomllib.loads(path.read_text(encoding="utf-8"), parse_float=Decimal)
+    except (FileNotFoundError, NotADirectoryError, IsADirectoryError):
+        raise InputError(
+            f"processor {shown!r} not found: give one of {', '.join(shipped_processors())}, or the path of a TOML file"
+        ) from None
+    except (OSError, UnicodeDecodeError) as error:
+        raise InputError(f"processor {shown!r} cannot be read: {error}") from None
+    except tomllib.TOMLDecodeError as error:
+        raise InputError(f"processor {shown!r} is not valid TOML: {error}") from None
+    try:
+        checked = _ProcessorFile.model_validate(document)
+    except ValidationError as error:
+        raise InputError(f"processor {shown!r}: {problems(error)}") from None
+    clock_hz = checked.clock_mhz.value * HERTZ_PER_MHZ if checked.clock_mhz else None
+    per_second = clock_hz or Fraction(MICROSECONDS_PER_SECOND)
+    named = {**checked.figures, "logic_per_arithmetic": checked.logic_per_arithmetic}
+    if checked.clock_mhz:
+        named["clock_mhz"] = checked.clock_mhz
+    return Processor(
+        name=checked.name,
+        title=checked.title,
+        precision=checked.precision,
+        clock_hz=clock_hz,
+        seconds={kind: figure.value / per_second for kind, figure in checked.figures.items()},
+        logic_per_arithmetic=checked.logic_per_arithmetic.value,
+        sources={name: figure.source for name, figure in named.items()},
+        path=shown,
+    )
