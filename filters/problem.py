@@ -23,11 +23,39 @@ def check_problem(
         raise ValueError(f"N={N} must be at least 1: it is the number of steps between measurements")
     if not 0 <= M <= L <= N:
         raise ValueError(f"M={M}, L={L}, N={N} must satisfy 0 <= M <= L <= N")
-    n, m, p = system.states, system.inputs, system.measurements
+    _check_start_and_inputs(system, x0, P0, inputs)
+    _check_shape("measurements", measurements, (len(measurements), system.measurements))
+
+
+def check_multirate_problem(
+    system: System, n: int, L: int, x0: FloatArray, P0: FloatArray, inputs: FloatArray, measurements: FloatArray
+) -> None:
+    """Raises ValueError, naming the argument, unless 0 <= L <= n, n >= 1, and all shapes fit: a measurement a step."""
+    if n < 1:
+        raise ValueError(f"n={n} must be at least 1: it is the number of steps between gains")
+    if not 0 <= L <= n:
+        raise ValueError(f"L={L}, n={n} must satisfy 0 <= L <= n: a gain is in use before the next one is computed")
+    _check_start_and_inputs(system, x0, P0, inputs)
+    _check_shape("measurements", measurements, (len(inputs) + 1, system.measurements))
+
+
+def check_measurement_noise(R: FloatArray, k: int) -> None:
+    """Raises ValueError unless R (p, p) of step k is symmetric and positive definite beyond rounding."""
+    if not np.allclose(R, R.T, rtol=1e-9, atol=0.0):
+        raise ValueError(f"R of step {k} is not symmetric; it is the covariance of the measurement noise")
+    eigenvalues = np.linalg.eigvalsh(R)
+    if not eigenvalues[0] > len(R) * np.finfo(np.float64).eps * abs(eigenvalues[-1]):
+        raise ValueError(
+            f"R of step {k} is not positive definite: its smallest eigenvalue is {eigenvalues[0]:.3g}; give each "
+            f"measurement noise of its own (a positive variance), or leave out those that follow from the others"
+        )
+
+
+def _check_start_and_inputs(system: System, x0: FloatArray, P0: FloatArray, inputs: FloatArray) -> None:
+    n, m = system.states, system.inputs
     _check_shape("x0", x0, (n,))
     _check_shape("P0", P0, (n, n))
     _check_shape("inputs", inputs, (len(inputs), m))
-    _check_shape("measurements", measurements, (len(measurements), p))
 
 
 def _check_shape(name: str, array: FloatArray, needed: tuple[int, ...]) -> None:

@@ -1,0 +1,171 @@
+"""The multirate gain: a measurement in every step, covariance and gain only in every n-th.
+
+"Optimal covariance filtering", a patent (seeds/003_95fc7587f7dca2ee.txt), Eq. (1): K(t, dT) = K(t, n dT) / n. The gain
+computed over n dT, as if there were one measurement in that time, is divided among the n measurements.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from filters.arrays import FloatArray
+from filters.covariance_forms import CovarianceFormName
+from filters.factored import FactoredFormName, factored_form
+from filters.factored.form import FactoredForm
+from filters.factored.workspace import FactoredWorkspace, new_factored_workspace
+from filters.history import History, HistoryRecorder
+from filters.kernels.backends import BackendName, arguments_for, function_for
+from filters.kernels.dense import add_vectors
+from filters.problem import check_measurement_noise, check_multirate_problem
+from filters.records import Correction, new_correction
+from filters.systems.coarse import over
+from filters.systems.system import System
+from filters.update import update_error
+
+
+def state_update(
+    system: System, j: int, x: FloatArray, u: FloatArray, y: FloatArray, correction: Correction, x_next: FloatArray
+) -> None:
+    """Job of every step, at high rate: x_{j-1} becomes x_j with the measurement y of step j, Eq. (2).
+
+    correction: its K (n, p) is given, z (p,) and delta_x (n,) are filled.
+    """
+    state_predict(system, j, x, u, x_next)
+    state_correct(system, j, y, correction, x_next)
+
+
+def state_predict(system: System, j: int, x: FloatArray, u: FloatArray, x_next: FloatArray) -> None:
+    """The half of `state_update` that needs no measurement: x_{j-1} becomes x_{j^-}."""
+    system.f(j - 1, x, u, system.parameters, x_next)
+
+
+def state_correct(system: System, j: int, y: FloatArray, correction: Correction, x: FloatArray) -> None:
+    """The other half of `state_update`: x_{j^-} becomes x_j, in place."""
+    update_error(system, j, y, x, correction)
+    add_vectors(x, correction.delta_x, x)
+
+
+def covariance_gain(
+    coarse: System,
+    form: FactoredForm,
+    k: int,
+    n: int,
+    x_last: FloatArray,
+    u: FloatArray,
+    x: FloatArray,
+    factors: FloatArray,
+    predicted: FloatArray,
+    K: FloatArray,
+    posterior: FloatArray,
+    work: FactoredWorkspace,
+) -> None:
+    """Job of every n-th step k, at low rate: the gain to be used with each measurement, Eq. (1).
+
+    coarse: the system over n steps. x_last, u: the estimate and the input of step k - n. x: x_{k^-}.
+    factors, predicted, posterior: those of P_{(k-n)^+}, which is given, and of P_{k^-} and P_{k^+}, which are filled.
+    """
+    Phi = coarse.F(k - n, x_last, u, coarse.parameters)
+    form.propagation(Phi, factors, coarse.Q(k - n, coarse.parameters), predicted, work)
+    divided_gain(coarse, form, k, n, x, predicted, K, posterior, work)
+
+
+def divided_gain(
+    coarse: System,
+    form: FactoredForm,
+    k: int,
+    n: int,
+    x: FloatArray,
+    predicted: FloatArray,
+    K: FloatArray,
+    posterior: FloatArray,
+    work: FactoredWorkspace,
+) -> None:
+    """What is left of `covariance_gain` when P_{k^-} is known: K(k, n dT) / n, Eq. (1), and P_{k^+}."""
+    form.update(predicted, coarse.H(k, x, coarse.parameters), coarse.R(k, coarse.parameters), K, posterior, work)
+    share = 1.0 / n
+    for i in range(K.shape[0]):
+        for j in range(K.shape[1]):
+            K[i, j] *= share
+
+
+def cycle_in_use(j: int, n: int, L: int) -> int:
+    """Which gain step j uses: c for that of k = c n, in use from step k + L on. That of k = 0 is known beforehand."""
+    return max(j - L, 0) // n
+
+
+def run(
+    system: System,
+    n: int,
+    x0: FloatArray,
+    P0: FloatArray,
+    inputs: FloatArray,
+    measurements: FloatArray,
+    *,
+    coarse: System | None = None,
+    form: FactoredFormName = "conventional",
+    L: int = 0,
+    update: CovarianceFormName = "textbook",
+    backend: BackendName = "reference",
+) -> History:
+    """Filter a record of data with gains that are computed every n-th step.
+
+    n: steps between gains. L: the gain of k is in use from step k + L on, 0 <= L <= n; before step L, that of k = 0.
+    x0 (states,), P0 (states, states): estimate and covariance at step 0, before its measurement.
+    inputs (steps, inputs): row j takes the state from j to j + 1.
+    measurements (steps + 1, measurements): row j is used in step j.
+    coarse: the system over n steps, `over(system, n)` if not given; its functions get the steps of `system`, and the
+        estimate and input at the start of an interval.
+    form: how the covariance is kept. update: the covariance form by which the conventional one multiplies.
+
+    In the result, P_reference is what the gains of k = 0, n, 2n, ... were computed from, innovations and gains have one
+    row per step, and gains are those used: K(t, n dT) / n.
+
+    Raises:
+        ValueError: n, L or a shape is wrong, a name is unknown, R of some k is not positive definite, or coarse is not
+            given and `over` refuses to make it.
+    """
+    check_multirate_problem(system, n, L, x0, P0, inputs, measurements)
+    coarse = over(system, n) if coarse is None else coarse
+    if coarse[:3] != system[:3]:
+        raise ValueError(
+            f"coarse has {coarse.states} states, {coarse.inputs} inputs and {coarse.measurements} measurements, the "
+            f"system {system.states}, {system.inputs} and {system.measurements}; they must be the same"
+        )
+    for k in range(0, len(inputs) + 1, n):
+        check_measurement_noise(coarse.R(k, coarse.parameters), k)
+    kept = factored_form(form, update)
+    run_predict = function_for(backend, state_predict)
+    run_correct = function_for(backend, state_correct)
+    run_covariance_gain = function_for(backend, covariance_gain)
+    run_divided_gain = function_for(backend, divided_gain)
+    model, coarse_model, bound = (arguments_for(backend, value) for value in (system, coarse, kept))
+    work = new_factored_workspace(system)
+    recorder = HistoryRecorder(system)
+
+    x = x_last = np.array(x0, dtype=np.float64)
+    factors = np.empty((system.states, system.states))
+    gains: list[FloatArray] = []
+    for j in range(len(inputs) + 1):
+        x_before, x = x, x.copy()
+        if j > 0:
+            run_predict(model, j, x_before, inputs[j - 1], x)
+        if j % n == 0:
+            predicted, posterior, P = np.empty_like(factors), np.empty_like(factors), np.empty_like(factors)
+            K = np.empty((system.states, system.measurements))
+            if j == 0:
+                kept.factor(np.array(P0, dtype=np.float64), predicted)
+                run_divided_gain(coarse_model, bound, j, n, x, predicted, K, posterior, work)
+            else:
+                u = inputs[j - n]
+                run_covariance_gain(coarse_model, bound, j, n, x_last, u, x, factors, predicted, K, posterior, work)
+            kept.covariance(predicted, P)
+            recorder.reference(P)
+            factors = posterior
+            gains.append(K)
+        correction = new_correction(system)._replace(K=gains[cycle_in_use(j, n, L)])
+        run_correct(model, j, measurements[j], correction, x)
+        if j % n == 0:
+            x_last = x
+        recorder.correction(correction)
+        recorder.state(x)
+    return recorder.history()

@@ -1,0 +1,52 @@
+"""The covariance that the error of a linear filter really has, for whatever gains it used; no simulation."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from filters.arrays import FloatArray
+from filters.systems.system import System
+
+
+class TrueCovariance(NamedTuple):
+    """Of the estimation error in every step: before and after its measurement, each (..., steps + 1, n, n)."""
+
+    before: FloatArray
+    after: FloatArray
+
+
+def true_covariance(system: System, P0: FloatArray, gains: FloatArray) -> TrueCovariance:
+    """The covariance of x - x_true where step j used y_j with the gain K_j, x = x^- + K_j (y_j - H_j x^-).
+
+    system: linear, for its Phi and H are taken at the state zero; its noises are the true ones. P0 (n, n): covariance
+    of the first estimate's error. gains (..., steps + 1, n, p): leading axes are filters computed side by side.
+
+    Joseph's form, P+ = (I - K H) P- (I - K H)^T + K R K^T, holds for any K; Gelb, Applied Optimal Estimation, 1974.
+
+    Raises:
+        ValueError: a shape is wrong.
+    """
+    n, m, p = system.states, system.inputs, system.measurements
+    if np.shape(P0) != (n, n) or gains.ndim < 3 or gains.shape[-2:] != (n, p):
+        raise ValueError(
+            f"true_covariance: P0 {np.shape(P0)} and gains {gains.shape} must be ({n}, {n}) and (..., steps + 1, {n}, {p})"
+        )
+    x, u = np.zeros(n), np.zeros(m)
+    before, after = np.empty((*gains.shape[:-1], n)), np.empty((*gains.shape[:-1], n))
+    for j in range(gains.shape[-3]):
+        if j == 0:
+            before[..., 0, :, :] = P0
+        else:
+            Phi = system.F(j - 1, x, u, system.parameters)
+            before[..., j, :, :] = Phi @ after[..., j - 1, :, :] @ Phi.T + system.Q(j - 1, system.parameters)
+        H, R = system.H(j, x, system.parameters), system.R(j, system.parameters)
+        K = gains[..., j, :, :]
+        A = np.eye(n) - K @ H
+        after[..., j, :, :] = A @ before[..., j, :, :] @ _transposed(A) + K @ R @ _transposed(K)
+    return TrueCovariance(before, after)
+
+
+def _transposed(matrices: FloatArray) -> FloatArray:
+    return np.swapaxes(matrices, -1, -2)
