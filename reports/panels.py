@@ -128,7 +128,8 @@ def method_panel(
     schedule = simulate(costs, timing, speed, cycles, options, tasks, keep_slices=True, on_landing=landings.__setitem__)
     multirate = method in MULTIRATE_METHODS
     delay = replace(timing, M=0) if multirate or method == "standard" else timing
-    notes = [f"speed {_number(speed)}", landing_note(landings.values(), delay.M)]
+    pace = f"HR period {_number(1000 * speed)} ms" if table.unit == "second" else f"speed {_number(speed)}"
+    notes = [pace, landing_note(landings.values(), delay.M)]
     if method == "standard":
         notes[1] = "no delay: lands at $k$"
     if multirate:

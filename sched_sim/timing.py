@@ -67,5 +67,6 @@ def check_multirate(timing: Timing) -> None:
     """Raises InputError unless 1 <= L: a gain computed from step k on can be in use in step k + 1 at the earliest."""
     if timing.L < 1:
         raise InputError(
-            f"L={timing.L} must be at least 1: a multirate gain is in use from the next step on; give L from 1 to N={timing.N}"
+            f"L={timing.L} must be at least 1: a multirate gain is in use from the next step on; "
+            f"give L from 1 to N={timing.N}"
         )

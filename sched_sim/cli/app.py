@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from sched_sim.cli import gantt, measure, minimum, report, simulate, sweep
+from sched_sim.cli import gantt, measure, minimum, processors, report, simulate, sweep
 
 app = typer.Typer(
     no_args_is_help=True,
@@ -40,5 +40,6 @@ app.command("minimum")(minimum.minimum)
 app.command("simulate")(simulate.simulate)
 app.command("gantt")(gantt.gantt)
 app.command("sweep")(sweep.sweep)
+app.command("processors")(processors.processors)
 app.command("measure")(measure.measure)
 app.command("report")(report.report)

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from sched_sim.cli import options as opt
+
+if TYPE_CHECKING:
+    from sched_sim.costs import CostTable
 
 ChartMethods = Annotated[
     list[str] | None,
@@ -18,41 +21,50 @@ Picture = Annotated[Path, typer.Option("--output", "-o", help="FILE.svg, .pdf or
 
 def gantt(
     N: opt.Steps,
-    M: opt.Delay,
+    M: opt.Delay = None,
     L: opt.FeedbackStep = None,
     method: ChartMethods = None,
     speed: opt.Speed = None,
     cycles: opt.Cycles = 1,
-    costs: opt.Costs = "steffes2014",
+    costs: opt.Costs = None,
     statistic: opt.WhichCost = "minimum",
     lr_propagate_by: opt.LrPropagateBy = "m",
     feedback: opt.FeedbackIn = "next-step",
     gain: opt.GainAt = "at-update",
     low_rate_noise: opt.Noise = "exact",
+    processor: opt.OnProcessor = None,
     cpus: opt.Cpus = 1,
     context_switch: opt.ContextSwitch = "0",
     tasks: opt.Tasks = None,
+    hr_hz: opt.HrHz = None,
     output: Picture = Path("gantt.svg"),
 ) -> None:
-    """Draw a Gantt chart: each method at its own least speed, or all at one --speed.
+    """Draw a Gantt chart: each method at its own least speed, or all at one --speed or on one --processor.
 
     sched-sim gantt -N 10 -M 4 -L 8 -o fig3.pdf
+    sched-sim gantt -N 40 -M 20 --processor cortex-m7 --hr-hz 400
     """
+    from functools import partial
+
     from reports.gantt import gantt as draw
     from reports.gantt import method_panel, save
     from reports.picture import check_picture
-    from sched_sim.costs import load, select
+    from sched_sim.costs import select
     from sched_sim.least_speed import least_speed
-    from sched_sim.ticks import positive
 
     check_picture(output)
     options = opt.make_options(lr_propagate_by, feedback, gain, low_rate_noise, cpus, context_switch)
-    table, others = load(costs), opt.make_tasks(tasks)
+    part = opt.make_processor(processor)
+    table, others, rate = opt.load_costs(costs, part), opt.make_tasks(tasks), opt.hr_rate(hr_hz)
     panels = []
-    for name in opt.wanted_methods(method or ["larsen", "dual-rate"]):
+    for name in opt.wanted_methods(method or _usual(table), table):
         timing = opt.make_timing(N, M, L, name, options)
         work = select(table, name, options, statistic)
-        pace = least_speed(work, timing, options, others).speed if speed is None else positive(speed, "--speed")
+        pace = opt.pace(speed, rate, part, partial(least_speed, work, timing, options, others))
         panels.append(method_panel(table, name, timing, pace, cycles, options, others, statistic=statistic))
     save(draw(panels), output)
     typer.echo(f"Wrote {output}", err=True)
+
+
+def _usual(table: CostTable) -> list[str]:
+    return [method for method in ("larsen", "dual-rate") if method in table.costs]

@@ -2,10 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
 
 from sched_sim.cli import options as opt
 from sched_sim.cli.output import print_csv, print_json, print_table, units
+
+if TYPE_CHECKING:
+    from sched_sim.costs import JobCosts
+    from sched_sim.options import Options
+    from sched_sim.tasks import Task
+    from sched_sim.timing import Timing
 
 SECONDS = {"second": 1.0, "seconds": 1.0, "s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
 """Units of costs that are times: then work per second is a share of the processor on which they were found."""
@@ -16,15 +24,16 @@ LARGEST_DENOMINATOR = 10_000
 
 def minimum(
     N: opt.Steps,
-    M: opt.Delay,
+    M: opt.Delay = None,
     L: opt.FeedbackStep = None,
     method: opt.Methods = None,
-    costs: opt.Costs = "steffes2014",
+    costs: opt.Costs = None,
     statistic: opt.WhichCost = "minimum",
     lr_propagate_by: opt.LrPropagateBy = "m",
     feedback: opt.FeedbackIn = "next-step",
     gain: opt.GainAt = "at-update",
     low_rate_noise: opt.Noise = "exact",
+    processor: opt.OnProcessor = None,
     cpus: opt.Cpus = 1,
     context_switch: opt.ContextSwitch = "0",
     tasks: opt.Tasks = None,
@@ -35,47 +44,44 @@ def minimum(
 
     sched-sim minimum -N 10 -M 4 -L 8
     sched-sim minimum -N 40 -M 4 --hr-hz 400 --costs my-costs.toml --method dual-rate
+    sched-sim minimum -N 40 -M 20 --hr-hz 400 --processor cortex-m7
     """
     from sched_sim.analysis import BINDING_WORDS
-    from sched_sim.costs import load, select
-    from sched_sim.least_speed import achieved_l, least_speed
-    from sched_sim.search import cycles_to_simulate
-    from sched_sim.simulate import simulate
+    from sched_sim.cli.parts import fit_row, fit_words
+    from sched_sim.costs import select
+    from sched_sim.fit import fit
+    from sched_sim.least_speed import least_speed
 
     options = opt.make_options(lr_propagate_by, feedback, gain, low_rate_noise, cpus, context_switch)
-    table, others, rate = load(costs), opt.make_tasks(tasks), opt.hr_rate(hr_hz)
+    part = opt.make_processor(processor)
+    table, others, rate = opt.load_costs(costs, part), opt.make_tasks(tasks), opt.hr_rate(hr_hz)
+    design = f"N={N} M={_given(M, 'none')} L={_given(L, 'latest')}"
     rows: list[dict[str, Any]] = []
     shown: list[dict[str, Any]] = []
-    for name in opt.wanted_methods(method):
+    for name in opt.wanted_methods(method, table):
         timing = opt.make_timing(N, M, L, name, options)
         work = select(table, name, options, statistic)
-        least = least_speed(work, timing, options, others)
+        found = None if part is None or rate is None else fit(work, timing, rate, options, others)
+        least = least_speed(work, timing, options, others) if found is None else found.least
         row = {
             "method": name,
             "N": N,
-            "M": M,
+            "M": timing.M,
             "L": timing.L,
             "min_speed": float(least.speed),
             "min_speed_exact": str(least.speed),
             "binding": least.binding,
         }
-        landed: int | None
-        if others or options.context_switch:
-            cycles = cycles_to_simulate(timing, others)
-            landed = max(simulate(work, timing, least.speed, cycles, options, others).achieved)
+        person: dict[str, Any] = {"method": "standard (no delay)" if name == "standard" else name}
+        fixed_by = BINDING_WORDS.get(least.binding, least.binding)
+        if found is not None and part is not None and rate is not None:
+            row |= fit_row(part, found, rate)
+            person |= fit_words(part, found, rate) | {"fixed by": fixed_by}
         else:
-            landed = achieved_l(work, timing, least.speed, options)
-        person = {
-            "method": "standard (no delay)" if name == "standard" else name,
-            "least speed": f"{float(least.speed):.6g}",
-            "exactly": str(least.speed) if least.speed.denominator <= LARGEST_DENOMINATOR else "-",
-            "fixed by": BINDING_WORDS.get(least.binding, least.binding),
-            "lands at L": landed,
-        }
-        if rate is not None:
-            assert landed is not None
+            landed = _landing(work, timing, least.speed, options, others)
             times = _absolute(rate, landed, float(least.speed), table.unit)
-            row |= {"hr_hz": rate, **times}
+            row |= ({} if rate is None else {"hr_hz": float(rate)}) | times
+            person |= _speed(least.speed, table.unit) | {"fixed by": fixed_by, "lands at L": landed}
             person |= {_heading(key, table.unit): f"{value:.4g}" for key, value in times.items()}
         rows.append(row)
         shown.append(person)
@@ -83,23 +89,52 @@ def minimum(
         print_json(rows)
     elif format == "csv":
         print_csv(rows)
+    elif part is not None and rate is not None:
+        print_table(f"{part.title}, HR loop at {float(rate):g} Hz, {design} (operations: {table.name})", shown)
     else:
-        print_table(
-            f"Least speed, N={N} M={M} L={'latest' if L is None else L}, in {units(table.unit)} per HR period "
-            f"(costs: {table.name})",
-            shown,
-        )
+        unit = f"{units(table.unit)} per HR period" if part is None else f"an HR period, on {part.title}"
+        print_table(f"Least speed, {design}, in {unit} (costs: {table.name})", shown)
 
 
-def _absolute(rate: float, L: int, speed: float, unit: str) -> dict[str, float]:
-    """What the design is in seconds: when the correction lands, and the work per second the processor must do."""
-    times = {"correction_ms": 1000 * L / rate, "work_per_second": speed * rate * SECONDS.get(unit, 1)}
+def _landing(costs: JobCosts, timing: Timing, speed: Fraction, options: Options, tasks: Sequence[Task]) -> int:
+    """The latest L at which a correction lands at the least speed."""
+    from sched_sim.least_speed import achieved_l
+    from sched_sim.search import cycles_to_simulate
+    from sched_sim.simulate import simulate
+
+    if tasks or options.context_switch:
+        cycles = cycles_to_simulate(timing, tasks)
+        return max(simulate(costs, timing, speed, cycles, options, tasks).achieved)
+    landed = achieved_l(costs, timing, speed, options)
+    assert landed is not None
+    return landed
+
+
+def _absolute(rate: Fraction | None, L: int, speed: float, unit: str) -> dict[str, float]:
+    """What the design is in seconds: when the correction lands, the work per second the processor must do, and the
+    highest rate that the processor of a table in units of time can run it at."""
+    times: dict[str, float] = {}
+    if rate is not None:
+        hz = float(rate)
+        times |= {"correction_ms": 1000 * L / hz, "work_per_second": speed * hz * SECONDS.get(unit, 1)}
     if unit in SECONDS:
         times["highest_hr_hz"] = 1 / (speed * SECONDS[unit])
     return times
+
+
+def _speed(speed: Fraction, unit: str) -> dict[str, str]:
+    """Seconds per HR period as microseconds; the exact fraction where a person can read it."""
+    if unit == "second":
+        return {"least speed, us": f"{1e6 * float(speed):.5g}"}
+    exactly = str(speed) if speed.denominator <= LARGEST_DENOMINATOR else "-"
+    return {"least speed": f"{float(speed):.6g}", "exactly": exactly}
 
 
 def _heading(key: str, unit: str) -> str:
     if key == "work_per_second":
         return "share of processor" if unit in SECONDS else f"{units(unit)} per s"
     return {"correction_ms": "lands after, ms", "highest_hr_hz": "highest HR Hz"}[key]
+
+
+def _given(value: int | None, otherwise: str) -> str:
+    return otherwise if value is None else str(value)

@@ -2,18 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from fractions import Fraction
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
-from sched_sim.costs import METHODS, Method, Statistic
+from sched_sim.costs import DELAYED_METHODS, METHODS, MULTIRATE_METHODS, CostTable, Method, Statistic, load
 from sched_sim.errors import InputError
 from sched_sim.options import Gain, LowRateNoise, Options
 from sched_sim.tasks import Task
 from sched_sim.ticks import exact, positive
 from sched_sim.timing import Feedback, Timing, latest_feedback_step
+
+if TYPE_CHECKING:
+    from sched_sim.least_speed import LeastSpeed
+    from sched_sim.processor import Processor
 
 DESIGN = "Design"
 PROCESSOR = "Processor"
@@ -45,14 +50,18 @@ def one_or_two(text: str) -> int:
 Steps = Annotated[
     int,
     typer.Option(
-        "-N", help="HR steps from one measurement to the next.", parser=whole, metavar="STEPS", rich_help_panel=DESIGN
+        "-N",
+        help="HR steps from one measurement to the next; multirate methods: from one gain to the next.",
+        parser=whole,
+        metavar="STEPS",
+        rich_help_panel=DESIGN,
     ),
 ]
 Delay = Annotated[
-    int,
+    int | None,
     typer.Option(
         "-M",
-        help="Delay of the measurement in HR steps, 0 <= M <= N.",
+        help="Delay of the measurement in HR steps, 0 <= M <= N; the multirate methods have none.",
         parser=whole,
         metavar="STEPS",
         rich_help_panel=DESIGN,
@@ -70,13 +79,20 @@ FeedbackStep = Annotated[
 ]
 Methods = Annotated[
     list[str] | None,
-    typer.Option("--method", help=f"{', '.join(METHODS)}; repeatable; by default all.", rich_help_panel=DESIGN),
+    typer.Option(
+        "--method",
+        help=f"{', '.join(METHODS)}; repeatable; by default those of the first four that the cost table has.",
+        rich_help_panel=DESIGN,
+    ),
 ]
 OneMethod = Annotated[Method, typer.Option("--method", help="The filter to run.", rich_help_panel=DESIGN)]
 Costs = Annotated[
-    str,
+    str | None,
     typer.Option(
-        "--costs", help="Cost table: a shipped one by name, or your own TOML file by path.", rich_help_panel=DESIGN
+        "--costs",
+        help="Cost table: a shipped one by name, or your own TOML file by path; by default steffes2014, with "
+        "--processor counted-9-3-3.",
+        rich_help_panel=DESIGN,
     ),
 ]
 WhichCost = Annotated[
@@ -117,6 +133,15 @@ Cpus = Annotated[
         rich_help_panel=PROCESSOR,
     ),
 ]
+OnProcessor = Annotated[
+    str | None,
+    typer.Option(
+        "--processor",
+        help="Turn counted operations into time on this part: a shipped one by name (see `sched-sim processors`), or "
+        "your own TOML file by path. Costs are then in seconds.",
+        rich_help_panel=PROCESSOR,
+    ),
+]
 ContextSwitch = Annotated[
     str,
     typer.Option(
@@ -137,7 +162,8 @@ Speed = Annotated[
     str | None,
     typer.Option(
         "--speed",
-        help="Cost units the processor does per HR period; by default the method's least speed.",
+        help="Cost units the processor does per HR period; by default the method's least speed, with --processor and "
+        "--hr-hz that of the part.",
         rich_help_panel=PROCESSOR,
     ),
 ]
@@ -175,8 +201,14 @@ def make_options(
     )
 
 
-def make_timing(N: int, M: int, L: int | None, method: str, options: Options) -> Timing:
-    """With L the latest that the method can have, if the user did not say."""
+def make_timing(N: int, M: int | None, L: int | None, method: str, options: Options) -> Timing:
+    """With L the latest that the method can have, if the user did not say. Multirate methods have no delay."""
+    if method in MULTIRATE_METHODS:
+        M = 0
+    if M is None:
+        raise InputError(
+            "-M is missing: give the delay of the measurement in HR steps, such as -M 4 (multirate methods have none)"
+        )
     if L is None:
         latest = latest_feedback_step(N, options.feedback) if method == "dual-rate" else N
         L = max(latest, M) if 0 <= M <= N else N
@@ -191,13 +223,43 @@ def make_tasks(path: Path | None) -> Sequence[Task]:
     return read_tasks(path)
 
 
-def hr_rate(text: str | None) -> float | None:
-    return None if text is None else float(positive(text, "--hr-hz"))
+def hr_rate(text: str | None) -> Fraction | None:
+    return None if text is None else positive(text, "--hr-hz")
 
 
-def wanted_methods(methods: Sequence[str] | None) -> Sequence[str]:
-    """Each method once, in the order given; all of them by default."""
+def load_costs(name: str | None, processor: Processor | None) -> CostTable:
+    """The cost table of this name or path, in seconds on the processor if there is one."""
+    if processor is None:
+        return load(name or "steffes2014")
+    from sched_sim.processor import on_processor
+
+    return on_processor(load(name or "counted-9-3-3"), processor)
+
+
+def make_processor(name: str | None) -> Processor | None:
+    if name is None:
+        return None
+    from sched_sim.processor import load_processor
+
+    return load_processor(name)
+
+
+def pace(
+    speed: str | None, rate: Fraction | None, processor: Processor | None, least: Callable[[], LeastSpeed]
+) -> Fraction:
+    """The speed to run at: the one that was given, else the processor's own at this rate, else the least."""
+    if speed is not None:
+        return positive(speed, "--speed")
+    if processor is not None and rate is not None:
+        return 1 / rate
+    return least().speed
+
+
+def wanted_methods(methods: Sequence[str] | None, table: CostTable) -> Sequence[str]:
+    """Each method once, in the order given; by default those of the table that are for a delayed measurement."""
     for method in methods or ():
         if method not in METHODS:
             raise InputError(f"--method {method!r} is unknown: choose from {', '.join(METHODS)}")
-    return list(dict.fromkeys(methods)) if methods else METHODS
+    if methods:
+        return list(dict.fromkeys(methods))
+    return [method for method in DELAYED_METHODS if method in table.costs] or list(table.costs)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -29,17 +30,18 @@ TraceFiles = Annotated[
 
 def simulate(
     N: opt.Steps,
-    M: opt.Delay,
+    M: opt.Delay = None,
     L: opt.FeedbackStep = None,
     method: opt.OneMethod = "dual-rate",
     speed: opt.Speed = None,
     cycles: opt.Cycles = 3,
-    costs: opt.Costs = "steffes2014",
+    costs: opt.Costs = None,
     statistic: opt.WhichCost = "minimum",
     lr_propagate_by: opt.LrPropagateBy = "m",
     feedback: opt.FeedbackIn = "next-step",
     gain: opt.GainAt = "at-update",
     low_rate_noise: opt.Noise = "exact",
+    processor: opt.OnProcessor = None,
     cpus: opt.Cpus = 1,
     context_switch: opt.ContextSwitch = "0",
     tasks: opt.Tasks = None,
@@ -52,14 +54,14 @@ def simulate(
 
     sched-sim simulate -N 10 -M 4 --speed 0.78 --gantt schedule.svg
     sched-sim simulate -N 10 -M 4 --method larsen --speed 1.2 --trace slices.json
+    sched-sim simulate -N 40 -M 20 --processor cortex-m7 --hr-hz 400
     """
     from contextlib import ExitStack
 
-    from sched_sim.costs import load, select
+    from sched_sim.costs import select
     from sched_sim.least_speed import least_speed
     from sched_sim.search import cycles_to_simulate
     from sched_sim.simulate import simulate as run
-    from sched_sim.ticks import positive
     from sched_sim.trace import open_trace
 
     if gantt is not None:
@@ -68,16 +70,17 @@ def simulate(
         check_picture(gantt)
     options = opt.make_options(lr_propagate_by, feedback, gain, low_rate_noise, cpus, context_switch)
     timing = opt.make_timing(N, M, L, method, options)
-    table, others, rate = load(costs), opt.make_tasks(tasks), opt.hr_rate(hr_hz)
+    part = opt.make_processor(processor)
+    table, others, rate = opt.load_costs(costs, part), opt.make_tasks(tasks), opt.hr_rate(hr_hz)
     work = select(table, method, options, statistic)
-    pace = least_speed(work, timing, options, others).speed if speed is None else positive(speed, "--speed")
+    pace = opt.pace(speed, rate, part, lambda: least_speed(work, timing, options, others))
     achieved: list[int | None] = [None] * cycles
 
     def landed(cycle: int, at: int) -> None:
         achieved[cycle] = at
 
     with ExitStack() as files:
-        scale = 1000.0 if rate is None else 1e6 / rate
+        scale = 1000.0 if rate is None else float(1e6 / rate)
         traces = [files.enter_context(open_trace(path, scale)) for path in trace or ()]
 
         def write(piece: Slice) -> None:
@@ -112,14 +115,16 @@ def simulate(
         "response": response,
     }
     if rate is not None:
-        document["hr_hz"] = rate
-        document["correction_ms"] = [None if at is None else 1000 * at / rate for at in achieved]
+        document["hr_hz"] = float(rate)
+        document["correction_ms"] = [None if at is None else float(1000 * at / rate) for at in achieved]
     if format == "json":
         print_json(document)
     elif format == "csv":
         print_csv([{"kind": kind, **figures} for kind, figures in response.items()])
     else:
-        _show(f"{method}, N={N} M={M} L={timing.L}, at speed {float(pace):.6g}", document, rate)
+        delay = "" if M is None else f" M={M}"
+        where = f"at speed {float(pace):.6g}" if part is None else f"on {part.title}"
+        _show(f"{method}, N={N}{delay} L={timing.L}, {where}", document, rate)
 
 
 def _response(figures: Response, period: int) -> dict[str, Any]:
@@ -133,8 +138,8 @@ def _response(figures: Response, period: int) -> dict[str, Any]:
     }
 
 
-def _show(title: str, document: dict[str, Any], rate: float | None) -> None:
-    unit, scale = ("HR periods", 1.0) if rate is None else ("ms", 1000 / rate)
+def _show(title: str, document: dict[str, Any], rate: Fraction | None) -> None:
+    unit, scale = ("HR periods", 1.0) if rate is None else ("ms", float(1000 / rate))
     rows = [
         {
             "job": kind,

@@ -193,7 +193,7 @@ def test_help_and_version(sched_sim: Run) -> None:
         ("minimum -N 10 -M 4 --method larson", ["--method", "larson", "larsen"]),
         ("minimum -N 10 -M 4 --costs nowhere.toml", ["nowhere.toml", "steffes2014"]),
         ("minimum -N 10 -M 4 --costs bad.toml", ["bad.toml", "costs.larsen.update", "-1"]),
-        ("minimum -N 10 -M 4 --costs short.toml", ["short.toml", "[costs.standard] propagate", "measure"]),
+        ("minimum -N 10 -M 4 --costs short.toml", ["short.toml", "[costs.larsen] propagate_accumulate", "measure"]),
         ("minimum -N 10 -M 4 --gain precomputed", ["steffes2014", "lr_gain", "measure"]),
         ("minimum -N 10 -M 4 --context-switch -1", ["context switch", "-1"]),
         ("minimum -N 10 -M 4 --context-switch nan", ["--context-switch", "nan"]),

@@ -1,0 +1,57 @@
+"""Whether a method fits a processor: costs in seconds against the seconds of an HR period."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+from sched_sim.costs import JobCosts
+from sched_sim.least_speed import LeastSpeed, achieved_l, least_speed
+from sched_sim.load import load
+from sched_sim.options import Options
+from sched_sim.search import cycles_to_simulate
+from sched_sim.simulate import simulate
+from sched_sim.tasks import Task
+from sched_sim.timing import Timing
+
+
+@dataclass(frozen=True, slots=True)
+class Fit:
+    """One method on one processor at one HR rate.
+
+    least: the least speed, in seconds of work per HR period, and what fixes it.
+    needed: the share of the processor's speed at which every deadline holds; above 1 it is too slow.
+    load: the share of its time that it works at its own speed, mean of the processors where there are two.
+    fits: whether every deadline holds at its own speed. landed: the L at which corrections land then, None if not.
+    """
+
+    least: LeastSpeed
+    needed: Fraction
+    load: Fraction
+    fits: bool
+    landed: int | None
+
+    @property
+    def slack(self) -> Fraction:
+        """The share of the processor's speed that is not needed; negative: so much is lacking."""
+        return 1 - self.needed
+
+
+def fit(
+    costs: JobCosts, timing: Timing, hr_hz: Fraction, options: Options = Options(), tasks: Sequence[Task] = ()
+) -> Fit:
+    """costs: in seconds, as `processor.on_processor` makes them; hr_hz: rate of the HR loop.
+
+    Raises InputError as `least_speed` does.
+    """
+    pace = 1 / hr_hz
+    least = least_speed(costs, timing, options, tasks)
+    if tasks or options.context_switch:
+        schedule = simulate(costs, timing, pace, cycles_to_simulate(timing, tasks), options, tasks)
+        fits, landed = schedule.misses == 0, max(schedule.achieved, default=None)
+    else:
+        landed = achieved_l(costs, timing, pace, options)
+        fits = least.speed <= pace and landed is not None and landed <= timing.L
+    work = load(costs, timing, pace) + sum(task.cost / (task.period * pace) for task in tasks)
+    return Fit(least, least.speed / pace, work / options.cpus, fits, landed if fits else None)
