@@ -1,4 +1,10 @@
-"""A processor by its data sheet: operation counts become time. Everything is exact."""
+"""A processor by its data sheet: operation counts become time. Everything is exact.
+
+The shipped files charge each arithmetic operation its latency: an add of a dot product waits for the add before it, and
+a small processor that works in order waits for the product too. Logic is charged what it takes to issue: nothing waits
+for the next index. This errs on the safe side. Overlapped operations, fused multiply-adds and vector instructions make
+a processor faster than said here; misses of its caches and wait states of its memory make it slower.
+"""
 
 from __future__ import annotations
 

@@ -34,6 +34,10 @@ class _Figure(BaseModel):
     is_: Annotated[Literal["latency", "throughput", "time"] | None, Field(alias="is")] = None
     source: str = ""
 
+    @property
+    def text(self) -> str:
+        return ": ".join(part for part in (self.is_, self.source) if part)
+
 
 def _figure(value: Any) -> Any:
     return value if isinstance(value, dict) else {"value": value}
@@ -123,6 +127,6 @@ def read_processor(path: Path, shown: str = "") -> Processor:
         clock_hz=clock_hz,
         seconds={kind: figure.value / per_second for kind, figure in checked.figures.items()},
         logic_per_arithmetic=checked.logic_per_arithmetic.value,
-        sources={name: figure.source for name, figure in named.items()},
+        sources={name: figure.text for name, figure in named.items()},
         path=shown,
     )
