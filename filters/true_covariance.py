@@ -31,7 +31,8 @@ def true_covariance(system: System, P0: FloatArray, gains: FloatArray) -> TrueCo
     n, m, p = system.states, system.inputs, system.measurements
     if np.shape(P0) != (n, n) or gains.ndim < 3 or gains.shape[-2:] != (n, p):
         raise ValueError(
-            f"true_covariance: P0 {np.shape(P0)} and gains {gains.shape} must be ({n}, {n}) and (..., steps + 1, {n}, {p})"
+            f"true_covariance: P0 has shape {np.shape(P0)}, needed is ({n}, {n}); "
+            f"gains {gains.shape}, needed is (..., steps + 1, {n}, {p})"
         )
     x, u = np.zeros(n), np.zeros(m)
     before, after = np.empty((*gains.shape[:-1], n)), np.empty((*gains.shape[:-1], n))

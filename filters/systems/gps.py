@@ -77,7 +77,7 @@ def gps(
             f"gps: period_s={period_s} and range_sigma_m={range_sigma_m} must be positive, steps={steps} at least 0"
         )
     Phi, Q = _process(period_s, acceleration_noise, clock_noise)
-    satellites_m = _satellites(period_s * np.arange(steps + 1))
+    satellites_m = _satellites(np.arange(steps + 1.0) * period_s)
     H = np.zeros((steps + 1, 4, 8))
     H[:, :, POSITION] = -satellites_m / _norm(satellites_m)[..., np.newaxis]
     H[:, :, CLOCK_BIAS] = 1.0
@@ -128,7 +128,8 @@ def simulate_flight(system: System, steps: int, seed: int) -> Flight:
 def pseudoranges(system: System, k: int, x: FloatArray) -> FloatArray:
     """The four pseudoranges (m) of step k at the state x (8,), each less the range from the fixed point, no noise."""
     satellites_m = system.parameters.satellites_m[k % len(system.parameters.satellites_m)]
-    return _norm(satellites_m - x[POSITION]) - _norm(satellites_m) + x[CLOCK_BIAS]
+    ranges_m: FloatArray = _norm(satellites_m - x[POSITION]) - _norm(satellites_m) + x[CLOCK_BIAS]
+    return ranges_m
 
 
 def _process(interval_s: float, acceleration_noise: float, clock_noise: float) -> tuple[FloatArray, FloatArray]:
