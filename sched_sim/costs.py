@@ -92,7 +92,7 @@ class CostTable:
             return self.costs[method][kind]
         except KeyError:
             raise InputError(
-                f"cost table {self.shown} has no entry [costs.{method}] {kind}: {self._remedy(kind)}"
+                f"cost table {self.shown} has no entry [costs.{method}] {kind}: {self._remedy(method, kind)}"
             ) from None
 
     @property
@@ -100,9 +100,10 @@ class CostTable:
         """Name and path, for messages."""
         return f"{self.name} ({self.path})" if self.path else self.name
 
-    def _remedy(self, kind: str) -> str:
-        if self.name in shipped_names():
-            return "use --costs counted-9-3-3, or a table that `sched-sim measure` writes"
+    def _remedy(self, method: str, kind: str) -> str:
+        if {self.name, self.path} & set(shipped_names()):
+            others = [name for name in shipped_names() if kind in load(name).costs.get(method, {})]
+            return f"use --costs {' or '.join([*others, 'a table that `sched-sim measure` writes'])}"
         return (
             f"add the line `{kind} = ...` there, choose a --method or option that does not need it, or measure it "
             f"with `sched-sim measure`"

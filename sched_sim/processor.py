@@ -1,9 +1,11 @@
 """A processor by its data sheet: operation counts become time. Everything is exact.
 
-The shipped files charge each arithmetic operation its latency: an add of a dot product waits for the add before it, and
-a small processor that works in order waits for the product too. Logic is charged what it takes to issue: nothing waits
-for the next index. This errs on the safe side. Overlapped operations, fused multiply-adds and vector instructions make
-a processor faster than said here; misses of its caches and wait states of its memory make it slower.
+One rule for the shipped files. A processor that issues in order waits for each result: arithmetic is charged its
+latency, for the product of a dot product is wanted by its add, and that by the next add. One that works out of order
+overlaps the dot products: arithmetic is charged its throughput. Logic is charged what it takes to issue, for nothing
+waits for the next index. No operations overlap otherwise, so this errs on the safe side: fused multiply-adds and vector
+instructions make a processor faster. Misses of its caches and wait states of its memory, which are not in it, make it
+slower.
 """
 
 from __future__ import annotations
@@ -121,5 +123,5 @@ def _about(processor: Processor) -> dict[str, str]:
         "precision": processor.precision,
         **clock,
         "logic_per_arithmetic": str(processor.logic_per_arithmetic),
-        **{f"{figure}_source": source for figure, source in processor.sources.items()},
+        **{f"{figure}_source": source for figure, source in processor.sources.items() if source},
     }

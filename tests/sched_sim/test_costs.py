@@ -2,13 +2,23 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
 import pytest
 
 from sched_sim.cost_file import cost_table_text, read_cost_table
-from sched_sim.costs import DELAYED_METHODS, DualRateCosts, LarsenCosts, load, select, shipped_names
+from sched_sim.costs import (
+    DELAYED_METHODS,
+    SHIPPED,
+    DualRateCosts,
+    LarsenCosts,
+    StandardCosts,
+    load,
+    select,
+    shipped_names,
+)
 from sched_sim.errors import InputError
 from sched_sim.options import Options
 
@@ -61,12 +71,7 @@ def test_a_table_survives_being_written_and_read(tmp_path: Path) -> None:
         path = tmp_path / "copy.toml"
         path.write_text(cost_table_text(table))
         again = read_cost_table(path)
-        assert (again.name, again.unit, again.costs, again.provenance) == (
-            table.name,
-            table.unit,
-            table.costs,
-            table.provenance,
-        )
+        assert replace(again, path=table.path) == table
 
 
 def test_normalised_costs_have_the_standard_step_as_unit() -> None:
@@ -112,5 +117,64 @@ def test_a_missing_entry_is_named_with_its_remedy(file: Path) -> None:
 
 
 def test_an_unknown_table_lists_the_shipped_ones() -> None:
-    with pytest.raises(InputError, match=r"'steffes' not found: give one of counted-9-3-3, patent-multirate, steffes2014"):
+    with pytest.raises(
+        InputError, match=r"'steffes' not found: give one of counted-9-3-3, patent-multirate, steffes2014"
+    ):
         load("steffes")
+
+
+def test_a_missing_entry_of_a_shipped_table_names_the_tables_that_have_it() -> None:
+    with pytest.raises(InputError, match=r"lr_gain: use --costs counted-9-3-3 or a table that"):
+        select(load("steffes2014"), "dual-rate", Options(gain="precomputed"))
+    with pytest.raises(InputError, match=r"use --costs .*patent-multirate"):
+        select(load("steffes2014"), "multirate", Options())
+
+
+COUNTS = """
+name = "mine"
+unit = "operation"
+[operations.standard]
+propagate = { multiply = 20, add = 10, logic = 70 }
+update = { multiply = 7, divide = 1, sqrt = 2, function = 3 }
+"""
+
+
+def test_counts_without_costs_cost_their_arithmetic(file: Path) -> None:
+    file.write_text(COUNTS)
+    table = load(file)
+    assert table.operations["standard"]["propagate"] == {"multiply": 20, "add": 10, "logic": 70}
+    assert select(table, "standard", Options()) == StandardCosts(Fraction(30), Fraction(13))
+    assert "operations" not in table.provenance
+
+
+def test_costs_that_a_file_gives_beside_its_counts_hold(file: Path) -> None:
+    file.write_text(COUNTS.replace("operation", "ms", 1) + "[costs.standard]\npropagate = 0.5\n")
+    table = load(file)
+    assert table.entry("standard", "propagate").median == Fraction(1, 2)
+    assert table.operations["standard"]["update"]["divide"] == 1
+
+
+def test_the_shipped_counts_are_written_as_they_are_shipped() -> None:
+    assert cost_table_text(load("counted-9-3-3")) == (SHIPPED / "counted-9-3-3.toml").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("multiply = 20", "multiply = -20", ["operations.standard.propagate.multiply", "-20", "0 or more"]),
+        ("multiply = 20", "multiply = 20.0", ["operations.standard.propagate.multiply", "20.0", "whole number"]),
+        ("multiply = 20", "multiply = true", ["operations.standard.propagate.multiply", "True", "whole number"]),
+        ("multiply = 20", "subtract = 20", ["subtract is no kind of operation", "multiply, add, divide, sqrt"]),
+        ("multiply = 20, add = 10, ", "", ["operations.standard.propagate", "at least one of multiply, add"]),
+        ("propagate =", "propagated =", ["[operations.standard] propagated is no job kind", "propagate, update"]),
+        ("operations.standard", "operations.kalman", ["[operations.kalman] is no method", "standard, recalculate"]),
+        ('unit = "operation"', 'unit = "ms"', ["'ms'", 'write unit = "operation"']),
+        (COUNTS[COUNTS.index("[") :], "", ["no [costs] and no [operations]"]),
+    ],
+)
+def test_what_is_wrong_with_counts_is_named(file: Path, old: str, new: str, said: list[str]) -> None:
+    file.write_text(COUNTS.replace(old, new, 1))
+    with pytest.raises(InputError) as error:
+        load(file)
+    for words in [str(file), *said]:
+        assert words in str(error.value)

@@ -1,0 +1,251 @@
+"""Operation counts on a processor of known operation times."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from sched_sim.cost_file import cost_table_text, read_cost_table
+from sched_sim.costs import ARITHMETIC, OPERATION_KINDS, Cost, CostTable, load
+from sched_sim.errors import InputError
+from sched_sim.processor import Processor, load_processor, on_processor, shipped_processors
+
+MICROSECOND = Fraction(1, 10**6)
+
+BOARD = """
+name = "board"
+title = "my board"
+precision = "single"
+clock_mhz = 2
+logic_per_arithmetic = 0.5
+[cycles]
+multiply = 3
+add = { value = 2, is = "latency", source = "my data sheet, Table 4" }
+divide = "29/2"
+logic = 1
+"""
+
+TIMES = """
+name = "board"
+title = "my board"
+precision = "double"
+logic_per_arithmetic = 0
+[microseconds]
+multiply = 0.3
+add = 0.2
+"""
+
+counts = st.fixed_dictionaries(
+    {"multiply": st.integers(1, 10**6)}, optional={kind: st.integers(0, 10**6) for kind in OPERATION_KINDS[1:]}
+)
+positive = st.fractions(min_value=Fraction(1, 1000), max_value=1000)
+processors = st.builds(
+    Processor,
+    name=st.just("any"),
+    title=st.just("any"),
+    precision=st.just("double"),
+    clock_hz=positive,
+    seconds=st.fixed_dictionaries(dict.fromkeys(OPERATION_KINDS, positive)),
+    logic_per_arithmetic=st.fractions(min_value=0, max_value=10),
+    sources=st.just({}),
+)
+
+
+def table(operations: dict[str, int]) -> CostTable:
+    """A table with one job."""
+    return CostTable("mine", "operation", {}, operations={"standard": {"update": operations}})
+
+
+def seconds(operations: dict[str, int], processor: Processor) -> Fraction:
+    """What that job takes on `processor`."""
+    return on_processor(table(operations), processor).entry("standard", "update").minimum
+
+
+@pytest.fixture
+def file(tmp_path: Path) -> Path:
+    path = tmp_path / "board.toml"
+    path.write_text(BOARD)
+    return path
+
+
+def test_the_patents_filter_takes_the_patents_times_on_the_patents_processor() -> None:
+    # "Optimal covariance filtering": "the conventional Kalman filter would require 166,870 microseconds per cycle";
+    # 139 x 20 + 128 x 10 + 1783 x 2 for the state update
+    costs = on_processor(load("patent-multirate"), load_processor("patent")).costs["multirate"]
+    assert costs["covariance_gain"] == Cost.of(166870 * MICROSECOND)
+    assert costs["state_update"] == Cost.of(7626 * MICROSECOND)
+
+
+def test_the_patents_overhead_factor_is_that_of_its_covariance_cycle() -> None:
+    counted = dict(load("patent-multirate").operations["multirate"]["covariance_gain"])
+    del counted["logic"]
+    assert seconds(counted, load_processor("patent")) == 166870 * MICROSECOND
+
+
+@pytest.mark.parametrize("name", shipped_processors())
+def test_every_shipped_processor_says_where_each_figure_is_from(name: str) -> None:
+    processor = load_processor(name)
+    assert processor.name == name
+    figures = {*processor.seconds, "logic_per_arithmetic", *(["clock_mhz"] if processor.clock_hz else [])}
+    assert set(processor.sources) == figures
+    assert all(processor.sources.values())
+    for kind in processor.seconds:
+        assert processor.sources[kind].startswith(("latency: ", "throughput: ", "time: "))
+
+
+@pytest.mark.parametrize("name", shipped_processors())
+def test_every_shipped_processor_runs_the_counted_filters(name: str) -> None:
+    counted = load("counted-9-3-3")
+    timed = on_processor(counted, load_processor(name))
+    assert timed.unit == "second"
+    assert {method: list(kinds) for method, kinds in timed.costs.items()} == {
+        method: list(kinds) for method, kinds in counted.costs.items()
+    }
+    assert timed.provenance["update_form"] == "textbook"
+    assert timed.provenance["processor"]["name"] == name
+    assert timed.provenance["machine"] == load_processor(name).title
+
+
+def test_a_file_with_cycles_is_read_exactly(file: Path) -> None:
+    board = load_processor(file)
+    assert board.clock_hz == 2_000_000
+    assert board.seconds == {
+        "multiply": Fraction(3, 2) * MICROSECOND,
+        "add": MICROSECOND,
+        "divide": Fraction(29, 4) * MICROSECOND,
+        "logic": MICROSECOND / 2,
+    }
+    assert board.logic_per_arithmetic == Fraction(1, 2)
+    assert board.sources["add"] == "latency: my data sheet, Table 4"
+
+
+def test_a_file_with_times_has_no_clock(file: Path) -> None:
+    file.write_text(TIMES)
+    board = load_processor(file)
+    assert board.clock_hz is None
+    assert seconds({"multiply": 10, "add": 5}, board) == 4 * MICROSECOND
+
+
+def test_logic_is_the_jobs_own_or_the_processors_factor(file: Path) -> None:
+    board = load_processor(file)
+    assert seconds({"multiply": 4, "add": 6}, board) == (6 + 6 + Fraction(5, 2)) * MICROSECOND
+    assert seconds({"multiply": 4, "add": 6, "logic": 100}, board) == (6 + 6 + 50) * MICROSECOND
+    assert seconds({"multiply": 4, "add": 6, "logic": 0}, board) == (6 + 6) * MICROSECOND
+
+
+def test_costs_on_a_processor_survive_being_written_and_read(tmp_path: Path) -> None:
+    timed = on_processor(load("patent-multirate"), load_processor("patent"))
+    path = tmp_path / "timed.toml"
+    path.write_text(cost_table_text(timed))
+    assert replace(read_cost_table(path), path=timed.path) == timed
+
+
+@given(processors, counts, counts, st.integers(1, 1000))
+def test_time_is_linear_in_the_counts(processor: Processor, a: dict[str, int], b: dict[str, int], times: int) -> None:
+    if ("logic" in a) != ("logic" in b):
+        a, b = a | {"logic": 7}, b | {"logic": 8}
+    both = {kind: a.get(kind, 0) + times * b.get(kind, 0) for kind in {*a, *b}}
+    assert seconds(both, processor) == seconds(a, processor) + times * seconds(b, processor)
+
+
+@given(processors, counts, positive)
+def test_a_faster_clock_shortens_the_times_by_as_much(
+    processor: Processor, counted: dict[str, int], faster: Fraction
+) -> None:
+    assert processor.clock_hz is not None
+    scaled = processor.at_clock(processor.clock_hz * faster)
+    assert seconds(counted, scaled) * faster == seconds(counted, processor)
+
+
+@given(st.integers(1, 5000))
+def test_the_clock_of_a_file_means_what_at_clock_means(clock_mhz: int) -> None:
+    board = load_processor("cortex-m4f")
+    moved = board.at_clock(Fraction(clock_mhz * 10**6))
+    assert moved.seconds["divide"] == Fraction(15, clock_mhz) * MICROSECOND
+    assert moved.at_clock(Fraction(168_000_000)) == board
+
+
+def test_a_clock_must_be_positive_and_have_cycles_to_scale() -> None:
+    with pytest.raises(InputError, match=r"clock is 0: it must be greater than 0"):
+        load_processor("desktop").at_clock(Fraction(0))
+    with pytest.raises(InputError, match=r"'patent' has times, not cycles"):
+        load_processor("patent").at_clock(Fraction(10**6))
+
+
+def test_an_unknown_processor_lists_the_shipped_ones_and_says_that_a_path_works() -> None:
+    with pytest.raises(InputError, match=r"'cortex' not found: give one of cortex-a53, .*patent.*path of a TOML file"):
+        load_processor("cortex")
+
+
+def test_a_table_without_counts_names_the_remedy() -> None:
+    with pytest.raises(InputError, match=r"steffes2014.*no operation counts.*'patent'.*--costs counted-9-3-3.*measure"):
+        on_processor(load("steffes2014"), load_processor("patent"))
+
+
+@pytest.mark.parametrize("kind", [*ARITHMETIC[2:], "logic"])
+def test_a_kind_that_the_processor_lacks_is_named(file: Path, kind: str) -> None:
+    file.write_text(TIMES)
+    with pytest.raises(InputError) as error:
+        seconds({"multiply": 1, kind: 2}, load_processor(file))
+    for words in [
+        f"'board' ({file})",
+        f"no time for {kind}",
+        "[operations.standard] update",
+        f"`{kind} = ...`",
+        "[microseconds]",
+    ]:
+        assert words in str(error.value)
+
+
+def test_a_kind_that_no_job_needs_may_lack() -> None:
+    assert seconds({"multiply": 1, "sqrt": 0, "logic": 0}, load_processor("patent")) == 20 * MICROSECOND
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("multiply = 3", "multiply = 0", ["cycles.multiply", "is 0", "greater than 0"]),
+        ("multiply = 3", "multiply = -3", ["cycles.multiply", "-3", "greater than 0"]),
+        ("multiply = 3", 'multiply = "fast"', ["cycles.multiply", "fast", "finite number"]),
+        ("multiply = 3", "multiply = true", ["cycles.multiply", "True", "must be a number"]),
+        ("multiply = 3", "multiply = nan", ["cycles.multiply", "NaN", "finite number"]),
+        ("multiply = 3", "subtract = 3", ["subtract is no kind of operation", "multiply, add"]),
+        ("value = 2", "valu = 2", ["cycles.add.value", "required", "cycles.add.valu:"]),
+        ('"latency"', '"guess"', ["cycles.add.is", "guess", "latency", "throughput"]),
+        ("clock_mhz = 2", "clock_mhz = 0", ["clock_mhz", "is 0", "greater than 0"]),
+        ("clock_mhz = 2", "clock_mhz = -2", ["clock_mhz", "-2", "greater than 0"]),
+        ("clock_mhz = 2", "", ["[cycles] need the clock", "`clock_mhz = ...`"]),
+        ("clock_mhz = 2", "clock_ghz = 2", ["clock_ghz", "not permitted"]),
+        ("[cycles]", "[microseconds]", ["clock_mhz has no meaning", "delete it"]),
+        ("[cycles]", "[microseconds]\nadd = 1\n[cycles]", ["either [cycles] with clock_mhz, or [microseconds]"]),
+        (BOARD[BOARD.index("[") :], "", ["either [cycles] with clock_mhz, or [microseconds]"]),
+        ("arithmetic = 0.5", "arithmetic = -0.5", ["logic_per_arithmetic", "-1/2", "0 or more"]),
+        ("logic_per_arithmetic = 0.5", "", ["logic_per_arithmetic", "required"]),
+        ("\nlogic = 1", "", ["logic_per_arithmetic needs the time of one", "`logic = ...`"]),
+        ('"single"', '"half"', ["precision", "half", "single"]),
+        ('name = "board"', "", ["name", "required"]),
+        ("[cycles]", "[cycles", ["not valid TOML"]),
+    ],
+)
+def test_what_is_wrong_in_a_file_is_named(file: Path, old: str, new: str, said: list[str]) -> None:
+    file.write_text(BOARD.replace(old, new, 1))
+    with pytest.raises(InputError) as error:
+        load_processor(file)
+    for words in [str(file), *said]:
+        assert words in str(error.value)
+
+
+def test_a_folder_is_no_processor(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="not found"):
+        load_processor(tmp_path)
+
+
+def test_a_file_that_is_no_text_cannot_be_read(file: Path) -> None:
+    file.write_bytes(b"\xff\xfe")
+    with pytest.raises(InputError, match="cannot be read"):
+        load_processor(file)
