@@ -76,7 +76,8 @@ class CostTable:
 
     `provenance` holds whatever else the file says of where they come from: source, update form, machine,
     versions, protocol, date. `path` is where it was read from, for messages. `operations` holds the counts of
-    operations by method and job kind, where they are known; `processor.on_processor` turns them into time.
+    operations by method and job kind, where they are known; `processor.on_processor` turns them into time. `lacking`
+    says of jobs that cannot have a cost why not.
     """
 
     name: str
@@ -85,12 +86,15 @@ class CostTable:
     provenance: Mapping[str, Any] = field(default_factory=dict)
     path: str = ""
     operations: Mapping[str, Mapping[str, Counts]] = field(default_factory=dict)
+    lacking: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
 
     def entry(self, method: str, kind: str) -> Cost:
         """Raises InputError that names the missing entry and how to supply it."""
         try:
             return self.costs[method][kind]
         except KeyError:
+            if kind in self.lacking.get(method, {}):
+                raise InputError(self.lacking[method][kind]) from None
             raise InputError(
                 f"cost table {self.shown} has no entry [costs.{method}] {kind}: {self._remedy(method, kind)}"
             ) from None

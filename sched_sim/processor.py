@@ -10,7 +10,7 @@ slower.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from pathlib import Path
@@ -75,44 +75,54 @@ def on_processor(table: CostTable, processor: Processor) -> CostTable:
     """The jobs of `table` whose operations are counted, with the seconds that `processor` takes for them.
 
     A job's time is the sum over its operations, one after another. Logic that a job does not count is
-    `logic_per_arithmetic` for each arithmetic operation. Raises InputError for a table without counts and for a kind
-    of operation that a job needs and the processor does not give.
+    `logic_per_arithmetic` for each arithmetic operation. A job with a kind of operation that the processor does not
+    give has no cost: `CostTable.entry` raises InputError for it, as this does if that is so for every job. Raises
+    InputError for a table without counts.
     """
     if not table.operations:
         raise InputError(
             f"cost table {table.shown} has no operation counts to run on processor {processor.name!r}: use "
             f"--costs counted-9-3-3, or count with `sched-sim measure --backend counted -o FILE`"
         )
-    costs = {
-        method: {
-            kind: Cost.of(_seconds(counts, processor, f"[operations.{method}] {kind} of cost table {table.shown}"))
-            for kind, counts in entries.items()
-        }
-        for method, entries in table.operations.items()
-    }
+    costs: dict[str, dict[str, Cost]] = {}
+    lacking: dict[str, dict[str, str]] = {}
+    for method, entries in table.operations.items():
+        for kind, counts in entries.items():
+            needed = _needed(counts, processor)
+            missing = [operation for operation in needed if operation not in processor.seconds]
+            if missing:
+                job = f"[operations.{method}] {kind} of cost table {table.shown}"
+                lacking.setdefault(method, {})[kind] = _no_time(processor, missing, job)
+            else:
+                time = sum((number * processor.seconds[operation] for operation, number in needed.items()), Fraction(0))
+                costs.setdefault(method, {})[kind] = Cost.of(time)
+    if not costs:
+        raise InputError(next(reason for entries in lacking.values() for reason in entries.values()))
     return replace(
         table,
         name=f"{table.name} on {processor.name}",
         unit="second",
         costs=costs,
         provenance={**table.provenance, "machine": processor.title, "processor": _about(processor)},
+        lacking=lacking,
     )
 
 
-def _seconds(counts: Counts, processor: Processor, job: str) -> Fraction:
+def _needed(counts: Counts, processor: Processor) -> dict[str, Fraction]:
+    """How many of each operation a job takes, its logic included."""
     logic = Fraction(counts.get("logic", processor.logic_per_arithmetic * arithmetic(counts)))
-    needed = {kind: Fraction(number) for kind, number in counts.items() if kind != "logic" and number}
-    if logic:
-        needed["logic"] = logic
-    for kind in needed:
-        if kind not in processor.seconds:
-            section = "microseconds" if processor.clock_hz is None else "cycles"
-            where = f"{processor.name!r} ({processor.path})" if processor.path else repr(processor.name)
-            raise InputError(
-                f"processor {where} gives no time for {kind}, which {job} needs: add the line `{kind} = ...` to "
-                f"[{section}] in a copy of its file, or choose another processor"
-            )
-    return sum((number * processor.seconds[kind] for kind, number in needed.items()), Fraction(0))
+    needed = {kind: Fraction(number) for kind, number in counts.items()} | {"logic": logic}
+    return {kind: number for kind, number in needed.items() if number}
+
+
+def _no_time(processor: Processor, missing: Sequence[str], job: str) -> str:
+    section = "microseconds" if processor.clock_hz is None else "cycles"
+    where = f"{processor.name!r} ({processor.path})" if processor.path else repr(processor.name)
+    lines = " and ".join(f"`{operation} = ...`" for operation in missing)
+    return (
+        f"processor {where} gives no time for {' and '.join(missing)}, which {job} needs: add the line {lines} to "
+        f"[{section}] in a copy of its file, or choose another processor"
+    )
 
 
 def _about(processor: Processor) -> dict[str, str]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tomllib
+from collections.abc import Mapping
 from decimal import Decimal
 from fractions import Fraction
 from pathlib import Path
@@ -26,11 +27,14 @@ def _value(value: Any) -> Fraction:
     return exact(value, "the number")
 
 
+_Number = Annotated[Fraction, BeforeValidator(_value)]
+
+
 class _Figure(BaseModel):
     """One number of a data sheet: what it is and where it is printed."""
 
     model_config = ConfigDict(extra="forbid", arbitrary_types_allowed=True)
-    value: Annotated[Fraction, BeforeValidator(_value)]
+    value: _Number
     is_: Annotated[Literal["latency", "throughput", "time"] | None, Field(alias="is")] = None
     source: str = ""
 
@@ -39,8 +43,17 @@ class _Figure(BaseModel):
         return ": ".join(part for part in (self.is_, self.source) if part)
 
 
-def _figure(value: Any) -> Any:
-    return value if isinstance(value, dict) else {"value": value}
+class _Cycles(_Figure):
+    value: _Number = Field(alias="cycles")
+
+
+class _Microseconds(_Figure):
+    value: _Number = Field(alias="microseconds")
+
+
+def _figure(key: str) -> BeforeValidator:
+    """A plain number stands for a figure without a source."""
+    return BeforeValidator(lambda value: value if isinstance(value, dict) else {key: value})
 
 
 def _positive(figure: _Figure) -> _Figure:
@@ -54,18 +67,20 @@ def _not_negative(figure: _Figure) -> _Figure:
     return figure
 
 
-_PositiveFigure = Annotated[_Figure, BeforeValidator(_figure), AfterValidator(_positive)]
-_Ratio = Annotated[_Figure, BeforeValidator(_figure), AfterValidator(_not_negative)]
-
-
-def _known_kinds(figures: dict[str, _Figure]) -> dict[str, _Figure]:
+def _known_kinds(figures: dict[str, Any]) -> dict[str, Any]:
     for kind in figures:
         if kind not in OPERATION_KINDS:
             raise ValueError(f"{kind} is no kind of operation: choose from {', '.join(OPERATION_KINDS)}")
     return figures
 
 
-_Figures = Annotated[dict[str, _PositiveFigure], AfterValidator(_known_kinds)]
+_InCycles = Annotated[
+    dict[str, Annotated[_Cycles, _figure("cycles"), AfterValidator(_positive)]], AfterValidator(_known_kinds)
+]
+_InMicroseconds = Annotated[
+    dict[str, Annotated[_Microseconds, _figure("microseconds"), AfterValidator(_positive)]],
+    AfterValidator(_known_kinds),
+]
 
 
 class _ProcessorFile(BaseModel):
@@ -73,10 +88,10 @@ class _ProcessorFile(BaseModel):
     name: str
     title: str
     precision: Literal["single", "double", "unstated"]
-    clock_mhz: _PositiveFigure | None = None
-    logic_per_arithmetic: _Ratio
-    cycles: _Figures = {}
-    microseconds: _Figures = {}
+    clock_mhz: Annotated[_Figure, _figure("value"), AfterValidator(_positive)] | None = None
+    logic_per_arithmetic: Annotated[_Figure, _figure("value"), AfterValidator(_not_negative)]
+    cycles: _InCycles = {}
+    microseconds: _InMicroseconds = {}
 
     @model_validator(mode="after")
     def _cycles_or_times(self) -> Self:
@@ -91,7 +106,7 @@ class _ProcessorFile(BaseModel):
         return self
 
     @property
-    def figures(self) -> dict[str, _Figure]:
+    def figures(self) -> Mapping[str, _Figure]:
         return self.cycles or self.microseconds
 
 
