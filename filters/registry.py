@@ -9,14 +9,18 @@ for method in ALL_METHODS.values():
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from functools import partial
+from typing import Any, NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
 
-from filters import dual_rate, larsen, recalculate, standard
+from filters import dual_rate, larsen, multirate_gain, recalculate, standard
 from filters.arrays import FloatArray
 from filters.covariance_forms import CovarianceFormName, covariance_form
 from filters.covariance_forms.form import CovarianceForm
+from filters.factored import FactoredFormName, factored_form
+from filters.factored.form import FactoredForm
+from filters.factored.workspace import new_factored_workspace
 from filters.high_rate import hr_propagate, hr_restart, hr_update
 from filters.history import History
 from filters.low_rate import lr_correct, lr_gain, lr_propagate, lr_update
@@ -51,11 +55,12 @@ class Job(NamedTuple):
 
 
 class Method(NamedTuple):
-    """A filter for delayed measurements.
+    """A filter.
 
-    run(system, N, M, L, x0, P0, inputs, measurements, *, update, backend): see `standard.run`.
+    run(system, N, M, L, x0, P0, inputs, measurements, *, update, backend): see `standard.run`; of the methods with a
+        multirate gain, run(system, n, x0, P0, inputs, measurements, *, ...): see `multirate_gain.run`.
     jobs(system, update, seed, x0): its jobs by kind; x0 (n,) is a typical state, zero if not given.
-        update: the name of a covariance form.
+        update: the name of a covariance form, of no use to methods that keep factors of the covariance.
     """
 
     name: str
@@ -63,18 +68,21 @@ class Method(NamedTuple):
     jobs: Callable[..., dict[str, Job]]
 
 
-Arguments = Callable[[System, CovarianceForm, Sample], tuple[Any, ...]]
+Form = TypeVar("Form", CovarianceForm, FactoredForm)
+Described: TypeAlias = tuple[str, Callable[..., Any], Callable[[System, Form, Sample], tuple[Any, ...]]]
 
 
-def _jobs(*described: tuple[str, Callable[..., Any], Arguments]) -> Callable[..., dict[str, Job]]:
+def _jobs(
+    form_named: Callable[[CovarianceFormName], Form], *described: Described[Form]
+) -> Callable[..., dict[str, Job]]:
     """`Method.jobs` of a method, given the kind, the function and the arguments of each job."""
 
     def jobs(
         system: System, update: CovarianceFormName = "textbook", seed: int = 0, x0: FloatArray | None = None
     ) -> dict[str, Job]:
-        form = covariance_form(update)
+        form = form_named(update)
 
-        def arguments_of(make: Arguments) -> Callable[[int], tuple[Any, ...]]:
+        def arguments_of(make: Callable[[System, Form, Sample], tuple[Any, ...]]) -> Callable[[int], tuple[Any, ...]]:
             return lambda index: make(system, form, sample(system, seed, index, x0))
 
         return {kind: Job(kind, function, arguments_of(make)) for kind, function, make in described}
@@ -148,18 +156,52 @@ def _halved(transition: Transition, at: Sample) -> HalvedTransition:
     return HalvedTransition(transition.Phi, transition.Q.copy(), transition.Q.copy(), at.m)
 
 
+def _state_update(system: System, _form: FactoredForm, at: Sample) -> tuple[Any, ...]:
+    correction = new_correction(system)._replace(K=at.correction.K)
+    return system, at.m + 1, at.now.x, at.u, at.y, correction, np.empty_like(at.now.x)
+
+
+def _covariance_gain(system: System, form: FactoredForm, at: Sample) -> tuple[Any, ...]:
+    """From k to m, with the system itself in place of the coarse one, for that has the same shapes."""
+    P = at.P_posterior
+    factors, predicted, posterior, K = (
+        np.empty_like(P),
+        np.empty_like(P),
+        np.empty_like(P),
+        np.empty_like(at.correction.K),
+    )
+    form.factor(P, factors)
+    x_last = at.reference.x + at.correction.delta_x
+    work = new_factored_workspace(system)
+    return system, form, at.m, at.m - at.k, x_last, at.u, at.now.x, factors, predicted, K, posterior, work
+
+
+def _multirate(name: str, form: FactoredFormName) -> Method:
+    jobs = _jobs(
+        partial(factored_form, form),
+        ("state_update", multirate_gain.state_update, _state_update),
+        ("covariance_gain", multirate_gain.covariance_gain, _covariance_gain),
+    )
+    return Method(name, partial(multirate_gain.run, form=form), jobs)
+
+
 _PROPAGATE = ("propagate", standard.propagate, _propagate)
 _UPDATE = ("update", standard.update, _update)
 
-ALL_METHODS: dict[str, Method] = {
+DELAYED_METHODS: dict[str, Method] = {
     method.name: method
     for method in (
-        Method("standard", standard.run, _jobs(_PROPAGATE, _UPDATE)),
-        Method("recalculate", recalculate.run, _jobs(_PROPAGATE, _UPDATE, ("replay", standard.propagate, _propagate))),
+        Method("standard", standard.run, _jobs(covariance_form, _PROPAGATE, _UPDATE)),
+        Method(
+            "recalculate",
+            recalculate.run,
+            _jobs(covariance_form, _PROPAGATE, _UPDATE, ("replay", standard.propagate, _propagate)),
+        ),
         Method(
             "larsen",
             larsen.run,
             _jobs(
+                covariance_form,
                 _PROPAGATE,
                 ("propagate_accumulate", larsen.propagate_accumulate, _propagate_accumulate),
                 ("update", larsen.extrapolated_update, _extrapolated_update),
@@ -169,6 +211,7 @@ ALL_METHODS: dict[str, Method] = {
             "dual-rate",
             dual_rate.run,
             _jobs(
+                covariance_form,
                 ("hr_restart", hr_restart, _hr_restart),
                 ("hr_propagate", hr_propagate, _hr_propagate),
                 ("hr_propagate_sum", hr_propagate_sum, _hr_propagate),
@@ -183,3 +226,16 @@ ALL_METHODS: dict[str, Method] = {
         ),
     )
 }
+"""One measurement every N steps, which comes M steps late; and the standard filter, for which it is never late."""
+
+MULTIRATE_METHODS: dict[str, Method] = {
+    method.name: method
+    for method in (
+        _multirate("multirate", "conventional"),
+        # _multirate("multirate-square-root", "square-root"),
+        # _multirate("multirate-ud", "u-d"),
+    )
+}
+"""A measurement in every step, covariance and gain in every n-th."""
+
+ALL_METHODS: dict[str, Method] = {**DELAYED_METHODS, **MULTIRATE_METHODS}

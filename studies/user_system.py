@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from filters.arrays import FloatArray
+from filters.problem import check_measurement_noise
 from filters.systems.system import System
 from sched_sim.errors import InputError
 
@@ -56,7 +57,7 @@ def load_system(name: str) -> tuple[System, FloatArray]:
 
 
 def _try_model(name: str, system: System, x: FloatArray) -> None:
-    """Call each model function once and look at what it gives."""
+    """Call each model function once and look at what it gives; R must be one that every filter can use."""
     n, m, p = system.states, system.inputs, system.measurements
     u, parameters = np.zeros(m), system.parameters
     _expect(name, "the typical state", lambda: x, (n,))
@@ -66,6 +67,10 @@ def _try_model(name: str, system: System, x: FloatArray) -> None:
     _expect(name, "h(k, x, p, out)", lambda: _filled(p, lambda out: system.h(0, x, parameters, out)), (p,))
     _expect(name, "H(k, x, p)", lambda: system.H(0, x, parameters), (p, n))
     _expect(name, "R(k, p)", lambda: system.R(0, parameters), (p, p))
+    try:
+        check_measurement_noise(system.R(0, parameters), 0)
+    except ValueError as error:
+        raise InputError(f"--system {name!r}: {error}") from error
 
 
 def _filled(length: int, fill: Any) -> FloatArray:

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from filters.arrays import FloatArray
 from filters.history import History
 from filters.records import Workspace
-from filters.registry import ALL_METHODS
+from filters.registry import DELAYED_METHODS
 from tests.strategies import Landing, Problem, problems
 
 
@@ -24,7 +24,7 @@ class Case(NamedTuple):
 
     def run(self, problem: Problem, **options: Any) -> History:
         """With the numpy backend unless another is given."""
-        return ALL_METHODS[self.method].run(*problem, **{"backend": "numpy", **self.options, **options})
+        return DELAYED_METHODS[self.method].run(*problem, **{"backend": "numpy", **self.options, **options})
 
     def problems(self) -> st.SearchStrategy[Problem]:
         return problems(self.landing)
@@ -45,7 +45,7 @@ each_case = pytest.mark.parametrize("case", CASES, ids=lambda case: "-".join([ca
 def standard_run(problem: Problem, measurements: int | None = None, **options: Any) -> History:
     """The standard filter, given only so many measurements (all if None)."""
     given = problem._replace(measurements=problem.measurements[:measurements])
-    return ALL_METHODS["standard"].run(*given, **{"backend": "numpy", **options})
+    return DELAYED_METHODS["standard"].run(*given, **{"backend": "numpy", **options})
 
 
 def relative_difference(found: FloatArray, expected: FloatArray) -> float:

@@ -233,8 +233,8 @@ NOISELESS = np.array([[1.0, 1.0], [1.0, 1.0]])
             {"coarse": GOOD.system._replace(R=lambda k, p: NOISELESS if k == 6 else p.R[0])},
             "R of step 6 is not positive definite: its smallest eigenvalue is .*give each measurement noise",
         ),
-        (1, {}, {"coarse": GOOD.system._replace(R=lambda k, p: -p.R[0])}, "R of step 0 is not positive definite"),
-        (1, {}, {"coarse": GOOD.system._replace(R=lambda k, p: np.tri(2))}, "R of step 0 is not symmetric"),
+        (1, {}, {"coarse": GOOD.system._replace(R=lambda _k, p: -p.R[0])}, "R of step 0 is not positive definite"),
+        (1, {}, {"coarse": GOOD.system._replace(R=lambda _k, _p: np.tri(2))}, "R of step 0 is not symmetric"),
     ],
 )
 def test_bad_arguments(n: int, change: dict[str, Any], options: dict[str, Any], message: str) -> None:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from filters.history import History
-from filters.registry import ALL_METHODS
+from filters.registry import DELAYED_METHODS
 from filters.simulation import simulate_truth
 from filters.systems.navigation import Drive, simulate_drive
 
@@ -31,7 +31,7 @@ def test_jacobians_are_the_derivatives() -> None:
 
 def run(method: str, drive: Drive) -> History:
     arguments = (drive.system, N, M, L, drive.x0, drive.P0, drive.inputs, drive.truth.measurements)
-    return ALL_METHODS[method].run(*arguments, backend="numpy")
+    return DELAYED_METHODS[method].run(*arguments, backend="numpy")
 
 
 def with_errors_scaled(factor: float) -> Drive:

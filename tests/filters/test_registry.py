@@ -11,7 +11,7 @@ from filters.covariance_forms import COVARIANCE_FORMS
 from filters.kernels.backends import arguments_for, function_for
 from filters.kernels.counted import Operations, count
 from filters.kernels.repeat import repeat
-from filters.registry import ALL_METHODS, Job
+from filters.registry import ALL_METHODS, DELAYED_METHODS, MULTIRATE_METHODS, Job
 from filters.systems.example import example_system
 from filters.systems.navigation import simulate_drive
 from tests.filters.cases import CASES, Case, arrays_in
@@ -25,6 +25,9 @@ KINDS = {
         "hr_restart", "hr_propagate", "hr_propagate_sum", "hr_propagate_euler", "hr_update",
         "lr_propagate", "lr_propagate_euler", "lr_update", "lr_gain", "lr_correct",
     ],
+    "multirate": ["state_update", "covariance_gain"],
+    "multirate-square-root": ["state_update", "covariance_gain"],
+    "multirate-ud": ["state_update", "covariance_gain"],
 }  # fmt: skip
 
 FORM_DEPENDENT = [
@@ -32,6 +35,7 @@ FORM_DEPENDENT = [
     ("larsen", "propagate_accumulate"), ("larsen", "update"),
     ("dual-rate", "hr_propagate"), ("dual-rate", "hr_propagate_sum"), ("dual-rate", "hr_propagate_euler"),
     ("dual-rate", "lr_propagate"), ("dual-rate", "lr_propagate_euler"), ("dual-rate", "lr_update"),
+    ("multirate", "covariance_gain"),
 ]  # fmt: skip
 
 
@@ -50,6 +54,7 @@ each_job = pytest.mark.parametrize("key", list(all_jobs()), ids="-".join)
 def test_names_of_methods_and_kinds() -> None:
     found = {name: list(method.jobs(example_system(2, 1, 1))) for name, method in ALL_METHODS.items()}
     assert found == KINDS
+    assert {**DELAYED_METHODS, **MULTIRATE_METHODS} == ALL_METHODS
     assert all(job.kind == kind for (_, kind), job in all_jobs().items())
 
 
@@ -114,7 +119,7 @@ def test_repeating_in_compiled_code_gives_the_same_as_once() -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("method", ALL_METHODS)
+@pytest.mark.parametrize("method", DELAYED_METHODS)
 def test_whole_runs_agree_between_backends(method: str) -> None:
     case = next((case for case in CASES if case.method == method), Case(method, {}, "at-arrival"))
     data = problem(example_system(4, 2, 2, seed=5), 5, 2, 4, 17, seed=2)
@@ -143,6 +148,19 @@ def test_jobs_of_a_nonlinear_model_start_from_its_typical_state() -> None:
     assert abs(job.arguments(0)[3].x[3] - drive.x0[3]) < 10
 
 
+def test_the_forms_of_the_multirate_gain_do_the_same() -> None:
+    """From the same covariance, in whatever form, the same gain; and the state update does not see the form."""
+    jobs = [method.jobs(example_system(4, 2, 2, seed=5), "textbook", seed=1) for method in MULTIRATE_METHODS.values()]
+    for kind, index in (("state_update", -1), ("covariance_gain", -3)):
+        found = []
+        for of_form in jobs:
+            arguments = of_form[kind].arguments(0)
+            of_form[kind].function(*arguments)
+            found.append(arguments[index])
+        for other in found[1:]:
+            np.testing.assert_allclose(other, found[0], rtol=1e-10, atol=1e-12)
+
+
 def product(n: int, m: int, p: int) -> Operations:
     return Operations(multiply=n * m * p, add=n * (m - 1) * p)
 
@@ -153,6 +171,7 @@ def test_operations_of_the_jobs_in_textbook_form(n: int, u: int, p: int) -> None
     found = {
         (name, kind): count(job.function, *job.arguments(0))
         for name, method in ALL_METHODS.items()
+        if name in DELAYED_METHODS or name == "multirate"
         for kind, job in method.jobs(system).items()
     }
     square, vector = Operations(add=n * n), Operations(add=n)
@@ -180,6 +199,8 @@ def test_operations_of_the_jobs_in_textbook_form(n: int, u: int, p: int) -> None
         ("dual-rate", "lr_update"): gain + covariance + error,
         ("dual-rate", "lr_gain"): gain + covariance,
         ("dual-rate", "lr_correct"): error,
+        ("multirate", "state_update"): f + error + vector,
+        ("multirate", "covariance_gain"): quadratic + gain + covariance + Operations(multiply=n * p),
     }  # fmt: skip
     expected["recalculate", "propagate"] = expected["recalculate", "replay"] = expected["standard", "propagate"]
     expected["larsen", "propagate"] = expected["standard", "propagate"]

@@ -34,6 +34,9 @@ def wrong_shape():
 def not_finite():
     return car()._replace(H=lambda k, x, p: np.array([[np.nan, 0.0]]))
 
+def noiseless():
+    return car()._replace(R=lambda k, p: np.zeros((1, 1)))
+
 def failing():
     return car()._replace(Q=lambda j, p: p[9][9])
 
@@ -113,6 +116,7 @@ def test_the_user_may_give_a_typical_state() -> None:
         ("own_system:raising", r"raising\(\) failed: boom"),
         ("own_system:wrong_shape", r"F\(j, x, u, p\) has shape \(3, 3\); needed is \(2, 2\)"),
         ("own_system:not_finite", r"H\(k, x, p\) is not finite.*return \(system, x0\)"),
+        ("own_system:noiseless", "R of step 0 is not positive definite: its smallest eigenvalue is 0; give each"),
         ("own_system:failing", r"Q\(j, p\) failed: IndexError"),
         ("own_system:wrong", r"wrong\(\) failed: linear_system: Phi"),
     ],
