@@ -8,12 +8,13 @@ from __future__ import annotations
 from typing import Literal, TypeAlias
 
 from filters.covariance_forms import CovarianceFormName, covariance_form
-from filters.factored import conventional
+from filters.factored import conventional, square_root, u_d
 from filters.factored.form import FactoredForm
 
 FactoredFormName: TypeAlias = Literal["conventional", "square-root", "u-d"]
 
-FACTORED_FORMS: dict[FactoredFormName, FactoredForm] = {}
+_FACTORISATIONS: dict[FactoredFormName, FactoredForm] = {"square-root": square_root.FORM, "u-d": u_d.FORM}
+FACTORED_FORMS: tuple[FactoredFormName, ...] = ("conventional", *_FACTORISATIONS)
 
 
 def factored_form(name: FactoredFormName, update: CovarianceFormName = "textbook") -> FactoredForm:
@@ -22,13 +23,9 @@ def factored_form(name: FactoredFormName, update: CovarianceFormName = "textbook
     update: the covariance form by which the conventional one multiplies; the others have no use for it.
 
     Raises:
-        ValueError: there is no form of that name.
+        ValueError: there is no form of that name, factored or covariance.
     """
-    covariance_form(update)
-    if name == "conventional":
-        return conventional.FORMS[update]
     if name not in FACTORED_FORMS:
-        raise ValueError(
-            f"factored form {name!r} is unknown; give one of {', '.join(('conventional', *FACTORED_FORMS))}"
-        )
-    return FACTORED_FORMS[name]
+        raise ValueError(f"factored form {name!r} is unknown; give one of {', '.join(FACTORED_FORMS)}")
+    covariance_form(update)
+    return conventional.FORMS[update] if name == "conventional" else _FACTORISATIONS[name]

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+import numpy as np
+
+from filters.arrays import FloatArray
 from filters.records import Workspace, new_workspace
 from filters.systems.system import System
 
@@ -12,8 +15,23 @@ class FactoredWorkspace(NamedTuple):
     """Scratch arrays, allocated once for a filter. What one call leaves in them means nothing to the next."""
 
     dense: Workspace
+    C: FloatArray  # (p, p), Cholesky factor of R
+    whitened_H: FloatArray  # (p, n)
+    gains: FloatArray  # (p, n)
+    V: FloatArray  # (n, 2n), a root of the propagated covariance that is not triangular yet
+    weights: FloatArray  # (2n,)
+    weighted: FloatArray
 
 
 def new_factored_workspace(system: System) -> FactoredWorkspace:
     """Scratch memory for the functions of any factored form."""
-    return FactoredWorkspace(dense=new_workspace(system))
+    n, p = system.states, system.measurements
+    return FactoredWorkspace(
+        dense=new_workspace(system),
+        C=np.zeros((p, p)),
+        whitened_H=np.zeros((p, n)),
+        gains=np.zeros((p, n)),
+        V=np.zeros((n, 2 * n)),
+        weights=np.zeros(2 * n),
+        weighted=np.zeros(2 * n),
+    )
