@@ -75,8 +75,8 @@ def minimum(
         person: dict[str, Any] = {"method": "standard (no delay)" if name == "standard" else name}
         fixed_by = BINDING_WORDS.get(least.binding, least.binding)
         if found is not None and part is not None and rate is not None:
-            row |= fit_row(part, found, rate)
-            person |= fit_words(part, found, rate) | {"fixed by": fixed_by}
+            row |= fit_row(part, rate, found)
+            person |= fit_words(row) | {"fixed by": fixed_by}
         else:
             landed = _landing(work, timing, least.speed, options, others)
             times = _absolute(rate, landed, float(least.speed), table.unit)

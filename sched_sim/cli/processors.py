@@ -59,8 +59,8 @@ def processors(
         missing = "-N" if N is None else "--hr-hz"
         raise InputError(f"{missing} is missing: which processors can run {method} depends on -N and --hr-hz")
     else:
-        rows, shown = _verdicts(parts, N, M, L, hr_hz, method, costs)
-        title, note = f"{method}, N={N} M={'none' if M is None else M}, HR loop at {hr_hz} Hz", ""
+        rows, shown, reasons = _verdicts(parts, N, M, L, hr_hz, method, costs)
+        title, note = f"{method}, N={N} M={'none' if M is None else M}, HR loop at {hr_hz} Hz", "\n".join(reasons)
     if format == "json":
         print_json(rows)
     elif format == "csv":
@@ -103,10 +103,11 @@ OPERATIONS = ("multiply", "add", "divide", "sqrt", "function", "logic")
 
 def _verdicts(
     parts: list[Processor], N: int, M: int | None, L: int | None, hr_hz: str, method: str, costs: str | None
-) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
-    """A row for each processor; one that lacks a figure for an operation of the method says so."""
+) -> tuple[list[dict[str, Any]], list[dict[str, Any]], list[str]]:
+    """A row for each processor, the same in words, and why some of them cannot be told."""
     from sched_sim.cli.parts import fit_row, fit_words
     from sched_sim.costs import select
+    from sched_sim.errors import InputError
     from sched_sim.fit import fit
     from sched_sim.options import Options
     from sched_sim.ticks import positive
@@ -115,10 +116,17 @@ def _verdicts(
     timing = opt.make_timing(N, M, L, method, options)
     rows: list[dict[str, Any]] = []
     shown: list[dict[str, Any]] = []
+    reasons: list[str] = []
     for part in parts:
-        found = fit(select(opt.load_costs(costs, part), method, options), timing, rate, options)
-        row = fit_row(part, found, rate)
-        words = fit_words(part, found, rate) | {"slack": f"{row['slack']:.1%}"}
-        rows.append({"method": method, **row})
-        shown.append({"processor": part.name, "precision": part.precision, **words})
-    return rows, shown
+        table, found, reason = opt.load_costs(costs, part), None, None
+        try:
+            found = fit(select(table, method, options), timing, rate, options)
+        except InputError as error:
+            if method not in table.lacking:
+                raise
+            reason = str(error)
+            reasons.append(reason)
+        row = {"method": method, **fit_row(part, rate, found), "reason": reason}
+        rows.append(row)
+        shown.append({"processor": part.name, "precision": part.precision, **fit_words(row)})
+    return rows, shown, reasons

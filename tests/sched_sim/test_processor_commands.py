@@ -1,0 +1,138 @@
+"""The processor question on the command line: MHz, load, yes or no; and what wrong input gets."""
+
+from __future__ import annotations
+
+import json
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+
+from sched_sim.costs import load as load_costs
+from sched_sim.costs import select
+from sched_sim.least_speed import least_speed
+from sched_sim.options import Options
+from sched_sim.processor import load_processor, on_processor, shipped_processors
+from sched_sim.simulate import simulate
+from sched_sim.timing import Timing
+from tests.command_line import Run
+
+MY_PART = """\
+name = "mine"
+title = "my own part"
+precision = "double"
+clock_mhz = 100
+logic_per_arithmetic = 0
+
+[cycles]
+multiply = { cycles = 2, source = "its data sheet" }
+add = { cycles = 1, source = "its data sheet" }
+divide = { cycles = 10, source = "its data sheet" }
+"""
+
+
+def test_the_patents_three_numbers_in_one_command(sched_sim: Run) -> None:
+    """Covariance every 5 s, four measurements a second: 166,870 us / 5 s + 7,626 us / 1 s, printed 4.1 %."""
+    line = "minimum -N 5 --costs patent-multirate --processor patent --hr-hz 1 --format json"
+    (row,) = json.loads(sched_sim(line).out)
+    assert row["method"] == "multirate"
+    assert row["load"] == 0.041
+    assert row["fits"] is True
+    assert row["needed_mhz"] is None
+
+
+def test_minimum_on_a_processor_is_the_least_speed_times_the_rate_times_the_clock(sched_sim: Run) -> None:
+    part = load_processor("cortex-m7")
+    costs = select(on_processor(load_costs("counted-9-3-3"), part), "dual-rate", Options())
+    least = least_speed(costs, Timing(40, 20, 40)).speed
+    line = "minimum -N 40 -M 20 --processor cortex-m7 --hr-hz 400 --method dual-rate --format json"
+    (row,) = json.loads(sched_sim(line).out)
+    assert row["needed_mhz"] == pytest.approx(float(least * 400 * part.clock_hz / 10**6), rel=1e-12)
+    assert row["slack"] == pytest.approx(1 - row["needed_share"])
+    assert row["highest_hr_hz"] == pytest.approx(400 / row["needed_share"])
+
+
+@pytest.mark.parametrize("hr_hz", ["50", "2000", "200000"])
+@pytest.mark.parametrize("method", ["recalculate", "dual-rate"])
+def test_yes_or_no_is_what_the_simulation_at_the_parts_own_speed_says(sched_sim: Run, hr_hz: str, method: str) -> None:
+    line = f"minimum -N 40 -M 20 --processor cortex-m7 --hr-hz {hr_hz} --method {method} --format json"
+    (row,) = json.loads(sched_sim(line).out)
+    costs = select(on_processor(load_costs("counted-9-3-3"), load_processor("cortex-m7")), method, Options())
+    schedule = simulate(costs, Timing(40, 20, 40), 1 / Fraction(hr_hz), cycles=4)
+    assert row["fits"] == (schedule.misses == 0)
+    assert not row["fits"] or schedule.achieved == {row["achieved_l"]: 4}
+
+
+def test_processors_lists_what_is_shipped(sched_sim: Run) -> None:
+    rows = json.loads(sched_sim("processors --format json").out)
+    assert [row["processor"] for row in rows] == shipped_processors()
+    assert {"patent", "cortex-m4f", "cortex-m7", "cortex-a53", "desktop"} <= set(shipped_processors())
+    table = sched_sim("processors").out
+    assert all(name in table for name in shipped_processors())
+
+
+def test_processors_says_which_can_run_a_method_and_with_what_slack(sched_sim: Run) -> None:
+    rows = json.loads(sched_sim("processors -N 40 -M 20 --hr-hz 400 --format json").out)
+    verdicts = {row["processor"]: row["fits"] for row in rows}
+    assert verdicts["patent"] is False
+    assert verdicts["desktop"] is True
+    for row in rows:
+        assert row["fits"] == (row["slack"] >= 0)
+
+
+def test_a_processor_without_a_time_for_an_operation_is_listed_with_the_reason(sched_sim: Run) -> None:
+    line = "processors -N 5 --hr-hz 1 --method multirate-square-root"
+    rows = {row["processor"]: row for row in json.loads(sched_sim(f"{line} --format json").out)}
+    assert rows["patent"]["fits"] is None
+    assert "sqrt" in rows["patent"]["reason"]
+    assert rows["desktop"]["fits"] is True
+    assert "sqrt" in sched_sim(line).out
+
+
+def test_a_processor_of_ones_own_by_path(sched_sim: Run, tmp_path: Path) -> None:
+    """Standard: 3294 multiplies, 3024 adds, 3 divides a step at 100 MHz."""
+    (tmp_path / "mine.toml").write_text(MY_PART)
+    (row,) = json.loads(sched_sim("minimum -N 10 -M 4 --processor mine.toml --method standard --format json").out)
+    assert row["min_speed_exact"] == str(Fraction(2 * 3294 + 3024 + 10 * 3, 100 * 10**6))
+
+
+def test_simulate_and_gantt_run_at_the_parts_own_speed(sched_sim: Run, tmp_path: Path) -> None:
+    design = "-N 10 -M 4 --processor cortex-m7 --hr-hz 400"
+    found = json.loads(sched_sim(f"simulate {design} --format json").out)
+    (row,) = json.loads(sched_sim(f"minimum {design} --method dual-rate --format json").out)
+    assert found["achieved_l"] == [row["achieved_l"]] * 3
+    assert sched_sim(f"gantt {design} -o g.svg").code == 0
+    assert "HR period 2.5 ms" in (tmp_path / "g.svg").read_text()
+
+
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        ("minimum -N 10 -M 4 --processor z80", ["processor", "z80", "cortex-m7"]),
+        ("minimum -N 10 -M 4 --processor none.toml", ["none.toml", "cortex-m7"]),
+        ("minimum -N 10 -M 4 --processor no-add.toml", ["no-add.toml", "add", "[cycles]"]),
+        ("minimum -N 10 -M 4 --processor stopped.toml", ["stopped.toml", "multiply", "0"]),
+        ("minimum -N 10 -M 4 --processor no-clock.toml", ["no-clock.toml", "clock_mhz"]),
+        ("minimum -N 10 -M 4 --processor patent --costs steffes2014", ["steffes2014", "operation counts", "counted"]),
+        ("minimum -N 5 --processor patent --method multirate-square-root", ["patent", "sqrt"]),
+        ("minimum -N 0 --method multirate", ["N=0", "at least 1"]),
+        ("minimum -N 5 -L 0 --method multirate --costs patent-multirate", ["L=0", "at least 1"]),
+        ("minimum -N 5 --processor patent", ["-M", "missing"]),
+        ("processors -N 10 -M 4", ["--hr-hz", "missing"]),
+        ("processors --hr-hz 400", ["-N", "missing"]),
+        ("processors -N 10 -M 4 --hr-hz 0", ["--hr-hz", "greater than 0"]),
+        ("processors --processor z80", ["z80", "cortex-m7"]),
+    ],
+)
+def test_wrong_input_ends_with_code_2_and_one_message(
+    sched_sim: Run, tmp_path: Path, line: str, said: list[str]
+) -> None:
+    (tmp_path / "no-add.toml").write_text(MY_PART.replace("add =", "# add ="))
+    (tmp_path / "stopped.toml").write_text(MY_PART.replace("cycles = 2", "cycles = 0"))
+    (tmp_path / "no-clock.toml").write_text(MY_PART.replace("clock_mhz = 100\n", ""))
+    result = sched_sim(line)
+    assert result.code == 2
+    assert result.out == ""
+    assert "Traceback" not in result.err
+    for words in said:
+        assert words in result.err
