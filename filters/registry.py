@@ -232,8 +232,8 @@ MULTIRATE_METHODS: dict[str, Method] = {
     method.name: method
     for method in (
         _multirate("multirate", "conventional"),
-        # _multirate("multirate-square-root", "square-root"),
-        # _multirate("multirate-ud", "u-d"),
+        _multirate("multirate-square-root", "square-root"),
+        _multirate("multirate-ud", "u-d"),
     )
 }
 """A measurement in every step, covariance and gain in every n-th."""

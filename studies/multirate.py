@@ -130,6 +130,19 @@ def gains_used(scenario: Scenario, reading: Reading, n: int, L: int) -> FloatArr
     return gains
 
 
+def worst_after_start(scenario: Scenario, n: int, full_rate_steps: int, noise: CoarseNoise = "averaged") -> float:
+    """The worst ratio of a whole run if the first steps have a gain each, and only then one comes every n-th step.
+
+    The gain every n-th step starts from the optimal filter's covariance. It takes H from `full_rate_steps` before,
+    which matters little for satellites.
+    """
+    optimal = standard.run(scenario.system, 1, 0, 0, *_no_data(scenario), backend="numpy")
+    later = scenario._replace(P0=optimal.P_reference[full_rate_steps], steps=scenario.steps - full_rate_steps)
+    gains = np.concatenate([optimal.gains[:full_rate_steps], gains_used(later, noise, n, 0)])
+    ratio = _position_variance(scenario, gains) / _position_variance(scenario, optimal.gains)
+    return float(ratio.max())
+
+
 def scalar_ratio(speed: float, n: int, noise: CoarseNoise) -> float:
     """The steady ratio of the scalar random walk in closed form."""
     gain = _steady_gain(n * speed, 1 / n if noise == "averaged" else 1.0) / n

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, get_args
+from typing import Any
 
 import numpy as np
 import pytest
@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from filters import multirate_gain, standard
 from filters.arrays import FloatArray
 from filters.covariance_forms import COVARIANCE_FORMS
-from filters.factored import FactoredFormName
+from filters.factored import FACTORED_FORMS
 from filters.history import History
 from filters.kernels.counted import Operations, count
 from filters.records import new_correction
@@ -25,8 +25,7 @@ from filters.systems.navigation import simulate_drive, vehicle
 from filters.systems.system import System
 from tests.strategies import Problem, problem, seeds, systems
 
-FORMS = get_args(FactoredFormName)
-each_form = pytest.mark.parametrize("form", FORMS)
+each_form = pytest.mark.parametrize("form", FACTORED_FORMS)
 
 
 def multirate(data: Problem, n: int, **options: Any) -> History:

@@ -21,6 +21,7 @@ from studies.multirate import (
     scalar_ratio,
     scenarios,
     tracker,
+    worst_after_start,
 )
 
 PERIODS = (1, 2, 5, 10, 20)
@@ -118,6 +119,12 @@ def test_the_largest_good_n(found: dict[str, list[Accuracy]]) -> None:
     assert largest_good(of_receiver) == 2
     assert largest_good(of_receiver, limit=1.06) == 5
     assert largest_good(of_receiver, limit=0.5) == 0
+
+
+def test_a_start_at_full_rate_removes_the_transient() -> None:
+    worst = [worst_after_start(receiver(0.05), 5, full_rate_steps=steps) for steps in (0, 10, 20, 30, 60)]
+    np.testing.assert_allclose(worst, [144.1, 1.438, 1.136, 1.087, 1.075], rtol=1e-3)
+    assert worst_after_start(random_walk(0.01), 1, full_rate_steps=20) == pytest.approx(1, abs=1e-9)
 
 
 def test_skipped_measurements_have_no_gain() -> None:
