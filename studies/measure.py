@@ -67,6 +67,7 @@ def measure(
     """The cost table of all methods on one system.
 
     unit: "operation" (each multiply, add, divide, square root counts one) for counted, else "second".
+    update: the covariance form, of no use to methods that keep factors of the covariance.
     x0 (n,): a typical state of the system, zero if not given.
     """
     jobs = {

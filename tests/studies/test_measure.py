@@ -13,6 +13,7 @@ from sched_sim.errors import InputError
 from sched_sim.options import Options
 from studies.measure import BackendName, measure
 from studies.user_system import load_system
+from tests.command_line import Run
 
 OWN_SYSTEM = """
 import numpy as np
@@ -125,3 +126,10 @@ def test_what_is_wrong_with_a_users_system_is_named(name: str, said: str) -> Non
     with pytest.raises(InputError, match=said) as error:
         load_system(name)
     assert f"--system {name!r}" in str(error.value)
+
+
+def test_a_users_system_without_measurement_noise_ends_with_code_2(sched_sim: Run, tmp_path: Path) -> None:
+    (tmp_path / "own_system.py").write_text(OWN_SYSTEM)
+    result = sched_sim("measure --system own_system:noiseless --backend counted")
+    assert result.code == 2
+    assert "R of step 0 is not positive definite" in " ".join(result.err.split())
