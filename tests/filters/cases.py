@@ -9,6 +9,7 @@ import pytest
 from hypothesis import strategies as st
 
 from filters.arrays import FloatArray
+from filters.factored.workspace import FactoredWorkspace
 from filters.history import History
 from filters.records import Workspace
 from filters.registry import DELAYED_METHODS
@@ -57,6 +58,6 @@ def arrays_in(value: Any) -> list[FloatArray]:
     """All arrays in a tuple, however deep, without scratch memory."""
     if isinstance(value, np.ndarray):
         return [value]
-    if isinstance(value, tuple) and not isinstance(value, Workspace):
+    if isinstance(value, tuple) and not isinstance(value, Workspace | FactoredWorkspace):
         return [array for item in value for array in arrays_in(item)]
     return []
