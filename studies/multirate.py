@@ -14,6 +14,7 @@ import numpy as np
 
 from filters import multirate_gain, standard
 from filters.arrays import FloatArray
+from filters.multirate_gain import cycle_in_use
 from filters.systems.coarse import CoarseNoise, over
 from filters.systems.gps import POSITION, gps, gps_coarse, gps_start
 from filters.systems.linear import linear_system
@@ -109,21 +110,37 @@ def scenarios() -> list[Scenario]:
 
 def accuracies(scenario: Scenario, periods: Sequence[int] = range(1, 21)) -> list[Accuracy]:
     """For each n of `periods`: all readings, the gain in use at once (L = 0) and, where it is divided, at L = n."""
+    noises = get_args(CoarseNoise)
+    computed = {(noise, n): computed_gains(scenario, noise, n) for noise in noises for n in periods}
     keys = list(_filters(periods))
-    gains = np.array([gains_used(scenario, reading, n, L) for reading, n, L in keys])
-    found = _position_variance(scenario, gains) / _position_variance(scenario, optimal_gains(scenario))
+    gains = [_used(computed[_noise(reading), n], reading, n, L, scenario.steps) for reading, n, L in keys]
+    found = _position_variance(scenario, np.array(gains)) / _position_variance(scenario, optimal_gains(scenario))
     return [_accuracy(scenario.name, *key, ratio) for key, ratio in zip(keys, found, strict=True)]
 
 
 def optimal_gains(scenario: Scenario) -> FloatArray:
-    """K_j (steps + 1, n, p) of the standard filter."""
+    """K_j (steps + 1, states, measurements) of the standard filter."""
     return standard.run(scenario.system, 1, 0, 0, *_no_data(scenario), backend="numpy").gains
 
 
+def computed_gains(scenario: Scenario, noise: CoarseNoise, n: int) -> FloatArray:
+    """K(t, n dT) / n (cycles, states, measurements) of k = 0, n, 2n, ..."""
+    coarse = scenario.coarse(n, noise)
+    return multirate_gain.run(scenario.system, n, *_no_data(scenario), coarse=coarse, backend="numpy").gains[::n]
+
+
 def gains_used(scenario: Scenario, reading: Reading, n: int, L: int) -> FloatArray:
-    """K_j (steps + 1, n, p) of each step."""
-    coarse = scenario.coarse(n, "sampled" if reading == "skipped" else reading)
-    gains = multirate_gain.run(scenario.system, n, *_no_data(scenario), coarse=coarse, L=L, backend="numpy").gains
+    """K_j (steps + 1, states, measurements) of each step."""
+    return _used(computed_gains(scenario, _noise(reading), n), reading, n, L, scenario.steps)
+
+
+def _noise(reading: Reading) -> CoarseNoise:
+    return "sampled" if reading == "skipped" else reading
+
+
+def _used(computed: FloatArray, reading: Reading, n: int, L: int, steps: int) -> FloatArray:
+    cycles = [cycle_in_use(j, n, L) for j in range(steps + 1)]
+    gains: FloatArray = computed[cycles]
     if reading == "skipped":
         gains *= n
         gains[np.arange(len(gains)) % n != 0] = 0.0

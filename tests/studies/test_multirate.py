@@ -7,6 +7,7 @@ from math import sqrt
 import numpy as np
 import pytest
 
+from filters import multirate_gain
 from studies.multirate import (
     READINGS,
     SPEEDS,
@@ -125,6 +126,14 @@ def test_a_start_at_full_rate_removes_the_transient() -> None:
     worst = [worst_after_start(receiver(0.05), 5, full_rate_steps=steps) for steps in (0, 10, 20, 30, 60)]
     np.testing.assert_allclose(worst, [144.1, 1.438, 1.136, 1.087, 1.075], rtol=1e-3)
     assert worst_after_start(random_walk(0.01), 1, full_rate_steps=20) == pytest.approx(1, abs=1e-9)
+
+
+def test_gains_are_those_that_a_run_uses() -> None:
+    scenario = receiver(0.3)
+    record = np.zeros(8), scenario.P0, np.zeros((scenario.steps, 0)), np.zeros((scenario.steps + 1, 4))
+    coarse = scenario.coarse(7, "sampled")
+    expected = multirate_gain.run(scenario.system, 7, *record, coarse=coarse, L=3, backend="numpy").gains
+    np.testing.assert_array_equal(gains_used(scenario, "sampled", 7, 3), expected)
 
 
 def test_skipped_measurements_have_no_gain() -> None:
