@@ -46,8 +46,13 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 @pytest.mark.usefixtures("folder")
-def test_the_output_shown_is_the_output(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
-    command, _, shown = block("", "$ sched-sim minimum").removeprefix("$ ").partition("\n")
+@pytest.mark.parametrize("options", ["--costs mine.toml", "--processor cortex-m4f"])
+def test_the_output_shown_is_the_output(
+    options: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    shown_blocks = [body for _, body in BLOCKS if body.startswith("$ sched-sim minimum")]
+    (found,) = [body for body in shown_blocks if options in body.partition("\n")[0]]
+    command, _, shown = found.removeprefix("$ ").partition("\n")
     run(command, monkeypatch)
     printed = [line.rstrip() for line in capsys.readouterr().out.splitlines()]
     assert [line for line in printed if line] == [line.rstrip() for line in shown.splitlines() if line]

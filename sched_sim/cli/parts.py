@@ -37,8 +37,8 @@ KEYS = ("processor", "hr_hz", "needed_mhz", "needed_share", "load", "slack", "fi
 
 WORDS = {
     "needs, MHz": ("needed_mhz", "{:.4g}"),
-    "of its speed": ("needed_share", "{:.2%}"),
-    "slack": ("slack", "{:.2%}"),
+    "of its speed": ("needed_share", "{:.1%}"),
+    "slack": ("slack", "{:.1%}"),
     "load": ("load", "{:.2%}"),
     "lands after, ms": ("correction_ms", "{:.6g}"),
     "highest HR Hz": ("highest_hr_hz", "{:.5g}"),
@@ -50,4 +50,6 @@ def fit_words(row: dict[str, Any]) -> dict[str, str | None]:
     words = {
         heading: None if row[key] is None else pattern.format(row[key]) for heading, (key, pattern) in WORDS.items()
     }
+    if row["fits"] is False:
+        words["slack"] = "none"
     return {"fits": {True: "yes", False: "no", None: None}[row["fits"]], **words}
