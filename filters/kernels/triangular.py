@@ -119,17 +119,18 @@ def carlson_update(S: FloatArray, H: FloatArray, row: int, gains: FloatArray) ->
     Journal 11 (1973), 1259-1265.
     """
     n = S.shape[0]
-    variance = 1.0  # of the innovation, as far as the states up to j contribute to it
-    deviation = 1.0
+    variance = deviation = 1.0  # of the innovation, as far as the states up to j contribute to it
     for j in range(n):
         f = S[0, j] * H[row, 0]
         for i in range(1, j + 1):
             f += S[i, j] * H[row, i]
-        before = deviation
+        before = variance
+        deviation_before = deviation
         variance += f * f
         deviation = np.sqrt(variance)
-        shrink = before / deviation
-        step = f / (before * deviation)
+        scale = 1.0 / (deviation_before * deviation)
+        shrink = before * scale
+        step = f * scale
         for i in range(j):
             s = S[i, j]
             S[i, j] = shrink * s - step * gains[row, i]

@@ -8,7 +8,8 @@ from __future__ import annotations
 
 from filters.arrays import FloatArray
 
-ROUNDED = 1e-14  # a pivot so small beside its diagonal entry is what rounding has left of zero
+ROUNDED = 1e-14  # a pivot so small beside its diagonal entry is what rounding has left of zero,
+ROUNDED_BELOW = 1e-8  # and so is one below zero, for there is no other reason why it should be there
 UNDERFLOWN = 1e-290  # a sum of squares so small has lost digits
 
 
@@ -23,10 +24,10 @@ def u_d_factors(P: FloatArray, out: FloatArray) -> None:
         for j in range(i + 1):
             out[i, j] = P[i, j]
     for i in range(n - 1, -1, -1):
-        if abs(out[i, i]) > ROUNDED * P[i, i]:
-            scale = 1.0 / out[i, i]
-        else:
+        if -ROUNDED_BELOW * P[i, i] <= out[i, i] <= ROUNDED * P[i, i]:
             out[i, i] = scale = 0.0
+        else:
+            scale = 1.0 / out[i, i]
         for j in range(i - 1, -1, -1):
             factor = out[i, j] * scale
             out[j, i] = factor
@@ -118,21 +119,21 @@ def bierman_update(factors: FloatArray, H: FloatArray, row: int, gains: FloatArr
     gain is written into the same row.
     """
     n = factors.shape[0]
-    variance = 1.0  # of the innovation, as far as the states up to j contribute to it
+    variance = precision = 1.0  # of the innovation, as far as the states up to j contribute to it
     for j in range(n):
         f = H[row, j]
         for i in range(j):
             f += factors[i, j] * H[row, i]
         v = factors[j, j] * f
-        factors[j, j] *= variance
-        step = -f / variance
+        step = -f * precision
+        before = variance
         variance += f * v
-        factors[j, j] /= variance
+        precision = 1.0 / variance
+        factors[j, j] *= before * precision
         gains[row, j] = v
         for i in range(j):
             u = factors[i, j]
             factors[i, j] = u + step * gains[row, i]
             gains[row, i] += v * u
-    scale = 1.0 / variance
     for i in range(n):
-        gains[row, i] *= scale
+        gains[row, i] *= precision

@@ -10,10 +10,11 @@ import numpy as np
 from filters.arrays import FloatArray
 from filters.kernels import dense, solve
 from filters.kernels.rebind import rebind
+from filters.kernels.vectorised_factors import FACTOR_VERSIONS
 
 
 def vectorised(function: FunctionType) -> Any:
-    """A clone of a plain function that calls NumPy where the original calls a kernel of `dense` or `solve`."""
+    """A clone of a plain function that calls NumPy where the original calls a kernel that fills arrays."""
     return rebind(function, lambda clone, _original: clone, _VERSIONS)
 
 
@@ -85,5 +86,6 @@ _VERSIONS: dict[FunctionType, Any] = {
         (solve.inverse, _inverse),
         (solve.cholesky, _cholesky),
         (solve.solve_cholesky, _solve_cholesky),
+        *FACTOR_VERSIONS,
     )
 }
