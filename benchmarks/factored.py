@@ -6,21 +6,17 @@ The conventional one multiplies in the form that does the least work.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from typing import Any
 
 import numpy as np
 
-from benchmarks.timing import Result, seconds
+from benchmarks.timing import Result, repeated, seconds
 from filters.arrays import FloatArray
 from filters.factored import FactoredFormName, factored_form
 from filters.factored.workspace import new_factored_workspace
-from filters.kernels.backends import arguments_for, function_for
-from filters.kernels.repeat import repeat
 from filters.systems.example import example_system
 
 STATES, MEASUREMENTS = 8, 4
 ROUNDS = 61
-REPETITIONS = 1000
 
 
 def results() -> Iterator[Result]:
@@ -42,23 +38,17 @@ def results() -> Iterator[Result]:
 def _propagation(name: FactoredFormName) -> Callable[[], None]:
     form, system = factored_form(name, "short"), example_system(STATES, 1, MEASUREMENTS)
     Phi, Q = system.parameters.Phi[0], system.parameters.Q[0]
-    return _repeated(form.propagation, Phi, _factors(name, Q), Q, np.empty_like(Q), new_factored_workspace(system))
+    return repeated(form.propagation, Phi, _factors(name, Q), Q, np.empty_like(Q), new_factored_workspace(system))
 
 
 def _update(name: FactoredFormName) -> Callable[[], None]:
     form, system = factored_form(name, "short"), example_system(STATES, 1, MEASUREMENTS)
     H, R, Q = system.parameters.H[0], system.parameters.R[0], system.parameters.Q[0]
     K, out = np.empty((STATES, MEASUREMENTS)), np.empty_like(Q)
-    return _repeated(form.update, _factors(name, Q), H, R, K, out, new_factored_workspace(system))
+    return repeated(form.update, _factors(name, Q), H, R, K, out, new_factored_workspace(system))
 
 
 def _factors(name: FactoredFormName, Q: FloatArray) -> FloatArray:
     factors = np.zeros_like(Q)
     factored_form(name).factor(np.eye(len(Q)) + Q, factors)
     return factors
-
-
-def _repeated(function: Callable[..., None], *arguments: Any) -> Callable[[], None]:
-    loop, job = function_for("compiled", repeat), arguments_for("compiled", function)
-    loop(job, arguments, 1)
-    return lambda: loop(job, arguments, REPETITIONS)

@@ -6,6 +6,11 @@ from collections.abc import Callable
 from time import perf_counter
 from typing import Any, NamedTuple
 
+from filters.kernels.backends import arguments_for, function_for
+from filters.kernels.repeat import repeat
+
+REPETITIONS = 1000
+
 
 class Result(NamedTuple):
     """A figure beside its target. higher: whether more is better."""
@@ -28,3 +33,11 @@ def seconds(run: Callable[[], Any], repeats: int = 5) -> float:
         run()
         times.append(perf_counter() - start)
     return min(times)
+
+
+def repeated(function: Callable[..., Any], *arguments: Any) -> Callable[[], None]:
+    """A run of the compiled function, REPETITIONS times; compiled already."""
+    loop, job = function_for("compiled", repeat), arguments_for("compiled", function)
+    bound = arguments_for("compiled", arguments)
+    loop(job, bound, 1)
+    return lambda: loop(job, bound, REPETITIONS)

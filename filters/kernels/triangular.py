@@ -50,7 +50,7 @@ def append_root_product(Phi: FloatArray, S: FloatArray, V: FloatArray) -> None:
 
 
 def householder(V: FloatArray, out: FloatArray) -> None:
-    """out = S of V V^T, by reflections of the rows of V (Bierman, IV).
+    """out = S of V V^T, by reflections of the rows of V (Bierman).
 
     V (n, 2n): upper triangular in its first n columns, which are not read below the diagonal; overwritten. out (n, n).
     The reflection that leaves of row i only its element n + i concerns n + 1 columns: it starts from column i, before

@@ -14,7 +14,7 @@ UNDERFLOWN = 1e-290  # a sum of squares so small has lost digits
 
 
 def u_d_factors(P: FloatArray, out: FloatArray) -> None:
-    """out = U and D of P (n, n), symmetric positive semidefinite, of which the lower triangle is read (Bierman, III.3).
+    """out = U and D of P (n, n), symmetric positive semidefinite, of which the lower triangle is read (Bierman).
 
     out (n, n) or wider, then only its first n columns are written. A singular P has zeros in D, and above them in U;
     a P that is not semidefinite has negative entries in D.
@@ -64,7 +64,7 @@ def append_unit_product(Phi: FloatArray, factors: FloatArray, V: FloatArray, wei
 
 
 def gram_schmidt(V: FloatArray, weights: FloatArray, out: FloatArray, weighted: FloatArray) -> None:
-    """out = U and D of V diag(weights) V^T, by Thornton's modified weighted Gram-Schmidt method (Bierman, VI.4).
+    """out = U and D of V diag(weights) V^T, by Thornton's modified weighted Gram-Schmidt method (Bierman).
 
     V (n, 2n): upper triangular in its first n columns, which stay so and are not read below the diagonal; overwritten.
     weights (2n,): not negative. out (n, n). weighted (2n,): scratch memory.
@@ -113,7 +113,7 @@ def _project_two(V: FloatArray, i: int, j: int, k: int, weighted: FloatArray, sc
 
 
 def bierman_update(factors: FloatArray, H: FloatArray, row: int, gains: FloatArray) -> None:
-    """The factors after one scalar measurement with noise of variance 1, in place, and its gain (Bierman, V.3).
+    """The factors after one scalar measurement with noise of variance 1, in place, and its gain (Bierman).
 
     factors (n, n): U and D before, then after. H (p, n): its row of this number is the measurement's. gains (p, n): the
     gain is written into the same row.
