@@ -46,6 +46,8 @@ KIND_NAMES = {
     "lr_update": "LR update",
     "lr_gain": "LR update: gain part",
     "lr_correct": "LR update: correction part",
+    "state_update": "state update",
+    "covariance_gain": "covariance and gain",
 }
 
 

@@ -2,35 +2,57 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Annotated, Literal
 
 import typer
 
-Name = Annotated[Literal["steffes2014"], typer.Argument(help="Which report.")]
+Name = Annotated[Literal["steffes2014", "patent-multirate"], typer.Argument(help="Which report.")]
 Folder = Annotated[Path, typer.Option("--output", "-o", help="Folder in which the report's own folder is written.")]
+Thorough = Annotated[
+    bool, typer.Option("--thorough", help="Measure ten times as many rounds; patent-multirate measures nothing.")
+]
 
 
-def report(
-    name: Name = "steffes2014",
-    thorough: Annotated[bool, typer.Option("--thorough", help="Measure ten times as many rounds.")] = False,
-    output: Folder = Path("reports/published"),
-) -> None:
-    """Measure the filters here and regenerate a report: HTML, Markdown, figures (SVG) and tables (CSV).
+def report(name: Name = "steffes2014", thorough: Thorough = False, output: Folder = Path("reports/published")) -> None:
+    """Regenerate a report: HTML, Markdown, figures (SVG) and tables (CSV). steffes2014 measures the filters here.
 
     sched-sim report --thorough
+    sched-sim report patent-multirate
     """
-    from filters.systems.example import example_system
     from reports.render import make_folder, write_report
+
+    folder = output / name
+    make_folder(folder)
+    write_report(REPORTS[name](thorough), folder)
+    typer.echo(f"Wrote {folder / 'index.html'}, the same as index.md, its figures and tables", err=True)
+
+
+def _steffes(thorough: bool) -> dict[str, bytes]:
+    from filters.systems.example import example_system
     from reports.steffes import build
     from sched_sim.cli.progress import progress_bar
     from studies.measure import measure
 
-    folder = output / name
-    make_folder(folder)
     with progress_bar("Measuring") as progress:
         measured = measure(
             example_system(9, 3, 3), "compiled", name="measured-9-3-3", thorough=thorough, progress=progress
         )
-    write_report(build(measured), folder)
-    typer.echo(f"Wrote {folder / 'index.html'}, the same as index.md, its figures and tables", err=True)
+    return build(measured)
+
+
+def _patent_multirate(_thorough: bool) -> dict[str, bytes]:
+    from reports.multirate_results import results
+    from reports.patent_multirate import build
+    from sched_sim.cli.progress import progress_bar
+
+    with progress_bar("Computing") as progress:
+        found = results(progress)
+    return build(found)
+
+
+REPORTS: Mapping[str, Callable[[bool], dict[str, bytes]]] = {
+    "steffes2014": _steffes,
+    "patent-multirate": _patent_multirate,
+}
