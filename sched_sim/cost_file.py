@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import json
-import tomllib
 from collections.abc import Callable, Mapping
-from decimal import Decimal
 from fractions import Fraction
 from pathlib import Path
 from typing import Annotated, Any, Self
@@ -23,6 +21,7 @@ from sched_sim.costs import (
     shipped_names,
 )
 from sched_sim.errors import InputError
+from sched_sim.toml_file import problems, read_toml
 
 Entries = dict[str, Any]
 """One method's entries, by job kind."""
@@ -111,16 +110,8 @@ def read_cost_table(path: Path, shown: str = "") -> CostTable:
     Raises InputError that lists every wrong entry of the file with its value.
     """
     shown = shown or str(path)
-    try:
-        document = tomllib.loads(path.read_text(encoding="utf-8"), parse_float=Decimal)
-    except (FileNotFoundError, NotADirectoryError, IsADirectoryError):
-        raise InputError(
-            f"cost table {shown!r} not found: give one of {', '.join(shipped_names())}, or the path of a TOML file"
-        ) from None
-    except (OSError, UnicodeDecodeError) as error:
-        raise InputError(f"cost table {shown!r} cannot be read: {error}") from None
-    except tomllib.TOMLDecodeError as error:
-        raise InputError(f"cost table {shown!r} is not valid TOML: {error}") from None
+    remedy = f"give one of {', '.join(shipped_names())}, or the path of a TOML file"
+    document = read_toml(path, f"cost table {shown!r}", remedy)
     try:
         checked = _CostFile.model_validate(document)
     except ValidationError as error:
@@ -187,15 +178,3 @@ def _toml(value: Any) -> str:
     if isinstance(value, Mapping):
         return "{ " + ", ".join(f"{key} = {_toml(item)}" for key, item in value.items()) + " }"
     return json.dumps(value, ensure_ascii=False)
-
-
-def problems(error: ValidationError) -> str:
-    """Every error of a checked file on one line: where, what was there, what is wrong."""
-    lines = []
-    for item in error.errors():
-        where = ".".join(str(part) for part in item["loc"] if not str(part).startswith("function-"))
-        message = item["msg"].removeprefix("Value error, ")
-        value = item["input"]
-        given = "" if isinstance(value, dict | list) else f" (given: {value})"
-        lines.append(f"{where}: {message}{given}" if where else message)
-    return "; ".join(lines)

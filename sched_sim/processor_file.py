@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Mapping
-from decimal import Decimal
 from fractions import Fraction
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, model_validator
 
-from sched_sim.cost_file import problems
 from sched_sim.costs import OPERATION_KINDS
 from sched_sim.errors import InputError
 from sched_sim.processor import Processor, shipped_processors
 from sched_sim.ticks import exact, positive
+from sched_sim.toml_file import problems, read_toml
 
 HERTZ_PER_MHZ = 10**6
 MICROSECONDS_PER_SECOND = 10**6
@@ -116,16 +114,8 @@ def read_processor(path: Path, shown: str = "") -> Processor:
     Raises InputError that lists every wrong entry of the file with its value.
     """
     shown = shown or str(path)
-    try:
-        document = tomllib.loads(path.read_text(encoding="utf-8"), parse_float=Decimal)
-    except (FileNotFoundError, NotADirectoryError, IsADirectoryError):
-        raise InputError(
-            f"processor {shown!r} not found: give one of {', '.join(shipped_processors())}, or the path of a TOML file"
-        ) from None
-    except (OSError, UnicodeDecodeError) as error:
-        raise InputError(f"processor {shown!r} cannot be read: {error}") from None
-    except tomllib.TOMLDecodeError as error:
-        raise InputError(f"processor {shown!r} is not valid TOML: {error}") from None
+    remedy = f"give one of {', '.join(shipped_processors())}, or the path of a TOML file"
+    document = read_toml(path, f"processor {shown!r}", remedy)
     try:
         checked = _ProcessorFile.model_validate(document)
     except ValidationError as error:

@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-import tomllib
-from decimal import Decimal
 from fractions import Fraction
 from pathlib import Path
 from typing import Annotated, Any
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, ValidationError
 
-from sched_sim.cost_file import problems
 from sched_sim.errors import InputError
 from sched_sim.tasks import Task
 from sched_sim.ticks import exact
+from sched_sim.toml_file import problems, read_toml
 
 
 def _number(value: Any) -> Fraction:
@@ -46,13 +44,9 @@ class _TaskFile(BaseModel):
 
 def read_tasks(path: Path) -> list[Task]:
     """The tasks in `path`; raises InputError that lists every wrong entry with its value."""
+    document = read_toml(path, f"--tasks {str(path)!r}", "give the path of a TOML file with [[task]] entries")
     try:
-        document = tomllib.loads(path.read_text(encoding="utf-8"), parse_float=Decimal)
         tasks = [Task(**dict(entry)) for entry in _TaskFile.model_validate(document).task]
-    except (OSError, UnicodeDecodeError) as error:
-        raise InputError(f"--tasks {str(path)!r} cannot be read: {error}") from None
-    except tomllib.TOMLDecodeError as error:
-        raise InputError(f"--tasks {str(path)!r} is not valid TOML: {error}") from None
     except ValidationError as error:
         raise InputError(
             f"--tasks {str(path)!r}: {problems(error)}; each [[task]] has name, period and offset in HR periods, cost "

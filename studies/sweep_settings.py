@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Mapping
-from decimal import Decimal
 from fractions import Fraction
 from itertools import product
 from pathlib import Path
@@ -12,11 +10,11 @@ from typing import Annotated, Any, Literal, get_args
 
 from pydantic import BaseModel, ConfigDict, Field, PlainValidator, StrictBool, ValidationError, ValidationInfo
 
-from sched_sim.cost_file import problems
 from sched_sim.costs import DELAYED_METHODS, METHODS, Statistic, load, shipped_names
 from sched_sim.errors import InputError
 from sched_sim.options import Gain, LowRateNoise, Options
 from sched_sim.timing import Feedback
+from sched_sim.toml_file import problems, read_toml
 from studies.axes import numbers, whole_numbers, words
 from studies.grid import Grid
 from studies.sweep import Sweep
@@ -124,12 +122,7 @@ def settings(flags: Mapping[str, Any], file: Path | None = None) -> Settings:
 
 def _read(path: Path) -> Settings:
     """Of a TOML file: the flags' long names with _ for -; numbers, text such as "10:100:10", or lists of them."""
-    try:
-        document = tomllib.loads(path.read_text(encoding="utf-8"), parse_float=Decimal)
-    except (OSError, UnicodeDecodeError) as error:
-        raise InputError(f"grid file {str(path)!r} cannot be read: {error}; give the path of a TOML file") from None
-    except tomllib.TOMLDecodeError as error:
-        raise InputError(f"grid file {str(path)!r} is not valid TOML: {error}") from None
+    document = read_toml(path, f"grid file {str(path)!r}", "give the path of a TOML file")
     found = _validated(document, "file", f"grid file {str(path)!r}: ")
     shipped = shipped_names()
     costs = tuple(name if name in shipped else str(path.parent / name) for name in found.costs)

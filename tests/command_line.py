@@ -13,3 +13,12 @@ class Result(NamedTuple):
 
 
 Run = Callable[[str], Result]
+
+
+def is_refused(result: Result, said: list[str]) -> None:
+    """Exit code 2, and one message on standard error that says all of this."""
+    assert result.code == 2
+    assert result.out == ""
+    assert "Traceback" not in result.err
+    for words in said:
+        assert words in result.err

@@ -91,7 +91,7 @@ def test_a_grid_file_gives_its_name_to_the_results(sweep, tmp_path):
         (("-N", "5", "--results", "no/r.sqlite"), "no/r.sqlite cannot be written"),
         (("-N", "5", "--results", "r.csv", "--export", "r.csv"), "--export r.csv is the results file too"),
         (("-N", "5", "--results", "held.txt"), "held.txt is not a results file of a sweep"),
-        (("none.toml",), "grid file 'none.toml' cannot be read"),
+        (("none.toml",), "grid file 'none.toml' not found"),
     ],
 )
 def test_bad_input_is_one_message_and_exit_code_2(sweep, tmp_path, arguments, why):
