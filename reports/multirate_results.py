@@ -1,0 +1,87 @@
+"""What the report on the multirate gain asks of the studies: accuracies, transients and starts. No graphics."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from filters.arrays import FloatArray
+from filters.true_covariance import true_covariance
+from studies.multirate import (
+    ACCELERATION_NOISES,
+    Accuracy,
+    Reading,
+    Scenario,
+    accuracies,
+    gains_used,
+    optimal_gains,
+    receiver,
+    scenarios,
+    worst_after_start,
+)
+
+RECEIVER = f"gps {ACCELERATION_NOISES[0]:g}"
+"""Whose start is looked at."""
+
+PERIODS = range(1, 21)
+SHOWN = (2, 5, 10, 20)
+"""The n of the tables and of the figure of the start."""
+
+FULL_RATE_STEPS = (0, 1, 2, 3, 5, 7, 10, 15, 20, 30, 40, 50, 60)
+
+Progress = Callable[[int, int, str], None]
+
+
+class Results(NamedTuple):
+    """accuracies: by scenario. shares: by scenario, the largest eigenvalue of H K once the optimal filter has settled:
+    the share of an innovation that it believes; K itself if there is one state.
+
+    courses: of RECEIVER by n, the ratio in every step (L = 0). starts: of RECEIVER by n, the worst ratio after so many
+    steps with a gain each.
+    """
+
+    accuracies: Mapping[str, Sequence[Accuracy]]
+    shares: Mapping[str, float]
+    courses: Mapping[int, FloatArray]
+    starts: Mapping[int, Mapping[int, float]]
+
+    def of(self, scenario: str, reading: Reading, *, late: bool = False) -> list[Accuracy]:
+        """In the order of n. late: L = n instead of L = 0."""
+        return [row for row in self.accuracies[scenario] if row.reading == reading and (row.L > 0) == late]
+
+    def at(self, scenario: str, reading: Reading, n: int, *, late: bool = False) -> Accuracy:
+        return next(row for row in self.of(scenario, reading, late=late) if row.n == n)
+
+
+def results(progress: Progress = lambda _done, _total, _what: None) -> Results:
+    """Runs the studies: about 15 seconds."""
+    asked, total = scenarios(), len(scenarios()) + len(SHOWN)
+    found, shares = {}, {}
+    for done, scenario in enumerate(asked):
+        progress(done, total, scenario.name)
+        found[scenario.name] = accuracies(scenario, PERIODS)
+        shares[scenario.name] = _share(scenario)
+    started = receiver(ACCELERATION_NOISES[0])
+    courses, starts = {}, {}
+    for done, n in enumerate(SHOWN, start=len(asked)):
+        progress(done, total, f"start, n = {n}")
+        courses[n] = _course(started, n)
+        starts[n] = {steps: worst_after_start(started, n, steps) for steps in FULL_RATE_STEPS}
+    progress(total, total, "done")
+    return Results(found, shares, courses, starts)
+
+
+def _share(scenario: Scenario) -> float:
+    system, K = scenario.system, optimal_gains(scenario)[-1]
+    H = system.H(scenario.steps, np.zeros(system.states), system.parameters)
+    return float(np.abs(np.linalg.eigvals(H @ K)).max())
+
+
+def _course(scenario: Scenario, n: int) -> FloatArray:
+    gains = np.array([gains_used(scenario, "averaged", n, 0), optimal_gains(scenario)])
+    P = true_covariance(scenario.system, scenario.P0, gains).after[..., scenario.position, scenario.position]
+    multirate, optimal = np.trace(P, axis1=-2, axis2=-1)
+    ratio: FloatArray = multirate / optimal
+    return ratio

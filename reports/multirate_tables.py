@@ -1,0 +1,206 @@
+"""The tables of the report on the multirate gain; the first row of each is its heading."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from fractions import Fraction
+from typing import Any, NamedTuple
+
+from reports.multirate_costs import Form, every, least_time_of, time_of
+from reports.multirate_results import RECEIVER, SHOWN, Results
+from reports.multirate_words import decimal, percent, ratio_text, scenario_text, significant
+from sched_sim.costs import arithmetic
+from sched_sim.fit import fit
+from sched_sim.load import load
+from sched_sim.processor import Processor
+from studies.multirate import GOOD, Accuracy, Reading, largest_good
+from studies.patent import CYCLES, Load, comparison, terms
+
+Rows = list[list[Any]]
+
+
+class Case(NamedTuple):
+    """One of the patent's three cases: n, and state updates per second."""
+
+    name: str
+    n: int
+    rate_hz: Fraction
+
+
+CASES = (
+    Case("trucks, tanks: a cycle in 4 s", 1, Fraction(1, 4)),
+    Case("aircraft: a cycle each second", 1, Fraction(1)),
+    Case("multirate: a gain every 5 s", 5, Fraction(1)),
+)
+"""In the patent's order."""
+
+CYCLE_NAMES = {"state_update": "state update", "covariance_gain": "covariance and gain"}
+
+OTHERS: tuple[Reading, ...] = ("sampled", "skipped")
+
+RATE_HZ = 100
+N = 5
+"""The patent's n, and the rate of the processor table."""
+
+
+def loads(printed: Sequence[Load]) -> Rows:
+    """Printed, as the patent computes it, and complete; in percent of its processor."""
+    rows: Rows = [["Case", "printed, %", "computed, %", "with state update, %"]]
+    for case, load_of in zip(CASES, printed, strict=True):
+        exact = [percent(share / 100) for share in (load_of.percent, load_of.complete_percent)]
+        rows.append([case.name, load_of.printed, *exact])
+    return rows
+
+
+def our_loads(forms: Iterable[Form], processor: Processor) -> Rows:
+    """The same cases with our forms on the patent's processor, state update included; in percent."""
+    forms = list(forms)
+    rows: Rows = [["Case", *(form.name if time_of(form, processor) else f"≥ {form.name}" for form in forms)]]
+    for case in CASES:
+        found = [load(least_time_of(form, processor), every(case.n), 1 / case.rate_hz) for form in forms]
+        rows.append([case.name, *(percent(share) for share in found)])
+    return rows
+
+
+def logic(own: Form, ours: Form, processors: Sequence[Processor]) -> Rows:
+    """How much of the covariance-and-gain job is logic. own: the patent's counts; ours: for the processors."""
+    rows: Rows = [["Source", "logic per arithmetic operation", "share of its time, %"]]
+    (patents,) = [processor for processor in processors if processor.name == "patent"]
+    for kind, name in CYCLE_NAMES.items():
+        counts = own.table.operations[own.method][kind]
+        time = getattr(least_time_of(own, patents), kind)
+        share = counts["logic"] * patents.seconds["logic"] / time
+        factor = Fraction(counts["logic"], arithmetic(counts))
+        rows.append([f"the patent, {name}: {counts['logic']} / {arithmetic(counts)}", decimal(factor), percent(share)])
+    for processor in processors:
+        if processor is not patents:
+            factor = processor.logic_per_arithmetic
+            counts = ours.table.operations[ours.method]["covariance_gain"]
+            work = factor * arithmetic(counts) * processor.seconds["logic"]
+            share = work / least_time_of(ours, processor).covariance_gain
+            rows.append([processor.name, decimal(factor), percent(share)])
+    return rows
+
+
+def term_rows() -> Rows:
+    """Our loops, term by term."""
+    rows: Rows = [["Cycle", "Term", "multiply", "add", "add, sums from zero", "divide", "in our job"]]
+    for term in terms():
+        ours = term.ours
+        counts = [ours.multiply, ours.add, term.from_zero.add, ours.divide]
+        rows.append([CYCLE_NAMES[term.cycle], term.name, *counts, "yes" if term.in_job else "no"])
+    return rows
+
+
+def totals() -> Rows:
+    """Our sums beside the patent's."""
+    rows: Rows = [["Cycle", "Sum", "multiply", "add", "divide"]]
+    for cycle in CYCLES:
+        found = comparison(cycle)
+        sums = {"our job": found.job, "with the noise model's products": found.with_noise_model}
+        if found.job == found.with_noise_model:
+            del sums["with the noise model's products"]
+        sums |= {"the same, sums from zero": found.from_zero, "printed": found.printed}
+        for name, counts in sums.items():
+            rows.append([CYCLE_NAMES[cycle], name, counts.multiply, counts.add, counts.divide])
+        remainder = [found.remainder[kind] for kind in ("multiply", "add", "divide")]
+        rows.append([CYCLE_NAMES[cycle], "printed less the line above it", *(f"{number:+d}" for number in remainder)])
+    return rows
+
+
+def load_by_n(forms: Iterable[Form], processor: Processor, periods: Iterable[int]) -> Rows:
+    """The load at one measurement (of all satellites) a second, in percent."""
+    forms = list(forms)
+    rows: Rows = [["n", *(form.name for form in forms)]]
+    for n in periods:
+        found = [load(least_time_of(form, processor), every(n), Fraction(1)) for form in forms]
+        rows.append([n, *(percent(share) for share in found)])
+    return rows
+
+
+def steady(found: Results) -> Rows:
+    """The ratio in steady state of every scenario, the share K, and up to which n it is good."""
+    rows: Rows = [
+        [
+            "System",
+            "K",
+            *(f"n = {n}" for n in SHOWN),
+            "good to n",
+            "rule",
+            f"R, n = {N}",
+            f"skipped, n = {N}",
+        ]
+    ]
+    for name in found.accuracies:
+        averaged = [ratio_text(found.at(name, "averaged", n).steady_mean) for n in SHOWN]
+        sampled, skipped = (ratio_text(found.at(name, reading, N).steady_mean) for reading in OTHERS)
+        share = found.shares[name]
+        row = [scenario_text(name), f"{share:.3f}", *averaged, largest_good(found.of(name, "averaged"))]
+        rows.append([*row, f"{rule(share):.1f}", sampled, skipped])
+    return rows
+
+
+def rule(share: float) -> float:
+    """The n at which 1 + ((n - 1) K)^2 / 8, the ratio of a slow scalar filter, becomes GOOD."""
+    return float(1 + (8 * (GOOD - 1)) ** 0.5 / share)
+
+
+def late(found: Results) -> Rows:
+    """At the patent's n: the gain in use at once and n steps later; steady, and the worst after the start."""
+    rows: Rows = [["System"]]
+    for head in ("steady", "peak", "step", "settled"):
+        rows[0] += [head, f"{head} late"]
+    for name in found.accuracies:
+        soon, later = (found.at(name, "averaged", N, late=late) for late in (False, True))
+        row: list[Any] = [scenario_text(name)]
+        row += [ratio_text(one.steady_mean) for one in (soon, later)] + [ratio_text(one.worst) for one in (soon, later)]
+        rows.append([*row, peak_step(soon), peak_step(later), soon.settled_step, later.settled_step])
+    return rows
+
+
+def peak_step(row: Accuracy) -> int | str:
+    """None ("-") if there is no peak: then some step of the steady state has the largest ratio, by its last digit."""
+    return row.worst_step if row.worst > row.steady_worst * (1 + 1e-6) else "-"
+
+
+def starts(found: Results) -> Rows:
+    """The worst ratio of the receiver's run by the number of steps at full rate."""
+    rows: Rows = [["Steps with a gain each", *(f"n = {n}" for n in SHOWN)]]
+    for steps in found.starts[SHOWN[0]]:
+        rows.append([steps, *(ratio_text(found.starts[n][steps]) for n in SHOWN)])
+    steady_worst = [ratio_text(found.at(RECEIVER, "averaged", n).steady_worst) for n in SHOWN]
+    return [*rows, ["the worst in steady state", *steady_worst]]
+
+
+def processor_rows(forms: Sequence[tuple[Form, int]], processors: Sequence[Processor]) -> Rows:
+    """forms: with the n of each."""
+    heads = ("needs, MHz", "load, %", "slack, %", "highest rate, Hz")
+    rows: Rows = [["Processor", "clock, MHz", "precision", "Filter", "n", f"runs at {RATE_HZ} Hz", *heads]]
+    for part in processors:
+        clock = "-" if part.clock_hz is None else f"{float(part.clock_hz / 10**6):g}"
+        for form, n in forms:
+            row: list[Any] = [part.name, clock, part.precision, form.name, n]
+            costs = time_of(form, part)
+            if costs is None:
+                rows.append([*row, f"no time for its {form.square_roots} square roots", "-", "-", "-", "-"])
+                continue
+            found = fit(costs, every(n), Fraction(RATE_HZ))
+            needed = "-" if part.clock_hz is None else significant(found.needed * part.clock_hz / 10**6)
+            row += ["yes" if found.fits else "no", needed, percent(found.load), percent(found.slack)]
+            rows.append([*row, significant(RATE_HZ / found.needed)])
+    return rows
+
+
+def accuracy_rows(found: Results) -> Rows:
+    """Everything the study found, for a spreadsheet."""
+    heads = ["system", "reading", "n", "L", "steady_mean", "steady_worst", "worst", "worst_step", "settled_step"]
+    return [
+        heads,
+        *(
+            [row.scenario, row.reading, row.n, row.L]
+            + [f"{value:.6g}" for value in (row.steady_mean, row.steady_worst, row.worst)]
+            + [peak_step(row), row.settled_step]
+            for rows in found.accuracies.values()
+            for row in rows
+        ),
+    ]

@@ -1,0 +1,132 @@
+"""The committed report is what the code makes of the studies, byte for byte, and what it says is true of them."""
+
+from __future__ import annotations
+
+import csv
+import io
+import re
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+from reports import multirate_tables as tables
+from reports.multirate_costs import every, least_time_of, patents_form, time_of
+from reports.multirate_results import PERIODS, SHOWN, Results, results
+from reports.patent_multirate import build
+from sched_sim.load import load
+from sched_sim.processor import load_processor, shipped_processors
+from studies import patent
+from studies.multirate import largest_good
+
+PUBLISHED = Path(__file__).parents[2] / "reports" / "published" / "patent-multirate"
+
+
+@cache
+def found() -> Results:
+    return results()
+
+
+@cache
+def rebuilt() -> dict[str, bytes]:
+    return build(found())
+
+
+def text() -> str:
+    return " ".join(rebuilt()["index.md"].decode().split())
+
+
+def rows(name: str) -> list[dict[str, str]]:
+    return list(csv.DictReader(io.StringIO(rebuilt()[name].decode())))
+
+
+def test_the_report_has_no_file_too_many_or_too_few() -> None:
+    assert {path.name for path in PUBLISHED.iterdir()} == set(rebuilt())
+
+
+@pytest.mark.parametrize("name", sorted(path.name for path in PUBLISHED.iterdir()))
+def test_the_committed_file_is_rebuilt_byte_for_byte(name: str) -> None:
+    assert rebuilt()[name] == (PUBLISHED / name).read_bytes()
+
+
+def test_the_page_is_self_contained() -> None:
+    page = rebuilt()["index.html"].decode()
+    assert len(re.findall(r'<img src="data:image/svg\+xml;base64,', page)) == 4
+    assert not re.findall(r'(?:src|href)="(?:https?:)?//', page)
+
+
+def test_progress_is_told_from_start_to_end() -> None:
+    told: list[tuple[int, int]] = []
+    results(lambda done, total, _what: told.append((done, total)))
+    assert [done for done, _ in told] == list(range(told[0][1] + 1))
+    assert {total for _, total in told} == {told[0][1]}
+
+
+def test_the_three_cases_are_those_of_the_patent() -> None:
+    """Their loads from n and rate, by the job costs, are those that the study has from the printed counts."""
+    costs = least_time_of(patents_form(), load_processor("patent"))
+    cases = zip(tables.CASES, patent.loads(), strict=True)
+    for case, printed in cases:
+        assert 100 * load(costs, every(case.n), 1 / case.rate_hz) == printed.complete_percent
+    assert [row["computed, %"] for row in rows("loads.csv")] == ["4.17", "16.69", "4.10"]
+    assert [row["with state update, %"] for row in rows("loads.csv")] == ["4.36", "17.45", "4.10"]
+
+
+def test_in_short() -> None:
+    for said in (
+        "takes 4.10 % of its processor instead of 17.45 %, 4.26 times less",
+        "rises from 5.7 Hz to 24.4 Hz",
+        "1.053 times the optimum for a receiver that hardly manoeuvres, 1.449 times on the road, and 3.590 times",
+        "144 times the optimum",
+        "1.619, 2.396, 5.137 times the optimum",
+        "6 of the 7 processors",
+    ):
+        assert said in text()
+
+
+def test_what_the_text_claims_without_a_number() -> None:
+    """R is nowhere right, and for the aircraft no better than skipping; nothing is good beyond the rule."""
+    for name, share in found().shares.items():
+        averaged, sampled = (found().of(name, reading) for reading in ("averaged", "sampled"))  # type: ignore[arg-type]
+        assert all(a.steady_mean < b.steady_mean for a, b in zip(averaged, sampled, strict=True) if a.n > 1)
+        assert largest_good(averaged) <= tables.rule(share)
+    assert found().at("gps 1", "sampled", 5).steady_mean > found().at("gps 1", "skipped", 5).steady_mean
+    beaten = [
+        n
+        for n in PERIODS
+        if found().at("gps 1", "skipped", n).steady_mean < found().at("gps 1", "averaged", n).steady_mean
+    ]
+    assert f"from n = {min(n for n in beaten if n > 1)} on skipping is better" in text()
+    assert set(range(7, 21)) <= set(beaten)
+
+
+def test_starts_with_no_step_at_full_rate_are_the_runs_of_the_study() -> None:
+    for n in SHOWN:
+        study = found().at("gps 0.05", "averaged", n)
+        assert found().starts[n][0] == pytest.approx(study.worst, rel=1e-9)
+        assert found().courses[n].max() == pytest.approx(study.worst, rel=1e-9)
+        assert int(found().courses[n].argmax()) == study.worst_step
+
+
+def test_no_step_is_named_where_all_ratios_are_alike() -> None:
+    named = [row["worst_step"] for row in rows("accuracy.csv") if row["n"] == "1" and row["L"] == "0"]
+    assert set(named) == {"-"}
+
+
+def test_every_processor_has_a_verdict_on_every_form() -> None:
+    of = rows("processors.csv")
+    assert [row["Processor"] for row in of] == [name for name in shipped_processors() for _ in range(4)]
+    verdicts = {row["runs at 100 Hz"] for row in of}
+    assert {"yes", "no"} <= verdicts
+    for row in of:
+        missing = row["runs at 100 Hz"].startswith("no time")
+        assert missing == (row["load, %"] == "-") == (row["highest rate, Hz"] == "-")
+
+
+def test_a_processor_without_square_root_has_no_time_for_a_form_that_needs_it() -> None:
+    from reports.multirate_costs import our_forms
+
+    part = load_processor("patent")
+    for form in our_forms().values():
+        assert (time_of(form, part) is None) == (form.square_roots > 0)
+        assert least_time_of(form, part).covariance_gain > 0
