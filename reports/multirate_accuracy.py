@@ -78,11 +78,11 @@ def _curves(axes: Axes, curves: Sequence[Curve]) -> None:
             list(losses), list(losses.values()), line.marker, color=line.colour, ms=0.75 * line.size, mew=mew,
             ls=line.dashes, lw=0.8,
         )  # fmt: skip
-        ends.append(((log10(losses[last]) - low) / (high - low) * STEADY_MM, curve.label, line.colour))
+        ends.append(((log10(losses[last]) - low) / (high - low) * STEADY_MM, curve.label))
     ends.sort()
-    places = spread([at for at, _, _ in ends], [2.7] * len(ends), 0.0, STEADY_MM, 0.2)
-    for (_, label, colour), at in zip(ends, places, strict=True):
-        axes.text(1.03, at / STEADY_MM, label, transform=axes.transAxes, va="center", size=SMALL_PT, color=colour)
+    places = spread([at for at, _ in ends], [2.7] * len(ends), 0.0, STEADY_MM, 0.2)
+    for (_, label), at in zip(ends, places, strict=True):
+        axes.text(1.03, at / STEADY_MM, label, transform=axes.transAxes, va="center", size=SMALL_PT)
 
 
 def _ratio_axis(axes: Axes, highest: float, *, numbers: bool) -> None:

@@ -38,6 +38,8 @@ CYCLE_NAMES = {"state_update": "state update", "covariance_gain": "covariance an
 
 OTHERS: tuple[Reading, ...] = ("sampled", "skipped")
 
+NO_SQRT = "no sqrt"
+
 RATE_HZ = 100
 N = 5
 """The patent's n, and the rate of the processor table."""
@@ -174,15 +176,15 @@ def starts(found: Results) -> Rows:
 
 def processor_rows(forms: Sequence[tuple[Form, int]], processors: Sequence[Processor]) -> Rows:
     """forms: with the n of each."""
-    heads = ("needs, MHz", "load, %", "slack, %", "highest rate, Hz")
-    rows: Rows = [["Processor", "clock, MHz", "precision", "Filter", "n", f"runs at {RATE_HZ} Hz", *heads]]
+    heads = ("needs, MHz", "load, %", "slack, %", "highest, Hz")
+    rows: Rows = [["Processor", "MHz", "precision", "Filter", "n", "runs", *heads]]
     for part in processors:
         clock = "-" if part.clock_hz is None else f"{float(part.clock_hz / 10**6):g}"
         for form, n in forms:
-            row: list[Any] = [part.name, clock, part.precision, form.name, n]
+            row: list[Any] = [part.name, clock, part.precision, form.name.removesuffix(", textbook"), n]
             costs = time_of(form, part)
             if costs is None:
-                rows.append([*row, f"no time for its {form.square_roots} square roots", "-", "-", "-", "-"])
+                rows.append([*row, NO_SQRT, "-", "-", "-", "-"])
                 continue
             found = fit(costs, every(n), Fraction(RATE_HZ))
             needed = "-" if part.clock_hz is None else significant(found.needed * part.clock_hz / 10**6)

@@ -194,6 +194,7 @@ def _running(form: Form, parts: list[Processor]) -> dict[str, Any]:
         "able": len(able),
         "busiest_load": percent(max(verdicts[name].load for name in able)),
         "slowest": (slowest, significant(hz[slowest])),
+        "no_sqrt": tables.NO_SQRT,
         "fastest": (fastest, significant(hz[fastest])),
         "unable": [(name, significant(rate)) for name, rate in hz.items() if name not in able],
     }
