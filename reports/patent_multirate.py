@@ -66,7 +66,7 @@ def build(found: Results) -> dict[str, bytes]:
         figures,
         **{name.replace("-", "_"): table for name, table in rows.items()},
         N=N,
-        saving=_saving(own, patents),
+        saving=_saving(own, patents, cases[1]),
         accuracy=_accuracy(found),
         start=_start(found),
         running=_running(textbook, parts),
@@ -84,12 +84,13 @@ def build(found: Results) -> dict[str, bytes]:
     }
 
 
-def _saving(own: Form, patents: Processor) -> dict[str, str]:
+def _saving(own: Form, patents: Processor, aircraft: patent.Load) -> dict[str, str]:
     """Of the patent's counts on its processor, at one measurement of all satellites a second."""
     costs = least_time_of(own, patents)
     each, multirate = (load(costs, every(n), Fraction(1)) for n in (1, tables.N))
     return {
         "each": percent(each),
+        "printed": aircraft.printed,
         "multirate": percent(multirate),
         "factor": decimal(each / multirate),
         "each_hz": f"{float(1 / each):.1f}",
