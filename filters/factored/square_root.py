@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from filters.arrays import FloatArray
 from filters.factored.form import FactoredForm
-from filters.factored.whitened import whitened
+from filters.factored.one_by_one import one_by_one
 from filters.factored.workspace import FactoredWorkspace
 from filters.kernels.triangular import (
     append_root_product,
@@ -22,4 +22,4 @@ def propagation(Phi: FloatArray, S: FloatArray, Q: FloatArray, out: FloatArray, 
     householder(work.V, out)
 
 
-FORM = FactoredForm(root, root_product, propagation, whitened(carlson_update))
+FORM = FactoredForm(root, root_product, propagation, one_by_one(carlson_update))

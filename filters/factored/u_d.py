@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from filters.arrays import FloatArray
 from filters.factored.form import FactoredForm
-from filters.factored.whitened import whitened
+from filters.factored.one_by_one import one_by_one
 from filters.factored.workspace import FactoredWorkspace
 from filters.kernels.u_d import append_unit_product, bierman_update, gram_schmidt, u_d_factors, u_d_product
 
@@ -16,4 +16,4 @@ def propagation(Phi: FloatArray, factors: FloatArray, Q: FloatArray, out: FloatA
     gram_schmidt(work.V, work.weights, out, work.weighted)
 
 
-FORM = FactoredForm(u_d_factors, u_d_product, propagation, whitened(bierman_update))
+FORM = FactoredForm(u_d_factors, u_d_product, propagation, one_by_one(bierman_update))

@@ -15,8 +15,9 @@ class FactoredWorkspace(NamedTuple):
     """Scratch arrays, allocated once for a filter. What one call leaves in them means nothing to the next."""
 
     dense: Workspace
-    C: FloatArray  # (p, p), Cholesky factor of R
-    whitened_H: FloatArray  # (p, n)
+    L: FloatArray  # (p, p), R = L D L^T
+    variances: FloatArray  # (p,), D
+    decorrelated_H: FloatArray  # (p, n)
     gains: FloatArray  # (p, n)
     V: FloatArray  # (n, 2n), a root of the propagated covariance that is not triangular yet
     weights: FloatArray  # (2n,)
@@ -28,8 +29,9 @@ def new_factored_workspace(system: System) -> FactoredWorkspace:
     n, p = system.states, system.measurements
     return FactoredWorkspace(
         dense=new_workspace(system),
-        C=np.zeros((p, p)),
-        whitened_H=np.zeros((p, n)),
+        L=np.zeros((p, p)),
+        variances=np.zeros(p),
+        decorrelated_H=np.zeros((p, n)),
         gains=np.zeros((p, n)),
         V=np.zeros((n, 2 * n)),
         weights=np.zeros(2 * n),

@@ -1,7 +1,7 @@
 """Take a vector of measurements one by one, and still know the gain for all of them at once.
 
-With R = C C^T the measurements C^-1 y = C^-1 H x + noise have uncorrelated noise of variance 1 (whitening). Their
-scalar gains make up the gain G of the whitened vector, and K = G C^-1.
+With R = L D L^T the measurements L^-1 y = L^-1 H x + noise have uncorrelated noise of variances D. Their scalar gains
+make up the gain G of the decorrelated vector, and K = G L^-1.
 """
 
 from __future__ import annotations
@@ -9,34 +9,47 @@ from __future__ import annotations
 from filters.arrays import FloatArray
 
 
-def solve_lower(C: FloatArray, B: FloatArray, out: FloatArray) -> None:
-    """out = C^-1 B, for C (p, p) lower triangular, B (p, n), out (p, n); out may be B."""
+def unit_lower_factors(R: FloatArray, L: FloatArray, variances: FloatArray) -> None:
+    """L and D of R = L D L^T, for R (p, p) symmetric positive definite, whose lower triangle is read.
+
+    L (p, p): unit lower triangular; its diagonal and what is above are left as they were. variances (p,): D.
+    """
+    for i in range(R.shape[0]):
+        for j in range(i):
+            total = R[i, j]
+            for k in range(j):
+                total -= L[i, k] * L[j, k]
+            L[i, j] = total  # L D so far
+        pivot = R[i, i]
+        for j in range(i):
+            scaled = L[i, j] / variances[j]
+            pivot -= scaled * L[i, j]
+            L[i, j] = scaled
+        variances[i] = pivot
+
+
+def solve_unit_lower(L: FloatArray, B: FloatArray, out: FloatArray) -> None:
+    """out = L^-1 B, for L (p, p) unit lower triangular, B (p, n), out (p, n); out may be B."""
     p, n = B.shape
     for i in range(p):
         for j in range(n):
             out[i, j] = B[i, j]
         for k in range(i):
-            factor = C[i, k]
+            factor = L[i, k]
             for j in range(n):
                 out[i, j] -= factor * out[k, j]
-        scale = 1.0 / C[i, i]
-        for j in range(n):
-            out[i, j] *= scale
 
 
-def solve_lower_transposed(C: FloatArray, B: FloatArray, out: FloatArray) -> None:
-    """out = C^-T B, for C (p, p) lower triangular, B (p, n), out (p, n); out may be B."""
+def solve_unit_lower_transposed(L: FloatArray, B: FloatArray, out: FloatArray) -> None:
+    """out = L^-T B, for L (p, p) unit lower triangular, B (p, n), out (p, n); out may be B."""
     p, n = B.shape
     for i in range(p - 1, -1, -1):
         for j in range(n):
             out[i, j] = B[i, j]
         for k in range(i + 1, p):
-            factor = C[k, i]
+            factor = L[k, i]
             for j in range(n):
                 out[i, j] -= factor * out[k, j]
-        scale = 1.0 / C[i, i]
-        for j in range(n):
-            out[i, j] *= scale
 
 
 def join_gain(H: FloatArray, row: int, gains: FloatArray) -> None:

@@ -111,15 +111,16 @@ def _reflect_two(V: FloatArray, i: int, j: int, k: int, scale: float, reflect: f
     out[k, i] = kept_k
 
 
-def carlson_update(S: FloatArray, H: FloatArray, row: int, gains: FloatArray) -> None:
-    """The root after one scalar measurement with noise of variance 1, in place, and its gain.
+def carlson_update(S: FloatArray, H: FloatArray, variances: FloatArray, row: int, gains: FloatArray) -> None:
+    """The root after one scalar measurement, in place, and its gain.
 
-    S (n, n): the root before, then after. H (p, n): its row of this number is the measurement's. gains (p, n): the
-    gain is written into the same row. N. A. Carlson, Fast triangular formulation of the square root filter, AIAA
-    Journal 11 (1973), 1259-1265.
+    S (n, n): the root before, then after. H (p, n), variances (p,): the row of this number is the measurement's, and
+    the variance of its noise. gains (p, n): the gain is written into the same row. N. A. Carlson, Fast triangular
+    formulation of the square root filter, AIAA Journal 11 (1973), 1259-1265.
     """
     n = S.shape[0]
-    variance = deviation = 1.0  # of the innovation, as far as the states up to j contribute to it
+    variance = variances[row]  # of the innovation, as far as the states up to j contribute to it
+    deviation = np.sqrt(variance)
     for j in range(n):
         f = S[0, j] * H[row, 0]
         for i in range(1, j + 1):

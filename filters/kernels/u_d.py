@@ -112,14 +112,15 @@ def _project_two(V: FloatArray, i: int, j: int, k: int, weighted: FloatArray, sc
     out[k, i] = factor_k
 
 
-def bierman_update(factors: FloatArray, H: FloatArray, row: int, gains: FloatArray) -> None:
-    """The factors after one scalar measurement with noise of variance 1, in place, and its gain (Bierman).
+def bierman_update(factors: FloatArray, H: FloatArray, variances: FloatArray, row: int, gains: FloatArray) -> None:
+    """The factors after one scalar measurement, in place, and its gain (Bierman).
 
-    factors (n, n): U and D before, then after. H (p, n): its row of this number is the measurement's. gains (p, n): the
-    gain is written into the same row.
+    factors (n, n): U and D before, then after. H (p, n), variances (p,): the row of this number is the measurement's,
+    and the variance of its noise. gains (p, n): the gain is written into the same row.
     """
     n = factors.shape[0]
-    variance = precision = 1.0  # of the innovation, as far as the states up to j contribute to it
+    variance = variances[row]  # of the innovation, as far as the states up to j contribute to it
+    precision = 0.0  # of the states before j; there are none before the first
     for j in range(n):
         f = H[row, j]
         for i in range(j):

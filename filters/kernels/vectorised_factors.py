@@ -11,12 +11,21 @@ from filters.arrays import FloatArray
 from filters.kernels import sequential, triangular, u_d
 
 
-def _solve_lower(C: FloatArray, B: FloatArray, out: FloatArray) -> None:
-    out[:] = np.linalg.solve(np.tril(C), B)
+def _unit_lower_factors(R: FloatArray, L: FloatArray, variances: FloatArray) -> None:
+    C = np.linalg.cholesky(R)
+    L[:], variances[:] = C / np.diag(C), np.diag(C) ** 2
 
 
-def _solve_lower_transposed(C: FloatArray, B: FloatArray, out: FloatArray) -> None:
-    out[:] = np.linalg.solve(np.tril(C).T, B)
+def _solve_unit_lower(L: FloatArray, B: FloatArray, out: FloatArray) -> None:
+    out[:] = np.linalg.solve(_unit_lower(L), B)
+
+
+def _solve_unit_lower_transposed(L: FloatArray, B: FloatArray, out: FloatArray) -> None:
+    out[:] = np.linalg.solve(_unit_lower(L).T, B)
+
+
+def _unit_lower(L: FloatArray) -> FloatArray:
+    return np.tril(L, -1) + np.eye(len(L))
 
 
 def _join_gain(H: FloatArray, row: int, gains: FloatArray) -> None:
@@ -54,10 +63,10 @@ def _gram_schmidt(V: FloatArray, weights: FloatArray, out: FloatArray, _weighted
         V[:i, i:] -= np.outer(out[:i, i], V[i, i:])
 
 
-def _bierman_update(factors: FloatArray, H: FloatArray, row: int, gains: FloatArray) -> None:
+def _bierman_update(factors: FloatArray, H: FloatArray, noise: FloatArray, row: int, gains: FloatArray) -> None:
     f = H[row] + H[row] @ np.triu(factors, 1)
     v = np.diag(factors) * f
-    variances = np.cumsum(np.concatenate(([1.0], f * v)))
+    variances = np.cumsum(np.concatenate(([noise[row]], f * v)))
     np.fill_diagonal(factors, np.diag(factors) * (variances[:-1] / variances[1:]))
     gain = v.copy()
     for j in range(1, len(f)):
@@ -88,9 +97,9 @@ def _householder(V: FloatArray, out: FloatArray) -> None:
     out[:] = R[::-1, ::-1].T
 
 
-def _carlson_update(S: FloatArray, H: FloatArray, row: int, gains: FloatArray) -> None:
+def _carlson_update(S: FloatArray, H: FloatArray, noise: FloatArray, row: int, gains: FloatArray) -> None:
     f = H[row] @ np.triu(S)
-    variances = np.cumsum(np.concatenate(([1.0], f * f)))
+    variances = np.cumsum(np.concatenate(([noise[row]], f * f)))
     deviations = np.sqrt(variances)
     gain = np.zeros(len(f))
     for j in range(len(f)):
@@ -102,8 +111,9 @@ def _carlson_update(S: FloatArray, H: FloatArray, row: int, gains: FloatArray) -
 
 
 FACTOR_VERSIONS: tuple[tuple[Callable[..., None], Any], ...] = (
-    (sequential.solve_lower, _solve_lower),
-    (sequential.solve_lower_transposed, _solve_lower_transposed),
+    (sequential.unit_lower_factors, _unit_lower_factors),
+    (sequential.solve_unit_lower, _solve_unit_lower),
+    (sequential.solve_unit_lower_transposed, _solve_unit_lower_transposed),
     (sequential.join_gain, _join_gain),
     (u_d.u_d_factors, _u_d_factors),
     (u_d.u_d_product, _u_d_product),

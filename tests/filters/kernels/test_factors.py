@@ -40,13 +40,18 @@ def rubbish_below(A: Any) -> Any:
     return np.where(below, np.nan, A)
 
 
+def rubbish_above(A: Any) -> Any:
+    """Of the diagonal and what is above it nothing is to be read."""
+    return np.where(np.tri(len(A), k=-1, dtype=bool), A, np.nan)
+
+
 def u_and_d(factors: Any) -> tuple[Any, Any]:
     return np.triu(factors, 1) + np.eye(len(factors)), np.diag(np.diag(factors))
 
 
-def joint(P: Any, H: Any) -> tuple[Any, Any]:
-    """The gain for measurements with noise of variance 1, and the covariance after them."""
-    K = P @ H.T @ np.linalg.inv(H @ P @ H.T + np.eye(len(H)))
+def joint(P: Any, H: Any, noise: Any) -> tuple[Any, Any]:
+    """The gain for measurements with uncorrelated noise of these variances, and the covariance after them."""
+    K = P @ H.T @ np.linalg.inv(H @ P @ H.T + np.diag(noise))
     return K, P - K @ H @ P
 
 
@@ -102,13 +107,14 @@ def test_triangularisations(backend: BackendName, n: int, seed: int) -> None:
 def test_scalar_updates_make_up_the_joint_one(backend: BackendName, n: int, p: int, seed: int) -> None:
     P = positive_definite(seed, n)
     (H,) = normal(seed, (p, n))
-    K, after = joint(P, H)
+    noise = np.random.default_rng(seed).uniform(0.1, 10, p)
+    K, after = joint(P, H, noise)
     factors, S, by_bierman, by_carlson = np.empty((n, n)), np.empty((n, n)), np.empty((p, n)), np.empty((p, n))
     u_d.u_d_factors(P, factors)
     triangular.root(P, S)
     for row in range(p):
-        function_for(backend, u_d.bierman_update)(factors, H, row, by_bierman)
-        function_for(backend, triangular.carlson_update)(S, H, row, by_carlson)
+        function_for(backend, u_d.bierman_update)(factors, H, noise, row, by_bierman)
+        function_for(backend, triangular.carlson_update)(S, H, noise, row, by_carlson)
         function_for(backend, sequential.join_gain)(H, row, by_bierman)
         function_for(backend, sequential.join_gain)(H, row, by_carlson)
     U, D = u_and_d(factors)
@@ -121,17 +127,23 @@ def test_scalar_updates_make_up_the_joint_one(backend: BackendName, n: int, p: i
 @each_backend
 @settings(max_examples=20)
 @given(p=lengths, n=lengths, seed=seeds)
-def test_triangular_solves(backend: BackendName, p: int, n: int, seed: int) -> None:
-    C = np.linalg.cholesky(positive_definite(seed, p))
+def test_measurements_are_decorrelated_by_unit_triangular_solves(
+    backend: BackendName, p: int, n: int, seed: int
+) -> None:
+    R = positive_definite(seed, p)
     (B,) = normal(seed, (p, n))
+    kept, variances = rubbish_above(np.zeros((p, p))), np.empty(p)
+    function_for(backend, sequential.unit_lower_factors)(R, kept, variances)
+    L = np.tril(kept, -1) + np.eye(p)
+    close(L * variances @ L.T, R)
     for kernel, expected in (
-        (sequential.solve_lower, np.linalg.solve(C, B)),
-        (sequential.solve_lower_transposed, np.linalg.solve(C.T, B)),
+        (sequential.solve_unit_lower, np.linalg.solve(L, B)),
+        (sequential.solve_unit_lower_transposed, np.linalg.solve(L.T, B)),
     ):
         out, over = np.empty((p, n)), B.copy()
-        function_for(backend, kernel)(C, B, out)
+        function_for(backend, kernel)(kept, B, out)
         close(out, expected)
-        function_for(backend, kernel)(C, over, over)
+        function_for(backend, kernel)(kept, over, over)
         close(over, expected)
 
 
@@ -169,21 +181,25 @@ def test_operations_of_a_scalar_update(n: int, row: int) -> None:
     """Of the 1.5 n^2 multiplies of Bierman's a third makes f = U^T h, a third the new U, a third the gain."""
     factors, H, gains = np.eye(n) + 0.1, np.ones((4, n)), np.ones((4, n))
     pairs = n * (n - 1) // 2
-    assert count(u_d.bierman_update, factors, H, row, gains) == Operations(
+    assert count(u_d.bierman_update, factors, H, np.ones(4), row, gains) == Operations(
         multiply=3 * pairs + 6 * n, add=3 * pairs + n, divide=n
     )
-    assert count(triangular.carlson_update, factors, H, row, gains) == Operations(
-        multiply=4 * pairs + 8 * n, add=3 * pairs + n, divide=n + 1, sqrt=n
+    assert count(triangular.carlson_update, factors, H, np.ones(4), row, gains) == Operations(
+        multiply=4 * pairs + 8 * n, add=3 * pairs + n, divide=n + 1, sqrt=n + 1
     )
     assert count(sequential.join_gain, H, row, gains) == Operations(multiply=2 * n * row, add=(2 * n - 1) * row)
 
 
 @given(p=lengths, n=lengths)
-def test_operations_of_triangular_solves(p: int, n: int) -> None:
-    C, B = np.eye(p) + 0.1, np.ones((p, n))
+def test_operations_of_decorrelation(p: int, n: int) -> None:
+    L, B, variances = np.eye(p) + 0.1, np.ones((p, n)), np.ones(p)
     below = p * (p - 1) // 2
-    for kernel in (sequential.solve_lower, sequential.solve_lower_transposed):
-        assert count(kernel, C, B, B.copy()) == Operations(multiply=n * (below + p), add=n * below, divide=p)
+    inner = sum(j for i in range(p) for j in range(i))
+    assert count(sequential.unit_lower_factors, np.eye(p) + 0.1, L, variances) == Operations(
+        multiply=inner + below, add=inner + below, divide=below
+    )
+    for kernel in (sequential.solve_unit_lower, sequential.solve_unit_lower_transposed):
+        assert count(kernel, L, B, B.copy()) == Operations(multiply=n * below, add=n * below)
 
 
 def times(number: int, operations: Operations) -> Operations:
