@@ -1,6 +1,6 @@
 """The multirate gain: a measurement in every step, covariance and gain only in every n-th.
 
-"Optimal covariance filtering", a patent (seeds/003_95fc7587f7dca2ee.txt), Eq. (1): K(t, dT) = K(t, n dT) / n. The gain
+"Optimal covariance filtering", a patent, Eq. (1): K(t, dT) = K(t, n dT) / n. The gain
 computed over n dT, as if there were one measurement in that time, is divided among the n measurements.
 """
 

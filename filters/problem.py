@@ -31,12 +31,24 @@ def check_multirate_problem(
     system: System, n: int, L: int, x0: FloatArray, P0: FloatArray, inputs: FloatArray, measurements: FloatArray
 ) -> None:
     """Raises ValueError, naming the argument, unless 0 <= L <= n, n >= 1, and all shapes fit: a measurement a step."""
-    if n < 1:
-        raise ValueError(f"n={n} must be at least 1: it is the number of steps between gains")
-    if not 0 <= L <= n:
+    if not isinstance(n, int | np.integer) or n < 1:
+        raise ValueError(f"n={n!r} must be a whole number, at least 1: it is the number of steps between gains")
+    if not isinstance(L, int | np.integer) or not 0 <= L <= n:
         raise ValueError(f"L={L}, n={n} must satisfy 0 <= L <= n: a gain is in use before the next one is computed")
     _check_start_and_inputs(system, x0, P0, inputs)
     _check_shape("measurements", measurements, (len(inputs) + 1, system.measurements))
+
+
+def check_covariance(name: str, P: FloatArray) -> None:
+    """Raises ValueError unless P (n, n) is finite, symmetric, and positive semidefinite, up to rounding."""
+    if not np.isfinite(P).all():
+        raise ValueError(f"{name} holds a value that is not finite")
+    scale = np.abs(P).max(initial=0.0)
+    if not np.allclose(P, np.transpose(P), rtol=0.0, atol=1e-9 * scale):
+        raise ValueError(f"{name} is not symmetric, so it is no covariance; give (P + P.T) / 2 if that is meant")
+    smallest = np.linalg.eigvalsh(P)[0]
+    if smallest < -1e-9 * scale:
+        raise ValueError(f"{name} is no covariance: its smallest eigenvalue is {smallest:.3g}, which is negative")
 
 
 def check_measurement_noise(R: FloatArray, k: int) -> None:
@@ -55,6 +67,7 @@ def _check_start_and_inputs(system: System, x0: FloatArray, P0: FloatArray, inpu
     n, m = system.states, system.inputs
     _check_shape("x0", x0, (n,))
     _check_shape("P0", P0, (n, n))
+    check_covariance("P0", P0)
     _check_shape("inputs", inputs, (len(inputs), m))
 
 

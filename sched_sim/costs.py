@@ -95,8 +95,9 @@ class CostTable:
         except KeyError:
             if kind in self.lacking.get(method, {}):
                 raise InputError(self.lacking[method][kind]) from None
+            section = "operations" if self.operations else "costs"
             raise InputError(
-                f"cost table {self.shown} has no entry [costs.{method}] {kind}: {self._remedy(method, kind)}"
+                f"cost table {self.shown} has no entry [{section}.{method}] {kind}: {self._remedy(method, kind)}"
             ) from None
 
     @property
@@ -211,6 +212,12 @@ def select(table: CostTable, method: str, options: Options, statistic: Statistic
 def arithmetic(counts: Counts) -> int:
     """Floating-point operations in `counts`, each counted once whatever its kind; logic is none."""
     return sum(number for kind, number in counts.items() if kind in ARITHMETIC)
+
+
+def default_methods(*tables: CostTable) -> tuple[str, ...]:
+    """What is meant if no method is named: those for a delayed measurement that every table has, or else all it has."""
+    common = [method for method in METHODS if all(method in table.costs for table in tables)]
+    return tuple(method for method in common if method in DELAYED_METHODS) or tuple(common)
 
 
 def shipped_names() -> list[str]:

@@ -22,7 +22,8 @@ class Fit:
 
     least: the least speed, in seconds of work per HR period, and what fixes it.
     needed: the share of the processor's speed at which every deadline holds; above 1 it is too slow.
-    load: the share of its time that it works at its own speed, mean of the processors where there are two.
+    load: the share of its time that it works at its own speed, mean of the processors where there are two; with other
+        tasks or context switches that of the simulated time, where it is at most 1.
     fits: whether every deadline holds at its own speed. landed: the L at which corrections land then, None if not.
     """
 
@@ -50,8 +51,9 @@ def fit(
     if tasks or options.context_switch:
         schedule = simulate(costs, timing, pace, cycles_to_simulate(timing, tasks), options, tasks)
         fits, landed = schedule.misses == 0, max(schedule.achieved, default=None)
+        busy = schedule.utilization
     else:
         landed = achieved_l(costs, timing, pace, options)
         fits = least.speed <= pace and landed is not None and landed <= timing.L
-    work = load(costs, timing, pace) + sum(task.cost / (task.period * pace) for task in tasks)
-    return Fit(least, least.speed / pace, work / options.cpus, fits, landed if fits else None)
+        busy = load(costs, timing, pace) / options.cpus
+    return Fit(least, least.speed / pace, busy, fits, landed if fits else None)

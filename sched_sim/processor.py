@@ -21,6 +21,10 @@ from sched_sim.ticks import positive
 
 SHIPPED = Path(__file__).parent / "processors"
 
+FUNCTION = {"multiply": 13, "add": 17}
+"""What a function (sin, cos, exp, ...) is charged as on a processor whose file does not time it: the cosine of fdlibm,
+its polynomial (k_cos.c) and the first step of the reduction of its argument (e_rem_pio2.c)."""
+
 
 @dataclass(frozen=True)
 class Processor:
@@ -75,9 +79,9 @@ def on_processor(table: CostTable, processor: Processor) -> CostTable:
     """The jobs of `table` whose operations are counted, with the seconds that `processor` takes for them.
 
     A job's time is the sum over its operations, one after another. Logic that a job does not count is
-    `logic_per_arithmetic` for each arithmetic operation. A job with a kind of operation that the processor does not
-    give has no cost: `CostTable.entry` raises InputError for it, as this does if that is so for every job. Raises
-    InputError for a table without counts.
+    `logic_per_arithmetic` for each arithmetic operation, a function that the processor does not time is `FUNCTION`. A
+    job with another kind of operation that it does not give has no cost: `CostTable.entry` raises InputError for it, as
+    this does if that is so for every job. Raises InputError for a table without counts.
     """
     if not table.operations:
         raise InputError(
@@ -110,9 +114,17 @@ def on_processor(table: CostTable, processor: Processor) -> CostTable:
 
 def _needed(counts: Counts, processor: Processor) -> dict[str, Fraction]:
     """How many of each operation a job takes, its logic included."""
+    if "function" in counts and "function" not in processor.seconds:
+        counts = _without_functions(counts)
     logic = Fraction(counts.get("logic", processor.logic_per_arithmetic * arithmetic(counts)))
     needed = {kind: Fraction(number) for kind, number in counts.items()} | {"logic": logic}
     return {kind: number for kind, number in needed.items() if number}
+
+
+def _without_functions(counts: Counts) -> Counts:
+    functions = counts["function"]
+    more = {kind: counts.get(kind, 0) + functions * number for kind, number in FUNCTION.items()}
+    return {kind: number for kind, number in counts.items() if kind != "function"} | more
 
 
 def _no_time(processor: Processor, missing: Sequence[str], job: str) -> str:

@@ -53,14 +53,26 @@ def check_dual_rate(timing: Timing, feedback: Feedback) -> None:
     """Raises InputError unless M < L <= N (next-step) or M <= L < N (same-step)."""
     N, M, L = timing.N, timing.M, timing.L
     if feedback == "next-step" and L <= M:
-        advice = f"give L from {M + 1} to N={N}" if M < N else "give a larger N, or --method recalculate or larsen"
+        advice = (
+            f"give L from {M + 1} to N={N} (same-step feedback allows L = M)"
+            if M < N
+            else "give a larger N, or --method recalculate or larsen"
+        )
         raise InputError(
             f"L={L} must be > M={M}: the dual-rate correction cannot land in the step in which the measurement "
-            f"arrives; {advice} (same-step feedback allows L = M)"
+            f"arrives; {advice}"
         )
     if feedback == "same-step" and L >= N:
         advice = f"give L from {M} to {N - 1}" if M < N else "give a larger N, or --method recalculate or larsen"
         raise InputError(f"L={L} must be < N={N} with same-step feedback: the correction lands during step l; {advice}")
+
+
+def impossible(method: str, timing: Timing) -> str | None:
+    """Why the dual-rate filter cannot have this timing although other methods can: the measurement arrives as the next
+    one is taken. None if it can, and for any other method."""
+    if method == "dual-rate" and timing.M == timing.N:
+        return f"with M=N={timing.N} no step is left to it between the measurement's arrival and the next one"
+    return None
 
 
 def check_multirate(timing: Timing) -> None:

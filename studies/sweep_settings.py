@@ -10,7 +10,7 @@ from typing import Annotated, Any, Literal, get_args
 
 from pydantic import BaseModel, ConfigDict, Field, PlainValidator, StrictBool, ValidationError, ValidationInfo
 
-from sched_sim.costs import DELAYED_METHODS, METHODS, Statistic, load, shipped_names
+from sched_sim.costs import METHODS, Statistic, default_methods, load, shipped_names
 from sched_sim.errors import InputError
 from sched_sim.options import Gain, LowRateNoise, Options
 from sched_sim.timing import Feedback
@@ -73,7 +73,7 @@ class Settings(BaseModel):
     M: Annotated[tuple[int, ...] | None, PlainValidator(_steps_or_all)] = None
     L: Annotated[tuple[int, ...] | None, PlainValidator(_steps_or_all)] = None
     speed: Annotated[tuple[Fraction, ...], PlainValidator(_speeds)] = ()
-    method: Annotated[tuple[str, ...], _one_of(*METHODS)] = DELAYED_METHODS
+    method: Annotated[tuple[str, ...], _one_of(*METHODS)] = ()
     costs: Annotated[tuple[str, ...], PlainValidator(_names)] = ("steffes2014",)
     statistic: Statistic = "minimum"
     lr_propagate_by: Annotated[tuple[str, ...], _one_of("m", "l")] = ("m",)
@@ -89,13 +89,14 @@ class Settings(BaseModel):
         """Raises InputError without N, for a cost table that cannot be read or lacks an entry, and an empty grid."""
         if not self.N:
             raise InputError("N is missing: give -N (such as -N 10 or -N 10:100:10), or N = ... in the grid file")
+        tables = tuple(load(name) for name in self.costs)
         grid = Grid(
             N=self.N,
             M=self.M,
             L=self.L,
             speeds=self.speed,
-            methods=self.method,
-            tables=tuple(load(name) for name in self.costs),
+            methods=self.method or default_methods(*tables),
+            tables=tables,
             options=self._options(),
             statistic=self.statistic,
         )

@@ -41,6 +41,8 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
     (tmp_path / "mine.toml").write_text(block("toml", "[costs.larsen]"))
     (tmp_path / "tasks.toml").write_text(block("toml", "[[task]]"))
+    (tmp_path / "mypart.toml").write_text(block("toml", 'name = "mypart"'))
+    (tmp_path / "counts.toml").write_text(block("toml", "[operations.larsen]"))
     (tmp_path / "pendulum.py").write_text(block("python", "def system"))
     return tmp_path
 

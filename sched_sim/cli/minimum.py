@@ -6,6 +6,8 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
+import typer
+
 from sched_sim.cli import options as opt
 from sched_sim.cli.output import print_csv, print_json, print_table, units
 
@@ -47,10 +49,11 @@ def minimum(
     sched-sim minimum -N 40 -M 20 --hr-hz 400 --processor cortex-m7
     """
     from sched_sim.analysis import BINDING_WORDS
-    from sched_sim.cli.parts import fit_row, fit_words
+    from sched_sim.cli.parts import MEANING, fit_row, fit_words
     from sched_sim.costs import select
     from sched_sim.fit import fit
     from sched_sim.least_speed import least_speed
+    from sched_sim.timing import impossible
 
     options = opt.make_options(lr_propagate_by, feedback, gain, low_rate_noise, cpus, context_switch)
     part = opt.make_processor(processor)
@@ -60,6 +63,9 @@ def minimum(
     shown: list[dict[str, Any]] = []
     for name in opt.wanted_methods(method, table):
         timing = opt.make_timing(N, M, L, name, options)
+        if not method and (reason := impossible(name, timing)):
+            typer.echo(f"Note: no {name}: {reason}", err=True)
+            continue
         work = select(table, name, options, statistic)
         found = None if part is None or rate is None else fit(work, timing, rate, options, others)
         least = least_speed(work, timing, options, others) if found is None else found.least
@@ -90,7 +96,8 @@ def minimum(
     elif format == "csv":
         print_csv(rows)
     elif part is not None and rate is not None:
-        print_table(f"{part.title}, HR loop at {float(rate):g} Hz, {design} (operations: {table.name})", shown)
+        title = f"{part.title}, HR loop at {float(rate):g} Hz, {design} (operations: {costs or opt.COUNTED})"
+        print_table(title, shown, MEANING)
     else:
         unit = f"{units(table.unit)} per HR period" if part is None else f"an HR period, on {part.title}"
         print_table(f"Least speed, {design}, in {unit} (costs: {table.name})", shown)

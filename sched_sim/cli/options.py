@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
-from sched_sim.costs import DELAYED_METHODS, METHODS, MULTIRATE_METHODS, CostTable, Method, Statistic, load
+from sched_sim.costs import METHODS, MULTIRATE_METHODS, CostTable, Method, Statistic, default_methods, load
 from sched_sim.errors import InputError
 from sched_sim.options import Gain, LowRateNoise, Options
 from sched_sim.tasks import Task
@@ -19,6 +19,9 @@ from sched_sim.timing import Feedback, Timing, latest_feedback_step
 if TYPE_CHECKING:
     from sched_sim.least_speed import LeastSpeed
     from sched_sim.processor import Processor
+
+COUNTED = "counted-9-3-3"
+"""The cost table of a processor, if the user names none."""
 
 DESIGN = "Design"
 PROCESSOR = "Processor"
@@ -90,8 +93,8 @@ Costs = Annotated[
     str | None,
     typer.Option(
         "--costs",
-        help="Cost table: a shipped one by name, or your own TOML file by path; by default steffes2014, with "
-        "--processor counted-9-3-3.",
+        help="Cost table: a shipped one by name, or your own TOML file by path; by default steffes2014; with "
+        "--processor counted-9-3-3 (9 states, 3 inputs, 3 measurements).",
         rich_help_panel=DESIGN,
     ),
 ]
@@ -204,6 +207,8 @@ def make_options(
 def make_timing(N: int, M: int | None, L: int | None, method: str, options: Options) -> Timing:
     """With L the latest that the method can have, if the user did not say. Multirate methods have no delay."""
     if method in MULTIRATE_METHODS:
+        if M:
+            raise InputError(f"-M {M}: {method} has no delay, it uses a measurement in every step: leave -M out")
         M = 0
     if M is None:
         raise InputError(
@@ -233,7 +238,7 @@ def load_costs(name: str | None, processor: Processor | None) -> CostTable:
         return load(name or "steffes2014")
     from sched_sim.processor import on_processor
 
-    return on_processor(load(name or "counted-9-3-3"), processor)
+    return on_processor(load(name or COUNTED), processor)
 
 
 def make_processor(name: str | None) -> Processor | None:
@@ -248,6 +253,10 @@ def pace(
     speed: str | None, rate: Fraction | None, processor: Processor | None, least: Callable[[], LeastSpeed]
 ) -> Fraction:
     """The speed to run at: the one that was given, else the processor's own at this rate, else the least."""
+    if speed is not None and processor is not None:
+        raise InputError(
+            f"--speed {speed} and --processor {processor.name} exclude each other: a part's speed follows from --hr-hz"
+        )
     if speed is not None:
         return positive(speed, "--speed")
     if processor is not None and rate is not None:
@@ -260,6 +269,4 @@ def wanted_methods(methods: Sequence[str] | None, table: CostTable) -> Sequence[
     for method in methods or ():
         if method not in METHODS:
             raise InputError(f"--method {method!r} is unknown: choose from {', '.join(METHODS)}")
-    if methods:
-        return list(dict.fromkeys(methods))
-    return [method for method in DELAYED_METHODS if method in table.costs] or list(table.costs)
+    return list(dict.fromkeys(methods)) if methods else default_methods(table)

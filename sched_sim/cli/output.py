@@ -39,7 +39,7 @@ def print_table(title: str, rows: Sequence[Row], note: str = "") -> None:
     console = Console()
     if not console.is_terminal:
         console.width = 1000
-    console.print(title, style="bold", highlight=False)
+    console.print(title, style="bold", highlight=False, markup=False)
     table = Table(box=SIMPLE_HEAD, pad_edge=False)
     for key, value in rows[0].items():
         table.add_column(key, justify="left" if _is_text(value) else "right", overflow="fold")
@@ -47,7 +47,7 @@ def print_table(title: str, rows: Sequence[Row], note: str = "") -> None:
         table.add_row(*("-" if value is None else str(value) for value in row.values()))
     console.print(table)
     if note:
-        console.print(note, highlight=False)
+        console.print(note, highlight=False, markup=False)
 
 
 def _is_text(value: Any) -> bool:

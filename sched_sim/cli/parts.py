@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
@@ -35,21 +37,43 @@ def fit_row(part: Processor, hr_hz: Fraction, found: Fit | None) -> dict[str, An
 KEYS = ("processor", "hr_hz", "needed_mhz", "needed_share", "load", "slack", "fits", "achieved_l", "correction_ms",
         "highest_hr_hz")  # fmt: skip
 
-WORDS = {
-    "needs, MHz": ("needed_mhz", "{:.4g}"),
-    "of its speed": ("needed_share", "{:.1%}"),
-    "slack": ("slack", "{:.1%}"),
-    "load": ("load", "{:.2%}"),
-    "lands after, ms": ("correction_ms", "{:.6g}"),
-    "highest HR Hz": ("highest_hr_hz", "{:.5g}"),
+
+def _up(digits: int) -> Callable[[float], str]:
+    return lambda value: _rounded(value, digits, ROUND_CEILING)
+
+
+def _down(digits: int) -> Callable[[float], str]:
+    return lambda value: _rounded(value, digits, ROUND_FLOOR)
+
+
+def _rounded(value: float, digits: int, way: str) -> str:
+    """To so many digits, whole numbers in full: a need never looks smaller than it is, nor a limit larger."""
+    number = Decimal(value)
+    places = max(digits - 1 - number.adjusted(), 0)
+    return f"{number.quantize(Decimal(1).scaleb(-places), way):f}"
+
+
+def _percent(rounded: Callable[[float], str]) -> Callable[[float], str]:
+    return lambda value: f"{rounded(100 * value)} %"
+
+
+WORDS: dict[str, tuple[str, Callable[[float], str]]] = {
+    "needs, MHz": ("needed_mhz", _up(4)),
+    "of its speed": ("needed_share", _percent(_up(3))),
+    "slack": ("slack", _percent(_down(3))),
+    "load": ("load", _percent(_up(3))),
+    "lands after, ms": ("correction_ms", "{:.6g}".format),
+    "highest HR Hz": ("highest_hr_hz", _down(4)),
 }
+
+MEANING = (
+    "of its speed: what the tightest deadline takes of the part; slack: the rest; load: the share of time it is busy"
+)
 
 
 def fit_words(row: dict[str, Any]) -> dict[str, str | None]:
     """Of a `fit_row`."""
-    words = {
-        heading: None if row[key] is None else pattern.format(row[key]) for heading, (key, pattern) in WORDS.items()
-    }
+    words = {heading: None if row[key] is None else shown(row[key]) for heading, (key, shown) in WORDS.items()}
     if row["fits"] is False:
         words["slack"] = "none"
     return {"fits": {True: "yes", False: "no", None: None}[row["fits"]], **words}

@@ -8,6 +8,8 @@ import typer
 
 from sched_sim.cli import options as opt
 from sched_sim.cli.output import print_csv, print_json, print_table
+from sched_sim.cli.parts import MEANING
+from sched_sim.costs import Method
 
 if TYPE_CHECKING:
     from sched_sim.processor import Processor
@@ -19,6 +21,9 @@ Parts = Annotated[
         help="Repeatable: a shipped one by name, or your own TOML file by path; by default all that are shipped.",
         rich_help_panel=opt.PROCESSOR,
     ),
+]
+RunMethod = Annotated[
+    Method | None, typer.Option("--method", help="The filter to run; by default dual-rate.", rich_help_panel=opt.DESIGN)
 ]
 DesignSteps = Annotated[
     int | None,
@@ -37,7 +42,7 @@ def processors(
     M: opt.Delay = None,
     L: opt.FeedbackStep = None,
     hr_hz: opt.HrHz = None,
-    method: opt.OneMethod = "dual-rate",
+    method: RunMethod = None,
     costs: opt.Costs = None,
     processor: Parts = None,
     format: opt.Format = "table",
@@ -50,26 +55,43 @@ def processors(
     from sched_sim.errors import InputError
     from sched_sim.processor import load_processor, shipped_processors
 
-    parts = [load_processor(name) for name in processor or shipped_processors()]
-    if N is None and hr_hz is None:
+    parts = [load_processor(name) for name in dict.fromkeys(processor or shipped_processors())]
+    if all(value is None for value in (N, M, L, hr_hz, method, costs)):
         rows = [_figures(part) for part in parts]
         shown = [_figures_in_words(part) for part in parts]
-        title, note = "Processors: cycles (or microseconds) per operation", NOTE
+        title, note = "Cycles (microseconds where there is no clock) per operation", _titles(parts)
     elif N is None or hr_hz is None:
         missing = "-N" if N is None else "--hr-hz"
-        raise InputError(f"{missing} is missing: which processors can run {method} depends on -N and --hr-hz")
+        raise InputError(f"{missing} is missing: which processors can run a method depends on -N and --hr-hz")
     else:
-        rows, shown, reasons = _verdicts(parts, N, M, L, hr_hz, method, costs)
-        title, note = f"{method}, N={N} M={'none' if M is None else M}, HR loop at {hr_hz} Hz", "\n".join(reasons)
+        wanted = method or "dual-rate"
+        rows, shown, reasons = _verdicts(parts, N, M, L, hr_hz, wanted, costs)
+        design = f"N={N} M={'none' if M is None else M} L={'latest' if L is None else L}"
+        title = f"{wanted}, HR loop at {hr_hz} Hz, {design} (operations: {costs or opt.COUNTED})"
+        note = "\n".join([MEANING, *reasons])
     if format == "json":
         print_json(rows)
     elif format == "csv":
-        print_csv(rows)
+        print_csv([_flat(row) for row in rows])
     else:
         print_table(title, shown, note)
 
 
-NOTE = "logic: operations around each arithmetic one. Each figure's source: --format json"
+def _titles(parts: list[Processor]) -> str:
+    lines = [f"{part.name}: {part.title}" for part in parts]
+    return "\n".join([*lines, "", "logic: instructions around each arithmetic one. Sources: --format json"])
+
+
+def _flat(row: dict[str, Any]) -> dict[str, Any]:
+    """Nested figures as columns of their own, the same for every processor."""
+    columns: dict[str, Any] = {}
+    for key, value in row.items():
+        if isinstance(value, dict):
+            names = (*OPERATIONS, *OTHER_FIGURES) if key == "sources" else OPERATIONS
+            columns |= {f"{key}_{name}": value.get(name) for name in names}
+        else:
+            columns[key] = value
+    return columns
 
 
 def _figures(part: Processor) -> dict[str, Any]:
@@ -90,7 +112,6 @@ def _figures_in_words(part: Processor) -> dict[str, str | None]:
     figures = {kind: f"{float(part.seconds[kind] * scale):g}" if kind in part.seconds else None for kind in OPERATIONS}
     return {
         "processor": part.name,
-        "what it is": part.title,
         "precision": part.precision,
         "clock, MHz": clock,
         **figures,
@@ -99,6 +120,7 @@ def _figures_in_words(part: Processor) -> dict[str, str | None]:
 
 
 OPERATIONS = ("multiply", "add", "divide", "sqrt", "function", "logic")
+OTHER_FIGURES = ("clock_mhz", "logic_per_arithmetic")
 
 
 def _verdicts(
@@ -125,7 +147,7 @@ def _verdicts(
             if method not in table.lacking:
                 raise
             reason = str(error)
-            reasons.append(reason)
+            reasons.append(f"{part.name}: {reason}")
         row = {"method": method, **fit_row(part, rate, found), "reason": reason}
         rows.append(row)
         shown.append({"processor": part.name, "precision": part.precision, **fit_words(row)})

@@ -58,7 +58,7 @@ def simulate(
     """
     from contextlib import ExitStack
 
-    from sched_sim.costs import select
+    from sched_sim.costs import MULTIRATE_METHODS, select
     from sched_sim.least_speed import least_speed
     from sched_sim.search import cycles_to_simulate
     from sched_sim.simulate import simulate as run
@@ -124,7 +124,9 @@ def simulate(
     else:
         delay = "" if M is None else f" M={M}"
         where = f"at speed {float(pace):.6g}" if part is None else f"on {part.title}"
-        _show(f"{method}, N={N}{delay} L={timing.L}, {where}", document, rate)
+        if part is not None and rate is None:
+            where += f", as fast as it can: HR period {1e6 * float(pace):.6g} us"
+        _show(f"{method}, N={N}{delay} L={timing.L}, {where}", document, rate, method in MULTIRATE_METHODS)
 
 
 def _response(figures: Response, period: int) -> dict[str, Any]:
@@ -138,7 +140,7 @@ def _response(figures: Response, period: int) -> dict[str, Any]:
     }
 
 
-def _show(title: str, document: dict[str, Any], rate: Fraction | None) -> None:
+def _show(title: str, document: dict[str, Any], rate: Fraction | None, multirate: bool) -> None:
     unit, scale = ("HR periods", 1.0) if rate is None else ("ms", float(1000 / rate))
     rows = [
         {
@@ -152,7 +154,8 @@ def _show(title: str, document: dict[str, Any], rate: Fraction | None) -> None:
         }
         for kind, figures in document["response"].items()
     ]
-    note = f"{landings(document['achieved_l'])}; processor busy {document['utilization']:.1%} of the time"
+    what = "Gains are in use from" if multirate else "Corrections land at"
+    note = f"{landings(document['achieved_l'], what)}; processor busy {document['utilization']:.1%} of the time"
     if any(figures["max"] is None or figures["misses"] for figures in document["response"].values()):
         note += (
             "\nJobs that have not finished count as missed, not in worst and mean, and are late by that much or more"
@@ -164,14 +167,12 @@ def _scaled(periods: float | None, scale: float) -> str:
     return "-" if periods is None else f"{periods * scale:.4g}"
 
 
-def landings(achieved: list[int | None]) -> str:
-    """Where the corrections of all cycles landed, in words."""
+def landings(achieved: list[int | None], what: str = "Corrections land at") -> str:
+    """Where the corrections of all cycles landed, or from where their gains are in use, in words."""
     landed = [at for at in achieved if at is not None]
     lost = len(achieved) - len(landed)
     if not landed:
-        return "No correction lands within the simulated time"
+        return f"{what} no step of the simulated time"
     first, last = min(landed), max(landed)
     where = f"l = k + {first}" if first == last else f"l = k + {first} to k + {last}"
-    return f"Corrections land at {where}" + (
-        f", {lost} of {len(achieved)} not within the simulated time" if lost else ""
-    )
+    return f"{what} {where}" + (f", {lost} of {len(achieved)} not within the simulated time" if lost else "")

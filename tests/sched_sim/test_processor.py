@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from sched_sim.cost_file import cost_table_text, read_cost_table
-from sched_sim.costs import ARITHMETIC, DELAYED_METHODS, OPERATION_KINDS, Cost, CostTable, load
+from sched_sim.costs import DELAYED_METHODS, OPERATION_KINDS, Cost, CostTable, load
 from sched_sim.errors import InputError
 from sched_sim.processor import Processor, load_processor, on_processor, shipped_processors
 
@@ -186,7 +186,15 @@ def test_a_table_without_counts_names_the_remedy() -> None:
         on_processor(load("steffes2014"), load_processor("patent"))
 
 
-@pytest.mark.parametrize("kind", [*ARITHMETIC[2:], "logic"])
+def test_a_function_that_is_not_timed_is_the_arithmetic_of_a_cosine(file: Path) -> None:
+    """13 multiplies, 17 adds, and the logic around these 30."""
+    file.write_text(TIMES)
+    board = load_processor(file)
+    as_arithmetic = seconds({"multiply": 1 + 2 * 13, "add": 2 * 17}, board)
+    assert seconds({"multiply": 1, "function": 2}, board) == as_arithmetic
+
+
+@pytest.mark.parametrize("kind", ["divide", "sqrt", "logic"])
 def test_a_kind_that_the_processor_lacks_is_named(file: Path, kind: str) -> None:
     file.write_text(TIMES)
     with pytest.raises(InputError) as error:
@@ -209,7 +217,7 @@ def test_only_the_job_that_needs_it_misses_a_kind() -> None:
     assert timed.entry("standard", "propagate") == Cost.of(10 * MICROSECOND)
     with pytest.raises(InputError, match=r"'patent'.*no time for sqrt.*\[operations\.standard\] update"):
         timed.entry("standard", "update")
-    with pytest.raises(InputError, match=r"cost table mine on patent has no entry \[costs\.larsen\] update"):
+    with pytest.raises(InputError, match=r"cost table mine on patent has no entry \[operations\.larsen\] update"):
         timed.entry("larsen", "update")
 
 

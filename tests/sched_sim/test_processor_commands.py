@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import csv
+import io
 import json
 from fractions import Fraction
 from pathlib import Path
@@ -105,6 +107,38 @@ def test_simulate_and_gantt_run_at_the_parts_own_speed(sched_sim: Run, tmp_path:
     assert "HR period 2.5 ms" in (tmp_path / "g.svg").read_text()
 
 
+def test_the_printed_limits_hold(sched_sim: Run) -> None:
+    """A rate is rounded down, a clock up: at the printed rate the part still does."""
+    line = "minimum -N 80 -M 40 -L 60 --processor cortex-m4f --method dual-rate"
+    assert " 5236 " in sched_sim(f"{line} --hr-hz 400").out
+    assert json.loads(sched_sim(f"{line} --hr-hz 5236 --format json").out)[0]["fits"] is True
+    assert json.loads(sched_sim(f"{line} --hr-hz 5237 --format json").out)[0]["fits"] is False
+    assert "100.1 %" in sched_sim(f"{line} --hr-hz 5237").out
+
+
+def test_a_note_keeps_what_stands_in_brackets(sched_sim: Run) -> None:
+    line = "processors -N 5 --hr-hz 100 --method multirate-square-root --processor rad750"
+    assert "[operations.multirate-square-root]" in sched_sim(line).out
+
+
+def test_the_load_with_context_switches_is_the_simulated_one(sched_sim: Run) -> None:
+    line = "-N 40 -M 20 --hr-hz 400 --processor cortex-m7 --method dual-rate --context-switch 0.00001 --format json"
+    (row,) = json.loads(sched_sim(f"minimum {line}").out)
+    assert row["load"] == pytest.approx(json.loads(sched_sim(f"simulate {line}").out)["utilization"], rel=0.05)
+
+
+def test_without_a_method_named_those_that_are_possible_are_shown(sched_sim: Run) -> None:
+    """IMU 400 Hz, GPS 10 Hz, 100 ms late: M = N, and the dual-rate filter has no step left."""
+    result = sched_sim("minimum -N 40 -M 40 --processor cortex-m7 --hr-hz 400 --format json")
+    assert [row["method"] for row in json.loads(result.out)] == ["standard", "recalculate", "larsen"]
+    assert "dual-rate" in result.err
+
+
+def test_processors_csv_has_a_column_for_each_figure(sched_sim: Run) -> None:
+    rows = list(csv.DictReader(io.StringIO(sched_sim("processors --format csv").out)))
+    assert all(float(row["seconds_multiply"]) > 0 and row["sources_multiply"] for row in rows)
+
+
 @pytest.mark.parametrize(
     ("line", "said"),
     [
@@ -118,6 +152,10 @@ def test_simulate_and_gantt_run_at_the_parts_own_speed(sched_sim: Run, tmp_path:
         ("minimum -N 0 --method multirate", ["N=0", "at least 1"]),
         ("minimum -N 5 -L 0 --method multirate --costs patent-multirate", ["L=0", "at least 1"]),
         ("minimum -N 5 --processor patent", ["-M", "missing"]),
+        ("minimum -N 5 -M 9 --method multirate --costs patent-multirate", ["-M 9", "no delay"]),
+        ("simulate -N 10 -M 4 --processor cortex-m7 --hr-hz 400 --speed 1", ["--speed", "exclude", "--hr-hz"]),
+        ("minimum -N 10 -M 4 --costs larsen.toml --processor patent --method dual-rate", ["[operations.dual-rate]"]),
+        ("processors -M 20", ["-N", "missing"]),
         ("processors -N 10 -M 4", ["--hr-hz", "missing"]),
         ("processors --hr-hz 400", ["-N", "missing"]),
         ("processors -N 10 -M 4 --hr-hz 0", ["--hr-hz", "greater than 0"]),
@@ -130,4 +168,7 @@ def test_wrong_input_ends_with_code_2_and_one_message(
     (tmp_path / "no-add.toml").write_text(MY_PART.replace("add =", "# add ="))
     (tmp_path / "stopped.toml").write_text(MY_PART.replace("cycles = 2", "cycles = 0"))
     (tmp_path / "no-clock.toml").write_text(MY_PART.replace("clock_mhz = 100\n", ""))
+    (tmp_path / "larsen.toml").write_text(
+        'name = "l"\nunit = "operation"\n[operations.larsen]\npropagate = { add = 1 }\n'
+    )
     is_refused(sched_sim(line), said)
