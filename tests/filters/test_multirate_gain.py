@@ -214,7 +214,7 @@ NOISELESS = np.array([[1.0, 1.0], [1.0, 1.0]])
 @pytest.mark.parametrize(
     ("n", "change", "options", "message"),
     [
-        (0, {}, {}, "n=0 must be at least 1"),
+        (0, {}, {}, "n=0 must be a whole number, at least 1"),
         (3, {}, {"L": 4}, "L=4, n=3 must satisfy 0 <= L <= n"),
         (3, {}, {"L": -1}, "L=-1, n=3 must satisfy 0 <= L <= n"),
         (3, {"x0": np.zeros(2)}, {}, r"x0 has shape \(2,\), the system needs \(3,\)"),
