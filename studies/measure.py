@@ -26,7 +26,7 @@ from filters.kernels.counted import Operations, count
 from filters.kernels.repeat import repeat
 from filters.registry import ALL_METHODS, Job
 from filters.systems.system import System
-from sched_sim.costs import Cost, CostTable
+from sched_sim.costs import METHODS, Cost, CostTable
 
 BackendName = Literal["compiled", "counted", "numpy"]
 
@@ -63,17 +63,18 @@ def measure(
     x0: Any = None,
     seed: int = 0,
     progress: Progress = silent,
+    methods: Sequence[str] = METHODS,
 ) -> CostTable:
-    """The cost table of all methods on one system.
+    """The cost table of these methods on one system.
 
     unit: "operation" (each multiply, add, divide, square root counts one) for counted, else "second".
     update: the covariance form, of no use to methods that keep factors of the covariance.
     x0 (n,): a typical state of the system, zero if not given.
     """
     jobs = {
-        (method.name, kind): job
-        for method in ALL_METHODS.values()
-        for kind, job in method.jobs(system, update, seed, x0).items()
+        (method, kind): job
+        for method in methods
+        for kind, job in ALL_METHODS[method].jobs(system, update, seed, x0).items()
     }
     about: dict[str, Any] = {
         "backend": backend,

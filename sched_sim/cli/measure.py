@@ -9,6 +9,7 @@ import typer
 
 from sched_sim.cli import options as opt
 from sched_sim.cli.output import print_csv, print_json, print_table, units
+from sched_sim.costs import METHODS
 
 SYSTEM = "System"
 
@@ -26,6 +27,14 @@ UpdateForm = Annotated[
 Size = Annotated[
     int,
     typer.Option(help="Size of the example system.", parser=opt.at_least_one, metavar="COUNT", rich_help_panel=SYSTEM),
+]
+Wanted = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--method",
+        help=f"{', '.join(METHODS)}; repeatable; by default all. standard is the unit, and so always among them.",
+        rich_help_panel=opt.DESIGN,
+    ),
 ]
 OwnSystem = Annotated[
     str | None,
@@ -46,6 +55,7 @@ def measure(
     inputs: Size = 3,
     measurements: Size = 3,
     system: OwnSystem = None,
+    method: Wanted = None,
     backend: Backend = "compiled",
     update: UpdateForm = "textbook",
     thorough: Annotated[bool, typer.Option("--thorough", help="Ten times as many rounds.")] = False,
@@ -66,6 +76,7 @@ def measure(
 
     if output is not None:
         check_writable(output, "--output")
+    methods = opt.known_methods(["standard", *(method or METHODS)])
     if system is None:
         model, x0 = example_system(states, inputs, measurements), None
         name = f"{backend}-{states}-{inputs}-{measurements}"
@@ -73,7 +84,7 @@ def measure(
         model, x0 = load_system(system)
         name = f"{backend}-{system.replace(':', '.')}"
     with progress_bar("Measuring") as progress:
-        table = run(model, backend, update, name=name, thorough=thorough, x0=x0, progress=progress)
+        table = run(model, backend, update, name=name, thorough=thorough, x0=x0, progress=progress, methods=methods)
     normalised = table.normalised()
     rows = [
         {

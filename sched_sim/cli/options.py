@@ -266,7 +266,12 @@ def pace(
 
 def wanted_methods(methods: Sequence[str] | None, table: CostTable) -> Sequence[str]:
     """Each method once, in the order given; by default those of the table that are for a delayed measurement."""
-    for method in methods or ():
+    return known_methods(methods) if methods else default_methods(table)
+
+
+def known_methods(methods: Sequence[str]) -> Sequence[str]:
+    """Each once; raises InputError for one that is none."""
+    for method in methods:
         if method not in METHODS:
             raise InputError(f"--method {method!r} is unknown: choose from {', '.join(METHODS)}")
-    return list(dict.fromkeys(methods)) if methods else default_methods(table)
+    return list(dict.fromkeys(methods))

@@ -33,11 +33,17 @@ def _steffes(thorough: bool) -> dict[str, bytes]:
     from filters.systems.example import example_system
     from reports.steffes import build
     from sched_sim.cli.progress import progress_bar
+    from sched_sim.costs import DELAYED_METHODS
     from studies.measure import measure
 
     with progress_bar("Measuring") as progress:
         measured = measure(
-            example_system(9, 3, 3), "compiled", name="measured-9-3-3", thorough=thorough, progress=progress
+            example_system(9, 3, 3),
+            "compiled",
+            name="measured-9-3-3",
+            thorough=thorough,
+            progress=progress,
+            methods=DELAYED_METHODS,
         )
     return build(measured)
 
