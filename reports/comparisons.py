@@ -48,6 +48,8 @@ KIND_NAMES = {
     "lr_correct": "LR update: correction part",
     "state_update": "state update",
     "covariance_gain": "covariance and gain",
+    "inertial": "inertial propagation",
+    "robust_step": "robust step",
 }
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import NamedTuple
 
-from sched_sim.costs import MULTIRATE_METHODS, CostTable, Statistic, select
+from sched_sim.costs import MULTIRATE_METHODS, TWO_RATE_METHODS, CostTable, Statistic, select
 from sched_sim.errors import InputError
 from sched_sim.options import Options
 from sched_sim.schedule import Schedule
@@ -23,6 +23,10 @@ METHOD_NAMES = {
     "multirate": "Multirate gain",
     "multirate-square-root": "Multirate gain, square root",
     "multirate-ud": "Multirate gain, U-D",
+    "robust-inverse": "Robust filter by explicit inverse",
+    "robust-givens": "Robust filter by Givens rotations",
+    "robust-lu": "Robust filter by pivoted LU",
+    "robust-closed": "Robust filter in closed form",
 }
 
 
@@ -126,19 +130,19 @@ def method_panel(
     landings: dict[int, int] = {}
     costs = select(table, method, options, statistic)
     schedule = simulate(costs, timing, speed, cycles, options, tasks, keep_slices=True, on_landing=landings.__setitem__)
-    multirate = method in MULTIRATE_METHODS
-    delay = replace(timing, M=0) if multirate or method == "standard" else timing
+    two_rate = method in TWO_RATE_METHODS
+    delay = replace(timing, M=0) if two_rate or method == "standard" else timing
     pace = f"HR period {_number(1000 * speed)} ms" if table.unit == "second" else f"speed {_number(speed)}"
     notes = [pace, landing_note(landings.values(), delay.M)]
     if method == "standard":
         notes[1] = "no delay: lands at $k$"
-    if multirate:
+    if method in MULTIRATE_METHODS:
         notes[1] = notes[1].replace("correction", "gain").replace("lands at", "gain in use from")
     return Panel(
         title=METHOD_NAMES[method] if title is None else title,
         schedule=schedule,
         notes=(*notes, *option_notes(options), f"{100 * float(schedule.utilization):.0f} % busy"),
-        marks=cycle_marks(delay, cycles, landings, arrives=not multirate),
+        marks=cycle_marks(delay, cycles, landings, arrives=not two_rate),
     )
 
 

@@ -70,6 +70,8 @@ FILLS = {
     "LRU": Fill("#dd9009", INK, "", "low-rate update"),
     "SU": Fill("#b3d4ee", INK, "", "state update"),
     "CG": Fill("#dd9009", INK, "", "covariance and gain"),
+    "IP": Fill("#b3d4ee", INK, "", "inertial propagation"),
+    "RS": Fill("#dd9009", INK, "", "robust step"),
     "switch": Fill("#1a1a1a", "white", "", "context switch"),
 }
 

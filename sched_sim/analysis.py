@@ -9,11 +9,20 @@ Arrays may hold any integers; with dtype=object nothing can overflow.
 
 from __future__ import annotations
 
+from dataclasses import astuple
 from enum import IntEnum
 
 import numpy as np
 
-from sched_sim.costs import DualRateCosts, JobCosts, LarsenCosts, MultirateCosts, RecalculateCosts, StandardCosts
+from sched_sim.costs import (
+    DualRateCosts,
+    JobCosts,
+    LarsenCosts,
+    MultirateCosts,
+    RecalculateCosts,
+    StandardCosts,
+    TwoRateCosts,
+)
 from sched_sim.demand import DualRateDemand, Ints, Quotient, choose, largest, quotient, smaller
 from sched_sim.options import Options
 
@@ -22,7 +31,8 @@ class Binding(IntEnum):
     """Which demand fixes the least speed.
 
     hr: one HR job; lr_propagate: LR propagate by its deadline; lr_update: the LR update between m and l;
-    lr_total: all LR work between k and l; lr_gain: covariance and gain of a multirate method by l.
+    lr_total: all LR work between k and l; lr_gain: covariance and gain of a multirate method by l;
+    lr_step: the robust step by l.
     """
 
     hr = 0
@@ -30,6 +40,7 @@ class Binding(IntEnum):
     lr_update = 2
     lr_total = 3
     lr_gain = 4
+    lr_step = 5
 
 
 BINDING_WORDS = {
@@ -38,6 +49,7 @@ BINDING_WORDS = {
     "lr_update": "LR update, m to l",
     "lr_total": "all LR work, k to l",
     "lr_gain": "covariance and gain",
+    "lr_step": "robust step",
 }
 """The bindings as a person reads them."""
 
@@ -51,9 +63,10 @@ def least_period(costs: JobCosts, N: Ints, M: Ints, L: Ints, options: Options) -
     costs in ticks; N, M, L: integer arrays of one shape, legal for the method. `options.context_switch` is not
     looked at: see `sched_sim.search`.
     """
-    if isinstance(costs, MultirateCosts):
-        least = _next_step(_multirate_demand(costs, N, options), L, by_m=False)
-        return least._replace(code=np.where(least.code == Binding.hr, Binding.hr, Binding.lr_gain))
+    if isinstance(costs, TwoRateCosts):
+        least = _next_step(_two_rate_demand(costs, N, options), L, by_m=False)
+        low = Binding.lr_gain if isinstance(costs, MultirateCosts) else Binding.lr_step
+        return least._replace(code=np.where(least.code == Binding.hr, Binding.hr, low))
     if isinstance(costs, DualRateCosts):
         demand = DualRateDemand(costs, N, M, separate=options.cpus == 2)
         by_m = options.lr_propagate_by == "m"
@@ -63,8 +76,8 @@ def least_period(costs: JobCosts, N: Ints, M: Ints, L: Ints, options: Options) -
 
 def achieved_l(costs: JobCosts, N: Ints, M: Ints, period: Ints, options: Options) -> Ints:
     """The L at which corrections land (or gains are in use) at an HR period of `period` ticks, or NOT_LANDED."""
-    if isinstance(costs, MultirateCosts):
-        demand = _multirate_demand(costs, N, options)
+    if isinstance(costs, TwoRateCosts):
+        demand = _two_rate_demand(costs, N, options)
         return np.where(period >= demand.longest_hr_job(), _landing_next_step(demand, period), NOT_LANDED)
     if not isinstance(costs, DualRateCosts):
         landed = 0 * M if isinstance(costs, StandardCosts) else M
@@ -84,11 +97,11 @@ def _longest_serial_job(costs: StandardCosts | RecalculateCosts | LarsenCosts, N
             return np.where(M >= 2, 0 * N + max(accumulate + update, propagate), 0 * N + propagate + update)
 
 
-def _multirate_demand(costs: MultirateCosts, N: Ints, options: Options) -> DualRateDemand:
-    """That of a dual-rate filter whose measurement comes at once and whose HR jobs are all alike: covariance and gain
-    are its LR update."""
-    state, gain = costs.state_update, costs.covariance_gain
-    alike = DualRateCosts(hr=state, hr_restart=state, hr_update=0, lr_propagate=0, lr_gain=0, lr_update=gain)
+def _two_rate_demand(costs: TwoRateCosts, N: Ints, options: Options) -> DualRateDemand:
+    """That of a dual-rate filter whose measurement comes at once, whose HR jobs are all alike and whose LR update is
+    the LR job."""
+    high, low = astuple(costs)
+    alike = DualRateCosts(hr=high, hr_restart=high, hr_update=0, lr_propagate=0, lr_gain=0, lr_update=low)
     return DualRateDemand(alike, N, 0 * N, separate=options.cpus == 2)
 
 

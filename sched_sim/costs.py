@@ -14,12 +14,20 @@ from sched_sim.ticks import positive
 
 DelayedMethod = Literal["standard", "recalculate", "larsen", "dual-rate"]
 MultirateMethod = Literal["multirate", "multirate-square-root", "multirate-ud"]
-Method = Literal[DelayedMethod, MultirateMethod]
+RobustMethod = Literal["robust-inverse", "robust-givens", "robust-lu", "robust-closed"]
+Method = Literal[DelayedMethod, MultirateMethod, RobustMethod]
 DELAYED_METHODS: tuple[DelayedMethod, ...] = get_args(DelayedMethod)
 """One measurement every N steps, that comes M steps late; and the standard filter, for which it is never late."""
 MULTIRATE_METHODS: tuple[MultirateMethod, ...] = get_args(MultirateMethod)
 """A measurement in every step, covariance and gain every N-th ("Optimal covariance filtering", a patent, Eq. 1)."""
-METHODS: tuple[Method, ...] = (*DELAYED_METHODS, *MULTIRATE_METHODS)
+ROBUST_METHODS: tuple[RobustMethod, ...] = get_args(RobustMethod)
+"""Inertial propagation in every step, and once in N steps the extended robust filter, whose linear system is solved in
+one of four ways (Yengera, Inoue, Narasimha, Terra, arXiv:1801.04386)."""
+SYSTEM_METHODS: tuple[Method, ...] = (*DELAYED_METHODS, *MULTIRATE_METHODS)
+"""Those that run on any system model."""
+TWO_RATE_METHODS: tuple[Method, ...] = (*MULTIRATE_METHODS, *ROBUST_METHODS)
+"""An HR job in every step, an LR job once in N steps, whose result is in use by step l; no delayed measurement."""
+METHODS: tuple[Method, ...] = (*DELAYED_METHODS, *TWO_RATE_METHODS)
 
 Statistic = Literal["minimum", "median", "p95"]
 
@@ -40,6 +48,7 @@ KINDS: Mapping[str, tuple[str, ...]] = {
         "lr_correct",
     ),
     **dict.fromkeys(MULTIRATE_METHODS, ("state_update", "covariance_gain")),
+    **dict.fromkeys(ROBUST_METHODS, ("inertial", "robust_step")),
 }
 """Every entry a table may hold, by method. Those a run needs depend on its options: see `select`."""
 
@@ -173,7 +182,17 @@ class MultirateCosts:
     covariance_gain: Any
 
 
-JobCosts = StandardCosts | RecalculateCosts | LarsenCosts | DualRateCosts | MultirateCosts
+@dataclass(frozen=True, slots=True)
+class RobustCosts:
+    """Work of the pieces of the robust filter at two rates; inertial: the HR job of each step; robust_step: the LR job,
+    once in N steps, from step k, at which there is a measurement."""
+
+    inertial: Any
+    robust_step: Any
+
+
+TwoRateCosts = MultirateCosts | RobustCosts
+JobCosts = StandardCosts | RecalculateCosts | LarsenCosts | DualRateCosts | TwoRateCosts
 """What one method's pieces cost: fractions of the table's unit, or whole ticks; one number type throughout."""
 
 
@@ -206,6 +225,8 @@ def select(table: CostTable, method: str, options: Options, statistic: Statistic
         )
     if method in MULTIRATE_METHODS:
         return MultirateCosts(cost("state_update"), cost("covariance_gain"))
+    if method in ROBUST_METHODS:
+        return RobustCosts(cost("inertial"), cost("robust_step"))
     raise InputError(f"method {method!r} is unknown: choose from {', '.join(METHODS)}")
 
 

@@ -10,11 +10,11 @@ from typing import NamedTuple
 import numpy as np
 
 from sched_sim import analysis
-from sched_sim.costs import DualRateCosts, JobCosts, MultirateCosts
+from sched_sim.costs import DualRateCosts, JobCosts, TwoRateCosts
 from sched_sim.options import Options
 from sched_sim.tasks import Task
 from sched_sim.ticks import positive, ticks_per_unit, to_ticks
-from sched_sim.timing import Timing, check_dual_rate, check_multirate, latest_feedback_step
+from sched_sim.timing import Timing, check_dual_rate, check_two_rate, latest_feedback_step
 
 
 class LeastSpeed(NamedTuple):
@@ -45,8 +45,8 @@ def least_speed(
     """
     if isinstance(costs, DualRateCosts):
         check_dual_rate(timing, options.feedback)
-    if isinstance(costs, MultirateCosts):
-        check_multirate(timing)
+    if isinstance(costs, TwoRateCosts):
+        check_two_rate(timing)
     if tasks or options.context_switch:
         from sched_sim.search import least_speed_by_simulation
 
@@ -73,12 +73,12 @@ def staircase(costs: JobCosts, N: int, M: int, options: Options = Options()) -> 
     """Every legal L with its least speed, from the earliest to the latest.
 
     A step on which `achieved` is less than L is waste: the same processor already lands earlier.
-    For methods other than dual-rate and multirate there is one stair: the correction lands at m, whatever L is.
+    For the serial methods there is one stair: the correction lands at m, whatever L is.
     """
     if isinstance(costs, DualRateCosts):
         first = M + 1 if options.feedback == "next-step" else M
         wanted = range(first, latest_feedback_step(N, options.feedback) + 1)
-    elif isinstance(costs, MultirateCosts):
+    elif isinstance(costs, TwoRateCosts):
         M, wanted = 0, range(1, N + 1)
     else:
         wanted = range(M, M + 1)

@@ -4,7 +4,15 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from sched_sim.costs import DualRateCosts, JobCosts, LarsenCosts, MultirateCosts, RecalculateCosts, StandardCosts
+from sched_sim.costs import (
+    DualRateCosts,
+    JobCosts,
+    LarsenCosts,
+    MultirateCosts,
+    RecalculateCosts,
+    RobustCosts,
+    StandardCosts,
+)
 from sched_sim.timing import Timing
 
 
@@ -30,6 +38,6 @@ def work_of_cycle(costs: JobCosts, timing: Timing) -> Fraction:
             work = (N - products) * propagate + products * accumulate + update
         case DualRateCosts(hr, hr_restart, hr_update, lr_propagate, lr_gain, lr_update):
             work = (N - 1) * hr + hr_restart + hr_update + lr_propagate + lr_gain + lr_update
-        case MultirateCosts(state_update, covariance_gain):
-            work = N * state_update + covariance_gain
+        case MultirateCosts(high, low) | RobustCosts(high, low):
+            work = N * high + low
     return work

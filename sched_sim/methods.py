@@ -6,10 +6,18 @@ from collections import deque
 from collections.abc import Callable
 from dataclasses import replace
 
-from sched_sim.costs import DualRateCosts, JobCosts, LarsenCosts, MultirateCosts, RecalculateCosts, StandardCosts
+from sched_sim.costs import (
+    DualRateCosts,
+    JobCosts,
+    LarsenCosts,
+    MultirateCosts,
+    RecalculateCosts,
+    RobustCosts,
+    StandardCosts,
+)
 from sched_sim.jobs import HR, LR, Job, Parts, Source
 from sched_sim.options import Options
-from sched_sim.timing import Timing, check_dual_rate, check_multirate
+from sched_sim.timing import Timing, check_dual_rate, check_two_rate
 
 OnLanding = Callable[[int, int], None]
 """Called with (cycle, achieved L) when a correction has reached the state, or a gain is in use."""
@@ -35,9 +43,11 @@ def method_source(costs: JobCosts, timing: Timing, options: Options, period: int
             check_dual_rate(timing, options.feedback)
             return DualRate(costs, timing, options, period, on_landing)
         case MultirateCosts(state_update, covariance_gain):
-            undelayed = replace(timing, M=0)
-            check_multirate(undelayed)
-            return Multirate(state_update, covariance_gain, undelayed, options, period, on_landing)
+            parts = ("SU", state_update), ("CG", covariance_gain)
+            return TwoRate(*parts, "lr_gain", timing, options, period, on_landing)
+        case RobustCosts(inertial, robust_step):
+            parts = ("IP", inertial), ("RS", robust_step)
+            return TwoRate(*parts, "lr_step", timing, options, period, on_landing)
 
 
 def step_at(finish: int, period: int) -> int:
@@ -206,32 +216,38 @@ class DualRate(HrSource):
         return (self.lr_queue.popleft(),)
 
 
-class Multirate(HrSource):
-    """A state update each step; once in N steps, from step k on, covariance and gain below it, in use by step l."""
+class TwoRate(HrSource):
+    """An HR job each step; once in N steps, when that of step k finishes, an LR job, whose result is in use by step l.
+
+    high, low: (label, work) of the two; kind: what the LR job is filed under.
+    """
 
     def __init__(
         self,
-        state_update: int,
-        covariance_gain: int,
+        high: tuple[str, int],
+        low: tuple[str, int],
+        kind: str,
         timing: Timing,
         options: Options,
         period: int,
         on_landing: OnLanding,
     ) -> None:
-        super().__init__(timing, period, on_landing)
-        self.state_update: Parts = (("SU", state_update),)
-        self.covariance_gain: Parts = (("CG", covariance_gain),)
+        undelayed = replace(timing, M=0)
+        check_two_rate(undelayed)
+        super().__init__(undelayed, period, on_landing)
+        self.high: Parts = (high,)
+        self.low: Parts = (low,)
+        self.kind = kind
         self.due = timing.L * period
         self.lr_cpu = options.cpus - 1
-        self.ready: list[int] = []  # steps k whose gain is computed, not yet in use
+        self.ready: list[int] = []  # steps k whose LR job has finished, its result not yet in use
 
     def release(self) -> tuple[Job, ...]:
         step, start = self.step, self.next_release
         self.step, self.next_release = step + 1, start + self.period
         self._use(step)
-        then = None if step % self.N else self._state_updated
-        work = self.state_update[0][1]
-        return (Job("hr", step, HR, start, self.next_release, work, self.state_update, then),)
+        then = None if step % self.N else self._high_done
+        return (Job("hr", step, HR, start, self.next_release, self.high[0][1], self.high, then),)
 
     def at_horizon(self) -> tuple[Job, ...]:
         self._use(self.step)
@@ -242,11 +258,11 @@ class Multirate(HrSource):
             self.on_landing(k // self.N, step - k)
         self.ready.clear()
 
-    def _state_updated(self, job: Job, now: int) -> tuple[Job, ...]:
-        parts, k = self.covariance_gain, job.step
+    def _high_done(self, job: Job, now: int) -> tuple[Job, ...]:
+        k = job.step
         due = k * self.period + self.due
-        return (Job("lr_gain", k, LR, now, due, parts[0][1], parts, self._computed, self.lr_cpu),)
+        return (Job(self.kind, k, LR, now, due, self.low[0][1], self.low, self._low_done, self.lr_cpu),)
 
-    def _computed(self, job: Job, _now: int) -> tuple[Job, ...]:
+    def _low_done(self, job: Job, _now: int) -> tuple[Job, ...]:
         self.ready.append(job.step)
         return ()

@@ -75,10 +75,10 @@ def impossible(method: str, timing: Timing) -> str | None:
     return None
 
 
-def check_multirate(timing: Timing) -> None:
-    """Raises InputError unless 1 <= L: a gain computed from step k on can be in use in step k + 1 at the earliest."""
+def check_two_rate(timing: Timing) -> None:
+    """Raises InputError unless 1 <= L: what the LR job of step k computes is in use in step k + 1 at the earliest."""
     if timing.L < 1:
         raise InputError(
-            f"L={timing.L} must be at least 1: a multirate gain is in use from the next step on; "
+            f"L={timing.L} must be at least 1: what the LR job computes is in use from the next step on; "
             f"give L from 1 to N={timing.N}"
         )

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from sched_sim.costs import MULTIRATE_METHODS
+from sched_sim.costs import TWO_RATE_METHODS
 from sched_sim.timing import Feedback
 
 Ints: TypeAlias = npt.NDArray[Any]
@@ -30,7 +30,7 @@ class Law(NamedTuple):
 
 def law_of(method: str, feedback: Feedback) -> Law:
     """What L a method may have (see `sched_sim.timing`). The serial methods land at m, whatever L is."""
-    if method in MULTIRATE_METHODS:
+    if method in TWO_RATE_METHODS:
         return Law(1, 0, only_first=False, undelayed=True)
     if method != "dual-rate":
         return Law(0, 0, only_first=True)

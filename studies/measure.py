@@ -26,7 +26,7 @@ from filters.kernels.counted import Operations, count
 from filters.kernels.repeat import repeat
 from filters.registry import ALL_METHODS, Job
 from filters.systems.system import System
-from sched_sim.costs import METHODS, Cost, CostTable
+from sched_sim.costs import Cost, CostTable
 
 BackendName = Literal["compiled", "counted", "numpy"]
 
@@ -63,7 +63,7 @@ def measure(
     x0: Any = None,
     seed: int = 0,
     progress: Progress = silent,
-    methods: Sequence[str] = METHODS,
+    methods: Sequence[str] = tuple(ALL_METHODS),
 ) -> CostTable:
     """The cost table of these methods on one system.
 

@@ -6,7 +6,15 @@ from typing import NamedTuple
 
 from hypothesis import strategies as st
 
-from sched_sim.costs import DualRateCosts, JobCosts, LarsenCosts, MultirateCosts, RecalculateCosts, StandardCosts
+from sched_sim.costs import (
+    DualRateCosts,
+    JobCosts,
+    LarsenCosts,
+    MultirateCosts,
+    RecalculateCosts,
+    RobustCosts,
+    StandardCosts,
+)
 from sched_sim.options import Options
 from sched_sim.timing import Timing
 
@@ -51,12 +59,11 @@ def dual_rate_designs(draw: st.DrawFn) -> Design:
 
 
 @st.composite
-def multirate_designs(draw: st.DrawFn) -> Design:
+def two_rate_designs(draw: st.DrawFn) -> Design:
     N = draw(st.integers(1, 12))
     L = draw(st.sampled_from([1, N]) | st.integers(1, N))
-    return Design(
-        MultirateCosts(draw(ticks), draw(ticks)), Timing(N, 0, L), Options(cpus=draw(st.sampled_from([1, 2])))
-    )
+    costs = draw(st.builds(MultirateCosts, ticks, ticks) | st.builds(RobustCosts, ticks, ticks))
+    return Design(costs, Timing(N, 0, L), Options(cpus=draw(st.sampled_from([1, 2]))))
 
 
-designs = serial_designs() | dual_rate_designs() | multirate_designs()
+designs = serial_designs() | dual_rate_designs() | two_rate_designs()

@@ -9,7 +9,7 @@ import typer
 
 from sched_sim.cli import options as opt
 from sched_sim.cli.output import print_csv, print_json, print_table, units
-from sched_sim.costs import METHODS
+from sched_sim.costs import SYSTEM_METHODS
 
 SYSTEM = "System"
 
@@ -32,7 +32,7 @@ Wanted = Annotated[
     list[str] | None,
     typer.Option(
         "--method",
-        help=f"{', '.join(METHODS)}; repeatable; by default all. standard is the unit, and so always among them.",
+        help=f"{', '.join(SYSTEM_METHODS)}; repeatable; by default all. standard is the unit and always among them.",
         rich_help_panel=opt.DESIGN,
     ),
 ]
@@ -76,7 +76,7 @@ def measure(
 
     if output is not None:
         check_writable(output, "--output")
-    methods = opt.known_methods(["standard", *(method or METHODS)])
+    methods = opt.known_methods(["standard", *(method or SYSTEM_METHODS)], SYSTEM_METHODS)
     if system is None:
         model, x0 = example_system(states, inputs, measurements), None
         name = f"{backend}-{states}-{inputs}-{measurements}"

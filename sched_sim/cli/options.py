@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
-from sched_sim.costs import METHODS, MULTIRATE_METHODS, CostTable, Method, Statistic, default_methods, load
+from sched_sim.costs import METHODS, TWO_RATE_METHODS, CostTable, Method, Statistic, default_methods, load
 from sched_sim.errors import InputError
 from sched_sim.options import Gain, LowRateNoise, Options
 from sched_sim.tasks import Task
@@ -64,7 +64,7 @@ Delay = Annotated[
     int | None,
     typer.Option(
         "-M",
-        help="Delay of the measurement in HR steps, 0 <= M <= N; the multirate methods have none.",
+        help="Delay of the measurement in HR steps, 0 <= M <= N; multirate and robust methods have none.",
         parser=whole,
         metavar="STEPS",
         rich_help_panel=DESIGN,
@@ -206,13 +206,14 @@ def make_options(
 
 def make_timing(N: int, M: int | None, L: int | None, method: str, options: Options) -> Timing:
     """With L the latest that the method can have, if the user did not say. Multirate methods have no delay."""
-    if method in MULTIRATE_METHODS:
+    if method in TWO_RATE_METHODS:
         if M:
-            raise InputError(f"-M {M}: {method} has no delay, it uses a measurement in every step: leave -M out")
+            raise InputError(f"-M {M}: {method} has no delay, it uses each measurement in its step: leave -M out")
         M = 0
     if M is None:
         raise InputError(
-            "-M is missing: give the delay of the measurement in HR steps, such as -M 4 (multirate methods have none)"
+            "-M is missing: give the delay of the measurement in HR steps, such as -M 4 (multirate and robust methods "
+            "have none)"
         )
     if L is None:
         latest = latest_feedback_step(N, options.feedback) if method == "dual-rate" else N
@@ -269,9 +270,9 @@ def wanted_methods(methods: Sequence[str] | None, table: CostTable) -> Sequence[
     return known_methods(methods) if methods else default_methods(table)
 
 
-def known_methods(methods: Sequence[str]) -> Sequence[str]:
-    """Each once; raises InputError for one that is none."""
+def known_methods(methods: Sequence[str], known: Sequence[str] = METHODS) -> Sequence[str]:
+    """Each once; raises InputError for one that is none of the known."""
     for method in methods:
-        if method not in METHODS:
-            raise InputError(f"--method {method!r} is unknown: choose from {', '.join(METHODS)}")
+        if method not in known:
+            raise InputError(f"--method {method!r} is unknown here: choose from {', '.join(known)}")
     return list(dict.fromkeys(methods))

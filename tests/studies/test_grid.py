@@ -7,10 +7,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from sched_sim.costs import DELAYED_METHODS, METHODS, MULTIRATE_METHODS, load
+from sched_sim.costs import DELAYED_METHODS, METHODS, TWO_RATE_METHODS, load
 from sched_sim.errors import InputError
 from sched_sim.options import Options
-from sched_sim.timing import Timing, check_dual_rate, check_multirate, latest_feedback_step
+from sched_sim.timing import Timing, check_dual_rate, check_two_rate, latest_feedback_step
 from studies.grid import Grid
 from studies.legal import Legal, law_of
 
@@ -29,11 +29,11 @@ def is_legal(method, feedback, N, M, L):
         timing = Timing(N, M, L)
         if method == "dual-rate":
             check_dual_rate(timing, feedback)
-        if method in MULTIRATE_METHODS:
-            check_multirate(timing)
+        if method in TWO_RATE_METHODS:
+            check_two_rate(timing)
     except InputError:
         return False
-    return M == 0 or method not in MULTIRATE_METHODS
+    return M == 0 or method not in TWO_RATE_METHODS
 
 
 def legal_designs(method, feedback, Ns, Ms, Ls):

@@ -8,7 +8,7 @@ import pytest
 
 from filters.systems.example import example_system
 from filters.systems.navigation import vehicle
-from sched_sim.costs import KINDS, METHODS, select
+from sched_sim.costs import KINDS, SYSTEM_METHODS, select
 from sched_sim.errors import InputError
 from sched_sim.options import Options
 from studies.measure import BackendName, measure
@@ -52,7 +52,9 @@ def number():
 SOME = ("standard", "dual-rate", "multirate-ud")
 
 
-@pytest.mark.parametrize(("backend", "methods"), [("compiled", SOME), ("counted", METHODS), ("numpy", METHODS)])
+@pytest.mark.parametrize(
+    ("backend", "methods"), [("compiled", SOME), ("counted", SYSTEM_METHODS), ("numpy", SYSTEM_METHODS)]
+)
 def test_a_measured_table_has_every_entry_and_says_where_it_comes_from(
     backend: BackendName, methods: tuple[str, ...]
 ) -> None:
