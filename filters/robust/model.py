@@ -1,0 +1,95 @@
+"""The uncertain system, and how the robust step weighs its equations."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from filters.arrays import FloatArray
+from filters.robust.check import check_existence, check_matrices, check_parameters
+
+
+class RobustModel(NamedTuple):
+    """x_{i+1} = (F + dF) x_i + (G + dG) w_i + c_i and y_i = (H + dH) x_i + (D + dD) v_i.
+
+    F (n, n), G (n, m), H (p, n), D (p, q); Q (m, m) and R (q, q), the covariances of w and v, are positive definite.
+    [dF dG] = M1 Delta_1 [E_F E_G] and [dH dD] = M2 Delta_2 [E_H E_D], with any contractions Delta_1 and Delta_2, for
+    E_F (t1, n), E_G (t1, m), E_H (t2, n), E_D (t2, q), M1 (n, s1), M2 (p, s2). t1 = 0 or t2 = 0: no uncertainty there.
+    """
+
+    F: FloatArray
+    G: FloatArray
+    H: FloatArray
+    D: FloatArray
+    Q: FloatArray
+    R: FloatArray
+    E_F: FloatArray
+    E_G: FloatArray
+    E_H: FloatArray
+    E_D: FloatArray
+    M1: FloatArray
+    M2: FloatArray
+
+
+class Weights(NamedTuple):
+    """Inverse weights: Phi1 (n, n) of the state equation, Phi2 (p, p) of the measurements, 1/lambda of the E rows."""
+
+    Phi1: FloatArray
+    Phi2: FloatArray
+    inverse_lambda: float
+
+
+def weights(model: RobustModel, mu: float = np.inf, xi: float = 0.1) -> Weights:
+    """The weights of a model as `prepared` leaves it, for the penalty mu; an infinite one gives zeros.
+
+    lambda = (1 + xi) mu max(|M1^T M1|, |M2^T M2|), Phi = I / mu - M M^T / lambda (Sayed and Nascimento 1999; Rocha and
+    Terra 2021). Without uncertainty Phi = I / mu.
+
+    Raises:
+        ValueError: mu or xi is not positive.
+    """
+    check_parameters(mu, xi)
+    n, p = len(model.F), len(model.H)
+    if np.isinf(mu):
+        return Weights(np.zeros((n, n)), np.zeros((p, p)), 0.0)
+    lambda_ = (1.0 + xi) * mu * max(_squared_norm(model.M1), _squared_norm(model.M2))
+    inverse_lambda = 1.0 / lambda_ if lambda_ > 0 else 0.0
+    return Weights(
+        np.eye(n) / mu - inverse_lambda * model.M1 @ model.M1.T,
+        np.eye(p) / mu - inverse_lambda * model.M2 @ model.M2.T,
+        inverse_lambda,
+    )
+
+
+def prepared(model: RobustModel, mu: float = np.inf, xi: float = 0.1) -> RobustModel:
+    """The model as the steps need it: contiguous arrays of floats, no E row that is zero, M zero where E is.
+
+    With a finite mu, E rows are dropped as well where M1 and M2 are zero. (With an infinite one M plays no part.)
+
+    Raises:
+        ValueError: a shape does not fit, a number is not finite, Q or R is not positive definite, mu or xi is not
+            positive, or mu is infinite and the step has no solution.
+    """
+    check_parameters(mu, xi)
+    given = RobustModel(*(np.array(matrix, dtype=np.float64, order="C") for matrix in model))
+    check_matrices(given)
+    known = np.isfinite(mu) and not given.M1.any() and not given.M2.any()
+    used_1 = (given.E_F.any(axis=1) | given.E_G.any(axis=1)) & (not known)
+    used_2 = (given.E_H.any(axis=1) | given.E_D.any(axis=1)) & (not known)
+    ready = given._replace(
+        E_F=given.E_F[used_1],
+        E_G=given.E_G[used_1],
+        E_H=given.E_H[used_2],
+        E_D=given.E_D[used_2],
+        M1=given.M1 if used_1.any() else np.zeros_like(given.M1),
+        M2=given.M2 if used_2.any() else np.zeros_like(given.M2),
+    )
+    if np.isinf(mu):
+        check_existence(ready)
+    return ready
+
+
+def _squared_norm(M: FloatArray) -> float:
+    """|M^T M|_2; 0 for a matrix without columns."""
+    return float(np.linalg.norm(M, 2) ** 2) if M.size else 0.0
