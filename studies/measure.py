@@ -76,18 +76,32 @@ def measure(
         for method in methods
         for kind, job in ALL_METHODS[method].jobs(system, update, seed, x0).items()
     }
-    about: dict[str, Any] = {
-        "backend": backend,
+    about = {
         "update_form": update,
         "states": system.states,
         "inputs": system.inputs,
         "measurements": system.measurements,
     }
+    return cost_table(jobs, backend, about, name=name, thorough=thorough, seed=seed, progress=progress)
+
+
+def cost_table(
+    jobs: Mapping[tuple[str, str], Job],
+    backend: BackendName,
+    about: Mapping[str, Any],
+    *,
+    name: str,
+    thorough: bool = False,
+    seed: int = 0,
+    progress: Progress = silent,
+) -> CostTable:
+    """The cost table of these jobs, by method and kind; about: what else is to be said of them."""
+    about = {"backend": backend, **about}
     if backend == "counted":
         operations = {key: count(job.function, *job.arguments(0)) for key, job in jobs.items()}
         about["source"] = "exact operation counts: multiply, add, divide and square root count one each"
-        counts = {key: _nonzero(found) for key, found in operations.items()}
         costs = {key: Cost.of(Fraction(found.total)) for key, found in operations.items()}
+        counts = {key: _nonzero(found) for key, found in operations.items()}
         return CostTable(name, "operation", _by_method(costs), about, operations=_by_method(counts))
     protocol = _protocol(backend, thorough)
     times = _time(jobs, backend, protocol, seed, progress)
