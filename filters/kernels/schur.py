@@ -4,12 +4,8 @@ from __future__ import annotations
 
 from filters.arrays import FloatArray
 
-
-def stack(A: FloatArray, start: int, out: FloatArray) -> None:
-    """Rows start, start + 1, ... of out become those of A (a, n), for out (any, n)."""
-    for i in range(A.shape[0]):
-        for j in range(A.shape[1]):
-            out[start + i, j] = A[i, j]
+ROUNDING = 1e-15
+"""What is left of a variance, relatively, that is nothing but rounding."""
 
 
 def add_diagonal(value: float, start: int, stop: int, J: FloatArray) -> None:
@@ -40,11 +36,11 @@ def add_outer(A: FloatArray, S: FloatArray, start: int, J: FloatArray, AS: Float
                     J[start + i, start + j] += AS[i, k] * factor
 
 
-def eliminate(count: int, J: FloatArray, values: FloatArray) -> None:
+def complement(count: int, J: FloatArray, values: FloatArray) -> None:
     """The first `count` unknowns of the symmetric system [J, values] are eliminated, without pivoting.
 
     J (l, l), of which the lower triangle is read, and values (l,): from index `count` on they become
-    J_22 - J_21 J_11^-1 J_12 and v_2 - J_21 J_11^-1 v_1.
+    J_22 - J_21 J_11^-1 J_12 and v_2 - J_21 J_11^-1 v_1. What is zero costs nothing.
     """
     for k in range(count):
         scale = 1.0 / J[k, k]
@@ -54,3 +50,28 @@ def eliminate(count: int, J: FloatArray, values: FloatArray) -> None:
                 values[i] -= factor * values[k]
                 for j in range(k + 1, i + 1):
                     J[i, j] -= factor * J[j, k]
+
+
+def decorrelate(count: int, J: FloatArray, rows: FloatArray, values: FloatArray, variances: FloatArray) -> None:
+    """The first `count` of equations whose noise has the covariance J come to share no noise with the others.
+
+    J (l, l), lower triangle, rows (l, n) and values (l,) are all transformed by the same unit lower triangular matrix.
+    An equation whose noise follows from that of others has none of its own then. variances (l,) is scratch memory.
+    """
+    for k in range(count):
+        variances[k] = J[k, k]
+    for k in range(count):
+        if J[k, k] <= ROUNDING * variances[k]:
+            J[k, k] = 0.0
+        else:
+            scale = 1.0 / J[k, k]
+            for i in range(k + 1, J.shape[0]):
+                if J[i, k] != 0.0:
+                    factor = J[i, k] * scale
+                    values[i] -= factor * values[k]
+                    for j in range(rows.shape[1]):
+                        rows[i, j] -= factor * rows[k, j]
+                    for j in range(k + 1, i + 1):
+                        J[i, j] -= factor * J[j, k]
+            for i in range(k + 1, J.shape[0]):
+                J[i, k] = 0.0

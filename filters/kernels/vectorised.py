@@ -10,6 +10,7 @@ import numpy as np
 from filters.arrays import FloatArray
 from filters.kernels import dense, solve
 from filters.kernels.rebind import rebind
+from filters.kernels.vectorised_blocks import BLOCK_VERSIONS
 from filters.kernels.vectorised_factors import FACTOR_VERSIONS
 
 
@@ -87,5 +88,6 @@ _VERSIONS: dict[FunctionType, Any] = {
         (solve.cholesky, _cholesky),
         (solve.solve_cholesky, _solve_cholesky),
         *FACTOR_VERSIONS,
+        *BLOCK_VERSIONS,
     )
 }

@@ -109,7 +109,7 @@ def check_start(model: RobustModel, x: FloatArray, P: FloatArray) -> None:
 
 
 def check_inputs(model: RobustModel, y: FloatArray, c: FloatArray) -> None:
-    """Raises ValueError, naming the argument, unless y (p,) and c (n,), or rows of both, are finite and fit the model."""
+    """Raises ValueError, naming the argument, unless y (p,) and c (n,), or rows of them, fit the model."""
     _check_array("y", y, (*y.shape[:-1], len(model.H)))
     _check_array("c", c, (*y.shape[:-1], len(model.F)))
 

@@ -7,7 +7,9 @@ from typing import NamedTuple
 import numpy as np
 
 from filters.arrays import FloatArray
-from filters.kernels.schur import add_diagonal, add_outer, eliminate, stack
+from filters.kernels.dense import add_matvec
+from filters.kernels.place import clear, place
+from filters.kernels.schur import add_diagonal, add_outer, complement, decorrelate
 from filters.robust.model import RobustModel, Weights
 from filters.robust.records import Predicted
 
@@ -23,6 +25,7 @@ class ClosedWorkspace(NamedTuple):
     process_noise_times: FloatArray  # (t1 + n, m)
     J: FloatArray  # (l + n, l + n), lower triangle
     values: FloatArray  # (l + n,)
+    variances: FloatArray  # (l + n,)
 
 
 def new_closed_workspace(model: RobustModel) -> ClosedWorkspace:
@@ -39,6 +42,7 @@ def new_closed_workspace(model: RobustModel) -> ClosedWorkspace:
         process_noise_times=np.zeros((uncertain + n, m)),
         J=np.zeros((total, total)),
         values=np.zeros(total),
+        variances=np.zeros(total),
     )
 
 
@@ -54,43 +58,36 @@ def step_closed(
     """Job: x_{i|i-1} and P_{i|i-1} become x_{i+1|i} and P_{i+1|i}, for y (p,) and c (n,).
 
     The lower triangle of the joint matrix J of measurements and next state is formed; eliminating the measurements from
-    it leaves P, which is therefore symmetric.
+    it leaves P, which is therefore symmetric. The noise is made uncorrelated first: where E_D makes a measurement free
+    of noise, the matrix of all measurements is hardly regular, and half the digits would be lost.
     """
     n, p, t1, t2 = len(model.F), len(model.H), len(model.E_F), len(model.E_H)
     measured, known = p + t2, p + t2 + t1
-    stack(model.H, 0, work.rows)
-    stack(model.E_H, p, work.rows)
-    stack(model.E_F, measured, work.rows)
-    stack(model.F, known, work.rows)
-    stack(model.D, 0, work.measurement_noise)
-    stack(model.E_D, p, work.measurement_noise)
-    stack(model.E_G, 0, work.process_noise)
-    stack(model.G, t1, work.process_noise)
+    place(model.H, 0, 0, work.rows)
+    place(model.E_H, p, 0, work.rows)
+    place(model.E_F, measured, 0, work.rows)
+    place(model.F, known, 0, work.rows)
+    place(model.D, 0, 0, work.measurement_noise)
+    place(model.E_D, p, 0, work.measurement_noise)
+    place(model.E_G, 0, 0, work.process_noise)
+    place(model.G, t1, 0, work.process_noise)
 
-    for i in range(known + n):
-        for j in range(i + 1):
-            work.J[i, j] = 0.0
-    for i in range(p):
-        for j in range(i + 1):
-            work.J[i, j] = weights.Phi2[i, j]
+    clear(work.J)
+    place(weights.Phi2, 0, 0, work.J)
     add_diagonal(weights.inverse_lambda, p, known, work.J)
-    for i in range(n):
-        for j in range(i + 1):
-            work.J[known + i, known + j] = weights.Phi1[i, j]
+    place(weights.Phi1, known, known, work.J)
     add_outer(work.measurement_noise, model.R, 0, work.J, work.measurement_noise_times)
     add_outer(work.process_noise, model.Q, measured, work.J, work.process_noise_times)
-    add_outer(work.rows, before.P, 0, work.J, work.rows_times)
-
     for i in range(known + n):
-        total = work.rows[i, 0] * before.x[0]
-        for k in range(1, n):
-            total += work.rows[i, k] * before.x[k]
-        work.values[i] = total
+        work.values[i] = 0.0
     for i in range(p):
-        work.values[i] -= y[i]
+        work.values[i] = -y[i]
     for i in range(n):
-        work.values[known + i] += c[i]
-    eliminate(known, work.J, work.values)
+        work.values[known + i] = c[i]
+    decorrelate(known, work.J, work.rows, work.values, work.variances)
+    add_matvec(work.rows, before.x, work.values)
+    add_outer(work.rows, before.P, 0, work.J, work.rows_times)
+    complement(known, work.J, work.values)
     for i in range(n):
         after.x[i] = work.values[known + i]
         for j in range(i + 1):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import Any, Literal, NamedTuple, TypeAlias
 
 import numpy as np
@@ -10,12 +11,24 @@ from numpy.typing import ArrayLike
 
 from filters.kernels.backends import BackendName, function_for
 from filters.problem import check_choice
+from filters.robust.block_step import BlockWorkspace, block_step, new_block_workspace
+from filters.robust.blocks import NATURAL, RECOMMENDED
 from filters.robust.check import check_inputs, check_start
 from filters.robust.closed import new_closed_workspace, step_closed
 from filters.robust.model import RobustModel, prepared, weights
 from filters.robust.records import Predicted
+from filters.robust.solvers import (
+    by_dense_lu,
+    by_givens,
+    by_givens_per_column,
+    by_inverse,
+    by_lu,
+    by_nonzero_inverse,
+    by_repeated_elimination,
+    by_unpivoted_lu,
+)
 
-__all__ = ["JOBS", "WAYS", "Predicted", "StepJob", "WayName", "step"]
+__all__ = ["JOBS", "STUDIED", "WAYS", "Predicted", "StepJob", "WayName", "step"]
 
 WayName: TypeAlias = Literal["inverse", "givens", "lu", "closed"]
 
@@ -27,10 +40,28 @@ class StepJob(NamedTuple):
     workspace: Callable[[RobustModel], Any]
 
 
-JOBS: dict[str, StepJob] = {
+def _blocks(solve_last: Callable[[BlockWorkspace], None], order: tuple[int, ...]) -> StepJob:
+    return StepJob(block_step(solve_last), partial(new_block_workspace, order=order))
+
+
+JOBS: dict[WayName, StepJob] = {
+    "inverse": _blocks(by_inverse, NATURAL),
+    "givens": _blocks(by_givens, RECOMMENDED),
+    "lu": _blocks(by_lu, RECOMMENDED),
     "closed": StepJob(step_closed, new_closed_workspace),
 }
-WAYS: tuple[WayName, ...] = ("inverse", "givens", "lu", "closed")
+WAYS: tuple[WayName, ...] = tuple(JOBS)
+
+STUDIED: dict[str, StepJob] = {
+    "givens, natural order": _blocks(by_givens, NATURAL),
+    "givens per column, natural order": _blocks(by_givens_per_column, NATURAL),
+    "lu, natural order": _blocks(by_lu, NATURAL),
+    "dense lu": _blocks(by_dense_lu, NATURAL),
+    "lu without pivoting": _blocks(by_unpivoted_lu, NATURAL),
+    "inverse, nonzero entries": _blocks(by_nonzero_inverse, NATURAL),
+    "inverse by repeated elimination": _blocks(by_repeated_elimination, NATURAL),
+}
+"""Further ways, to be compared with those above; not all of them work."""
 
 
 def step(
@@ -62,7 +93,7 @@ def step(
     check_start(ready, start.x, start.P)
     check_inputs(ready, measured, added)
     after = Predicted(np.empty_like(start.x), np.empty_like(start.P))
-    job = JOBS.get(way, JOBS["closed"])
+    job = JOBS[way]
     function_for(backend, job.function)(
         ready, weights(ready, mu, xi), start, measured, added, after, job.workspace(ready)
     )
