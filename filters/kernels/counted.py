@@ -102,6 +102,13 @@ class Scalar:
         self.tally.divide += 1
         return Scalar(_divide(float(other), self.value), self.tally)
 
+    def __mod__(self, other: Operand) -> Scalar:
+        """a - b floor(a / b): a divide, a multiply and an add."""
+        self.tally.divide += 1
+        self.tally.multiply += 1
+        self.tally.add += 1
+        return Scalar(self.value % float(other), self.tally)
+
     def __pow__(self, exponent: Operand) -> Scalar:
         """A square is one multiply; any other power is a function."""
         if exponent == 2:

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
 from sched_sim.cli import options as opt
 from sched_sim.cli.output import print_csv, print_json, print_table, units
 from sched_sim.costs import SYSTEM_METHODS
+from sched_sim.errors import InputError
+
+if TYPE_CHECKING:
+    from sched_sim.costs import CostTable
 
 SYSTEM = "System"
 
@@ -50,11 +55,33 @@ CostFile = Annotated[
 ]
 
 
+Robust = Annotated[
+    Literal["attitude", "position"] | None,
+    typer.Option(
+        "--robust",
+        help="Measure the methods robust-... instead: the extended robust filter of a vehicle's attitude or position.",
+        rich_help_panel=SYSTEM,
+    ),
+]
+Parallel = Annotated[
+    int | None,
+    typer.Option(
+        "--parallel",
+        help="With --robust: count Givens rotations on a device that does so many column pairs at a time.",
+        parser=opt.at_least_one,
+        metavar="COUNT",
+        rich_help_panel=SYSTEM,
+    ),
+]
+
+
 def measure(
     states: Size = 9,
     inputs: Size = 3,
     measurements: Size = 3,
     system: OwnSystem = None,
+    robust: Robust = None,
+    parallel: Parallel = None,
     method: Wanted = None,
     backend: Backend = "compiled",
     update: UpdateForm = "textbook",
@@ -66,6 +93,7 @@ def measure(
 
     sched-sim measure --states 15 --inputs 6 --measurements 3 -o costs.toml
     sched-sim measure --system mymodule:my_system -o costs.toml
+    sched-sim measure --robust position --backend counted -o erkf.toml
     """
     from filters.systems.example import example_system
     from sched_sim.cli.progress import progress_bar
@@ -76,16 +104,25 @@ def measure(
 
     if output is not None:
         check_writable(output, "--output")
-    methods = opt.known_methods(["standard", *(method or SYSTEM_METHODS)], SYSTEM_METHODS)
-    if system is None:
-        model, x0 = example_system(states, inputs, measurements), None
-        name = f"{backend}-{states}-{inputs}-{measurements}"
-    else:
-        model, x0 = load_system(system)
-        name = f"{backend}-{system.replace(':', '.')}"
+    if robust is None and parallel is not None:
+        raise InputError(f"--parallel {parallel} is for the robust filter: give --robust attitude or position too")
+    if robust is not None and (system is not None or method):
+        raise InputError(
+            f"--robust {robust} measures the methods robust-... on a system of its own: leave out --system and --method"
+        )
     with progress_bar("Measuring") as progress:
-        table = run(model, backend, update, name=name, thorough=thorough, x0=x0, progress=progress, methods=methods)
-    normalised = table.normalised()
+        if robust is not None:
+            table = _robust(robust, parallel, backend, thorough, progress)
+        else:
+            methods = opt.known_methods(["standard", *(method or SYSTEM_METHODS)], SYSTEM_METHODS)
+            if system is None:
+                model, x0 = example_system(states, inputs, measurements), None
+                name = f"{backend}-{states}-{inputs}-{measurements}"
+            else:
+                model, x0 = load_system(system)
+                name = f"{backend}-{system.replace(':', '.')}"
+            table = run(model, backend, update, name=name, thorough=thorough, x0=x0, progress=progress, methods=methods)
+    unit = table.normalised() if "standard" in table.costs else None
     rows = [
         {
             "method": method,
@@ -94,7 +131,7 @@ def measure(
             "minimum": float(cost.minimum),
             "median": float(cost.median),
             "p95": float(cost.p95),
-            "standard_steps": float(normalised.entry(method, kind).minimum),
+            "standard_steps": None if unit is None else float(unit.entry(method, kind).minimum),
         }
         for method, kinds in table.costs.items()
         for kind, cost in kinds.items()
@@ -105,9 +142,10 @@ def measure(
         print_csv(rows)
     else:
         _show(
-            f"{table.name}, {update} update, in {'ns' if table.unit == 'second' else units(table.unit)}",
+            f"{table.name}, {'' if robust else f'{update} update, '}in "
+            f"{'ns' if table.unit == 'second' else units(table.unit)}",
             rows,
-            timed=backend != "counted",
+            timed=table.unit == "second",
         )
     if output is not None:
         write_cost_table(table, output)
@@ -123,7 +161,26 @@ def _show(title: str, rows: list[dict[str, Any]], timed: bool) -> None:
             if timed
             else {"operations": f"{row['minimum']:.0f}"}
         )
-        shown.append(
-            {"method": row["method"], "job": row["job"], **figures, "std steps": f"{row['standard_steps']:.3f}"}
-        )
-    print_table(title, shown, "std steps: relative to one propagate + update of the standard filter.")
+        steps = row["standard_steps"]
+        relative = {} if steps is None else {"std steps": f"{steps:.3f}"}
+        shown.append({"method": row["method"], "job": row["job"], **figures, **relative})
+    related = any(row["standard_steps"] is not None for row in rows)
+    print_table(
+        title, shown, "std steps: relative to one propagate + update of the standard filter." if related else ""
+    )
+
+
+def _robust(
+    name: Literal["attitude", "position"],
+    parallel: int | None,
+    backend: Literal["compiled", "counted", "numpy"],
+    thorough: bool,
+    progress: Callable[[int, int, str], None],
+) -> CostTable:
+    from studies.robust_costs import parallel_costs, robust_costs
+
+    if parallel is None:
+        return robust_costs(name, backend, thorough=thorough, progress=progress)
+    if backend != "counted":
+        raise InputError(f"--parallel {parallel} is counted, not timed: give --backend counted too")
+    return parallel_costs(name, parallel)

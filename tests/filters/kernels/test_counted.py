@@ -70,3 +70,11 @@ def test_counts_add_up() -> None:
     both = Operations(1, 2, 3, 4, 5) + Operations(10, 20, 30, 40, 50)
     assert both == Operations(11, 22, 33, 44, 55)
     assert both.total == 165
+
+
+def test_a_remainder_is_a_divide_a_multiply_and_an_add() -> None:
+    def turned(angle: np.ndarray, out: np.ndarray) -> None:
+        out[0] = angle[0] % 6.0
+
+    out = np.zeros(1)
+    assert count(turned, np.array([8.0]), out) == Operations(multiply=1, add=1, divide=1)

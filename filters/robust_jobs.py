@@ -1,0 +1,115 @@
+"""The robust filter at two rates: what is done in every step, and what once in N steps."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from filters.arrays import FloatArray
+from filters.extended_robust import ExtendedWorkspace, linearise
+from filters.kernels.dense import add_vectors
+from filters.registry import Job
+from filters.robust.model import RobustModel, Weights, prepared, weights
+from filters.robust.records import Predicted
+from filters.robust.step import JOBS, WAYS
+from filters.systems.uncertain import Scaling, UncertainSystem, Uncertainty, linearised
+
+
+class Start(NamedTuple):
+    """What a filter has in memory: state x (n,), input u, measurement y (p,), in the units of the system; P (n, n),
+    scaled."""
+
+    x: FloatArray
+    u: FloatArray
+    y: FloatArray
+    P: FloatArray
+
+
+class RobustCase(NamedTuple):
+    """A model of the robust filter with its penalty mu, and a typical moment."""
+
+    system: UncertainSystem
+    scaling: Scaling
+    uncertainty: Uncertainty
+    mu: float
+    start: Start
+
+
+def inertial(system: UncertainSystem, x: FloatArray, u: FloatArray, correction: FloatArray, x_next: FloatArray) -> None:
+    """Job of every step, at high rate: x_i becomes x_{i+1}, and the last robust step's correction (n,) is added."""
+    system.f(x, u, system.parameters, x_next)
+    add_vectors(x_next, correction, x_next)
+
+
+def robust_step(
+    system: UncertainSystem,
+    scaling: Scaling,
+    step: Callable[..., None],
+    y: FloatArray,
+    x: FloatArray,
+    u: FloatArray,
+    before: Predicted,
+    model: RobustModel,
+    weight: Weights,
+    after: Predicted,
+    work: ExtendedWorkspace,
+    step_work: Any,
+) -> None:
+    """Job of every N-th step, at low rate: linearised at x, the prediction `before` becomes that of the next step.
+
+    step: a way of `filters.robust.step.JOBS`. model: its F and G are overwritten.
+    """
+    linearise(system, scaling, x, u, before.x, model, work)
+    system.residual(y, x, work.residual)
+    for k in range(len(work.y)):
+        total = work.residual[k] / scaling.measurement_unit[k]
+        for j in range(len(x)):
+            total += model.H[k, j] * before.x[j]
+        work.y[k] = total
+    step(model, weight, before, work.y, work.c, after, step_work)
+
+
+def robust_jobs(case: RobustCase, seed: int = 0) -> dict[tuple[str, str], Job]:
+    """The jobs of the methods robust-inverse, robust-givens, ..., by method and kind; see `filters.registry.Job`."""
+    return {
+        (f"robust-{way}", kind): job
+        for way in WAYS
+        for kind, job in (
+            ("inertial", Job("inertial", inertial, lambda index: _inertial(case, _moment(case, seed, index)))),
+            ("robust_step", _step_job(case, way, seed)),
+        )
+    }
+
+
+def _step_job(case: RobustCase, way: str, seed: int) -> Job:
+    return Job("robust_step", robust_step, lambda index: _robust_step(case, way, _moment(case, seed, index)))
+
+
+def _inertial(case: RobustCase, at: Start) -> tuple[Any, ...]:
+    return case.system, at.x, at.u, np.full_like(at.x, 1e-9), np.empty_like(at.x)
+
+
+def _robust_step(case: RobustCase, way: str, at: Start) -> tuple[Any, ...]:
+    system, scaling = case.system, case.scaling
+    model = prepared(linearised(system, scaling, case.uncertainty, at.x, at.u), case.mu)
+    n, p = len(at.x), len(at.y)
+    before = Predicted((at.x - scaling.origin) / scaling.unit, at.P)
+    after = Predicted(np.empty(n), np.empty((n, n)))
+    work = ExtendedWorkspace(np.empty(n), np.empty(p), np.empty(p), np.empty(0), np.empty(n))
+    job = JOBS[way]  # type: ignore[index]
+    return (
+        *(system, scaling, job.function, at.y, at.x, at.u, before, model, weights(model, case.mu), after, work),
+        job.workspace(model),
+    )
+
+
+def _moment(case: RobustCase, seed: int, index: int) -> Start:
+    """Near the case's typical moment; another index, other values."""
+    random = np.random.default_rng([seed, index])
+    start = case.start
+    x = start.x + 0.1 * case.scaling.unit * random.normal(size=len(start.x))
+    y = start.y + 0.1 * case.scaling.measurement_unit * random.normal(size=len(start.y))
+    root = np.linalg.cholesky(start.P) + 0.05 * np.tril(random.normal(size=start.P.shape))
+    return Start(x, start.u + 0.01 * random.normal(size=len(start.u)), y, root @ root.T)

@@ -1,0 +1,60 @@
+"""The counts behind the verdict on Givens rotations. Golden figures are those of the reconstruction."""
+
+from __future__ import annotations
+
+import pytest
+
+from studies.robust_costs import SYSTEMS
+from studies.robust_counts import WayCount, counts, dense_counts, kalman_counts
+
+COUNTS = counts()
+
+
+def total(system: str, penalty: str, way: str) -> int:
+    (found,) = [c for c in COUNTS if (c.system, c.penalty, c.way) == (system, penalty, way)]
+    return found.operations.total
+
+
+@pytest.mark.parametrize(
+    ("N", "n", "givens", "per_column", "inverse", "repeated"),
+    [(47, 6, 254_287, 1_506_085, 209_390, 3_410_184), (68, 9, 768_496, 6_447_550, 636_458, 14_732_654)],
+)
+def test_dense_counts(N: int, n: int, givens: int, per_column: int, inverse: int, repeated: int) -> None:
+    found = dense_counts(N, n)
+    assert (found.givens.total, found.givens_per_column.total) == (givens, per_column)
+    assert (found.inverse.total, found.repeated.total) == (inverse, repeated)
+
+
+@pytest.mark.parametrize(("N", "n", "ratio"), [(47, 6, 2.26), (68, 9, 2.285)])
+def test_givens_is_cheaper_by_the_papers_own_accounting_and_dearer_than_one_inverse(
+    N: int, n: int, ratio: float
+) -> None:
+    found = dense_counts(N, n)
+    assert found.repeated.total / found.givens_per_column.total == pytest.approx(ratio, abs=0.01)
+    assert 1.20 < found.givens.total / found.inverse.total < 1.22
+
+
+@pytest.mark.parametrize("found", [c for c in COUNTS if c.way in ("inverse", "dense lu")], ids=str)
+def test_dense_formulas_are_what_the_jobs_do(found: WayCount) -> None:
+    """Beside the solution, a job only makes P symmetric: an add and a multiply for each pair of its entries."""
+    n = 6 if found.system == "attitude" else 9
+    formula = dense_counts(found.unknowns, n)
+    expected = formula.inverse if found.way == "inverse" else formula.lu
+    pairs = n * (n - 1) // 2
+    assert found.operations == expected._replace(multiply=expected.multiply + pairs, add=expected.add + pairs)
+
+
+def test_zero_skipping_givens_of_the_attitude_system() -> None:
+    """In the reconstruction 11,842 and 36,045; here each row also knows where it ends, and P is made symmetric."""
+    assert total("attitude", "infinite", "givens") == pytest.approx(11_842, rel=0.01)
+    assert total("attitude", "infinite", "givens, natural order") == pytest.approx(36_045, rel=0.01)
+
+
+@pytest.mark.parametrize("penalty", ["infinite", "finite"])
+@pytest.mark.parametrize("system", SYSTEMS)
+def test_pivoted_lu_and_the_closed_form_are_far_cheaper(system: str, penalty: str) -> None:
+    givens, inverse = total(system, penalty, "givens"), total(system, penalty, "inverse")
+    assert inverse > 15 * givens
+    assert givens > 5 * total(system, penalty, "lu")
+    assert givens > 6 * total(system, penalty, "closed")
+    assert total(system, penalty, "closed") < 1.2 * kalman_counts(system).total
