@@ -14,10 +14,11 @@ from numpy.typing import NDArray
 from filters.arrays import FloatArray
 from filters.kernels.backends import BackendName, arguments_for, function_for
 from filters.kernels.dense import store_vector
+from filters.problem import check_choice
 from filters.robust.check import check_start
 from filters.robust.model import RobustModel, Weights, prepared, weights
 from filters.robust.records import Predicted
-from filters.robust.step import JOBS, WayName
+from filters.robust.step import JOBS, STUDIED, StepJob
 from filters.systems.uncertain import Scaling, UncertainSystem, Uncertainty, linearised, without_measurement
 
 
@@ -124,7 +125,7 @@ def run(
     *,
     mu: float = np.inf,
     xi: float = 0.1,
-    way: WayName = "closed",
+    way: str = "closed",
     backend: BackendName = "compiled",
 ) -> ExtendedHistory:
     """Filter a record of data.
@@ -132,12 +133,14 @@ def run(
     x0 (n,), in the units of the system, P0 (n, n), scaled: the prediction for step 0.
     inputs (steps, any): row i takes the state from i to i + 1.
     measurements (cycles, p): row c is taken in step cN and used in it. available (cycles,): false where it is missing.
-    mu, xi, way: as in `filters.robust.step.step`.
+    mu, xi: as in `filters.robust.step.step`. way: of `filters.robust.step`, one of JOBS or STUDIED.
 
     Raises:
         ValueError: N or the number of measurements is wrong, the model fails the checks of `prepared`, x0 and P0 those
             of `step`, the system cannot be at a state (such as a pitch of 90 degrees), or a name is unknown.
     """
+    jobs: dict[str, StepJob] = dict([*JOBS.items(), *STUDIED.items()])
+    check_choice("way", way, tuple(jobs))
     cycles = -(-len(inputs) // N) if N >= 1 else 0
     given = np.ones(cycles, dtype=np.bool_) if available is None else available
     if N < 1 or len(measurements) < cycles or len(given) < cycles:
@@ -147,7 +150,7 @@ def run(
         )
     n, steps = len(x0), len(inputs)
     model = linearised(system, scaling, uncertainty, x0, inputs[0])
-    job = JOBS[way]
+    job = jobs[way]
     seen, unseen = (_setting(kind, mu, xi, job.workspace) for kind in (model, without_measurement(model)))
     history = ExtendedHistory(np.empty((steps + 1, n)), np.empty((steps + 1, n, n)), np.empty((steps + 1, n)))
     history.x[0], history.P[0], history.scaled_x[0] = x0, P0, (x0 - scaling.origin) / scaling.unit
