@@ -1,4 +1,4 @@
-"""NumPy versions of the kernels of `place`, `givens`, `elimination`, `inversion` and `schur`, for `vectorised`."""
+"""What replaces the kernels of `givens`, `elimination`, `inversion`, `place` and `schur` in NumPy's version."""
 
 from __future__ import annotations
 
@@ -42,9 +42,8 @@ def _subtract(T: FloatArray, k: int) -> None:
 
 def _eliminate(T: FloatArray) -> None:
     for k in range(len(T) - 1):
-        row = k + np.abs(T[k:, k]).argmax()
-        if row != k:
-            T[[k, row]] = T[[row, k]]
+        rows = np.array([k, k + np.abs(T[k:, k]).argmax()])
+        T[rows] = T[rows[::-1]]
         _subtract(T, k)
 
 
