@@ -1,4 +1,4 @@
-"""The kernels of `givens`, `elimination`, `inversion`, `place` and `schur`, in each version, against NumPy's algebra."""
+"""The kernels of `givens`, `elimination`, `inversion`, `place` and `schur`, in each version, against NumPy."""
 
 from __future__ import annotations
 
