@@ -13,7 +13,7 @@ infinite mu the uncertain rows become exact equations, which cost more accuracy 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,6 +33,8 @@ from filters.systems.drive import (
     wrap,
 )
 from filters.systems.position import PositionRows, position, position_scaling, position_uncertainty
+
+Record = TypeVar("Record", bound=tuple[Any, ...])
 
 SCALE_ERRORS = (0.02, 0.10)
 SEEDS = (0, 1, 2, 3, 4)
@@ -131,6 +133,14 @@ class RawResult(NamedTuple):
     held_m: FloatArray
 
 
+class Results(NamedTuple):
+    """For each scale error, all methods."""
+
+    attitude: tuple[AttitudeResult, ...]
+    position: tuple[PositionResult, ...]
+    raw: RawResult
+
+
 class DriveFigures(NamedTuple):
     """What Figures 3 to 6 of the paper show. Routes are north, east, up from the start (m); angles in (-180, 180] deg.
 
@@ -185,6 +195,15 @@ def estimate_position(
     )  # fmt: skip
 
 
+def results(seeds: Sequence[int] = SEEDS, scale_errors: Sequence[float] = SCALE_ERRORS) -> Results:
+    """The whole study, about 20 s."""
+    return Results(
+        tuple(attitude_result(method, error, seeds) for error in scale_errors for method in ATTITUDE_METHODS),
+        tuple(position_result(method, error, seeds) for error in scale_errors for method in POSITION_METHODS),
+        raw_result(seeds),
+    )
+
+
 def attitude_result(method: AttitudeMethod, scale_error: float, seeds: Sequence[int] = SEEDS) -> AttitudeResult:
     """Of one method, over a drive of each seed."""
     errors, from_gps, from_imu = [], [], []
@@ -197,10 +216,10 @@ def attitude_result(method: AttitudeMethod, scale_error: float, seeds: Sequence[
         from_gps.append(np.degrees(wrap(yaw[::FIX_EVERY] - drive.gps_yaw))[counted[::FIX_EVERY]])
         from_imu.append(np.degrees(wrap(yaw - drive.imu_attitude[:, 2]))[counted])
     by_seed = np.array([rms(error) for error in errors])
-    return AttitudeResult(
-        method.name, scale_error, rms(by_seed), float(rms(np.array(from_gps).ravel())),
-        float(rms(np.array(from_imu).ravel())), by_seed[:, 2],
-    )  # fmt: skip
+    by_method = AttitudeResult(
+        method.name, scale_error, rms(by_seed), float(_rms_of(from_gps)), float(_rms_of(from_imu)), by_seed[:, 2]
+    )
+    return frozen(by_method)
 
 
 def position_result(method: PositionMethod, scale_error: float, seeds: Sequence[int] = SEEDS) -> PositionResult:
@@ -222,10 +241,11 @@ def position_result(method: PositionMethod, scale_error: float, seeds: Sequence[
         error_m = position_to_metres(blind.x[:, :3] - drive.position)[during(OUTAGE_S, drive.time_s)]
         outage.append(error_m)
         ends.append(np.hypot(*error_m[-1, :2]))
-    return PositionResult(
+    by_method = PositionResult(
         method.name, scale_error, _rms_of(after), _rms_of(between), _rms_of(velocity), _rms_of(outage),
         float(rms(np.array(ends))),
     )  # fmt: skip
+    return frozen(by_method)
 
 
 def raw_result(seeds: Sequence[int] = SEEDS) -> RawResult:
@@ -240,7 +260,7 @@ def raw_result(seeds: Sequence[int] = SEEDS) -> RawResult:
         error_m = position_to_metres(np.repeat(drive.gps[:, :3], FIX_EVERY, axis=0) - drive.position[:-1])
         gps.append(error_m[::FIX_EVERY][at_fix])
         held.append(error_m[settled])
-    return RawResult(float(_rms_of(imu_yaw)), float(_rms_of(gps_yaw)), _rms_of(gps), _rms_of(held))
+    return frozen(RawResult(float(_rms_of(imu_yaw)), float(_rms_of(gps_yaw)), _rms_of(gps), _rms_of(held)))
 
 
 def figures(drive: CargoDrive, attitudes: ExtendedHistory, positions: ExtendedHistory) -> DriveFigures:
@@ -248,7 +268,7 @@ def figures(drive: CargoDrive, attitudes: ExtendedHistory, positions: ExtendedHi
     from_second = 40 if drive.time_s[-1] > 41 else 0
     close_up = slice(from_second * RATE_HZ, (from_second + 1) * RATE_HZ + 1)
     fixes_per_s = RATE_HZ // FIX_EVERY
-    found = DriveFigures(
+    shown = DriveFigures(
         drive.time_s.copy(),
         drive.time_s[:-1:FIX_EVERY].copy(),
         _route_m(positions.x[:, :3]),
@@ -261,10 +281,15 @@ def figures(drive: CargoDrive, attitudes: ExtendedHistory, positions: ExtendedHi
         np.degrees(wrap(drive.imu_attitude)),
         np.degrees(wrap(drive.gps_yaw)),
     )
-    for values in found:
-        if isinstance(values, np.ndarray):
-            values.setflags(write=False)
-    return found
+    return frozen(shown)
+
+
+def frozen(record: Record) -> Record:
+    """The same record; none of its arrays can be written any more."""
+    for value in record:
+        if isinstance(value, np.ndarray):
+            value.setflags(write=False)
+    return record
 
 
 def during(interval_s: tuple[float, float], time_s: FloatArray) -> NDArray[np.bool_]:

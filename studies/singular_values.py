@@ -4,30 +4,35 @@ Figures 7 and 8 of "Computation of Extended Robust Kalman Filter for Real-Time A
 (arXiv:1801.04386): the largest and the smallest singular value of P, of the attitude and of the position filter. The
 paper compares absolute differences. Relative ones say more: where states are not scaled, the smallest singular value is
 so small that an absolute difference is nothing whatever happens. The paper's remark that LU is unstable is looked at
-too: it holds without pivoting, which meets a zero at once where mu is infinite, and not with it.
+too: it holds without pivoting, which meets a zero at once where mu is infinite, and not with it. All ways make P
+symmetric in every step.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Literal, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from filters import extended_robust
 from filters.arrays import FloatArray
 from filters.extended_robust import ExtendedHistory
-from filters.systems.attitude import AttitudeRows
 from filters.systems.drive import FIX_EVERY, RATE_HZ, START, CargoDrive, simulate_cargo_drive
-from filters.systems.position import PositionRows, position, position_scaling, position_uncertainty
+from filters.systems.position import position, position_scaling, position_uncertainty
 from filters.systems.uncertain import Scaling
 from studies.robust_drive import (
+    LIMIT_ALL,
+    LIMIT_BIAS,
+    POSITION_LIMIT,
     POSITION_P0,
+    POSITION_ROBUST,
     ROBUST,
     AttitudeMethod,
     PositionMethod,
     estimate_attitude,
     estimate_position,
+    frozen,
 )
 
 REFERENCE = "inverse"
@@ -36,21 +41,20 @@ WAYS = ("givens", "lu", "lu without pivoting")
 
 
 class Case(NamedTuple):
-    """A filter and how it is set. scaled: false for latitude and longitude in radians and biases in m/s^2."""
+    """A filter. scaled: false for latitude and longitude in radians and biases in m/s^2."""
 
-    system: Literal["attitude", "position"]
-    rows: AttitudeRows | PositionRows
-    mu: float
+    name: str
+    method: AttitudeMethod | PositionMethod
     scaled: bool = True
 
 
 CASES = (
-    Case("attitude", "bias", np.inf),
-    Case("attitude", "all", np.inf),
-    Case("attitude", "gyro", 1e5),
-    Case("position", "bias", np.inf),
-    Case("position", "bias", 1e8),
-    Case("position", "bias", np.inf, scaled=False),
+    Case("attitude, bias row, mu=inf", LIMIT_BIAS),
+    Case("attitude, all rows, mu=inf", LIMIT_ALL),
+    Case("attitude, gyro row, mu=1e5", ROBUST),
+    Case("position, bias row, mu=inf", POSITION_LIMIT),
+    Case("position, bias row, mu=1e8", POSITION_ROBUST),
+    Case("position in radians, bias row, mu=inf", POSITION_LIMIT, scaled=False),
 )
 
 
@@ -93,14 +97,12 @@ def run_case(case: Case, drive: CargoDrive, way: str) -> ExtendedHistory:
 
     The attitudes that a position filter is fed with are always those of the closed form.
     """
-    if case.system == "attitude":
-        method = AttitudeMethod("", case.rows, case.mu)  # type: ignore[arg-type]
-        return estimate_attitude(drive, method, way=way)
-    attitudes = estimate_attitude(drive, ROBUST)
+    if isinstance(case.method, AttitudeMethod):
+        return estimate_attitude(drive, case.method, way=way)
+    attitudes = estimate_attitude(drive, case.method.attitude)
     if case.scaled:
-        method_ = PositionMethod("", ROBUST, case.rows, case.mu)  # type: ignore[arg-type]
-        return estimate_position(drive, attitudes, method_, way=way)
-    return _unscaled_position(drive, attitudes, case, way)
+        return estimate_position(drive, attitudes, case.method, way=way)
+    return _unscaled_position(drive, attitudes, case.method, way)
 
 
 def compare(
@@ -155,20 +157,20 @@ def _agreement(
 
 
 def _sampled(case: Case, way: str, values: FloatArray, every: int) -> SingularValues:
-    largest, smallest = values[::every].T.copy()
+    largest, smallest = values[::every].T
     time_s = np.arange(len(values))[::every] / RATE_HZ
-    for array in (time_s, largest, smallest):
-        array.setflags(write=False)
-    return SingularValues(case, way, time_s, largest, smallest)
+    return frozen(SingularValues(case, way, time_s, largest.copy(), smallest.copy()))
 
 
-def _unscaled_position(drive: CargoDrive, attitudes: ExtendedHistory, case: Case, way: str) -> ExtendedHistory:
+def _unscaled_position(
+    drive: CargoDrive, attitudes: ExtendedHistory, method: PositionMethod, way: str
+) -> ExtendedHistory:
     unit = position_scaling(*START).unit
-    uncertainty = position_uncertainty(case.rows)  # type: ignore[arg-type]
+    uncertainty = position_uncertainty(method.rows)
     uncertainty = uncertainty._replace(E_F=uncertainty.E_F / unit)
     inputs = np.hstack([drive.accelerometer, attitudes.x[:-1, :3]])
     return extended_robust.run(
         position(START[0], START[2]), Scaling(np.zeros(9), np.ones(9), np.ones(6)), uncertainty, FIX_EVERY,
         np.append(drive.gps[0], np.zeros(3)), POSITION_P0 * np.outer(unit, unit), inputs, drive.gps,
-        mu=case.mu, way=way,
+        mu=method.mu, way=way,
     )  # fmt: skip

@@ -48,11 +48,11 @@ def simulate_cargo_drive(seconds: float = 100.0, scale_error: float = 0.02, seed
     The same seed gives the same noise whatever the scale error.
 
     Raises:
-        ValueError: there is not one whole step.
+        ValueError: there is not one whole step, or more than a day.
     """
     steps = round(seconds * RATE_HZ)
-    if steps < 1:
-        raise ValueError(f"simulate_cargo_drive: seconds={seconds} is less than one step of {1 / RATE_HZ} s")
+    if not 1 <= steps <= 86_400 * RATE_HZ:
+        raise ValueError(f"simulate_cargo_drive: seconds={seconds} must be between one step, {1 / RATE_HZ}, and a day")
     random = np.random.default_rng(seed)
     time_s = np.arange(steps + 1) / RATE_HZ
     attitude, velocity = _motion(time_s)
@@ -163,8 +163,8 @@ def _specific_force(attitude: FloatArray, position: FloatArray, velocity: FloatA
 
 def _gauss_markov(random: np.random.Generator, steps: int, sigma: float, correlation_s: float) -> FloatArray:
     decay = np.exp(-1 / (RATE_HZ * correlation_s))
-    bias = random.normal(0.0, sigma * np.sqrt(1 - decay**2), (steps, 3))
-    bias[0] = random.normal(0.0, sigma, 3)
-    for j in range(1, steps):
-        bias[j] += decay * bias[j - 1]
+    noise = random.normal(0.0, sigma * np.sqrt(1 - decay**2), (steps, 3))
+    noise[0] = random.normal(0.0, sigma, 3)
+    left = decay ** np.arange(steps)[:, np.newaxis]
+    bias: FloatArray = left * np.cumsum(noise / left, axis=0)
     return bias

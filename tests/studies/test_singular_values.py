@@ -1,0 +1,80 @@
+"""The singular values of P by Givens rotations, by LU and by an inverse, each filter on its own."""
+
+from __future__ import annotations
+
+from functools import cache
+from operator import attrgetter
+
+import numpy as np
+import pytest
+
+from studies.singular_values import CASES, Agreement, Case, Comparison, compare, singular_values
+
+LIMITS = [case for case in CASES if np.isinf(case.method.mu) and case.scaled]
+FINITE = [case for case in CASES if np.isfinite(case.method.mu)]
+NAME = attrgetter("name")
+UNSCALED = next(case for case in CASES if not case.scaled)
+
+
+@cache
+def compared(case: Case) -> Comparison:
+    return compare(case, seconds=5.0)
+
+
+def agreement(case: Case, way: str) -> Agreement:
+    (found,) = (each for each in compared(case).agreements if each.way == way)
+    return found
+
+
+def test_of_a_stack() -> None:
+    P = np.array([np.diag([3.0, 1.0, 2.0]), np.full((3, 3), np.nan)])
+    np.testing.assert_array_equal(singular_values(P), [[3.0, 1.0], [np.nan, np.nan]])
+
+
+@pytest.mark.parametrize("way", ["givens", "lu"])
+@pytest.mark.parametrize("case", [*LIMITS, *FINITE], ids=NAME)
+def test_givens_and_pivoted_lu_agree_with_the_inverse(case: Case, way: str) -> None:
+    found = agreement(case, way)
+    assert found.first_failure is None
+    assert max(found.absolute_largest, found.absolute_smallest) < 1e-10
+    assert max(found.relative_largest, found.relative_smallest) < 1e-8
+
+
+@pytest.mark.parametrize("case", LIMITS, ids=NAME)
+def test_lu_without_pivoting_fails_at_the_first_step_in_the_limit(case: Case) -> None:
+    assert agreement(case, "lu without pivoting").first_failure == 1
+
+
+@pytest.mark.parametrize("case", FINITE, ids=NAME)
+def test_lu_without_pivoting_loses_digits_where_mu_is_finite(case: Case) -> None:
+    found = agreement(case, "lu without pivoting")
+    assert found.first_failure is None
+    assert found.absolute_largest > 100 * agreement(case, "lu").absolute_largest
+
+
+def test_unscaled_states_hide_a_bad_smallest_singular_value_behind_a_small_absolute_difference() -> None:
+    found = agreement(UNSCALED, "givens")
+    assert max(found.absolute_largest, found.absolute_smallest) < 1e-11
+    scaled = agreement(LIMITS[-1], "givens")
+    assert LIMITS[-1].method == UNSCALED.method
+    assert found.relative_smallest > 1000 * scaled.relative_smallest
+
+
+def test_curves_are_sampled_and_frozen() -> None:
+    curves = compared(CASES[0]).curves
+    assert [curve.way for curve in curves] == ["inverse", "givens", "lu", "lu without pivoting"]
+    for curve in curves[:3]:
+        np.testing.assert_allclose(curve.time_s, np.arange(21) * 0.25)
+        assert (curve.largest > curve.smallest).all()
+        assert (curve.smallest > 0).all()
+    assert np.isnan(curves[3].largest[1:]).all()
+    with pytest.raises(ValueError, match="read-only"):
+        curves[0].largest[0] = 0.0
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("case", [*LIMITS, *FINITE], ids=NAME)
+def test_givens_agrees_with_the_inverse_over_the_whole_drive(case: Case) -> None:
+    (found,) = compare(case, ways=["givens"]).agreements
+    assert max(found.absolute_largest, found.absolute_smallest) < 1e-9
+    assert max(found.relative_largest, found.relative_smallest) < 1e-7
