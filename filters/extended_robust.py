@@ -128,7 +128,7 @@ def run(
     way: str = "closed",
     backend: BackendName = "compiled",
 ) -> ExtendedHistory:
-    """Filter a record of data.
+    """Filter a record of data. Where a step breaks down, as LU without pivoting may, the rest of the history is nan.
 
     x0 (n,), in the units of the system, P0 (n, n), scaled: the prediction for step 0.
     inputs (steps, any): row i takes the state from i to i + 1.

@@ -6,7 +6,7 @@ yaw follow GPS rather than the inertial unit, are positions at 400 Hz as good as
 better than the extended one when the gyros' scale is wrong?
 
 It is at a scale error of 10 %, for a finite mu: the yaw's error falls from 0.31 to 0.16 degrees. But I/mu alone, which
-is process noise on every state, does the same. At 2 % nothing is gained, in position nothing at all, and with an
+is process noise on every state, does the same. At 2 % nothing is gained, in position hardly anything, and with an
 infinite mu the uncertain rows become exact equations, which cost more accuracy than any scale error does.
 """
 
@@ -94,7 +94,7 @@ class AttitudeResult(NamedTuple):
     """Root mean squares over all seeds, degrees.
 
     errors_deg (3,): of roll, pitch, yaw. yaw_from_gps_deg: from the fixes, when they come. yaw_from_imu_deg: from the
-    unit's own yaw. yaw_by_seed_deg (seeds,): error of the yaw.
+    unit's own yaw. outage_yaw_deg: error of the yaw in ten seconds without GPS. yaw_by_seed_deg (seeds,): of the yaw.
     """
 
     method: str
@@ -102,21 +102,23 @@ class AttitudeResult(NamedTuple):
     errors_deg: FloatArray
     yaw_from_gps_deg: float
     yaw_from_imu_deg: float
+    outage_yaw_deg: float
     yaw_by_seed_deg: FloatArray
 
 
 class PositionResult(NamedTuple):
     """Root mean squares over all seeds: north, east, down (3,), metres or m/s.
 
-    after_fix_m: of the first prediction that a fix is in. between_m: of the 39 others before the next. outage_m: in ten
-    seconds without GPS; outage_end_m: horizontal error at their end.
+    after_fix_m, after_fix_velocity: of the first prediction that a fix is in. between_m, between_velocity: of the 39
+    others before the next. outage_m: in ten seconds without GPS; outage_end_m: horizontal error at their end.
     """
 
     method: str
     scale_error: float
     after_fix_m: FloatArray
     between_m: FloatArray
-    velocity: FloatArray
+    after_fix_velocity: FloatArray
+    between_velocity: FloatArray
     outage_m: FloatArray
     outage_end_m: float
 
@@ -196,7 +198,7 @@ def estimate_position(
 
 
 def results(seeds: Sequence[int] = SEEDS, scale_errors: Sequence[float] = SCALE_ERRORS) -> Results:
-    """The whole study, about 20 s."""
+    """The whole study, about half a minute."""
     return Results(
         tuple(attitude_result(method, error, seeds) for error in scale_errors for method in ATTITUDE_METHODS),
         tuple(position_result(method, error, seeds) for error in scale_errors for method in POSITION_METHODS),
@@ -206,7 +208,7 @@ def results(seeds: Sequence[int] = SEEDS, scale_errors: Sequence[float] = SCALE_
 
 def attitude_result(method: AttitudeMethod, scale_error: float, seeds: Sequence[int] = SEEDS) -> AttitudeResult:
     """Of one method, over a drive of each seed."""
-    errors, from_gps, from_imu = [], [], []
+    errors, from_gps, from_imu, outage = [], [], [], []
     for seed in seeds:
         drive = simulate_cargo_drive(scale_error=scale_error, seed=seed)
         found = estimate_attitude(drive, method).x[:, :3]
@@ -215,16 +217,19 @@ def attitude_result(method: AttitudeMethod, scale_error: float, seeds: Sequence[
         errors.append(np.degrees(found - drive.attitude)[settled])
         from_gps.append(np.degrees(wrap(yaw[::FIX_EVERY] - drive.gps_yaw))[counted[::FIX_EVERY]])
         from_imu.append(np.degrees(wrap(yaw - drive.imu_attitude[:, 2]))[counted])
+        blind = estimate_attitude(drive, method, outage_fixes(drive)).x[:, 2]
+        outage.append(np.degrees(blind - drive.attitude[:, 2])[during(OUTAGE_S, drive.time_s)])
     by_seed = np.array([rms(error) for error in errors])
     by_method = AttitudeResult(
-        method.name, scale_error, rms(by_seed), float(_rms_of(from_gps)), float(_rms_of(from_imu)), by_seed[:, 2]
-    )
+        method.name, scale_error, rms(by_seed), float(_rms_of(from_gps)), float(_rms_of(from_imu)),
+        float(_rms_of(outage)), by_seed[:, 2],
+    )  # fmt: skip
     return frozen(by_method)
 
 
 def position_result(method: PositionMethod, scale_error: float, seeds: Sequence[int] = SEEDS) -> PositionResult:
     """Of one method, over a drive of each seed and the same drive with an outage."""
-    after, between, velocity, outage, ends = [], [], [], [], []
+    after, between, after_velocity, between_velocity, outage, ends = [], [], [], [], [], []
     for seed in seeds:
         drive = simulate_cargo_drive(scale_error=scale_error, seed=seed)
         step = np.arange(len(drive.time_s))
@@ -233,17 +238,19 @@ def position_result(method: PositionMethod, scale_error: float, seeds: Sequence[
         error_m = position_to_metres(found.x[:, :3] - drive.position)
         after.append(error_m[settled & fresh])
         between.append(error_m[settled & ~fresh])
-        velocity.append((found.x[:, 3:6] - drive.velocity)[settled])
+        error = found.x[:, 3:6] - drive.velocity
+        after_velocity.append(error[settled & fresh])
+        between_velocity.append(error[settled & ~fresh])
 
-        available = ~during(OUTAGE_S, drive.time_s[:-1:FIX_EVERY])
+        available = outage_fixes(drive)
         attitudes = estimate_attitude(drive, method.attitude, available)
         blind = estimate_position(drive, attitudes, method, available)
         error_m = position_to_metres(blind.x[:, :3] - drive.position)[during(OUTAGE_S, drive.time_s)]
         outage.append(error_m)
         ends.append(np.hypot(*error_m[-1, :2]))
     by_method = PositionResult(
-        method.name, scale_error, _rms_of(after), _rms_of(between), _rms_of(velocity), _rms_of(outage),
-        float(rms(np.array(ends))),
+        method.name, scale_error, _rms_of(after), _rms_of(between),
+        _rms_of(after_velocity), _rms_of(between_velocity), _rms_of(outage), float(rms(np.array(ends))),
     )  # fmt: skip
     return frozen(by_method)
 
@@ -290,6 +297,12 @@ def frozen(record: Record) -> Record:
         if isinstance(value, np.ndarray):
             value.setflags(write=False)
     return record
+
+
+def outage_fixes(drive: CargoDrive) -> NDArray[np.bool_]:
+    """Which fixes (fixes,) there are when GPS is out in `OUTAGE_S`."""
+    available: NDArray[np.bool_] = ~during(OUTAGE_S, drive.time_s[:-1:FIX_EVERY])
+    return available
 
 
 def during(interval_s: tuple[float, float], time_s: FloatArray) -> NDArray[np.bool_]:

@@ -1,8 +1,8 @@
 """A nonlinear system whose noise enters through a matrix and whose matrices are uncertain, and its scaling.
 
 The robust filter's penalties mu and lambda weigh all states alike, so it works in units of `Scaling`, where typical
-errors are of one size. A latitude in radians beside a speed in m/s would leave the smallest singular values of its
-matrix with three right digits.
+errors are of one size. A latitude in radians beside a speed in m/s would leave the smallest singular value of its
+matrix P with two right digits after 40,000 steps.
 """
 
 from __future__ import annotations

@@ -208,7 +208,8 @@ def test_position_between_fixes_is_as_good_as_at_fixes(method: PositionMethod) -
     np.testing.assert_allclose(result.between_m, result.after_fix_m, rtol=0.02)
     assert (result.between_m < raw.gps_m / 5).all()
     assert (result.between_m < 0.1).all()
-    assert (result.velocity < 0.03).all()
+    np.testing.assert_allclose(result.between_velocity, result.after_fix_velocity, rtol=0.05)
+    assert (result.between_velocity < 0.03).all()
 
 
 def test_robustness_does_not_pay_in_position() -> None:
@@ -218,8 +219,10 @@ def test_robustness_does_not_pay_in_position() -> None:
 
 
 @pytest.mark.parametrize("method", [study.POSITION_EKF, study.POSITION_ROBUST])
-def test_ten_seconds_without_gps_cost_about_a_metre(method: PositionMethod) -> None:
+def test_ten_seconds_without_gps_cost_about_a_metre_and_a_degree(method: PositionMethod) -> None:
+    """The yaw drifts with the unit's: its correction is held on."""
     result = position_result(method)
+    assert 0.3 < attitude_result(method.attitude, 0.02).outage_yaw_deg < 1.0
     assert (result.outage_m < 1.0).all()
     assert result.outage_end_m < 1.5
 
