@@ -77,6 +77,33 @@ def linearise(
         work.c[i] = total
 
 
+def robust_step(
+    system: UncertainSystem,
+    scaling: Scaling,
+    step: Callable[..., None],
+    y: FloatArray,
+    x: FloatArray,
+    u: FloatArray,
+    before: Predicted,
+    seen: Setting,
+    after: Predicted,
+    work: ExtendedWorkspace,
+) -> None:
+    """Job: linearised at x (n,), which is before.x in the units of the system, a prediction becomes that of the next
+    step, with the measurement y (p,).
+
+    step: the function of a way in `filters.robust.step.JOBS`.
+    """
+    linearise(system, scaling, x, u, before.x, seen.model, work)
+    system.residual(y, x, work.residual)
+    for k in range(len(work.y)):
+        total = work.residual[k] / scaling.measurement_unit[k]
+        for j in range(len(x)):
+            total += seen.model.H[k, j] * before.x[j]
+        work.y[k] = total
+    step(seen.model, seen.weights, before, work.y, work.c, after, seen.work)
+
+
 def filter_all(
     system: UncertainSystem,
     scaling: Scaling,
@@ -96,14 +123,7 @@ def filter_all(
         before = Predicted(history.scaled_x[i], history.P[i])
         after = Predicted(history.scaled_x[i + 1], history.P[i + 1])
         if i % N == 0 and available[cycle]:
-            linearise(system, scaling, x, u, before.x, seen.model, work)
-            system.residual(measurements[cycle], x, work.residual)
-            for k in range(len(work.y)):
-                total = work.residual[k] / scaling.measurement_unit[k]
-                for j in range(len(x)):
-                    total += seen.model.H[k, j] * before.x[j]
-                work.y[k] = total
-            step(seen.model, seen.weights, before, work.y, work.c, after, seen.work)
+            robust_step(system, scaling, step, measurements[cycle], x, u, before, seen, after, work)
         else:
             linearise(system, scaling, x, u, before.x, unseen.model, work)
             step(unseen.model, unseen.weights, before, work.no_y, work.c, after, unseen.work)

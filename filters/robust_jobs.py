@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from filters.arrays import FloatArray
-from filters.extended_robust import ExtendedWorkspace, linearise
+from filters.extended_robust import ExtendedWorkspace, Setting, robust_step
 from filters.kernels.dense import add_vectors
 from filters.registry import Job
-from filters.robust.model import RobustModel, Weights, prepared, weights
+from filters.robust.model import prepared, weights
 from filters.robust.records import Predicted
-from filters.robust.step import JOBS, WAYS
+from filters.robust.step import JOBS, WAYS, WayName
 from filters.systems.uncertain import Scaling, UncertainSystem, Uncertainty, linearised
 
 
@@ -43,34 +42,6 @@ def inertial(system: UncertainSystem, x: FloatArray, u: FloatArray, correction: 
     add_vectors(x_next, correction, x_next)
 
 
-def robust_step(
-    system: UncertainSystem,
-    scaling: Scaling,
-    step: Callable[..., None],
-    y: FloatArray,
-    x: FloatArray,
-    u: FloatArray,
-    before: Predicted,
-    model: RobustModel,
-    weight: Weights,
-    after: Predicted,
-    work: ExtendedWorkspace,
-    step_work: Any,
-) -> None:
-    """Job of every N-th step, at low rate: linearised at x, the prediction `before` becomes that of the next step.
-
-    step: a way of `filters.robust.step.JOBS`. model: its F and G are overwritten.
-    """
-    linearise(system, scaling, x, u, before.x, model, work)
-    system.residual(y, x, work.residual)
-    for k in range(len(work.y)):
-        total = work.residual[k] / scaling.measurement_unit[k]
-        for j in range(len(x)):
-            total += model.H[k, j] * before.x[j]
-        work.y[k] = total
-    step(model, weight, before, work.y, work.c, after, step_work)
-
-
 def robust_jobs(case: RobustCase, seed: int = 0) -> dict[tuple[str, str], Job]:
     """The jobs of the methods robust-inverse, robust-givens, ..., by method and kind; see `filters.registry.Job`."""
     return {
@@ -83,7 +54,7 @@ def robust_jobs(case: RobustCase, seed: int = 0) -> dict[tuple[str, str], Job]:
     }
 
 
-def _step_job(case: RobustCase, way: str, seed: int) -> Job:
+def _step_job(case: RobustCase, way: WayName, seed: int) -> Job:
     return Job("robust_step", robust_step, lambda index: _robust_step(case, way, _moment(case, seed, index)))
 
 
@@ -91,18 +62,16 @@ def _inertial(case: RobustCase, at: Start) -> tuple[Any, ...]:
     return case.system, at.x, at.u, np.full_like(at.x, 1e-9), np.empty_like(at.x)
 
 
-def _robust_step(case: RobustCase, way: str, at: Start) -> tuple[Any, ...]:
+def _robust_step(case: RobustCase, way: WayName, at: Start) -> tuple[Any, ...]:
     system, scaling = case.system, case.scaling
     model = prepared(linearised(system, scaling, case.uncertainty, at.x, at.u), case.mu)
     n, p = len(at.x), len(at.y)
     before = Predicted((at.x - scaling.origin) / scaling.unit, at.P)
     after = Predicted(np.empty(n), np.empty((n, n)))
     work = ExtendedWorkspace(np.empty(n), np.empty(p), np.empty(p), np.empty(0), np.empty(n))
-    job = JOBS[way]  # type: ignore[index]
-    return (
-        *(system, scaling, job.function, at.y, at.x, at.u, before, model, weights(model, case.mu), after, work),
-        job.workspace(model),
-    )
+    job = JOBS[way]
+    setting = Setting(model, weights(model, case.mu), job.workspace(model))
+    return system, scaling, job.function, at.y, at.x, at.u, before, setting, after, work
 
 
 def _moment(case: RobustCase, seed: int, index: int) -> Start:

@@ -32,7 +32,7 @@ def test_all_ways_take_the_same_step(system: SystemName) -> None:
         if kind == "robust_step":
             arguments = arguments_for("reference", job.arguments(3))
             function_for("reference", job.function)(*arguments)
-            results.append(arguments[9])
+            results.append(arguments[8])
     for other in results[1:]:
         np.testing.assert_allclose(other.x, results[0].x, rtol=1e-9)
         np.testing.assert_allclose(other.P, results[0].P, rtol=1e-8, atol=1e-10)
