@@ -1,0 +1,99 @@
+"""What a step of the robust filter costs, one row for each way to compute it: counted, and timed."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from reports.erkf_axes import AXIS_MM, EDGE_MM, TITLE_MM, decades, plain
+from reports.legend import draw_legend, legend_height, line_entry
+from reports.style import (
+    FONT_PT,
+    INK,
+    PALE,
+    SMALL_PT,
+    SOURCE_LINES,
+    TITLE_PT,
+    WIDTH_MM,
+    axes_at,
+    drawing,
+    page,
+    text_width_mm,
+)
+
+ROW_MM, GAP_MM, RIGHT_MM = 4.8, 8.0, 4.0
+COUNTS_SHARE = 0.6
+"""Of the width; the times have the rest."""
+
+
+class Way(NamedTuple):
+    """One way to compute the step. operations, seconds: by system; a way that is not timed has no seconds."""
+
+    name: str
+    operations: Mapping[str, int]
+    seconds: Mapping[str, float] = {}
+
+
+def cost_figure(groups: Mapping[str, Sequence[Way]], step_s: float) -> Figure:
+    """Operations, and the time of the compiled code, each on a logarithmic axis; a sign for each system.
+
+    groups: rows under a common heading; step_s: the HR period, a line among the times.
+    """
+    ways = [way for of_group in groups.values() for way in of_group]
+    systems = list(dict.fromkeys(system for way in ways for system in way.operations))
+    with drawing():
+        left = EDGE_MM + 3.0 + max(text_width_mm(way.name) for way in ways)
+        across = WIDTH_MM - left - RIGHT_MM - GAP_MM
+        widths = [across * COUNTS_SHARE, across * (1 - COUNTS_SHARE)]
+        height = ROW_MM * (len(ways) + len(groups))
+        legend = [line_entry(name, line, dashes=False) for name, line in zip(systems, SOURCE_LINES[1:], strict=False)]
+        legend_top = EDGE_MM + TITLE_MM + height + AXIS_MM
+        figure = page(legend_top + legend_height(legend, across) + EDGE_MM)
+        counts = axes_at(figure, left, EDGE_MM + TITLE_MM, widths[0], height)
+        times = axes_at(figure, left + widths[0] + GAP_MM, EDGE_MM + TITLE_MM, widths[1], height)
+        y = 0
+        for group, of_group in groups.items():
+            heading = counts.annotate(
+                group, (0, y), (3 - left * 72 / 25.4, 0), xycoords=counts.get_yaxis_transform(),
+                textcoords="offset points", va="center", size=FONT_PT, weight="bold",
+            )  # fmt: skip
+            heading.set_in_layout(False)
+            y += 1
+            for way in of_group:
+                _row(counts, y, way.operations, systems, way.name)
+                _row(times, y, {system: 1e6 * time for system, time in way.seconds.items()}, systems)
+                y += 1
+        for axes in (counts, times):
+            axes.set(ylim=(y - 0.4, -0.6), yticks=[])
+            axes.spines["left"].set_visible(False)
+            plain(axes)
+        numbers = [number for way in ways for number in way.operations.values()]
+        decades(counts, "x", min(numbers) / 2, 2 * max(numbers))
+        micros = [1e6 * time for way in ways for time in way.seconds.values()]
+        decades(times, "x", min(micros) / 2, 3e6 * step_s)
+        times.axvline(1e6 * step_s, color=INK, lw=0.7, ls=(0, (2, 1.5)), zorder=1)
+        times.annotate(
+            f"one step at {1 / step_s:g} Hz", (1e6 * step_s, 0), (-3, 0), textcoords="offset points", ha="right",
+            va="center", size=SMALL_PT,
+        )  # fmt: skip
+        counts.set_title("Operations in a step", loc="left", size=TITLE_PT)
+        times.set_title("Time of the compiled code †", loc="left", size=TITLE_PT)
+        counts.set_xlabel("floating-point operations", labelpad=2)
+        times.set_xlabel("µs", labelpad=2)
+        draw_legend(figure, legend, left, legend_top, across)
+        return figure
+
+
+def _row(axes: Axes, y: int, values: Mapping[str, float], systems: Sequence[str], name: str = "") -> None:
+    axes.axhline(y, color=PALE, lw=0.5, zorder=0.5)
+    if name:
+        axes.annotate(
+            name, (0, y), (-4, 0), xycoords=axes.get_yaxis_transform(), textcoords="offset points", ha="right",
+            va="center",
+        )  # fmt: skip
+    for system, line in zip(systems, SOURCE_LINES[1:], strict=False):
+        if system in values:
+            axes.plot([values[system]], [y], line.marker, color=line.colour, ms=line.size + 0.6, mew=0, zorder=3)
