@@ -1,0 +1,113 @@
+"""Operation counts of the robust step as the report groups and names them, and the verdict on Givens rotations."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cache
+from typing import NamedTuple
+
+from filters.robust.blocks import NATURAL, RECOMMENDED
+from filters.robust.model import prepared, weights
+from filters.robust.parallel import Schedule, greedy, sameh_kuck
+from filters.robust.parallel_cost import time_units
+from filters.robust.parallel_step import step_pattern
+from filters.systems.uncertain import linearised
+from studies.robust_costs import SYSTEMS, SystemName, robust_case
+from studies.robust_counts import PENALTIES, Penalty, counts, dense_counts, kalman_counts
+
+REPEATED = "N eliminations, dense, as the paper counts"
+INVERSE = "one Gauss-Jordan inverse, dense"
+INVERSE_SKIPPING = "the same, zeros skipped"
+PER_COLUMN = "a QR for each column, dense, as the paper does"
+GIVENS = "one QR, dense"
+GIVENS_NATURAL = "one QR, zeros skipped, natural order"
+GIVENS_ORDERED = "one QR, zeros skipped, recommended order"
+LU = "LU with pivoting, dense"
+LU_NATURAL = "the same, zeros skipped, natural order"
+LU_ORDERED = "the same, zeros skipped, recommended order"
+CLOSED = "closed form, zeros skipped"
+KALMAN = "plain Kalman filter, dense"
+
+GROUPS: Mapping[str, tuple[str, ...]] = {
+    "By explicit inverse": (REPEATED, INVERSE, INVERSE_SKIPPING),
+    "By Givens rotations": (PER_COLUMN, GIVENS, GIVENS_NATURAL, GIVENS_ORDERED),
+    "By neither": (LU, LU_NATURAL, LU_ORDERED, CLOSED, KALMAN),
+}
+TIMED = {INVERSE: "robust-inverse", GIVENS_ORDERED: "robust-givens", LU_ORDERED: "robust-lu", CLOSED: "robust-closed"}
+"""Of which the compiled code is timed, with the linearisation in it."""
+
+_COUNTED = {
+    INVERSE_SKIPPING: "inverse, nonzero entries",
+    GIVENS_NATURAL: "givens, natural order",
+    GIVENS_ORDERED: "givens",
+    LU: "dense lu",
+    LU_NATURAL: "lu, natural order",
+    LU_ORDERED: "lu",
+    CLOSED: "closed",
+}
+
+PROCESSORS = (1, 4, 16, 64, 256, 1024)
+SCHEDULES = ("dense, Sameh and Kuck", "sparse, greedy, natural order", "sparse, greedy, recommended order")
+
+
+class Counts(NamedTuple):
+    """unknowns: N of the block system by system; operations: by way, system and penalty."""
+
+    unknowns: Mapping[SystemName, int]
+    operations: Mapping[str, Mapping[tuple[SystemName, Penalty], int]]
+
+    def ratio(self, way: str, other: str, system: SystemName, penalty: Penalty = "finite") -> float:
+        """How many times as many operations `way` takes as `other`."""
+        return self.operations[way][system, penalty] / self.operations[other][system, penalty]
+
+
+@cache
+def all_counts() -> Counts:
+    """Of both systems with all their uncertainties; counts of dense systems do not depend on the penalty."""
+    counted = {(found.system, found.penalty, found.way): found for found in counts()}
+    unknowns = {system: counted[system, "finite", "givens"].unknowns for system in SYSTEMS}
+    operations: dict[str, dict[tuple[SystemName, Penalty], int]] = {}
+    for way in (way for ways in GROUPS.values() for way in ways):
+        operations[way] = {}
+        for system in SYSTEMS:
+            dense = dense_counts(unknowns[system], len(robust_case(system).start.x))
+            by_formula = {
+                REPEATED: dense.repeated,
+                INVERSE: dense.inverse,
+                PER_COLUMN: dense.givens_per_column,
+                GIVENS: dense.givens,
+                KALMAN: kalman_counts(system),
+            }
+            for penalty in PENALTIES:
+                found = by_formula[way] if way in by_formula else counted[system, penalty, _COUNTED[way]].operations
+                operations[way][system, penalty] = found.total
+    return Counts(unknowns, operations)
+
+
+class Parallel(NamedTuple):
+    """N: unknowns; stages, rotations: of each schedule; times: by schedule and number of processors."""
+
+    N: int
+    stages: Mapping[str, int]
+    rotations: Mapping[str, int]
+    times: Mapping[str, Mapping[int, int]]
+
+
+@cache
+def parallel(system: SystemName) -> Parallel:
+    """Triangularisation of the system as it is scheduled: finite mu, scale factors uncertain."""
+    case = robust_case(system)
+    start = case.start
+    model = prepared(linearised(case.system, case.scaling, case.uncertainty, start.x, start.u), case.mu)
+    weight = weights(model, case.mu)
+    patterns = [step_pattern(model, weight, order=order) for order in (NATURAL, RECOMMENDED)]
+    N = len(patterns[0])
+    found: dict[str, Schedule] = dict(
+        zip(SCHEDULES, (sameh_kuck(N, len(start.x) + 1), *map(greedy, patterns)), strict=True)
+    )
+    return Parallel(
+        N,
+        {name: len(schedule.stages) for name, schedule in found.items()},
+        {name: sum(map(len, schedule.stages)) for name, schedule in found.items()},
+        {name: {P: time_units(schedule, P) for P in PROCESSORS} for name, schedule in found.items()},
+    )

@@ -1,0 +1,187 @@
+"""Figures 3 to 6 of the paper on a simulated drive: the route, the time between fixes, attitude and position; and the
+errors, which the paper's own drive could not show."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
+
+from filters.arrays import FloatArray
+from filters.systems.drive import wrap
+from reports.erkf_axes import AXIS_MM, EDGE_MM, TITLE_MM, plain
+from reports.legend import Entry, draw_legend, legend_height, line_entry
+from reports.style import GREY, INK, PALE, SOURCE_LINES, TITLE_PT, WIDTH_MM, Line, axes_at, drawing, page
+
+Columns = Mapping[str, FloatArray]
+
+LEFT_MM, RIGHT_MM, GAP_MM, BETWEEN_MM, ROW_MM = 15.0, 4.0, 14.0, 4.0, 34.0
+TRUE = Line(INK, "-", "")
+GPS = Line("#9bb8cf", (0, (1.0, 1.2)), ".", 3.0)
+IMU = Line("#2e7d4f", (0, (4.0, 1.5)), "")
+FILTERS = {"EKF": SOURCE_LINES[2]._replace(marker=""), "ERKF": SOURCE_LINES[1]._replace(marker="")}
+ANGLES, AXES = ("roll", "pitch", "yaw"), ("north", "east", "up")
+
+
+def route_figure(drive: Columns, close_up: Columns, error: str) -> Figure:
+    """Left, the route from above with its fixes; right, one second of it: along the way and across it.
+
+    error: which scale error, as in the columns' names.
+    """
+    with drawing():
+        width = (WIDTH_MM - LEFT_MM - RIGHT_MM - GAP_MM) / 2
+        height = 2 * ROW_MM + BETWEEN_MM
+        legend = [
+            line_entry("true", TRUE),
+            line_entry("GPS fixes, 10 Hz", GPS._replace(size=5.0), dashes=False),
+            *(line_entry(f"{name}, 400 Hz", line) for name, line in FILTERS.items()),
+        ]
+        legend_top = EDGE_MM + TITLE_MM + height + AXIS_MM
+        figure = page(legend_top + legend_height(legend, WIDTH_MM - LEFT_MM - RIGHT_MM) + EDGE_MM)
+        route = axes_at(figure, LEFT_MM, EDGE_MM + TITLE_MM, width, height)
+        route.plot(drive["gps east"], drive["gps north"], GPS.marker, color=GPS.colour, ms=2.0, mew=0)
+        for name, line in FILTERS.items():
+            route.plot(drive[f"{name} {error} east"], drive[f"{name} {error} north"], color=line.colour, lw=0.9)
+        route.set_aspect("equal", adjustable="datalim")
+        route.plot([drive["true east"][0]], [drive["true north"][0]], "o", ms=5, mfc="none", mec=INK, mew=0.9)
+        _style(route, "The route", "east (m)", "north (m)")
+        _close_up(figure, drive, close_up, error, LEFT_MM + width + GAP_MM, width)
+        draw_legend(figure, legend, LEFT_MM, legend_top, WIDTH_MM - LEFT_MM - RIGHT_MM)
+        return figure
+
+
+def _close_up(figure: Figure, drive: Columns, close_up: Columns, error: str, left: float, width: float) -> None:
+    time_s = close_up["time_s"]
+    start = np.array([close_up["true north"][0], close_up["true east"][0]])
+    way = np.array([close_up["true north"][-1], close_up["true east"][-1]]) - start
+    way /= np.linalg.norm(way)
+    sides = {"along the way (m)": way, "right of it (m)": np.array([-way[1], way[0]])}
+    fixes = (drive["time_s"] >= time_s[0]) & (drive["time_s"] <= time_s[-1])
+
+    def along(columns: Columns, what: str, side: FloatArray) -> FloatArray:
+        there: FloatArray = (np.array([columns[f"{what} north"], columns[f"{what} east"]]).T - start) @ side
+        return there
+
+    for row, (name, side) in enumerate(sides.items()):
+        axes = axes_at(figure, left, EDGE_MM + TITLE_MM + row * (ROW_MM + BETWEEN_MM), width, ROW_MM)
+        axes.plot(time_s, along(close_up, "true", side), color=INK, lw=0.7)
+        for of_filter, line in FILTERS.items():
+            axes.plot(time_s, along(close_up, f"{of_filter} {error}", side), color=line.colour, lw=0.9)
+        at, seen = drive["time_s"][fixes], along(drive, "gps", side)[fixes]
+        axes.plot(at, seen, GPS.marker, color=GPS.colour, ms=6.0, mew=0)
+        _style(axes, "One second, every 400 Hz step" if row == 0 else "", "time (s)" if row else "", name)
+        axes.tick_params(axis="x", labelbottom=row == 1)
+
+
+def attitude_figure(drive: Columns, error: str) -> Figure:
+    """Roll, pitch and yaw of both filters, with what GPS and the inertial unit say of yaw."""
+    with drawing():
+        legend = [
+            line_entry("true", TRUE),
+            line_entry("GPS yaw", GPS._replace(size=5.0), dashes=False),
+            line_entry("IMU", IMU),
+            *(line_entry(name, line) for name, line in FILTERS.items()),
+        ]
+        figure, rows = _stack(3, legend)
+        for axes, angle in zip(rows, ANGLES, strict=True):
+            time_s, truth = drive["time_s"], drive[f"true {angle}"]
+            if angle == "yaw":
+                seen = _near(drive["gps yaw"], truth)
+                axes.plot(time_s, seen, GPS.marker, color=GPS.colour, ms=5.0, mew=0)
+                axes.plot(time_s, _near(drive["imu yaw"], truth), color=IMU.colour, ls=IMU.dashes, lw=1.0)
+            else:
+                axes.plot(time_s, drive[f"imu {angle}"], color="#b7cfbc", lw=0.4)
+            for name, line in FILTERS.items():
+                axes.plot(time_s, _near(drive[f"{name} {error} {angle}"], truth), color=line.colour, lw=0.9)
+            axes.plot(time_s, _turned(truth), color=INK, lw=0.6)
+            _style(axes, "", "time (s)" if axes is rows[-1] else "", f"{angle} (deg)")
+        return figure
+
+
+def position_figure(drive: Columns, error: str) -> Figure:
+    """North, east and up: the estimates less the truth, with the fixes less the truth behind them."""
+    with drawing():
+        legend = [
+            line_entry("GPS fixes", GPS._replace(size=5.0), dashes=False),
+            *(line_entry(name, line) for name, line in FILTERS.items()),
+        ]
+        figure, rows = _stack(3, legend)
+        for axes, side in zip(rows, AXES, strict=True):
+            truth = drive[f"true {side}"]
+            axes.axhline(0.0, color=INK, lw=0.6)
+            axes.plot(drive["time_s"], drive[f"gps {side}"] - truth, GPS.marker, color=GPS.colour, ms=2.6, mew=0)
+            for name, line in FILTERS.items():
+                axes.plot(drive["time_s"], drive[f"{name} {error} {side}"] - truth, color=line.colour, lw=0.9)
+            _style(axes, "", "time (s)" if axes is rows[-1] else "", f"{side}, error (m)")
+        return figure
+
+
+def errors_figure(drive: Columns, errors: Sequence[str]) -> Figure:
+    """Errors of roll, pitch and yaw, a column for each scale error: the filters beside one another."""
+    with drawing():
+        legend = [line_entry(name, line) for name, line in FILTERS.items()]
+        across = WIDTH_MM - LEFT_MM - RIGHT_MM
+        width = (across - GAP_MM * (len(errors) - 1)) / len(errors)
+        legend_top = EDGE_MM + TITLE_MM + 3 * ROW_MM + 2 * BETWEEN_MM + AXIS_MM
+        figure = page(legend_top + legend_height(legend, across) + EDGE_MM)
+        for row, angle in enumerate(ANGLES):
+            found = {
+                (error, name): wrapped_deg(drive[f"{name} {error} {angle}"] - drive[f"true {angle}"])
+                for error in errors
+                for name in FILTERS
+            }
+            settled = drive["time_s"] >= 5
+            limit = 1.15 * max(float(np.abs(values[settled]).max()) for values in found.values())
+            for column, error in enumerate(errors):
+                top = EDGE_MM + TITLE_MM + row * (ROW_MM + BETWEEN_MM)
+                axes = axes_at(figure, LEFT_MM + column * (width + GAP_MM), top, width, ROW_MM)
+                axes.axhline(0.0, color=GREY, lw=0.6)
+                for name, line in FILTERS.items():
+                    axes.plot(drive["time_s"], found[error, name], color=line.colour, lw=0.8)
+                axes.set_ylim(-limit, limit)
+                title = f"Gyro scale wrong by {error}" if row == 0 else ""
+                _style(axes, title, "time (s)" if row == 2 else "", f"{angle}, error (deg)" if column == 0 else "")
+                axes.tick_params(axis="x", labelbottom=row == 2)
+        draw_legend(figure, legend, LEFT_MM, legend_top, across)
+        return figure
+
+
+def wrapped_deg(angles: FloatArray) -> FloatArray:
+    """In (-180, 180]."""
+    return np.degrees(wrap(np.radians(angles)))
+
+
+def _stack(count: int, legend: Sequence[Entry]) -> tuple[Figure, list[Axes]]:
+    """Plots below one another, the same time across, and a legend."""
+    across = WIDTH_MM - LEFT_MM - RIGHT_MM
+    legend_top = EDGE_MM + count * ROW_MM + (count - 1) * BETWEEN_MM + AXIS_MM
+    figure = page(legend_top + legend_height(legend, across) + EDGE_MM)
+    rows = [
+        axes_at(figure, LEFT_MM, EDGE_MM + number * (ROW_MM + BETWEEN_MM), across, ROW_MM) for number in range(count)
+    ]
+    for axes in rows[:-1]:
+        axes.tick_params(axis="x", labelbottom=False)
+    draw_legend(figure, legend, LEFT_MM, legend_top, across)
+    return figure, rows
+
+
+def _turned(angles: FloatArray) -> FloatArray:
+    return np.unwrap(angles, period=360.0)
+
+
+def _near(angles: FloatArray, truth: FloatArray) -> FloatArray:
+    """The same angles, without jumps where the truth has none."""
+    return _turned(truth) + wrapped_deg(angles - truth)
+
+
+def _style(axes: Axes, title: str, across: str, up: str) -> None:
+    if title:
+        axes.set_title(title, loc="left", size=TITLE_PT)
+    axes.set_xlabel(across, labelpad=2)
+    axes.set_ylabel(up, labelpad=2)
+    axes.yaxis.set_major_locator(MaxNLocator(nbins=6))
+    axes.grid(axis="y", color=PALE, lw=0.5)
+    plain(axes)

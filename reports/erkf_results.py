@@ -1,0 +1,217 @@
+"""What the report on the robust filter asks of the studies that depend on the machine: stored, and read back.
+
+Times do so plainly. Results of a simulation do in their last digits, and how far two ways of solving a system differ is
+nothing but last digits. Both are written beside the report with few digits, and the report is made from these files.
+"""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Callable, Mapping
+from itertools import product
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from filters.arrays import FloatArray
+from filters.systems.drive import FIX_EVERY, simulate_cargo_drive
+from reports.render import Row, csv_bytes
+from sched_sim.cost_file import cost_table_text, read_cost_table
+from sched_sim.costs import CostTable
+from studies import robust_drive as drive
+from studies import singular_values as singular
+from studies.robust_costs import SYSTEMS, SystemName, robust_costs
+
+Rows = list[Row]
+Progress = Callable[[int, int, str], None]
+
+SEED = 0
+"""Of the drive that the figures show; the tables are of all `drive.SEEDS`."""
+
+SHOWN = {"EKF": (drive.EKF, drive.POSITION_EKF), "ERKF": (drive.MORE_ROBUST, drive.POSITION_ROBUST)}
+"""For the figures: an attitude and a position method of each."""
+
+AXES = ("north", "east", "up")
+ANGLES = ("roll", "pitch", "yaw")
+CURVES = (singular.CASES[2], singular.CASES[4])
+"""The filters that Figs. 7 and 8 are drawn of: attitude and position, with the finite mu of the other figures."""
+TABLES = ("attitude", "position", "raw", "agreement", "singular-values", "drive", "close-up")
+
+
+class Results(NamedTuple):
+    """measured: seconds of the compiled code by system. tables: by name, as in `TABLES`; the first row is a heading."""
+
+    measured: Mapping[SystemName, CostTable]
+    tables: Mapping[str, Rows]
+
+    def columns(self, name: str) -> dict[str, FloatArray]:
+        """A table of numbers; nan where a cell is empty."""
+        heading, *rows = self.tables[name]
+        return {
+            str(head): np.array([float(row[number] or "nan") for row in rows]) for number, head in enumerate(heading)
+        }
+
+    def records(self, name: str) -> list[dict[str, str]]:
+        """The rows of a table by their heading."""
+        heading, *rows = self.tables[name]
+        return [dict(zip(heading, row, strict=True)) for row in rows]
+
+    def files(self) -> dict[str, bytes]:
+        """What `read` reads."""
+        return {
+            **{f"measured-{name}.toml": cost_table_text(table).encode() for name, table in self.measured.items()},
+            **{f"{name}.csv": csv_bytes(rows) for name, rows in self.tables.items()},
+        }
+
+
+def read(folder: Path) -> Results:
+    """The results that a report in `folder` was made from."""
+    tables: dict[str, Rows] = {}
+    for name in TABLES:
+        with (folder / f"{name}.csv").open(encoding="utf-8", newline="") as file:
+            tables[name] = list(csv.reader(file))
+    measured: dict[SystemName, CostTable] = {
+        name: read_cost_table(folder / f"measured-{name}.toml") for name in SYSTEMS
+    }
+    return Results(measured, tables)
+
+
+def results(thorough: bool = False, progress: Progress = lambda _done, _total, _what: None) -> Results:
+    """Times the code and runs the studies: about three minutes, half of them compiling."""
+    errors = drive.SCALE_ERRORS
+    asked = [(method, error) for error in errors for method in drive.ATTITUDE_METHODS]
+    asked_position = [(method, error) for error in errors for method in drive.POSITION_METHODS]
+    total = len(SYSTEMS) + len(asked) + len(asked_position) + len(singular.CASES) + 1
+    done = 0
+
+    def tell(what: str) -> None:
+        nonlocal done
+        progress(done, total, what)
+        done += 1
+
+    measured: dict[SystemName, CostTable] = {}
+    for name in SYSTEMS:
+        tell(f"timing, {name}")
+        measured[name] = robust_costs(name, "compiled", thorough=thorough)
+    attitude: Rows = [[*_ATTITUDE]]
+    for of_attitude, error in asked:
+        tell(f"attitude, {of_attitude.name}")
+        attitude.append(_attitude_row(drive.attitude_result(of_attitude, error)))
+    position: Rows = [[*_POSITION]]
+    for of_position, error in asked_position:
+        tell(f"position, {of_position.name}")
+        position.append(_position_row(drive.position_result(of_position, error)))
+    raw = drive.raw_result()
+    agreement: Rows = [[*_AGREEMENT]]
+    curves: dict[str, FloatArray] = {}
+    for case in singular.CASES:
+        tell(f"singular values, {case.name}")
+        compared = singular.compare(case)
+        agreement += [_agreement_row(found) for found in compared.agreements]
+        if case in CURVES:
+            curves |= _curves(case, compared)
+    tell("the drive of the figures")
+    course, close_up = _drives()
+    progress(total, total, "done")
+    return Results(
+        measured,
+        {
+            "attitude": attitude,
+            "position": position,
+            "raw": [
+                ["imu_yaw_deg", "gps_yaw_deg", *_of("gps", "m"), *_of("held", "m")],
+                [_digits(value) for value in (raw.imu_yaw_deg, raw.gps_yaw_deg, *raw.gps_m, *raw.held_m)],
+            ],
+            "agreement": agreement,
+            "singular-values": _table(curves, "{:.4g}"),
+            "drive": _table(course, "{:.3f}"),
+            "close-up": _table(close_up, "{:.4f}"),
+        },
+    )
+
+
+# -------------------------------------------------------------------------------------------------------- as tables
+
+
+def _of(what: str, unit: str) -> list[str]:
+    return [f"{what}_{axis}_{unit}" for axis in ("north", "east", "down")]
+
+
+_ATTITUDE = ("scale_error", "method", "roll_deg", "pitch_deg", "yaw_deg", "gps_deg", "imu_deg", "outage_deg")
+_POSITION = (
+    "scale_error", "method", *_of("fix", "m"), *_of("between", "m"), *_of("velocity", "m_s"), *_of("outage", "m"),
+    "outage_end_m",
+)  # fmt: skip
+_AGREEMENT = ("case", "way", "largest", "smallest", "relative_largest", "relative_smallest", "state", "fails_in_step")
+
+
+def _digits(value: float) -> str:
+    return f"{value:.3g}"
+
+
+def _attitude_row(found: drive.AttitudeResult) -> list[Any]:
+    others = (found.yaw_from_gps_deg, found.yaw_from_imu_deg, found.outage_yaw_deg)
+    return [found.scale_error, found.method, *(_digits(value) for value in (*found.errors_deg, *others))]
+
+
+def _position_row(found: drive.PositionResult) -> list[Any]:
+    values = (*found.after_fix_m, *found.between_m, *found.between_velocity, *found.outage_m, found.outage_end_m)
+    return [found.scale_error, found.method, *(_digits(value) for value in values)]
+
+
+def _agreement_row(found: singular.Agreement) -> list[Any]:
+    values = (found.absolute_largest, found.absolute_smallest, found.relative_largest, found.relative_smallest)
+    failure = "" if found.first_failure is None else found.first_failure
+    return [found.case.name, found.way, *(f"{value:.2g}" for value in (*values, found.state)), failure]
+
+
+def _curves(case: singular.Case, compared: singular.Comparison) -> dict[str, FloatArray]:
+    """Of the inverse, and what the others differ by."""
+    name = case.name.partition(",")[0]
+    reference = compared.curves[0]
+    found = {"time_s": reference.time_s, f"{name} largest": reference.largest, f"{name} smallest": reference.smallest}
+    for curve in compared.curves[1:]:
+        found[f"{name} largest {curve.way}"] = np.abs(curve.largest - reference.largest)
+        found[f"{name} smallest {curve.way}"] = np.abs(curve.smallest - reference.smallest)
+    return found
+
+
+def _drives() -> tuple[dict[str, FloatArray], dict[str, FloatArray]]:
+    """Every 40th step of a drive, at the fixes: measurements, truth and, for each scale error and filter, estimates
+    and errors; and one second of it in every step."""
+    course: dict[str, FloatArray] = {}
+    close_up: dict[str, FloatArray] = {}
+    for error, (name, (of_attitude, of_position)) in product(drive.SCALE_ERRORS, SHOWN.items()):
+        driven = simulate_cargo_drive(scale_error=error, seed=SEED)
+        attitudes = drive.estimate_attitude(driven, of_attitude)
+        positions = drive.estimate_position(driven, drive.estimate_attitude(driven, of_position.attitude), of_position)
+        found = drive.figures(driven, attitudes, positions)
+        percent = f"{100 * error:g} %"
+        at_fix = slice(0, len(found.time_s) - 1, FIX_EVERY)
+        course |= {
+            "time_s": found.time_s[at_fix],
+            **_split("true", AXES, found.true_route_m[at_fix]),
+            **_split("gps", AXES, found.gps_route_m),
+            **_split("true", ANGLES, found.true_attitude_deg[at_fix]),
+            **_split("imu", ANGLES, found.imu_attitude_deg[::FIX_EVERY]),
+            "gps yaw": found.gps_yaw_deg,
+            **_split(f"{name} {percent}", AXES, found.route_m[at_fix]),
+            **_split(f"{name} {percent}", ANGLES, found.attitude_deg[at_fix]),
+        }
+        shown = found.close_up
+        close_up |= {
+            "time_s": found.time_s[shown],
+            **_split("true", AXES, found.true_route_m[shown]),
+            **_split(f"{name} {percent}", AXES, found.route_m[shown]),
+        }
+    return course, close_up
+
+
+def _split(what: str, names: tuple[str, ...], values: FloatArray) -> dict[str, FloatArray]:
+    return {f"{what} {name}": values[:, number] for number, name in enumerate(names)}
+
+
+def _table(columns: Mapping[str, FloatArray], form: str) -> Rows:
+    body = [["" if np.isnan(value) else form.format(value) for value in row] for row in np.array([*columns.values()]).T]
+    return [list(columns), *body]
