@@ -49,7 +49,7 @@ def number():
 """
 
 
-SOME = ("standard", "dual-rate", "multirate-ud")
+SOME = ("standard", "larsen")
 
 
 @pytest.mark.parametrize(
