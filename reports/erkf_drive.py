@@ -14,7 +14,7 @@ from filters.arrays import FloatArray
 from filters.systems.drive import wrap
 from reports.erkf_axes import AXIS_MM, EDGE_MM, TITLE_MM, plain
 from reports.legend import Entry, draw_legend, legend_height, line_entry
-from reports.style import GREY, INK, PALE, SOURCE_LINES, TITLE_PT, WIDTH_MM, Line, axes_at, drawing, page
+from reports.style import INK, PALE, SOURCE_LINES, TITLE_PT, WIDTH_MM, Line, axes_at, drawing, page
 
 Columns = Mapping[str, FloatArray]
 
@@ -23,6 +23,11 @@ TRUE = Line(INK, "-", "")
 GPS = Line("#9bb8cf", (0, (1.0, 1.2)), ".", 3.0)
 IMU = Line("#2e7d4f", (0, (4.0, 1.5)), "")
 FILTERS = {"EKF": SOURCE_LINES[2]._replace(marker=""), "ERKF": SOURCE_LINES[1]._replace(marker="")}
+WIDTHS = {"EKF": 2.0, "ERKF": 0.7}
+"""The EKF lies under the ERKF, which it often cannot be told apart from, and is to be seen at both sides of it."""
+MARKED = {"EKF": SOURCE_LINES[2], "ERKF": SOURCE_LINES[1]}
+WINDOW = 50
+"""Samples of which an error is the root mean square: 5 s."""
 ANGLES, AXES = ("roll", "pitch", "yaw"), ("north", "east", "up")
 
 
@@ -36,7 +41,7 @@ def route_figure(drive: Columns, close_up: Columns, error: str) -> Figure:
         height = 2 * ROW_MM + BETWEEN_MM
         legend = [
             line_entry("true", TRUE),
-            line_entry("GPS fixes, 10 Hz", GPS._replace(size=5.0), dashes=False),
+            line_entry("GPS fixes, 10 Hz, held until the next", GPS._replace(size=5.0, dashes="-")),
             *(line_entry(f"{name}, 400 Hz", line) for name, line in FILTERS.items()),
         ]
         legend_top = EDGE_MM + TITLE_MM + height + AXIS_MM
@@ -44,7 +49,7 @@ def route_figure(drive: Columns, close_up: Columns, error: str) -> Figure:
         route = axes_at(figure, LEFT_MM, EDGE_MM + TITLE_MM, width, height)
         route.plot(drive["gps east"], drive["gps north"], GPS.marker, color=GPS.colour, ms=2.0, mew=0)
         for name, line in FILTERS.items():
-            route.plot(drive[f"{name} {error} east"], drive[f"{name} {error} north"], color=line.colour, lw=0.9)
+            route.plot(drive[f"{name} {error} east"], drive[f"{name} {error} north"], color=line.colour, lw=WIDTHS[name])
         route.set_aspect("equal", adjustable="datalim")
         route.plot([drive["true east"][0]], [drive["true north"][0]], "o", ms=5, mfc="none", mec=INK, mew=0.9)
         _style(route, "The route", "east (m)", "north (m)")
@@ -69,8 +74,9 @@ def _close_up(figure: Figure, drive: Columns, close_up: Columns, error: str, lef
         axes = axes_at(figure, left, EDGE_MM + TITLE_MM + row * (ROW_MM + BETWEEN_MM), width, ROW_MM)
         axes.plot(time_s, along(close_up, "true", side), color=INK, lw=0.7)
         for of_filter, line in FILTERS.items():
-            axes.plot(time_s, along(close_up, f"{of_filter} {error}", side), color=line.colour, lw=0.9)
+            axes.plot(time_s, along(close_up, f"{of_filter} {error}", side), color=line.colour, lw=WIDTHS[of_filter])
         at, seen = drive["time_s"][fixes], along(drive, "gps", side)[fixes]
+        axes.step(at, seen, where="post", color=GPS.colour, lw=0.7, zorder=1)
         axes.plot(at, seen, GPS.marker, color=GPS.colour, ms=6.0, mew=0)
         _style(axes, "One second, every 400 Hz step" if row == 0 else "", "time (s)" if row else "", name)
         axes.tick_params(axis="x", labelbottom=row == 1)
@@ -95,7 +101,7 @@ def attitude_figure(drive: Columns, error: str) -> Figure:
             else:
                 axes.plot(time_s, drive[f"imu {angle}"], color="#b7cfbc", lw=0.4)
             for name, line in FILTERS.items():
-                axes.plot(time_s, _near(drive[f"{name} {error} {angle}"], truth), color=line.colour, lw=0.9)
+                axes.plot(time_s, _near(drive[f"{name} {error} {angle}"], truth), color=line.colour, lw=WIDTHS[name])
             axes.plot(time_s, _turned(truth), color=INK, lw=0.6)
             _style(axes, "", "time (s)" if axes is rows[-1] else "", f"{angle} (deg)")
         return figure
@@ -105,48 +111,56 @@ def position_figure(drive: Columns, error: str) -> Figure:
     """North, east and up: the estimates less the truth, with the fixes less the truth behind them."""
     with drawing():
         legend = [
-            line_entry("GPS fixes", GPS._replace(size=5.0), dashes=False),
+            line_entry("every second GPS fix", GPS._replace(size=5.0), dashes=False),
             *(line_entry(name, line) for name, line in FILTERS.items()),
         ]
         figure, rows = _stack(3, legend)
         for axes, side in zip(rows, AXES, strict=True):
             truth = drive[f"true {side}"]
             axes.axhline(0.0, color=INK, lw=0.6)
-            axes.plot(drive["time_s"], drive[f"gps {side}"] - truth, GPS.marker, color=GPS.colour, ms=2.6, mew=0)
+            seen = (drive[f"gps {side}"] - truth)[::2]
+            axes.plot(drive["time_s"][::2], seen, GPS.marker, color=GPS.colour, ms=2.6, mew=0)
             for name, line in FILTERS.items():
-                axes.plot(drive["time_s"], drive[f"{name} {error} {side}"] - truth, color=line.colour, lw=0.9)
+                axes.plot(drive["time_s"], drive[f"{name} {error} {side}"] - truth, color=line.colour, lw=WIDTHS[name])
             _style(axes, "", "time (s)" if axes is rows[-1] else "", f"{side}, error (m)")
         return figure
 
 
 def errors_figure(drive: Columns, errors: Sequence[str]) -> Figure:
-    """Errors of roll, pitch and yaw, a column for each scale error: the filters beside one another."""
+    """Errors of roll, pitch and yaw, root mean squares of 5 s, a column for each scale error."""
     with drawing():
-        legend = [line_entry(name, line) for name, line in FILTERS.items()]
+        legend = [line_entry(name, line) for name, line in MARKED.items()]
         across = WIDTH_MM - LEFT_MM - RIGHT_MM
         width = (across - GAP_MM * (len(errors) - 1)) / len(errors)
         legend_top = EDGE_MM + TITLE_MM + 3 * ROW_MM + 2 * BETWEEN_MM + AXIS_MM
         figure = page(legend_top + legend_height(legend, across) + EDGE_MM)
+        time_s = drive["time_s"][WINDOW // 2 :: WINDOW]
         for row, angle in enumerate(ANGLES):
             found = {
-                (error, name): wrapped_deg(drive[f"{name} {error} {angle}"] - drive[f"true {angle}"])
+                (error, name): windowed_rms(wrapped_deg(drive[f"{name} {error} {angle}"] - drive[f"true {angle}"]))
                 for error in errors
                 for name in FILTERS
             }
-            settled = drive["time_s"] >= 5
-            limit = 1.15 * max(float(np.abs(values[settled]).max()) for values in found.values())
+            limit = 1.15 * max(float(values[1:].max()) for values in found.values())
             for column, error in enumerate(errors):
                 top = EDGE_MM + TITLE_MM + row * (ROW_MM + BETWEEN_MM)
                 axes = axes_at(figure, LEFT_MM + column * (width + GAP_MM), top, width, ROW_MM)
-                axes.axhline(0.0, color=GREY, lw=0.6)
-                for name, line in FILTERS.items():
-                    axes.plot(drive["time_s"], found[error, name], color=line.colour, lw=0.8)
-                axes.set_ylim(-limit, limit)
+                for name, line in MARKED.items():
+                    shown = found[error, name][1:]
+                    axes.plot(time_s[1:], shown, line.marker, color=line.colour, ms=line.size, mew=0, ls="-", lw=0.8)
+                axes.set(xlim=(0, time_s[-1] + time_s[0]), ylim=(0, limit))
                 title = f"Gyro scale wrong by {error}" if row == 0 else ""
                 _style(axes, title, "time (s)" if row == 2 else "", f"{angle}, error (deg)" if column == 0 else "")
                 axes.tick_params(axis="x", labelbottom=row == 2)
         draw_legend(figure, legend, LEFT_MM, legend_top, across)
         return figure
+
+
+def windowed_rms(values: FloatArray) -> FloatArray:
+    """One for each whole window of `WINDOW` samples."""
+    whole = values[: len(values) // WINDOW * WINDOW].reshape(-1, WINDOW)
+    root: FloatArray = np.sqrt((whole**2).mean(axis=1))
+    return root
 
 
 def wrapped_deg(angles: FloatArray) -> FloatArray:
@@ -182,6 +196,6 @@ def _style(axes: Axes, title: str, across: str, up: str) -> None:
         axes.set_title(title, loc="left", size=TITLE_PT)
     axes.set_xlabel(across, labelpad=2)
     axes.set_ylabel(up, labelpad=2)
-    axes.yaxis.set_major_locator(MaxNLocator(nbins=6))
+    axes.yaxis.set_major_locator(MaxNLocator(nbins=6, steps=[1, 2, 5, 10]))
     axes.grid(axis="y", color=PALE, lw=0.5)
     plain(axes)

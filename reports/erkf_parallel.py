@@ -50,7 +50,7 @@ def parallel_figure(times: Mapping[str, Mapping[str, Mapping[int, int]]]) -> Fig
             axes.set_title(system, loc="left", size=TITLE_PT)
             plain(axes)
             if column == 0:
-                axes.set_ylabel("time (row-pair updates one after another)", labelpad=2)
+                axes.set_ylabel("time (column-pair updates)", labelpad=2)
         draw_legend(figure, legend, LEFT_MM, legend_top, across)
         return figure
 

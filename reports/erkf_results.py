@@ -61,7 +61,7 @@ class Results(NamedTuple):
         """What `read` reads."""
         return {
             **{f"measured-{name}.toml": cost_table_text(table).encode() for name, table in self.measured.items()},
-            **{f"{name}.csv": csv_bytes(rows) for name, rows in self.tables.items()},
+            **{f"stored-{name}.csv": csv_bytes(rows) for name, rows in self.tables.items()},
         }
 
 
@@ -69,7 +69,7 @@ def read(folder: Path) -> Results:
     """The results that a report in `folder` was made from."""
     tables: dict[str, Rows] = {}
     for name in TABLES:
-        with (folder / f"{name}.csv").open(encoding="utf-8", newline="") as file:
+        with (folder / f"stored-{name}.csv").open(encoding="utf-8", newline="") as file:
             tables[name] = list(csv.reader(file))
     measured: dict[SystemName, CostTable] = {
         name: read_cost_table(folder / f"measured-{name}.toml") for name in SYSTEMS
@@ -147,7 +147,7 @@ _AGREEMENT = ("case", "way", "largest", "smallest", "relative_largest", "relativ
 
 
 def _digits(value: float) -> str:
-    return f"{value:.3g}"
+    return f"{value:#.3g}"
 
 
 def _attitude_row(found: drive.AttitudeResult) -> list[Any]:

@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 
 import typer
 
-Name = Annotated[Literal["steffes2014", "patent-multirate"], typer.Argument(help="Which report.")]
+Name = Annotated[Literal["steffes2014", "patent-multirate", "erkf"], typer.Argument(help="Which report.")]
 Folder = Annotated[Path, typer.Option("--output", "-o", help="Folder in which the report's own folder is written.")]
 Thorough = Annotated[
     bool, typer.Option("--thorough", help="Measure ten times as many rounds; patent-multirate measures nothing.")
@@ -16,10 +16,11 @@ Thorough = Annotated[
 
 
 def report(name: Name = "steffes2014", thorough: Thorough = False, output: Folder = Path("reports/published")) -> None:
-    """Regenerate a report: HTML, Markdown, figures (SVG) and tables (CSV). steffes2014 measures the filters here.
+    """Regenerate a report: HTML, Markdown, figures (SVG) and tables (CSV). steffes2014 and erkf measure filters here.
 
     sched-sim report --thorough
     sched-sim report patent-multirate
+    sched-sim report erkf
     """
     from reports.render import make_folder, write_report
 
@@ -58,7 +59,18 @@ def _patent_multirate(_thorough: bool) -> dict[str, bytes]:
     return build(found)
 
 
+def _erkf(thorough: bool) -> dict[str, bytes]:
+    from reports.erkf import build
+    from reports.erkf_results import results
+    from sched_sim.cli.progress import progress_bar
+
+    with progress_bar("Measuring and simulating") as progress:
+        found = results(thorough, progress)
+    return build(found)
+
+
 REPORTS: Mapping[str, Callable[[bool], dict[str, bytes]]] = {
     "steffes2014": _steffes,
     "patent-multirate": _patent_multirate,
+    "erkf": _erkf,
 }

@@ -1,0 +1,328 @@
+"""The report on "Computation of Extended Robust Kalman Filter for Real-Time Attitude and Position Estimation"
+(Yengera, Inoue, Narasimha, Terra, arXiv:1801.04386): what each way of computing the filter costs, and when it pays."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from fractions import Fraction
+from typing import Any
+
+from matplotlib.figure import Figure
+
+from reports import erkf_counts as ways
+from reports import erkf_tables as tables
+from reports.erkf_cost_figure import Way, cost_figure
+from reports.erkf_counts import Parallel, all_counts, parallel
+from reports.erkf_drive import attitude_figure, errors_figure, position_figure, route_figure
+from reports.erkf_parallel import parallel_figure
+from reports.erkf_results import Results
+from reports.erkf_schedule import millions, one_period, speed_figure, two_rates
+from reports.erkf_singular import singular_figure
+from reports.gantt import gantt, image
+from reports.multirate_words import percent
+from reports.render import csv_bytes, render
+from sched_sim.costs import ROBUST_METHODS, CostTable, load
+from sched_sim.fit import fit
+from sched_sim.least_speed import least_speed
+from sched_sim.processor import Processor, load_processor, shipped_processors
+from sched_sim.timing import Timing
+from studies import robust_drive as drive
+from studies.robust_costs import HR_HZ, SYSTEMS, N, SystemName
+
+TITLE = "The extended robust Kalman filter: which way to compute it, on which processor, and what it buys"
+SLOWEST = "leon3"
+"""The processor of the Gantt charts and of the parallel device."""
+SOON = 10
+"""The L of the Gantt charts other than N."""
+SMALL, LARGE = (f"{100 * error:g} %" for error in drive.SCALE_ERRORS)
+
+
+def build(found: Results) -> dict[str, bytes]:
+    """All files of the report by name, as a pure function of what was measured and simulated."""
+    counted = {system: load(f"erkf-{system}") for system in SYSTEMS}
+    devices = {system: parallel(system) for system in SYSTEMS}
+    parts = [load_processor(name) for name in shipped_processors()]
+    slowest = next(part for part in parts if part.name == SLOWEST)
+    rows = {
+        "costs": tables.cost_rows(all_counts(), found.measured),
+        "parallel": tables.parallel_rows(devices),
+        "agreements": tables.agreement_rows(found),
+        "attitude-errors": tables.attitude_rows(found),
+        "position-errors": tables.position_rows(found),
+        "speeds": tables.speed_rows(counted, found.measured),
+        "processors": tables.processor_rows(counted, parts),
+        "device": tables.device_rows(slowest),
+    }
+    figures = {name: image(figure, "svg") for name, figure in _figures(found, counted, devices, slowest).items()}
+    pages = render(
+        "erkf",
+        TITLE,
+        figures,
+        **{name.replace("-", "_"): table for name, table in rows.items()},
+        about=_about(found),
+        cost=_cost(found),
+        device_gain=_parallel(devices),
+        rounding=_rounding(found),
+        drive=_drive(found),
+        schedule=_schedule(counted, parts, slowest),
+        heavy=_heavy(rows["processors"]),
+        N=N,
+        hz=HR_HZ,
+        fix_hz=HR_HZ // N,
+        soon=SOON,
+        slowest=SLOWEST,
+        small=SMALL,
+        large=LARGE,
+        device_last=rows["device"][-1],
+    )
+    return {**pages, **figures, **found.files(), **{f"{name}.csv": csv_bytes(table) for name, table in rows.items()}}
+
+
+def _figures(
+    found: Results,
+    counted: Mapping[SystemName, CostTable],
+    devices: Mapping[SystemName, Parallel],
+    slowest: Processor,
+) -> dict[str, Figure]:
+    course = found.columns("drive")
+    return {
+        "costs.svg": cost_figure(_groups(found), 1 / HR_HZ),
+        "parallel.svg": parallel_figure({f"{s.capitalize()}, N = {devices[s].N}": devices[s].times for s in SYSTEMS}),
+        "singular-values.svg": singular_figure(
+            found.columns("singular-values"), {"attitude": "Attitude (Fig. 7)", "position": "Position (Fig. 8)"}
+        ),
+        "route.svg": route_figure(course, found.columns("close-up"), SMALL),
+        "attitude.svg": attitude_figure(course, LARGE),
+        "position.svg": position_figure(course, SMALL),
+        "errors.svg": errors_figure(course, [SMALL, LARGE]),
+        "speeds.svg": speed_figure(
+            {
+                system.capitalize(): {
+                    tables.WAYS[method]: tables.robust_costs_of(counted[system], method) for method in ROBUST_METHODS
+                }
+                for system in SYSTEMS
+            },
+            N,
+            HR_HZ,
+        ),
+        "ways.svg": _ways_gantt(counted["position"], slowest),
+        "deadlines.svg": _deadlines_gantt(counted["position"]),
+    }
+
+
+def _groups(found: Results) -> dict[str, list[Way]]:
+    counts = all_counts()
+    names = {system: f"{system}, N = {counts.unknowns[system]}" for system in SYSTEMS}
+
+    def way_of(way: str) -> Way:
+        timed = {
+            names[system]: tables.seconds(found.measured[system], ways.TIMED[way])
+            for system in SYSTEMS
+            if way in ways.TIMED
+        }
+        return Way(way, {names[system]: counts.operations[way][system, "finite"] for system in SYSTEMS}, timed)
+
+    return {group: [way_of(way) for way in of_group] for group, of_group in ways.GROUPS.items()}
+
+
+def _ways_gantt(table: CostTable, part: Processor) -> Figure:
+    """Every way on one processor."""
+    pace, panels = Fraction(1, HR_HZ), []
+    for method in ROBUST_METHODS:
+        costs = tables.on(table, part, method)
+        assert costs is not None
+        title = tables.WAYS[method]
+        panels.append(two_rates(costs, N, pace, title[0].upper() + title[1:], f"HR period {float(1000 * pace):g} ms"))
+    return gantt(panels)
+
+
+def _deadlines_gantt(table: CostTable) -> Figure:
+    """Givens at the least speeds for two L, and in one period at the faster of them."""
+    costs = tables.robust_costs_of(table, "robust-givens")
+    panels = []
+    for L in (N, SOON):
+        speed = least_speed(costs, Timing(N, 0, L)).speed
+        panels.append(two_rates(costs, N, speed, f"Two rates, L = {L}", _pace(speed)))
+    return gantt([*panels, one_period(costs, N, speed, "In one period", _pace(speed))])
+
+
+def _pace(speed: Fraction) -> str:
+    return f"{millions(speed, HR_HZ):.3g} million operations/s"
+
+
+# ------------------------------------------------------------------------------------------- the numbers of the text
+
+
+def _about(found: Results) -> dict[str, str]:
+    about = found.measured["position"].provenance
+    protocol = about["protocol"]
+    return {
+        "machine": about["machine"],
+        "date": about["date"],
+        "versions": ", ".join(f"{name} {number}" for name, number in about["versions"].items()),
+        "protocol": f"{protocol['rounds']} rounds of {protocol['repetitions']} repetitions",
+    }
+
+
+def _cost(found: Results) -> dict[str, Any]:
+    counts = all_counts()
+
+    def both(way: str, other: str, digits: int = 1) -> list[str]:
+        return [f"{counts.ratio(way, other, system):.{digits}f}" for system in SYSTEMS]
+
+    def span(way: str, other: str) -> str:
+        ratios = [counts.ratio(way, other, s, penalty) for s in SYSTEMS for penalty in ("infinite", "finite")]
+        return f"{min(ratios):.2f} to {max(ratios):.2f}"
+
+    timed = {
+        method: [tables.seconds(found.measured[system], method) for system in SYSTEMS] for method in ROBUST_METHODS
+    }
+    position = {way: f"{numbers['position', 'finite']:,}" for way, numbers in counts.operations.items()}
+    return {
+        "unknowns": counts.unknowns,
+        "inverse": position[ways.INVERSE],
+        "givens": position[ways.GIVENS_ORDERED],
+        "lu": position[ways.LU_ORDERED],
+        "closed": position[ways.CLOSED],
+        "paper": both(ways.REPEATED, ways.PER_COLUMN, 2),
+        "against_one": both(ways.GIVENS, ways.INVERSE, 2),
+        "columns_against_one": both(ways.PER_COLUMN, ways.INVERSE),
+        "natural": span(ways.GIVENS_NATURAL, ways.INVERSE_SKIPPING),
+        "order": both(ways.GIVENS_NATURAL, ways.GIVENS_ORDERED),
+        "over_lu": both(ways.GIVENS_ORDERED, ways.LU_ORDERED),
+        "over_closed": both(ways.GIVENS_ORDERED, ways.CLOSED),
+        "over_kalman": both(ways.CLOSED, ways.KALMAN, 2),
+        "inverse_over_givens": both(ways.INVERSE, ways.GIVENS_ORDERED),
+        "micros": {method: [f"{1e6 * time:.1f}" for time in times] for method, times in timed.items()},
+        "time_ratio": {
+            "inverse": [f"{i / g:.1f}" for i, g in _pairs(timed, "robust-inverse", "robust-givens")],
+            "lu": [f"{g / u:.1f}" for g, u in _pairs(timed, "robust-givens", "robust-lu")],
+            "closed": [f"{g / c:.1f}" for g, c in _pairs(timed, "robust-givens", "robust-closed")],
+        },
+        "longest_share": f"{100 * max(timed['robust-inverse']) * HR_HZ:.1f}",
+    }
+
+
+def _pairs(timed: Mapping[str, list[float]], one: str, other: str) -> list[tuple[float, float]]:
+    return list(zip(timed[one], timed[other], strict=True))
+
+
+def _parallel(devices: Mapping[SystemName, Parallel]) -> dict[str, Any]:
+    first, last = ways.PROCESSORS[0], ways.PROCESSORS[-1]
+    dense, _, ordered = ways.SCHEDULES
+
+    def gain(name: str, P: int = last) -> list[str]:
+        return [f"{devices[s].times[name][first] / devices[s].times[name][P]:.0f}" for s in SYSTEMS]
+
+    return {
+        "dense": gain(dense),
+        "ordered": gain(ordered),
+        "ordered_16": gain(ordered, 16),
+        "last": last,
+        "by_sparsity": [f"{devices[s].times[dense][first] / devices[s].times[ordered][first]:.0f}" for s in SYSTEMS],
+        "one": [f"{devices[s].times[ordered][first]:,}" for s in SYSTEMS],
+        "dense_16": [f"{devices[s].times[dense][16]:,}" for s in SYSTEMS],
+        "stages": [(devices[s].stages[dense], devices[s].stages[ordered]) for s in SYSTEMS],
+    }
+
+
+def _rounding(found: Results) -> dict[str, Any]:
+    records = found.records("agreement")
+    scaled = [record for record in records if "radians" not in record["case"]]
+
+    def worst(way: str, *keys: str) -> str:
+        return f"{max(float(r[key]) for r in scaled if r['way'] == way for key in keys):.1e}"
+
+    (radians,) = [r for r in records if "radians" in r["case"] and r["way"] == "givens"]
+    unpivoted = [r for r in scaled if r["way"] == "lu without pivoting"]
+    kept = [r for r in unpivoted if not r["fails_in_step"]]
+    return {
+        "absolute": worst("givens", "largest", "smallest"),
+        "relative": worst("givens", "relative_largest", "relative_smallest"),
+        "lu_relative": worst("lu", "relative_largest", "relative_smallest"),
+        "radians_absolute": f"{max(float(radians[key]) for key in ('largest', 'smallest')):.1e}",
+        "radians_relative": f"{float(radians['relative_smallest']):.1e}",
+        "failing": len(unpivoted) - len(kept),
+        "of": len(unpivoted),
+        "step": max(int(r["fails_in_step"]) for r in unpivoted if r["fails_in_step"]),
+        "unpivoted": f"{max(float(r['relative_largest']) for r in kept):.1e}",
+        "pivoted": f"{max(float(r['relative_largest']) for r in scaled if r['way'] == 'lu' and _same(r, kept)):.1e}",
+    }
+
+
+def _same(record: Mapping[str, str], others: list[dict[str, str]]) -> bool:
+    return record["case"] in [other["case"] for other in others]
+
+
+def _drive(found: Results) -> dict[str, Any]:
+    of = {(float(r["scale_error"]), r["method"]): r for r in found.records("attitude")}
+    at = {(float(r["scale_error"]), r["method"]): r for r in found.records("position")}
+    small, large = drive.SCALE_ERRORS
+    (raw,) = found.records("raw")
+    mild, strong = drive.POSITION_EKF.name, drive.POSITION_ROBUST.name
+
+    def yaw(error: float, method: drive.AttitudeMethod) -> str:
+        return of[error, method.name]["yaw_deg"]
+
+    def sides(record: Mapping[str, str], what: str) -> str:
+        return ", ".join(record[f"{what}_{axis}_m"] for axis in ("north", "east", "down"))
+
+    return {
+        "seeds": len(drive.SEEDS),
+        "ekf": [yaw(error, drive.EKF) for error in (small, large)],
+        "robust": [yaw(error, drive.ROBUST) for error in (small, large)],
+        "more": [yaw(error, drive.MORE_ROBUST) for error in (small, large)],
+        "inflated": [yaw(error, drive.INFLATED) for error in (small, large)],
+        "noisier": [yaw(error, drive.NOISIER) for error in (small, large)],
+        "limits": [yaw(small, method) for method in (drive.LIMIT_GYRO, drive.LIMIT_BIAS, drive.LIMIT_ALL)],
+        "roll": [of[small, method.name]["roll_deg"] for method in (drive.EKF, drive.MORE_ROBUST)],
+        "from_gps": of[small, drive.ROBUST.name]["gps_deg"],
+        "from_imu": of[small, drive.ROBUST.name]["imu_deg"],
+        "ekf_from_gps": of[small, drive.EKF.name]["gps_deg"],
+        "raw": raw,
+        "fix": sides(at[small, strong], "fix"),
+        "between": sides(at[small, strong], "between"),
+        "ekf_between": sides(at[small, mild], "between"),
+        "gps": sides(raw, "gps"),
+        "held": sides(raw, "held"),
+        "outage": [at[small, name]["outage_end_m"] for name in (mild, strong)],
+    }
+
+
+def _schedule(
+    counted: Mapping[SystemName, CostTable], parts: list[Processor], slowest: Processor
+) -> dict[str, Any]:
+    position = counted["position"]
+    costs = {method: tables.robust_costs_of(position, method) for method in ROBUST_METHODS}
+    least = {method: least_speed(of, Timing(N, 0, N)).speed for method, of in costs.items()}
+    serial = {method: of.inertial + of.robust_step for method, of in costs.items()}
+    able = {}
+    for part in parts:
+        on = {method: tables.on(position, part, method) for method in ROBUST_METHODS}
+        if all(of is not None for of in on.values()):
+            able[part.name] = {m: fit(of, Timing(N, 0, N), Fraction(HR_HZ)) for m, of in on.items() if of is not None}
+    here = able[slowest.name]
+    alone = {m: tables.on(position, slowest, m) for m in ROBUST_METHODS}
+    lacking = [part.name for part in parts if part.name not in able]
+    return {
+        "serial": {method: f"{millions(speed, HR_HZ):.3g}" for method, speed in serial.items()},
+        "least": {method: f"{millions(speed, HR_HZ):.2g}" for method, speed in least.items()},
+        "gain": {method: f"{float(serial[method] / least[method]):.0f}" for method in costs},
+        "load": {method: percent(found.load) for method, found in here.items()},
+        "landed": {method: found.landed for method, found in here.items()},
+        "one_period": {m: percent((of.inertial + of.robust_step) * HR_HZ) for m, of in alone.items() if of},
+        "able": len(able),
+        "all_fit": all(found.fits for of_part in able.values() for found in of_part.values()),
+        "late_inverse": [
+            (name, percent(of["robust-inverse"].load), of["robust-inverse"].landed) for name, of in able.items()
+        ],
+        "lacking": lacking,
+        "least_soon": f"{millions(least_speed(costs['robust-givens'], Timing(N, 0, SOON)).speed, HR_HZ):.3g}",
+    }
+
+
+def _heavy(rows: tables.Rows) -> tables.Rows:
+    """Of the position filter, on processors that can time all of it."""
+    heading, *body = rows
+    kept = [row for row in body if row[0] == "position" and row[3] != "no sqrt"]
+    return [heading[1:], *(row[1:] for row in kept)]

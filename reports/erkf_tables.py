@@ -1,0 +1,173 @@
+"""The tables of the report on the robust filter; the first row of each is its heading."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+from typing import Any
+
+from reports.erkf_counts import GROUPS, PROCESSORS, TIMED, Counts, Parallel
+from reports.erkf_results import Results
+from reports.erkf_schedule import millions
+from reports.multirate_words import percent, significant
+from sched_sim.costs import ROBUST_METHODS, CostTable, RobustCosts, StandardCosts, select
+from sched_sim.fit import fit
+from sched_sim.least_speed import achieved_l, least_speed
+from sched_sim.options import Options
+from sched_sim.processor import Processor, on_processor
+from sched_sim.timing import Timing
+from studies.robust_costs import HR_HZ, SYSTEMS, N, SystemName, parallel_costs
+
+Rows = list[list[Any]]
+
+WAYS = {
+    "robust-inverse": "explicit inverse",
+    "robust-givens": "Givens",
+    "robust-lu": "pivoted LU",
+    "robust-closed": "closed form",
+}
+ASKED = (1, 5, 10, 20, N)
+"""The L of the table."""
+UNITS = (1, 4, 16, 64)
+"""Column pairs at a time, of the parallel device."""
+DAGGER = "†"
+
+
+def robust_costs_of(table: CostTable, method: str) -> RobustCosts:
+    costs = select(table, method, Options())
+    assert isinstance(costs, RobustCosts)
+    return costs
+
+
+def cost_rows(counts: Counts, measured: Mapping[SystemName, CostTable]) -> Rows:
+    """Operations of every way, with infinite and finite mu, and the time of the compiled code."""
+    rows: Rows = [["", "Way"]]
+    for system in SYSTEMS:
+        name = f"{system}, N = {counts.unknowns[system]}"
+        rows[0] += [f"{name}, μ = ∞", "finite μ", f"µs {DAGGER}"]
+    for group, ways in GROUPS.items():
+        for number, way in enumerate(ways):
+            row: list[Any] = [group if number == 0 else "", way]
+            for system in SYSTEMS:
+                found = counts.operations[way]
+                row += [f"{found[system, 'infinite']:,}", f"{found[system, 'finite']:,}", "-"]
+                if way in TIMED:
+                    row[-1] = f"{1e6 * seconds(measured[system], TIMED[way]):.1f}"
+            rows.append(row)
+    return rows
+
+
+def seconds(measured: CostTable, method: str) -> float:
+    """Of the robust step, its minimum."""
+    return float(measured.entry(method, "robust_step").minimum)
+
+
+def parallel_rows(found: Mapping[str, Parallel]) -> Rows:
+    rows: Rows = [["System", "Schedule", "rotations", "stages", *(f"P = {P}" for P in PROCESSORS), "speed-up"]]
+    for system, of_system in found.items():
+        for name, times in of_system.times.items():
+            numbers = [f"{times[P]:,}" for P in PROCESSORS]
+            gain = f"{times[PROCESSORS[0]] / times[PROCESSORS[-1]]:.0f}"
+            row = [system, name, f"{of_system.rotations[name]:,}", of_system.stages[name]]
+            rows.append([*row, *numbers, gain])
+    return rows
+
+
+def agreement_rows(found: Results) -> Rows:
+    """How far each way is from the inverse: at most, in a whole drive. All from rounding, so all stored."""
+    heads = ("largest, absolute", "smallest, absolute", "largest, relative", "smallest, relative", "not finite from step")
+    rows: Rows = [["Filter", "Way", *heads]]
+    names = {"givens": "Givens", "lu": "LU, pivoting", "lu without pivoting": "LU, no pivoting"}
+    for record in found.records("agreement"):
+        values = [record[key] for key in ("largest", "smallest", "relative_largest", "relative_smallest")]
+        failed = record["fails_in_step"]
+        shown = [_power(value) if failed == "" else "-" for value in values]
+        rows.append([record["case"], names[record["way"]], *shown, failed or "-"])
+    return rows
+
+
+def _power(text: str) -> str:
+    return f"{float(text):.1e}"
+
+
+def attitude_rows(found: Results) -> Rows:
+    rows: Rows = [["Scale error", "Filter", "roll", "pitch", "yaw", "yaw − GPS", "yaw − IMU", "yaw, GPS out"]]
+    for record in found.records("attitude"):
+        values = [record[key] for key in ("roll_deg", "pitch_deg", "yaw_deg", "gps_deg", "imu_deg", "outage_deg")]
+        rows.append([f"{100 * float(record['scale_error']):g} %", record["method"], *values])
+    return rows
+
+
+def position_rows(found: Results) -> Rows:
+    rows: Rows = [["Scale error", "Filter", "between fixes, N", "E", "D", "at fixes, N", "E ", "D ", "GPS out, end"]]
+    for record in found.records("position"):
+        values = [record[f"{what}_{axis}_m"] for what in ("between", "fix") for axis in ("north", "east", "down")]
+        rows.append(
+            [f"{100 * float(record['scale_error']):g} %", record["method"], *values, record["outage_end_m"]]
+        )
+    return rows
+
+
+def speed_rows(tables: Mapping[SystemName, CostTable], measured: Mapping[SystemName, CostTable]) -> Rows:
+    """The least speed by L in millions of operations a second, the L achieved with that for L = N, and what the whole
+    step in one HR period needs; measured: the least share of this machine for L = N."""
+    heads = [f"L = {L}" for L in ASKED]
+    rows: Rows = [["System", "Way", "in one period", *heads, f"achieved at L = {N}", f"load here, % {DAGGER}"]]
+    for system, table in tables.items():
+        for method in ROBUST_METHODS:
+            costs, timed = robust_costs_of(table, method), robust_costs_of(measured[system], method)
+            serial = least_speed(StandardCosts(costs.inertial, costs.robust_step), Timing(N, 0, N)).speed
+            speeds = [least_speed(costs, Timing(N, 0, L)).speed for L in ASKED]
+            landed = achieved_l(costs, Timing(N, 0, N), speeds[-1])
+            here = fit(timed, Timing(N, 0, N), Fraction(HR_HZ)).load
+            numbers = [f"{millions(speed, HR_HZ):#.3g}" for speed in (serial, *speeds)]
+            rows.append([system, WAYS[method], *numbers, landed, percent(here)])
+    return rows
+
+
+def on(table: CostTable, processor: Processor, method: str) -> RobustCosts | None:
+    """In seconds; None where the processor has no time for an operation, such as a square root."""
+    asked = {kind for counts in table.operations[method].values() for kind in counts} - {"function"}
+    if not asked <= set(processor.seconds):
+        return None
+    return robust_costs_of(on_processor(table, processor), method)
+
+
+def processor_rows(tables: Mapping[SystemName, CostTable], processors: Sequence[Processor]) -> Rows:
+    """Spread over N steps, and in one HR period."""
+    rows: Rows = [["System", "Processor", "Way", "fits", "load, %", "slack, %", "in use at l", "in one period, %"]]
+    for system, table in tables.items():
+        for part in processors:
+            for method in ROBUST_METHODS:
+                row: list[Any] = [system, part.name, WAYS[method]]
+                costs = on(table, part, method)
+                if costs is None:
+                    rows.append([*row, "no sqrt", "-", "-", "-", "-"])
+                    continue
+                found = fit(costs, Timing(N, 0, N), Fraction(HR_HZ))
+                serial = (costs.inertial + costs.robust_step) * HR_HZ
+                row += ["yes" if found.fits else "no", percent(found.load), percent(found.slack)]
+                rows.append([*row, "-" if found.landed is None else f"k+{found.landed}", percent(serial)])
+    return rows
+
+
+def device_rows(processor: Processor) -> Rows:
+    """A device that does several column pairs at a time, its operations as slow as the processor's; and one unit by
+    the other ways."""
+    rows: Rows = [["System", "Way", "units", "step, ms", "times faster", "in use at l", "clock for L = 1, MHz"]]
+    for system in SYSTEMS:
+        alone = None
+        for units in UNITS:
+            costs = on(parallel_costs(system, units), processor, "robust-givens")
+            assert costs is not None
+            alone = costs if alone is None else alone
+            row = [system, "Givens", units, *_device(costs, processor)]
+            rows.append([*row[:4], f"{float(alone.robust_step / costs.robust_step):.1f}", *row[4:]])
+    return rows
+
+
+def _device(costs: RobustCosts, processor: Processor) -> list[Any]:
+    landed = achieved_l(costs, Timing(N, 0, N), Fraction(1, HR_HZ))
+    assert processor.clock_hz is not None
+    clock = fit(costs, Timing(N, 0, 1), Fraction(HR_HZ)).needed * processor.clock_hz / 10**6
+    return [f"{float(1000 * costs.robust_step):.3f}", "-" if landed is None else f"k+{landed}", significant(clock)]
