@@ -21,7 +21,7 @@ from reports.erkf_singular import singular_figure
 from reports.gantt import gantt, image
 from reports.multirate_words import percent
 from reports.render import csv_bytes, render
-from sched_sim.costs import ROBUST_METHODS, CostTable, load
+from sched_sim.costs import ROBUST_METHODS, CostTable, RobustMethod, load
 from sched_sim.fit import fit
 from sched_sim.least_speed import least_speed
 from sched_sim.processor import Processor, load_processor, shipped_processors
@@ -86,7 +86,7 @@ def _figures(
 ) -> dict[str, Figure]:
     course = found.columns("drive")
     return {
-        "costs.svg": cost_figure(_groups(found), 1 / HR_HZ),
+        "costs.svg": cost_figure(_ways(found), 1 / HR_HZ),
         "parallel.svg": parallel_figure({f"{s.capitalize()}, N = {devices[s].N}": devices[s].times for s in SYSTEMS}),
         "singular-values.svg": singular_figure(
             found.columns("singular-values"), {"attitude": "Attitude (Fig. 7)", "position": "Position (Fig. 8)"}
@@ -110,7 +110,7 @@ def _figures(
     }
 
 
-def _groups(found: Results) -> dict[str, list[Way]]:
+def _ways(found: Results) -> list[Way]:
     counts = all_counts()
     names = {system: f"{system}, N = {counts.unknowns[system]}" for system in SYSTEMS}
 
@@ -122,7 +122,7 @@ def _groups(found: Results) -> dict[str, list[Way]]:
         }
         return Way(way, {names[system]: counts.operations[way][system, "finite"] for system in SYSTEMS}, timed)
 
-    return {group: [way_of(way) for way in of_group] for group, of_group in ways.GROUPS.items()}
+    return [way_of(way) for way in ways.ALL_WAYS]
 
 
 def _ways_gantt(table: CostTable, part: Processor) -> Figure:
@@ -139,11 +139,9 @@ def _ways_gantt(table: CostTable, part: Processor) -> Figure:
 def _deadlines_gantt(table: CostTable) -> Figure:
     """Givens at the least speeds for two L, and in one period at the faster of them."""
     costs = tables.robust_costs_of(table, "robust-givens")
-    panels = []
-    for L in (N, SOON):
-        speed = least_speed(costs, Timing(N, 0, L)).speed
-        panels.append(two_rates(costs, N, speed, f"Two rates, L = {L}", _pace(speed)))
-    return gantt([*panels, one_period(costs, N, speed, "In one period", _pace(speed))])
+    speeds = {L: least_speed(costs, Timing(N, 0, L)).speed for L in (N, SOON)}
+    panels = [two_rates(costs, N, speed, f"Two rates, L = {L}", _pace(speed)) for L, speed in speeds.items()]
+    return gantt([*panels, one_period(costs, N, speeds[SOON], "In one period", _pace(speeds[SOON]))])
 
 
 def _pace(speed: Fraction) -> str:
@@ -203,7 +201,9 @@ def _cost(found: Results) -> dict[str, Any]:
     }
 
 
-def _pairs(timed: Mapping[str, list[float]], one: str, other: str) -> list[tuple[float, float]]:
+def _pairs(
+    timed: Mapping[RobustMethod, list[float]], one: RobustMethod, other: RobustMethod
+) -> list[tuple[float, float]]:
     return list(zip(timed[one], timed[other], strict=True))
 
 
@@ -221,6 +221,8 @@ def _parallel(devices: Mapping[SystemName, Parallel]) -> dict[str, Any]:
         "last": last,
         "by_sparsity": [f"{devices[s].times[dense][first] / devices[s].times[ordered][first]:.0f}" for s in SYSTEMS],
         "one": [f"{devices[s].times[ordered][first]:,}" for s in SYSTEMS],
+        "ordered_at_16": [f"{devices[s].times[ordered][16]:,}" for s in SYSTEMS],
+        "dense_last": [f"{devices[s].times[dense][last]:,}" for s in SYSTEMS],
         "dense_16": [f"{devices[s].times[dense][16]:,}" for s in SYSTEMS],
         "stages": [(devices[s].stages[dense], devices[s].stages[ordered]) for s in SYSTEMS],
     }
@@ -289,9 +291,7 @@ def _drive(found: Results) -> dict[str, Any]:
     }
 
 
-def _schedule(
-    counted: Mapping[SystemName, CostTable], parts: list[Processor], slowest: Processor
-) -> dict[str, Any]:
+def _schedule(counted: Mapping[SystemName, CostTable], parts: list[Processor], slowest: Processor) -> dict[str, Any]:
     position = counted["position"]
     costs = {method: tables.robust_costs_of(position, method) for method in ROBUST_METHODS}
     least = {method: least_speed(of, Timing(N, 0, N)).speed for method, of in costs.items()}

@@ -1,4 +1,4 @@
-"""What the figures of the report on the robust filter share: sizes, logarithmic axes, curves with a name at their end."""
+"""What the figures of the report on the robust filter share: sizes, logarithmic axes, names at the ends of curves."""
 
 from __future__ import annotations
 

@@ -11,7 +11,6 @@ from matplotlib.figure import Figure
 from reports.erkf_axes import AXIS_MM, EDGE_MM, TITLE_MM, decades, plain
 from reports.legend import draw_legend, legend_height, line_entry
 from reports.style import (
-    FONT_PT,
     INK,
     PALE,
     SMALL_PT,
@@ -37,37 +36,27 @@ class Way(NamedTuple):
     seconds: Mapping[str, float] = {}
 
 
-def cost_figure(groups: Mapping[str, Sequence[Way]], step_s: float) -> Figure:
+def cost_figure(ways: Sequence[Way], step_s: float) -> Figure:
     """Operations, and the time of the compiled code, each on a logarithmic axis; a sign for each system.
 
-    groups: rows under a common heading; step_s: the HR period, a line among the times.
+    step_s: the HR period, a line among the times.
     """
-    ways = [way for of_group in groups.values() for way in of_group]
     systems = list(dict.fromkeys(system for way in ways for system in way.operations))
     with drawing():
         left = EDGE_MM + 3.0 + max(text_width_mm(way.name) for way in ways)
         across = WIDTH_MM - left - RIGHT_MM - GAP_MM
         widths = [across * COUNTS_SHARE, across * (1 - COUNTS_SHARE)]
-        height = ROW_MM * (len(ways) + len(groups))
+        height = ROW_MM * (len(ways) + 1)
         legend = [line_entry(name, line, dashes=False) for name, line in zip(systems, SOURCE_LINES[1:], strict=False)]
         legend_top = EDGE_MM + TITLE_MM + height + AXIS_MM
         figure = page(legend_top + legend_height(legend, across) + EDGE_MM)
         counts = axes_at(figure, left, EDGE_MM + TITLE_MM, widths[0], height)
         times = axes_at(figure, left + widths[0] + GAP_MM, EDGE_MM + TITLE_MM, widths[1], height)
-        y = 0
-        for group, of_group in groups.items():
-            heading = counts.annotate(
-                group, (0, y), (3 - left * 72 / 25.4, 0), xycoords=counts.get_yaxis_transform(),
-                textcoords="offset points", va="center", size=FONT_PT, weight="bold",
-            )  # fmt: skip
-            heading.set_in_layout(False)
-            y += 1
-            for way in of_group:
-                _row(counts, y, way.operations, systems, way.name)
-                _row(times, y, {system: 1e6 * time for system, time in way.seconds.items()}, systems)
-                y += 1
+        for y, way in enumerate(ways, start=1):
+            _row(counts, y, way.operations, systems, way.name)
+            _row(times, y, {system: 1e6 * time for system, time in way.seconds.items()}, systems)
         for axes in (counts, times):
-            axes.set(ylim=(y - 0.4, -0.6), yticks=[])
+            axes.set(ylim=(len(ways) + 0.6, -0.4), yticks=[])
             axes.spines["left"].set_visible(False)
             plain(axes)
         numbers = [number for way in ways for number in way.operations.values()]

@@ -1,4 +1,4 @@
-"""Operation counts of the robust step as the report groups and names them, and the verdict on Givens rotations."""
+"""Operation counts of the robust step as the report names them, and the verdict on Givens rotations."""
 
 from __future__ import annotations
 
@@ -15,24 +15,25 @@ from filters.systems.uncertain import linearised
 from studies.robust_costs import SYSTEMS, SystemName, robust_case
 from studies.robust_counts import PENALTIES, Penalty, counts, dense_counts, kalman_counts
 
-REPEATED = "N eliminations, dense, as the paper counts"
-INVERSE = "one Gauss-Jordan inverse, dense"
-INVERSE_SKIPPING = "the same, zeros skipped"
-PER_COLUMN = "a QR for each column, dense, as the paper does"
-GIVENS = "one QR, dense"
-GIVENS_NATURAL = "one QR, zeros skipped, natural order"
-GIVENS_ORDERED = "one QR, zeros skipped, recommended order"
-LU = "LU with pivoting, dense"
-LU_NATURAL = "the same, zeros skipped, natural order"
-LU_ORDERED = "the same, zeros skipped, recommended order"
-CLOSED = "closed form, zeros skipped"
-KALMAN = "plain Kalman filter, dense"
+REPEATED = "inverse: N eliminations, as the paper counts"
+INVERSE = "inverse: one Gauss-Jordan, dense"
+INVERSE_SKIPPING = "inverse: zeros skipped"
+PER_COLUMN = "Givens: a QR for each column, as in the paper"
+GIVENS = "Givens: one QR, dense"
+GIVENS_NATURAL = "Givens: zeros skipped"
+GIVENS_ORDERED = "Givens: zeros skipped, recommended order"
+LU = "pivoted LU: dense"
+LU_NATURAL = "pivoted LU: zeros skipped"
+LU_ORDERED = "pivoted LU: zeros skipped, recommended order"
+CLOSED = "closed form: zeros skipped"
+KALMAN = "plain Kalman filter: dense"
 
-GROUPS: Mapping[str, tuple[str, ...]] = {
-    "By explicit inverse": (REPEATED, INVERSE, INVERSE_SKIPPING),
-    "By Givens rotations": (PER_COLUMN, GIVENS, GIVENS_NATURAL, GIVENS_ORDERED),
-    "By neither": (LU, LU_NATURAL, LU_ORDERED, CLOSED, KALMAN),
-}
+ALL_WAYS = (
+    *(REPEATED, INVERSE, INVERSE_SKIPPING),
+    *(PER_COLUMN, GIVENS, GIVENS_NATURAL, GIVENS_ORDERED),
+    *(LU, LU_NATURAL, LU_ORDERED),
+    *(CLOSED, KALMAN),
+)
 TIMED = {INVERSE: "robust-inverse", GIVENS_ORDERED: "robust-givens", LU_ORDERED: "robust-lu", CLOSED: "robust-closed"}
 """Of which the compiled code is timed, with the linearisation in it."""
 
@@ -47,7 +48,7 @@ _COUNTED = {
 }
 
 PROCESSORS = (1, 4, 16, 64, 256, 1024)
-SCHEDULES = ("dense, Sameh and Kuck", "sparse, greedy, natural order", "sparse, greedy, recommended order")
+SCHEDULES = ("dense, Sameh and Kuck", "sparse, greedy", "sparse, greedy, recommended order")
 
 
 class Counts(NamedTuple):
@@ -67,7 +68,7 @@ def all_counts() -> Counts:
     counted = {(found.system, found.penalty, found.way): found for found in counts()}
     unknowns = {system: counted[system, "finite", "givens"].unknowns for system in SYSTEMS}
     operations: dict[str, dict[tuple[SystemName, Penalty], int]] = {}
-    for way in (way for ways in GROUPS.values() for way in ways):
+    for way in ALL_WAYS:
         operations[way] = {}
         for system in SYSTEMS:
             dense = dense_counts(unknowns[system], len(robust_case(system).start.x))

@@ -23,7 +23,7 @@ TRUE = Line(INK, "-", "")
 GPS = Line("#9bb8cf", (0, (1.0, 1.2)), ".", 3.0)
 IMU = Line("#2e7d4f", (0, (4.0, 1.5)), "")
 FILTERS = {"EKF": SOURCE_LINES[2]._replace(marker=""), "ERKF": SOURCE_LINES[1]._replace(marker="")}
-WIDTHS = {"EKF": 2.0, "ERKF": 0.7}
+WIDTHS = {"EKF": 2.4, "ERKF": 1.0}
 """The EKF lies under the ERKF, which it often cannot be told apart from, and is to be seen at both sides of it."""
 MARKED = {"EKF": SOURCE_LINES[2], "ERKF": SOURCE_LINES[1]}
 WINDOW = 50
@@ -49,7 +49,9 @@ def route_figure(drive: Columns, close_up: Columns, error: str) -> Figure:
         route = axes_at(figure, LEFT_MM, EDGE_MM + TITLE_MM, width, height)
         route.plot(drive["gps east"], drive["gps north"], GPS.marker, color=GPS.colour, ms=2.0, mew=0)
         for name, line in FILTERS.items():
-            route.plot(drive[f"{name} {error} east"], drive[f"{name} {error} north"], color=line.colour, lw=WIDTHS[name])
+            route.plot(
+                drive[f"{name} {error} east"], drive[f"{name} {error} north"], color=line.colour, lw=WIDTHS[name]
+            )
         route.set_aspect("equal", adjustable="datalim")
         route.plot([drive["true east"][0]], [drive["true north"][0]], "o", ms=5, mfc="none", mec=INK, mew=0.9)
         _style(route, "The route", "east (m)", "north (m)")

@@ -44,7 +44,7 @@ def parallel_figure(times: Mapping[str, Mapping[str, Mapping[int, int]]]) -> Fig
             end_labels(
                 axes,
                 [list(curve.values())[-1] for curve in curves.values()],
-                [f"{list(curve.values())[0] / list(curve.values())[-1]:.0f}×" for curve in curves.values()],
+                [f"{max(curve.values()) / min(curve.values()):.0f}×" for curve in curves.values()],
                 PLOT_MM,
             )
             axes.set_title(system, loc="left", size=TITLE_PT)

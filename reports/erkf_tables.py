@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
-from reports.erkf_counts import GROUPS, PROCESSORS, TIMED, Counts, Parallel
+from reports.erkf_counts import ALL_WAYS, PROCESSORS, TIMED, Counts, Parallel
 from reports.erkf_results import Results
 from reports.erkf_schedule import millions
 from reports.multirate_words import percent, significant
@@ -30,6 +30,7 @@ ASKED = (1, 5, 10, 20, N)
 """The L of the table."""
 UNITS = (1, 4, 16, 64)
 """Column pairs at a time, of the parallel device."""
+SHOWN = tuple(P for P in PROCESSORS if P != 4)
 DAGGER = "†"
 
 
@@ -41,19 +42,16 @@ def robust_costs_of(table: CostTable, method: str) -> RobustCosts:
 
 def cost_rows(counts: Counts, measured: Mapping[SystemName, CostTable]) -> Rows:
     """Operations of every way, with infinite and finite mu, and the time of the compiled code."""
-    rows: Rows = [["", "Way"]]
+    rows: Rows = [["Way"]]
     for system in SYSTEMS:
-        name = f"{system}, N = {counts.unknowns[system]}"
-        rows[0] += [f"{name}, μ = ∞", "finite μ", f"µs {DAGGER}"]
-    for group, ways in GROUPS.items():
-        for number, way in enumerate(ways):
-            row: list[Any] = [group if number == 0 else "", way]
-            for system in SYSTEMS:
-                found = counts.operations[way]
-                row += [f"{found[system, 'infinite']:,}", f"{found[system, 'finite']:,}", "-"]
-                if way in TIMED:
-                    row[-1] = f"{1e6 * seconds(measured[system], TIMED[way]):.1f}"
-            rows.append(row)
+        rows[0] += [f"{system}, μ = ∞", "finite μ", f"µs {DAGGER}"]
+    for way in ALL_WAYS:
+        row: list[Any] = [way]
+        for system in SYSTEMS:
+            found = counts.operations[way]
+            time = f"{1e6 * seconds(measured[system], TIMED[way]):.1f}" if way in TIMED else "-"
+            row += [f"{found[system, 'infinite']:,}", f"{found[system, 'finite']:,}", time]
+        rows.append(row)
     return rows
 
 
@@ -62,11 +60,11 @@ def seconds(measured: CostTable, method: str) -> float:
     return float(measured.entry(method, "robust_step").minimum)
 
 
-def parallel_rows(found: Mapping[str, Parallel]) -> Rows:
-    rows: Rows = [["System", "Schedule", "rotations", "stages", *(f"P = {P}" for P in PROCESSORS), "speed-up"]]
+def parallel_rows(found: Mapping[SystemName, Parallel]) -> Rows:
+    rows: Rows = [["System", "Schedule", "rotations", "stages", *(f"P = {P}" for P in SHOWN), "speed-up"]]
     for system, of_system in found.items():
         for name, times in of_system.times.items():
-            numbers = [f"{times[P]:,}" for P in PROCESSORS]
+            numbers = [f"{times[P]:,}" for P in SHOWN]
             gain = f"{times[PROCESSORS[0]] / times[PROCESSORS[-1]]:.0f}"
             row = [system, name, f"{of_system.rotations[name]:,}", of_system.stages[name]]
             rows.append([*row, *numbers, gain])
@@ -75,14 +73,14 @@ def parallel_rows(found: Mapping[str, Parallel]) -> Rows:
 
 def agreement_rows(found: Results) -> Rows:
     """How far each way is from the inverse: at most, in a whole drive. All from rounding, so all stored."""
-    heads = ("largest, absolute", "smallest, absolute", "largest, relative", "smallest, relative", "not finite from step")
+    heads = ("max, abs.", "min, abs.", "max, rel.", "min, rel.", "fails in")
     rows: Rows = [["Filter", "Way", *heads]]
     names = {"givens": "Givens", "lu": "LU, pivoting", "lu without pivoting": "LU, no pivoting"}
     for record in found.records("agreement"):
         values = [record[key] for key in ("largest", "smallest", "relative_largest", "relative_smallest")]
         failed = record["fails_in_step"]
         shown = [_power(value) if failed == "" else "-" for value in values]
-        rows.append([record["case"], names[record["way"]], *shown, failed or "-"])
+        rows.append([record["case"], names[record["way"]], *shown, f"step {failed}" if failed else "-"])
     return rows
 
 
@@ -102,9 +100,7 @@ def position_rows(found: Results) -> Rows:
     rows: Rows = [["Scale error", "Filter", "between fixes, N", "E", "D", "at fixes, N", "E ", "D ", "GPS out, end"]]
     for record in found.records("position"):
         values = [record[f"{what}_{axis}_m"] for what in ("between", "fix") for axis in ("north", "east", "down")]
-        rows.append(
-            [f"{100 * float(record['scale_error']):g} %", record["method"], *values, record["outage_end_m"]]
-        )
+        rows.append([f"{100 * float(record['scale_error']):g} %", record["method"], *values, record["outage_end_m"]])
     return rows
 
 

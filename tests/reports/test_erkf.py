@@ -1,0 +1,179 @@
+"""The committed report is what the code makes of the results stored in it, byte for byte, and what it says is true."""
+
+from __future__ import annotations
+
+import csv
+import io
+import re
+from dataclasses import replace
+from fractions import Fraction
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from reports import erkf_counts as ways
+from reports import erkf_tables as tables
+from reports.erkf import build
+from reports.erkf_counts import all_counts, parallel
+from reports.erkf_results import TABLES, Results, read
+from sched_sim.costs import ROBUST_METHODS, Cost, CostTable, StandardCosts, load
+from sched_sim.least_speed import least_speed
+from sched_sim.processor import shipped_processors
+from sched_sim.timing import Timing
+from studies.robust_costs import SYSTEMS, N
+from tests.command_line import Run
+
+PUBLISHED = Path(__file__).parents[2] / "reports" / "published" / "erkf"
+
+
+@cache
+def stored() -> Results:
+    return read(PUBLISHED)
+
+
+@cache
+def rebuilt() -> dict[str, bytes]:
+    return build(stored())
+
+
+def text() -> str:
+    return " ".join(rebuilt()["index.md"].decode().split())
+
+
+def rows(name: str) -> list[dict[str, str]]:
+    return list(csv.DictReader(io.StringIO(rebuilt()[name].decode())))
+
+
+def test_the_report_has_no_file_too_many_or_too_few() -> None:
+    assert {path.name for path in PUBLISHED.iterdir()} == set(rebuilt())
+
+
+@pytest.mark.parametrize("name", sorted(path.name for path in PUBLISHED.iterdir()))
+def test_the_committed_file_is_rebuilt_byte_for_byte(name: str) -> None:
+    assert rebuilt()[name] == (PUBLISHED / name).read_bytes()
+
+
+def test_the_page_is_self_contained() -> None:
+    page = rebuilt()["index.html"].decode()
+    assert len(re.findall(r'<img src="data:image/svg\+xml;base64,', page)) == 10
+    assert not re.findall(r'(?:src|href)="(?:https?:)?//', page)
+
+
+def test_another_machine_changes_only_what_is_marked_as_measured() -> None:
+    """Other times: in tables and text only what has the mark changes, and no figure but the one that shows times."""
+
+    def slower(table: CostTable) -> CostTable:
+        costs = {
+            method: {kind: Cost.of(cost.minimum * (2 + number)) for kind, cost in kinds.items()}
+            for number, (method, kinds) in enumerate(table.costs.items())
+        }
+        return replace(table, costs=costs, provenance={**table.provenance, "machine": "another"})
+
+    other = build(stored()._replace(measured={name: slower(table) for name, table in stored().measured.items()}))
+    for name, content in rebuilt().items():
+        if name.endswith(".csv"):
+            columns = [
+                number
+                for number, head in enumerate(next(csv.reader(io.StringIO(content.decode()))))
+                if tables.DAGGER not in head
+            ]
+            assert picked(content, columns) == picked(other[name], columns)
+        elif name.endswith(".svg") and name != "costs.svg":
+            assert content == other[name]
+    before, after = (re.split(r"\n\n", files["index.md"].decode()) for files in (rebuilt(), other))
+    changed = [one for one, two in zip(before, after, strict=True) if one != two]
+    assert changed
+    assert all(tables.DAGGER in paragraph for paragraph in changed)
+
+
+def picked(content: bytes, columns: list[int]) -> list[list[str]]:
+    return [[row[column] for column in columns] for row in csv.reader(io.StringIO(content.decode()))]
+
+
+def test_the_command_writes_the_report(sched_sim: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("reports.erkf_results.results", lambda _thorough, _progress: stored())
+    result = sched_sim("report erkf -o here")
+    assert (result.code, result.out) == (0, "")
+    assert {path.name: path.read_bytes() for path in (tmp_path / "here/erkf").iterdir()} == rebuilt()
+
+
+def test_what_is_stored_is_read_back() -> None:
+    assert set(stored().tables) == set(TABLES)
+    for name, content in stored().files().items():
+        assert content == (PUBLISHED / name).read_bytes()
+    course = stored().columns("drive")
+    np.testing.assert_allclose(course["time_s"], np.arange(1000) / 10)
+    assert not any(np.isnan(values).any() for values in course.values())
+
+
+# ------------------------------------------------------------------------------------------ what the text claims
+
+
+def test_the_verdict_on_givens() -> None:
+    counts = all_counts()
+    for system in SYSTEMS:
+        assert counts.ratio(ways.REPEATED, ways.PER_COLUMN, system) == pytest.approx(2.26, abs=0.03)
+        assert counts.ratio(ways.GIVENS, ways.INVERSE, system) == pytest.approx(1.21, abs=0.01)
+        for penalty in ("infinite", "finite"):
+            assert counts.ratio(ways.GIVENS_ORDERED, ways.LU_ORDERED, system, penalty) > 5  # type: ignore[arg-type]
+            assert counts.ratio(ways.LU_ORDERED, ways.CLOSED, system, penalty) > 1.2  # type: ignore[arg-type]
+    assert "(2.26 and 2.25 times fewer operations)" in text()
+
+
+def test_sparsity_against_processors() -> None:
+    """One processor that skips zeros is about as fast as 16 that do not, and 16 faster than 1024 that do not."""
+    dense, _, ordered = ways.SCHEDULES
+    for system in SYSTEMS:
+        times = parallel(system).times
+        assert times[ordered][1] == pytest.approx(times[dense][16], rel=0.05)
+        assert times[ordered][16] < times[dense][1024]
+        assert times[ordered][64] < 1.25 * times[ordered][1024]
+
+
+def test_in_one_period_is_what_l_1_asks_for() -> None:
+    for system in SYSTEMS:
+        for method in ROBUST_METHODS:
+            costs = tables.robust_costs_of(load(f"erkf-{system}"), method)
+            serial = least_speed(StandardCosts(costs.inertial, costs.robust_step), Timing(N, 0, N)).speed
+            assert serial == least_speed(costs, Timing(N, 0, 1)).speed
+    for row in rows("speeds.csv"):
+        assert row["in one period"] == row["L = 1"]
+        assert row[f"achieved at L = {N}"] == str(N)
+
+
+def test_every_processor_has_a_verdict_on_every_way() -> None:
+    of = rows("processors.csv")
+    assert [row["Processor"] for row in of] == [n for _ in SYSTEMS for n in shipped_processors() for _ in tables.WAYS]
+    assert {row["fits"] for row in of} == {"yes", "no", "no sqrt"}
+    for row in of:
+        assert (row["fits"] == "no sqrt") == (row["load, %"] == "-")
+        assert (row["fits"] == "yes") == (row["in use at l"] != "-")
+    assert {row["fits"] for row in of if row["System"] == "position"} == {"yes", "no sqrt"}
+    assert "All 5 of these run every way" in text()
+
+
+def test_givens_and_pivoted_lu_agree_with_the_inverse_and_unpivoted_lu_does_not() -> None:
+    for record in stored().records("agreement"):
+        if record["way"] == "lu without pivoting":
+            assert (record["fails_in_step"] == "1") == ("inf" in record["case"])
+        else:
+            assert record["fails_in_step"] == ""
+            assert max(float(record["largest"]), float(record["smallest"])) < 1e-10
+
+
+def test_where_robustness_pays() -> None:
+    yaw = {(row["Scale error"], row["Filter"]): float(row["yaw"]) for row in rows("attitude-errors.csv")}
+    assert yaw["10 %", "ERKF mu=1e4, gyro row"] < 0.65 * yaw["10 %", "EKF"]
+    assert yaw["10 %", "KF with I/mu only, mu=1e4"] == pytest.approx(yaw["10 %", "ERKF mu=1e4, gyro row"], rel=0.05)
+    assert yaw["2 %", "ERKF mu=1e4, gyro row"] > yaw["2 %", "EKF"]
+    for rows_said in ("gyro row", "bias row", "all rows"):
+        assert yaw["2 %", f"ERKF mu=inf, {rows_said}"] > 4 * yaw["2 %", "EKF"]
+
+
+def test_a_device_of_more_units_is_faster() -> None:
+    for system in SYSTEMS:
+        times = [float(row["step, ms"]) for row in rows("device.csv") if row["System"] == system]
+        assert times == sorted(times, reverse=True)
+        assert Fraction(str(times[0])) > 0
