@@ -243,7 +243,7 @@ def _rounding(found: Results) -> dict[str, Any]:
         "relative": worst("givens", "relative_largest", "relative_smallest"),
         "lu_relative": worst("lu", "relative_largest", "relative_smallest"),
         "radians_absolute": f"{max(float(radians[key]) for key in ('largest', 'smallest')):.1e}",
-        "radians_relative": f"{float(radians['relative_smallest']):.1e}",
+        "radians_percent": f"{100 * float(radians['relative_smallest']):.1f}",
         "failing": len(unpivoted) - len(kept),
         "of": len(unpivoted),
         "step": max(int(r["fails_in_step"]) for r in unpivoted if r["fails_in_step"]),
@@ -311,14 +311,19 @@ def _schedule(counted: Mapping[SystemName, CostTable], parts: list[Processor], s
         "load": {method: percent(found.load) for method, found in here.items()},
         "landed": {method: found.landed for method, found in here.items()},
         "one_period": {m: percent((of.inertial + of.robust_step) * HR_HZ) for m, of in alone.items() if of},
+        "inertial": f"{float(100 * HR_HZ * _inertial(position, slowest)):.2f}",
         "able": len(able),
         "all_fit": all(found.fits for of_part in able.values() for found in of_part.values()),
-        "late_inverse": [
-            (name, percent(of["robust-inverse"].load), of["robust-inverse"].landed) for name, of in able.items()
-        ],
         "lacking": lacking,
         "least_soon": f"{millions(least_speed(costs['robust-givens'], Timing(N, 0, SOON)).speed, HR_HZ):.3g}",
     }
+
+
+def _inertial(table: CostTable, part: Processor) -> Fraction:
+    """Seconds of the propagation alone."""
+    costs = tables.on(table, part, "robust-closed")
+    assert costs is not None
+    return Fraction(costs.inertial)
 
 
 def _heavy(rows: tables.Rows) -> tables.Rows:

@@ -69,9 +69,9 @@ def cost_figure(ways: Sequence[Way], step_s: float) -> Figure:
             va="center", size=SMALL_PT,
         )  # fmt: skip
         counts.set_title("Operations in a step", loc="left", size=TITLE_PT)
-        times.set_title("Time of the compiled code †", loc="left", size=TITLE_PT)
+        times.set_title("Compiled code †", loc="left", size=TITLE_PT)
         counts.set_xlabel("floating-point operations", labelpad=2)
-        times.set_xlabel("µs", labelpad=2)
+        times.set_xlabel("time of a step (µs)", labelpad=2)
         draw_legend(figure, legend, left, legend_top, across)
         return figure
 

@@ -15,16 +15,16 @@ from filters.systems.uncertain import linearised
 from studies.robust_costs import SYSTEMS, SystemName, robust_case
 from studies.robust_counts import PENALTIES, Penalty, counts, dense_counts, kalman_counts
 
-REPEATED = "inverse: N eliminations, as the paper counts"
+REPEATED = "inverse: N eliminations, as in the paper"
 INVERSE = "inverse: one Gauss-Jordan, dense"
 INVERSE_SKIPPING = "inverse: zeros skipped"
-PER_COLUMN = "Givens: a QR for each column, as in the paper"
+PER_COLUMN = "Givens: a QR per column, as in the paper"
 GIVENS = "Givens: one QR, dense"
 GIVENS_NATURAL = "Givens: zeros skipped"
-GIVENS_ORDERED = "Givens: zeros skipped, recommended order"
+GIVENS_ORDERED = "Givens: zeros skipped, reordered"
 LU = "pivoted LU: dense"
 LU_NATURAL = "pivoted LU: zeros skipped"
-LU_ORDERED = "pivoted LU: zeros skipped, recommended order"
+LU_ORDERED = "pivoted LU: zeros skipped, reordered"
 CLOSED = "closed form: zeros skipped"
 KALMAN = "plain Kalman filter: dense"
 
@@ -48,7 +48,7 @@ _COUNTED = {
 }
 
 PROCESSORS = (1, 4, 16, 64, 256, 1024)
-SCHEDULES = ("dense, Sameh and Kuck", "sparse, greedy", "sparse, greedy, recommended order")
+SCHEDULES = ("dense, Sameh and Kuck", "sparse, greedy", "sparse, greedy, reordered")
 
 
 class Counts(NamedTuple):

@@ -21,7 +21,7 @@ Columns = Mapping[str, FloatArray]
 LEFT_MM, RIGHT_MM, GAP_MM, BETWEEN_MM, ROW_MM = 15.0, 4.0, 14.0, 4.0, 34.0
 TRUE = Line(INK, "-", "")
 GPS = Line("#9bb8cf", (0, (1.0, 1.2)), ".", 3.0)
-IMU = Line("#2e7d4f", (0, (4.0, 1.5)), "")
+IMU = Line("#2e7d4f", "-", "")
 FILTERS = {"EKF": SOURCE_LINES[2]._replace(marker=""), "ERKF": SOURCE_LINES[1]._replace(marker="")}
 WIDTHS = {"EKF": 2.4, "ERKF": 1.0}
 """The EKF lies under the ERKF, which it often cannot be told apart from, and is to be seen at both sides of it."""
@@ -85,28 +85,39 @@ def _close_up(figure: Figure, drive: Columns, close_up: Columns, error: str, lef
 
 
 def attitude_figure(drive: Columns, error: str) -> Figure:
-    """Roll, pitch and yaw of both filters, with what GPS and the inertial unit say of yaw."""
+    """Roll, pitch and yaw of both filters; at the foot, how wrong yaw is in them, by GPS and by the inertial unit."""
     with drawing():
         legend = [
             line_entry("true", TRUE),
-            line_entry("GPS yaw", GPS._replace(size=5.0), dashes=False),
+            line_entry("every second GPS yaw", GPS._replace(size=5.0), dashes=False),
             line_entry("IMU", IMU),
             *(line_entry(name, line) for name, line in FILTERS.items()),
         ]
-        figure, rows = _stack(3, legend)
-        for axes, angle in zip(rows, ANGLES, strict=True):
-            time_s, truth = drive["time_s"], drive[f"true {angle}"]
-            if angle == "yaw":
-                seen = _near(drive["gps yaw"], truth)
-                axes.plot(time_s, seen, GPS.marker, color=GPS.colour, ms=5.0, mew=0)
-                axes.plot(time_s, _near(drive["imu yaw"], truth), color=IMU.colour, ls=IMU.dashes, lw=1.0)
-            else:
+        figure, rows = _stack(4, legend)
+        time_s = drive["time_s"]
+        for axes, angle in zip(rows, ANGLES, strict=False):
+            truth = drive[f"true {angle}"]
+            shown = {name: drive[f"{name} {error} {angle}"] for name in FILTERS}
+            if angle != "yaw":
                 axes.plot(time_s, drive[f"imu {angle}"], color="#b7cfbc", lw=0.4)
-            for name, line in FILTERS.items():
-                axes.plot(time_s, _near(drive[f"{name} {error} {angle}"], truth), color=line.colour, lw=WIDTHS[name])
+            for name, values in shown.items():
+                axes.plot(time_s, _near(values, truth), color=FILTERS[name].colour, lw=WIDTHS[name])
             axes.plot(time_s, _turned(truth), color=INK, lw=0.6)
-            _style(axes, "", "time (s)" if axes is rows[-1] else "", f"{angle} (deg)")
+            _style(axes, "", "", f"{angle} (deg)")
+        _yaw_error(rows[-1], drive, error)
         return figure
+
+
+def _yaw_error(axes: Axes, drive: Columns, error: str) -> None:
+    """What yaw is wrong by, in the measurements and in the estimates."""
+    time_s, truth = drive["time_s"], drive["true yaw"]
+    seen = wrapped_deg(drive["gps yaw"] - truth)[::2]
+    axes.axhline(0.0, color=INK, lw=0.6)
+    axes.plot(time_s[::2], seen, GPS.marker, color=GPS.colour, ms=2.6, mew=0)
+    axes.plot(time_s, wrapped_deg(drive["imu yaw"] - truth), color=IMU.colour, lw=0.5)
+    for name, line in FILTERS.items():
+        axes.plot(time_s, wrapped_deg(drive[f"{name} {error} yaw"] - truth), color=line.colour, lw=0.8)
+    _style(axes, "", "time (s)", "yaw, error (deg)")
 
 
 def position_figure(drive: Columns, error: str) -> Figure:

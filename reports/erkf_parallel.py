@@ -12,7 +12,7 @@ from reports.erkf_axes import AXIS_MM, EDGE_MM, TITLE_MM, decades, end_labels, p
 from reports.legend import draw_legend, legend_height, line_entry
 from reports.style import SOURCE_LINES, TITLE_PT, WIDTH_MM, axes_at, drawing, page
 
-LEFT_MM, RIGHT_MM, GAP_MM, PLOT_MM = 14.0, 9.0, 17.0, 56.0
+LEFT_MM, RIGHT_MM, GAP_MM, PLOT_MM = 18.0, 10.0, 24.0, 56.0
 LINES = SOURCE_LINES[1:]
 
 

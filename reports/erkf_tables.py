@@ -97,9 +97,9 @@ def attitude_rows(found: Results) -> Rows:
 
 
 def position_rows(found: Results) -> Rows:
-    rows: Rows = [["Scale error", "Filter", "between fixes, N", "E", "D", "at fixes, N", "E ", "D ", "GPS out, end"]]
+    rows: Rows = [["Scale error", "Filter", "between fixes: north", "east", "down", "GPS out, end"]]
     for record in found.records("position"):
-        values = [record[f"{what}_{axis}_m"] for what in ("between", "fix") for axis in ("north", "east", "down")]
+        values = [record[f"between_{axis}_m"] for axis in ("north", "east", "down")]
         rows.append([f"{100 * float(record['scale_error']):g} %", record["method"], *values, record["outage_end_m"]])
     return rows
 
@@ -108,7 +108,7 @@ def speed_rows(tables: Mapping[SystemName, CostTable], measured: Mapping[SystemN
     """The least speed by L in millions of operations a second, the L achieved with that for L = N, and what the whole
     step in one HR period needs; measured: the least share of this machine for L = N."""
     heads = [f"L = {L}" for L in ASKED]
-    rows: Rows = [["System", "Way", "in one period", *heads, f"achieved at L = {N}", f"load here, % {DAGGER}"]]
+    rows: Rows = [["System", "Way", "in one period", *heads, "lands at", f"load, % {DAGGER}"]]
     for system, table in tables.items():
         for method in ROBUST_METHODS:
             costs, timed = robust_costs_of(table, method), robust_costs_of(measured[system], method)
@@ -116,7 +116,7 @@ def speed_rows(tables: Mapping[SystemName, CostTable], measured: Mapping[SystemN
             speeds = [least_speed(costs, Timing(N, 0, L)).speed for L in ASKED]
             landed = achieved_l(costs, Timing(N, 0, N), speeds[-1])
             here = fit(timed, Timing(N, 0, N), Fraction(HR_HZ)).load
-            numbers = [f"{millions(speed, HR_HZ):#.3g}" for speed in (serial, *speeds)]
+            numbers = [f"{millions(speed, HR_HZ):#.3g}".rstrip(".") for speed in (serial, *speeds)]
             rows.append([system, WAYS[method], *numbers, landed, percent(here)])
     return rows
 
