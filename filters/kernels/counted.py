@@ -27,7 +27,7 @@ class Operations(NamedTuple):
         """All operations, each counted once whatever its kind."""
         return sum(self)
 
-    def __add__(self, other: Operations) -> Operations:  # type: ignore[override]
+    def __add__(self, other: Operations) -> Operations:  # type: ignore[override]  # a tuple's + would join the two
         """The sum, kind by kind."""
         return Operations(*(mine + theirs for mine, theirs in zip(self, other, strict=True)))
 

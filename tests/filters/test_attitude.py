@@ -147,7 +147,7 @@ def test_bad_input_is_named() -> None:
     with pytest.raises(ValueError, match=r"gyro_sigma=0.*must all be positive"):
         attitude(gyro_sigma=0.0)
     with pytest.raises(ValueError, match="rows='gyros' is unknown"):
-        attitude_uncertainty("gyros")  # type: ignore[arg-type]
+        attitude_uncertainty("gyros")
     assert ATTITUDE_ROWS == ("none", "gyro", "bias", "all")
     with pytest.raises(ValueError, match="3 steps need 3 rows of measurements and availability; there are 2 and 3"):
         extended_robust.run(

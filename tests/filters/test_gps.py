@@ -31,7 +31,7 @@ def test_the_model_over_n_periods_is_that_of_one_applied_n_times() -> None:
     for _ in range(n):
         Phi, Q = fine.Phi @ Phi, fine.Phi @ Q @ fine.Phi.T + fine.Q
     for noise, share in (("averaged", n), ("sampled", 1)):
-        coarse = gps_coarse(n, steps=20, noise=noise).parameters  # type: ignore[arg-type]
+        coarse = gps_coarse(n, steps=20, noise=noise).parameters
         np.testing.assert_allclose(coarse.Phi, Phi, rtol=1e-12)
         np.testing.assert_allclose(coarse.Q, Q, rtol=1e-12, atol=1e-15)
         np.testing.assert_array_equal(coarse.H, fine.H)
@@ -107,6 +107,6 @@ def test_how_close_a_gain_every_five_seconds_comes() -> None:
 @pytest.mark.parametrize("bad", [{"period_s": 0.0}, {"range_sigma_m": -1.0}, {"steps": -1}])
 def test_bad_arguments(bad: dict[str, float]) -> None:
     with pytest.raises(ValueError, match=r"gps: period_s=.* must be positive, steps=.* at least 0"):
-        gps(**bad)  # type: ignore[arg-type]
+        gps(**bad)
     with pytest.raises(ValueError, match="n=0 must be at least 1"):
         gps_coarse(0)

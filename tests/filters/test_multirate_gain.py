@@ -157,7 +157,7 @@ def test_the_model_over_n_steps(n: int, system: System) -> None:
     Phi, _, H, Q, R = (matrix[0] for matrix in system.parameters)
     powers = [np.linalg.matrix_power(Phi, i) for i in range(n + 1)]
     for noise, share in (("averaged", n), ("sampled", 1)):
-        found = over(system, n, noise).parameters  # type: ignore[arg-type]
+        found = over(system, n, noise).parameters
         np.testing.assert_allclose(found.Phi[0], powers[n], rtol=1e-12, atol=1e-12)
         np.testing.assert_allclose(found.Q[0], sum(F @ Q @ F.T for F in powers[:n]), rtol=1e-12, atol=1e-12)
         np.testing.assert_allclose(found.H[0], H)
@@ -243,7 +243,7 @@ def test_bad_arguments(n: int, change: dict[str, Any], options: dict[str, Any], 
 
 def test_an_unknown_kind_of_noise() -> None:
     with pytest.raises(ValueError, match="noise='none' is unknown; give one of averaged, sampled"):
-        over(GOOD.system, 2, "none")  # type: ignore[arg-type]
+        over(GOOD.system, 2, "none")
 
 
 def test_operations_of_the_state_update_of_the_patents_example() -> None:

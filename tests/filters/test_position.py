@@ -150,4 +150,4 @@ def test_bad_input_is_named() -> None:
     with pytest.raises(ValueError, match="must all be positive"):
         position(LATITUDE, HEIGHT, velocity_sigma=-1.0)
     with pytest.raises(ValueError, match="rows='all' is unknown"):
-        position_uncertainty("all")  # type: ignore[arg-type]
+        position_uncertainty("all")

@@ -118,8 +118,8 @@ def test_the_verdict_on_givens() -> None:
         assert counts.ratio(ways.REPEATED, ways.PER_COLUMN, system) == pytest.approx(2.26, abs=0.03)
         assert counts.ratio(ways.GIVENS, ways.INVERSE, system) == pytest.approx(1.21, abs=0.01)
         for penalty in ("infinite", "finite"):
-            assert counts.ratio(ways.GIVENS_ORDERED, ways.LU_ORDERED, system, penalty) > 5  # type: ignore[arg-type]
-            assert counts.ratio(ways.LU_ORDERED, ways.CLOSED, system, penalty) > 1.2  # type: ignore[arg-type]
+            assert counts.ratio(ways.GIVENS_ORDERED, ways.LU_ORDERED, system, penalty) > 5
+            assert counts.ratio(ways.LU_ORDERED, ways.CLOSED, system, penalty) > 1.2
     assert "(2.26 and 2.25 times fewer operations)" in text()
 
 

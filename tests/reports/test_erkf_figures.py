@@ -33,9 +33,9 @@ COSTS = RobustCosts(Fraction(10), Fraction(900))
 def curves(figure: Figure, axes: int, points: int) -> list[tuple[list[float], list[float]]]:
     """The lines of so many points in one of the plots."""
     return [
-        (list(map(float, line.get_xdata())), list(map(float, line.get_ydata())))  # type: ignore[arg-type]
+        (list(map(float, line.get_xdata())), list(map(float, line.get_ydata())))
         for line in figure.axes[axes].lines
-        if len(line.get_xdata()) == points  # type: ignore[arg-type]
+        if len(line.get_xdata()) == points
     ]
 
 

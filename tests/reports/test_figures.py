@@ -98,7 +98,7 @@ def test_a_speed_grid_holds_what_it_must() -> None:
         (PAPER, [(20, 3)], Options(cpus=2)),
     ],
 )
-def test_plots_can_be_read(draw, table, plots, options) -> None:  # type: ignore[no-untyped-def]
+def test_plots_can_be_read(draw, table, plots, options) -> None:
     assert flaws(draw(table, plots, options)) == []
 
 

@@ -30,7 +30,7 @@ SAME_STEP = Options(feedback="same-step")
 
 
 def panel(method: str, N: int, M: int, L: int, speed: str, cycles: int = 1, **more: object) -> Panel:
-    return method_panel(PAPER, method, Timing(N, M, L), Fraction(speed), cycles, **more)  # type: ignore[arg-type]
+    return method_panel(PAPER, method, Timing(N, M, L), Fraction(speed), cycles, **more)
 
 
 def figure_3() -> list[Panel]:

@@ -57,10 +57,10 @@ def test_steady_state(spread: float) -> None:
         ]
 
     families = [
-        Family(title, {reading: curves(count, 10.0**row) for row, reading in enumerate(READINGS)})  # type: ignore[misc]
+        Family(title, {reading: curves(count, 10.0**row) for row, reading in enumerate(READINGS)})
         for title, count in (("Random walk", 4), ("Tracker", 3), ("Receiver", 3))
     ]
-    figure = steady_figure(families, READINGS)  # type: ignore[arg-type]
+    figure = steady_figure(families, READINGS)
     assert flaws(figure) == []
     first = next(line for line in figure.axes[0].lines if len(line.get_xdata()) == 19)
     assert list(first.get_xdata()) == list(range(2, 21))

@@ -105,11 +105,11 @@ def test_in_short() -> None:
 def test_what_the_text_claims_without_a_number() -> None:
     """R is nowhere right, and for the aircraft no better than skipping; nothing is good beyond the rule."""
     for name, share in found().shares.items():
-        averaged, sampled = (found().of(name, reading) for reading in ("averaged", "sampled"))  # type: ignore[arg-type]
+        averaged, sampled = (found().of(name, reading) for reading in ("averaged", "sampled"))
         assert all(a.steady_mean < b.steady_mean for a, b in zip(averaged, sampled, strict=True) if a.n > 1)
         assert largest_good(averaged) <= tables.rule(share)
     assert found().at("gps 1", "sampled", 5).steady_mean > found().at("gps 1", "skipped", 5).steady_mean
-    skipped, averaged = (found().of("gps 1", reading) for reading in ("skipped", "averaged"))  # type: ignore[arg-type]
+    skipped, averaged = (found().of("gps 1", reading) for reading in ("skipped", "averaged"))
     better = {n: one.steady_mean < other.steady_mean for n, one, other in zip(PERIODS, skipped, averaged, strict=True)}
     assert [n for n in PERIODS if n > 1 and better[n]] == list(range(7, 21))
     assert "from n = 7 on skipping is better" in text()

@@ -69,7 +69,7 @@ def test_the_loss_of_the_scalar_filter_grows_with_its_speed_as_the_closed_form_s
     found: dict[str, list[Accuracy]], noise: str
 ) -> None:
     for n in PERIODS:
-        expected = [scalar_ratio(speed, n, noise) for speed in SPEEDS if speed >= 0.01]  # type: ignore[arg-type]
+        expected = [scalar_ratio(speed, n, noise) for speed in SPEEDS if speed >= 0.01]
         measured = [steady(found[f"random walk {speed:g}"], noise, n) for speed in SPEEDS if speed >= 0.01]
         np.testing.assert_allclose(measured, expected, rtol=1e-4)
         assert expected == sorted(expected)

@@ -37,7 +37,7 @@ def test_loads() -> None:
 @pytest.mark.parametrize("cycle", CYCLES)
 def test_terms_sum_to_the_job(cycle: str) -> None:
     in_job = [term.ours for term in terms() if term.cycle == cycle and term.in_job]
-    assert total(in_job) == comparison(cycle).job  # type: ignore[arg-type]
+    assert total(in_job) == comparison(cycle).job
 
 
 def test_what_the_printed_counts_leave_unexplained() -> None:

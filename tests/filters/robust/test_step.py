@@ -76,12 +76,10 @@ def one_step(
     backend: BackendName = "reference",
 ) -> Predicted:
     if name in JOBS:
-        return step(model, before, y, c, mu=mu, way=name, backend=backend)  # type: ignore[arg-type]
+        return step(model, before, y, c, mu=mu, way=name, backend=backend)
     ready, n = prepared(model, mu), len(before.x)
     after, job = Predicted(np.full(n, np.nan), np.full((n, n), np.nan)), STUDIED[name]
-    BACKENDS[backend].function(job.function)(  # type: ignore[arg-type]
-        ready, weights(ready, mu), before, y, c, after, job.workspace(ready)
-    )
+    BACKENDS[backend].function(job.function)(ready, weights(ready, mu), before, y, c, after, job.workspace(ready))
     return after
 
 
@@ -167,4 +165,4 @@ def test_inputs_are_left_as_they_are() -> None:
 def test_names() -> None:
     assert get_args(WayName) == WAYS == ("inverse", "givens", "lu", "closed")
     with pytest.raises(ValueError, match="way='qr' is unknown; give one of inverse, givens, lu, closed"):
-        step(random_model(2, 2, 1, 1, 0, 0), start(2), [0.0], [0.0, 0.0], way="qr")  # type: ignore[arg-type]
+        step(random_model(2, 2, 1, 1, 0, 0), start(2), [0.0], [0.0, 0.0], way="qr")
