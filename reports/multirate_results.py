@@ -8,7 +8,6 @@ from typing import NamedTuple
 import numpy as np
 
 from filters.arrays import FloatArray
-from filters.true_covariance import true_covariance
 from studies.multirate import (
     ACCELERATION_NOISES,
     Accuracy,
@@ -17,6 +16,7 @@ from studies.multirate import (
     accuracies,
     gains_used,
     optimal_gains,
+    position_ratio,
     receiver,
     scenarios,
     worst_after_start,
@@ -80,8 +80,4 @@ def _share(scenario: Scenario) -> float:
 
 
 def _course(scenario: Scenario, n: int) -> FloatArray:
-    gains = np.array([gains_used(scenario, "averaged", n, 0), optimal_gains(scenario)])
-    P = true_covariance(scenario.system, scenario.P0, gains).after[..., scenario.position, scenario.position]
-    multirate, optimal = np.trace(P, axis1=-2, axis2=-1)
-    ratio: FloatArray = multirate / optimal
-    return ratio
+    return position_ratio(scenario, gains_used(scenario, "averaged", n, 0), optimal_gains(scenario))

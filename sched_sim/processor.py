@@ -17,7 +17,6 @@ from pathlib import Path
 
 from sched_sim.costs import Cost, CostTable, Counts, arithmetic
 from sched_sim.errors import InputError
-from sched_sim.ticks import positive
 
 SHIPPED = Path(__file__).parent / "processors"
 
@@ -44,18 +43,6 @@ class Processor:
     logic_per_arithmetic: Fraction
     sources: Mapping[str, str]
     path: str = ""
-
-    def at_clock(self, clock_hz: Fraction) -> Processor:
-        """The same processor on another clock: the same cycles, so other times.
-
-        Raises InputError for a clock that is not above 0 and for a processor that is described by times.
-        """
-        if self.clock_hz is None:
-            raise InputError(f"processor {self.name!r} has times, not cycles: leave its clock as it is")
-        scale = self.clock_hz / positive(clock_hz, "clock")
-        return replace(
-            self, clock_hz=Fraction(clock_hz), seconds={kind: time * scale for kind, time in self.seconds.items()}
-        )
 
 
 def shipped_processors() -> list[str]:

@@ -114,8 +114,16 @@ def accuracies(scenario: Scenario, periods: Sequence[int] = range(1, 21)) -> lis
     computed = {(noise, n): computed_gains(scenario, noise, n) for noise in noises for n in periods}
     keys = list(_filters(periods))
     gains = [_used(computed[_noise(reading), n], reading, n, L, scenario.steps) for reading, n, L in keys]
-    found = _position_variance(scenario, np.array(gains)) / _position_variance(scenario, optimal_gains(scenario))
+    found = position_ratio(scenario, np.array(gains), optimal_gains(scenario))
     return [_accuracy(scenario.name, *key, ratio) for key, ratio in zip(keys, found, strict=True)]
+
+
+def position_ratio(scenario: Scenario, gains: FloatArray, optimal: FloatArray) -> FloatArray:
+    """The true variance of the position error in every step (..., steps + 1), over that with the optimal gains.
+
+    gains (..., steps + 1, states, measurements): filters side by side. optimal: without leading axes.
+    """
+    return _position_variance(scenario, gains) / _position_variance(scenario, optimal)
 
 
 def optimal_gains(scenario: Scenario) -> FloatArray:
@@ -156,8 +164,7 @@ def worst_after_start(scenario: Scenario, n: int, full_rate_steps: int, noise: C
     optimal = standard.run(scenario.system, 1, 0, 0, *_no_data(scenario), backend="numpy")
     later = scenario._replace(P0=optimal.P_reference[full_rate_steps], steps=scenario.steps - full_rate_steps)
     gains = np.concatenate([optimal.gains[:full_rate_steps], gains_used(later, noise, n, 0)])
-    ratio = _position_variance(scenario, gains) / _position_variance(scenario, optimal.gains)
-    return float(ratio.max())
+    return float(position_ratio(scenario, gains, optimal.gains).max())
 
 
 def scalar_ratio(speed: float, n: int, noise: CoarseNoise) -> float:
