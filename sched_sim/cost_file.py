@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Mapping
 from fractions import Fraction
 from pathlib import Path
@@ -22,6 +21,7 @@ from sched_sim.costs import (
 )
 from sched_sim.errors import InputError
 from sched_sim.toml_file import problems, read_toml
+from sched_sim.toml_text import toml_number, toml_tables, toml_value
 
 Entries = dict[str, Any]
 """One method's entries, by job kind."""
@@ -82,7 +82,8 @@ class _CostEntry(BaseModel):
 
 
 _Cost = Annotated[_CostEntry, BeforeValidator(_cost)]
-_Counts = Annotated[dict[str, Annotated[int, BeforeValidator(_number)]], AfterValidator(_counts)]
+CountsOfJob = Annotated[dict[str, Annotated[int, BeforeValidator(_number)]], AfterValidator(_counts)]
+"""How a job's operations stand in a file."""
 
 
 class _CostFile(BaseModel):
@@ -90,7 +91,7 @@ class _CostFile(BaseModel):
     name: str
     unit: str
     costs: Annotated[dict[str, dict[str, _Cost]], AfterValidator(_known_kinds("costs"))] = {}
-    operations: Annotated[dict[str, dict[str, _Counts]], AfterValidator(_known_kinds("operations"))] = {}
+    operations: Annotated[dict[str, dict[str, CountsOfJob]], AfterValidator(_known_kinds("operations"))] = {}
 
     @model_validator(mode="after")
     def _something_to_schedule(self) -> Self:
@@ -128,30 +129,18 @@ def read_cost_table(path: Path, shown: str = "") -> CostTable:
 
 def cost_table_text(table: CostTable) -> str:
     """`table` as the TOML text that `read_cost_table` reads back; exact where its costs are decimals."""
-    lines = [f"name = {_toml(table.name)}", f"unit = {_toml(table.unit)}"]
+    lines = [f"name = {toml_value(table.name)}", f"unit = {toml_value(table.unit)}"]
     sections: list[str] = []
     for key, value in table.provenance.items():
         if isinstance(value, Mapping):
-            sections += _sections(key, value)
+            sections += toml_tables(key, value)
         else:
-            lines.append(f"{key} = {_toml(value)}")
+            lines.append(f"{key} = {toml_value(value)}")
     if table.operations:
-        sections += _sections("operations", table.operations)
+        sections += toml_tables("operations", table.operations)
     for method, entries in table.costs.items():
         sections += ["", f"[costs.{method}]", *(f"{kind} = {_toml_cost(cost)}" for kind, cost in entries.items())]
     return "\n".join([*lines, *sections]) + "\n"
-
-
-def _sections(name: str, values: Mapping[str, Any]) -> list[str]:
-    """A TOML table, or one for each of its values where these are tables themselves."""
-    if not all(isinstance(value, Mapping) for value in values.values()):
-        values, name = {name: values}, ""
-    prefix = f"{name}." if name else ""
-    return [
-        line
-        for key, entries in values.items()
-        for line in ("", f"[{prefix}{key}]", *(f"{entry} = {_toml(value)}" for entry, value in entries.items()))
-    ]
 
 
 def write_cost_table(table: CostTable, path: Path) -> None:
@@ -163,18 +152,7 @@ def write_cost_table(table: CostTable, path: Path) -> None:
 
 
 def _toml_cost(cost: Cost) -> str:
-    minimum, median, p95 = (_decimal(value) for value in (cost.minimum, cost.median, cost.p95))
+    minimum, median, p95 = (toml_number(value) for value in (cost.minimum, cost.median, cost.p95))
     if minimum == median == p95:
         return minimum
     return f"{{ minimum = {minimum}, median = {median}, p95 = {p95} }}"
-
-
-def _decimal(value: Fraction) -> str:
-    return str(value.numerator) if value.denominator == 1 else repr(float(value))
-
-
-def _toml(value: Any) -> str:
-    """A TOML scalar or inline table; JSON writes strings, numbers and booleans as TOML does."""
-    if isinstance(value, Mapping):
-        return "{ " + ", ".join(f"{key} = {_toml(item)}" for key, item in value.items()) + " }"
-    return json.dumps(value, ensure_ascii=False)
