@@ -31,7 +31,8 @@ from filters.kernels.rebind import callees, named_values, rebind
 
 # Functions in these modules neither allocate nor return arrays. numba need not count references in them, which it would
 # do for every array taken out of a record, and LLVM would not remove all of it: half the time of a short update.
-_ALLOCATION_FREE = ("filters.kernels.", "filters.covariance_forms.", "filters.factored.", "filters.robust.")
+_PARTS = ("kernels", "covariance_forms", "factored", "robust", "modular")
+_ALLOCATION_FREE = tuple(f"filters.{part}." for part in _PARTS)
 
 _COMPILED: dict[FunctionType, Any] = {}
 _INLINED: dict[FunctionType, Any] = {}

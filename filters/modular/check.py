@@ -1,0 +1,60 @@
+"""Checks of the matrices that parts of a modular filter are made of."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from filters.arrays import FloatArray
+from filters.modular.space import Space
+from filters.problem import check_covariance
+from filters.robust.check import check_positive_definite
+
+
+def as_matrix(name: str, value: ArrayLike, shape: tuple[int | None, int | None]) -> FloatArray:
+    """A contiguous copy. Raises ValueError, naming it, unless it is a finite matrix of this shape; None: any length."""
+    matrix = np.array(value, dtype=np.float64, order="C")
+    fits = matrix.ndim == 2 and all(want in (None, have) for want, have in zip(shape, matrix.shape, strict=True))
+    if not fits:
+        needed = ", ".join("any" if length is None else str(length) for length in shape)
+        raise ValueError(f"{name} has shape {matrix.shape}; needed is ({needed})")
+    if not np.isfinite(matrix).all():
+        raise ValueError(f"{name} holds a value that is not finite")
+    return matrix
+
+
+def as_covariance(name: str, value: ArrayLike) -> FloatArray:
+    """A square matrix, not empty. Raises ValueError unless it is symmetric and positive semidefinite."""
+    size = len(np.atleast_1d(np.asarray(value, dtype=np.float64)))
+    matrix = as_matrix(name, value, (size, size))
+    if size == 0:
+        raise ValueError(f"{name} is empty; it gives the number of errors")
+    check_covariance(name, matrix)
+    return matrix
+
+
+def as_noise(name: str, value: ArrayLike) -> FloatArray:
+    """The covariance of a measurement's error. Raises ValueError unless it is positive definite."""
+    matrix = as_covariance(name, value)
+    check_positive_definite(name, matrix, "give each measurement noise of its own, a positive variance")
+    return matrix
+
+
+def check_start(of: Space, x0: ArrayLike, P0: ArrayLike) -> tuple[FloatArray, FloatArray]:
+    """Copies of the estimate and covariance to start from.
+
+    Raises:
+        ValueError: a shape does not fit the space, x0 is not finite, an attitude in it has no length, or P0 is not
+            positive definite.
+    """
+    x = np.array(x0, dtype=np.float64, order="C")
+    if x.shape != (of.numbers,) or not np.isfinite(x).all():
+        raise ValueError(f"x0 has shape {x.shape}, the filter needs {(of.numbers,)}, and finite numbers")
+    for start in of.attitudes:
+        if not np.isclose(np.linalg.norm(x[start : start + 4]), 1.0, rtol=0, atol=1e-6):
+            raise ValueError(
+                f"x0: the attitude at {start} has length {np.linalg.norm(x[start : start + 4]):.6g}; divide by it"
+            )
+    P = as_matrix("P0", P0, (of.errors, of.errors))
+    check_positive_definite("P0", P, "give each state a positive variance")
+    return x, P

@@ -1,0 +1,92 @@
+"""A filter put together from one predictor and a corrector for each sensor."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from filters.modular.correctors import Corrector
+from filters.modular.predictors import Predictor
+from filters.modular.space import Space, space
+
+
+@dataclass(frozen=True, slots=True)
+class Sensor:
+    """One sensor.
+
+    every: steps between its measurements, the first in step 0; delay: steps until one is available;
+    dropout: the probability that one never is.
+
+    Raises:
+        ValueError: a number is out of range.
+    """
+
+    name: str
+    corrector: Corrector
+    every: int = 1
+    delay: int = 0
+    dropout: float = 0.0
+
+    def __post_init__(self) -> None:
+        if self.every < 1:
+            raise ValueError(f"sensor {self.name!r}: every={self.every} must be at least 1: steps between measurements")
+        if self.delay < 0:
+            raise ValueError(
+                f"sensor {self.name!r}: delay={self.delay} must be at least 0: steps until it is available"
+            )
+        if not 0 <= self.dropout <= 1:
+            raise ValueError(
+                f"sensor {self.name!r}: dropout={self.dropout} must lie in [0, 1]: it is a probability; 10 % is 0.1"
+            )
+
+
+@dataclass(frozen=True, slots=True)
+class ModularFilter:
+    """One predictor, which evolves the state each step, and the sensors, each with its own corrector.
+
+    dt: the time of a step, in seconds, as the predictor's f gets it. of: what the state stands for; plain quantities
+    if not given, as many as the predictor's noise has. In one step the sensors are used in their order.
+
+    Raises:
+        ValueError: two sensors have one name, or a part does not fit the state; the sensor is named.
+    """
+
+    predictor: Predictor
+    sensors: tuple[Sensor, ...]
+    dt: float
+    of: Space
+
+    def __init__(
+        self, predictor: Predictor, sensors: tuple[Sensor, ...] | list[Sensor], dt: float = 1.0, of: Space | None = None
+    ) -> None:
+        object.__setattr__(self, "predictor", predictor)
+        object.__setattr__(self, "sensors", tuple(sensors))
+        object.__setattr__(self, "dt", float(dt))
+        object.__setattr__(self, "of", space(predictor.states) if of is None else of)
+        self._check()
+
+    def _check(self) -> None:
+        n = self.predictor.states
+        if self.of.errors != n:
+            raise ValueError(
+                f"predictor: its Q has shape {(n, n)}, but an error of the state has {self.of.errors} numbers (an "
+                f"attitude has 3)"
+            )
+        if self.predictor.kind == "linear" and len(self.of.attitudes):
+            raise ValueError("predictor: a linear one cannot turn an attitude; make it extended or unscented")
+        names = [sensor.name for sensor in self.sensors]
+        for sensor in self.sensors:
+            if names.count(sensor.name) > 1:
+                raise ValueError(f"sensor {sensor.name!r}: the name is used twice; give each sensor its own")
+            try:
+                view = sensor.corrector.view(n)
+            except ValueError as error:
+                raise ValueError(f"sensor {sensor.name!r}: {error}") from None
+            if sensor.corrector.kind == "linear":
+                for at, start in enumerate(self.of.attitudes):
+                    if np.any(view.H[:, start - at : start - at + 3]):
+                        raise ValueError(
+                            f"sensor {sensor.name!r}: linear_corrector: H sees an attitude (columns {start - at} to "
+                            f"{start - at + 2}); make it extended or unscented"
+                        )

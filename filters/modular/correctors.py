@@ -1,0 +1,198 @@
+"""Correctors: what one measurement of one sensor says about the state. Linear, extended or unscented."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple, TypeAlias
+
+from numpy.typing import ArrayLike
+
+from filters.arrays import FloatArray
+from filters.kernels.dense import copy, matmul_blocked, matvec
+from filters.kernels.place import clear
+from filters.kernels.solve import cholesky, solve_cholesky
+from filters.modular.check import as_matrix, as_noise
+from filters.modular.predictors import Kind, difference
+from filters.modular.sigma_points import USUAL, SigmaPoints, Weights, add_covariance, draw, mean, weights
+from filters.modular.space import Space, minus, plain, plus, space
+from filters.modular.workspace import Workspace
+from filters.records import Estimate
+
+Observation: TypeAlias = Callable[[FloatArray, FloatArray], None]
+"""h(x, out) writes the measurement expected at the state x into out."""
+
+
+class Corrector(NamedTuple):
+    """expect(view, observed, of, before, work) fills `expected`, `S` and `cross` of work, and `H` unless unscented.
+
+    view(n): the model that expect takes, for a state whose error has length n; raises ValueError if it does not fit.
+    observed: what a measurement stands for; of: what the state stands for. R (p, p): of the measurement's error.
+    """
+
+    kind: Kind
+    expect: Callable[..., None]
+    view: Callable[[int], Any]
+    observed: Space
+    R: FloatArray
+
+
+class LinearView(NamedTuple):
+    """y = H x + v, v ~ N(0, R), where an attitude in x counts as zero."""
+
+    H: FloatArray
+    R: FloatArray
+
+
+class ExtendedView(NamedTuple):
+    """y = h(x) with an error v ~ N(0, R); jacobian(x, out) writes that of y's error with respect to x's (p, n)."""
+
+    h: Observation
+    jacobian: Observation
+    R: FloatArray
+
+
+class NumericView(NamedTuple):
+    """As `ExtendedView`, its Jacobian by central differences."""
+
+    h: Observation
+    R: FloatArray
+
+
+class UnscentedView(NamedTuple):
+    """As `ExtendedView`, without Jacobian."""
+
+    h: Observation
+    weighing: Weights
+    R: FloatArray
+
+
+def linear_corrector(H: ArrayLike, R: ArrayLike) -> Corrector:
+    """y = H x + v. H (p, n), n the length of the state's error; R (p, p).
+
+    Raises:
+        ValueError: a shape does not fit, a number is not finite, or R is not positive definite.
+    """
+    noise = as_noise("linear_corrector: R", R)
+    matrix = as_matrix("linear_corrector: H", H, (len(noise), None))
+
+    def view(n: int) -> LinearView:
+        return LinearView(as_matrix("linear_corrector: H", matrix, (len(noise), n)), noise)
+
+    return Corrector("linear", expect_linear, view, space(len(noise)), noise)
+
+
+def extended_corrector(
+    h: Observation, R: ArrayLike, jacobian: Observation | None = None, *, observed: Space | None = None
+) -> Corrector:
+    """Any observation, linearised at the estimate.
+
+    h(x, out) writes the measurement expected at the state x into out; R (p, p).
+    jacobian(x, out) writes into out (p, n) what an error of x does to it; by central differences if not given.
+    observed: what a measurement stands for, where it holds angles or attitudes; plain quantities if not given.
+    The functions are plain Python that numba can compile.
+
+    Raises:
+        ValueError: R is not positive definite, or its size is not that of the observed space.
+    """
+    noise, seen = _noise_and_space("extended_corrector", R, observed)
+    if jacobian is None:
+        return Corrector("extended", expect_numeric, lambda _n: NumericView(h, noise), seen, noise)
+    given = jacobian
+    return Corrector("extended", expect_extended, lambda _n: ExtendedView(h, given, noise), seen, noise)
+
+
+def unscented_corrector(
+    h: Observation, R: ArrayLike, points: SigmaPoints = USUAL, *, observed: Space | None = None
+) -> Corrector:
+    """Any observation, of 2 n + 1 sigma points. h, R, observed as in `extended_corrector`.
+
+    Raises:
+        ValueError: as `extended_corrector`. Points without spread are found when the filter is composed.
+    """
+    noise, seen = _noise_and_space("unscented_corrector", R, observed)
+    return Corrector("unscented", expect_unscented, lambda n: UnscentedView(h, weights(points, n), noise), seen, noise)
+
+
+def expect_linear(view: LinearView, _observed: Space, of: Space, before: Estimate, work: Workspace) -> None:
+    """H x and, as for all linearised ones, S = H P H^T + R and H P."""
+    plain(of, before.x, work.n1)
+    matvec(view.H, work.n1, work.expected)
+    copy(view.H, work.H)
+    _project(view.R, before.P, work)
+
+
+def expect_extended(view: ExtendedView, _observed: Space, _of: Space, before: Estimate, work: Workspace) -> None:
+    """h(x), and H its Jacobian at x."""
+    view.h(before.x, work.expected)
+    view.jacobian(before.x, work.H)
+    _project(view.R, before.P, work)
+
+
+def expect_numeric(view: NumericView, observed: Space, of: Space, before: Estimate, work: Workspace) -> None:
+    """As `expect_extended`, H by central differences of h."""
+    view.h(before.x, work.expected)
+    for i in range(of.errors):
+        step = difference(of, before, i, work)
+        view.h(work.points[0], work.seen[0])
+        view.h(work.points[1], work.seen[1])
+        minus(observed, work.seen[0], work.seen[1], work.z)
+        scale = 0.5 / step
+        for r in range(observed.errors):
+            work.H[r, i] = scale * work.z[r]
+    _project(view.R, before.P, work)
+
+
+def expect_unscented(view: UnscentedView, observed: Space, of: Space, before: Estimate, work: Workspace) -> None:
+    """Mean, covariance and cross-covariance of the sigma points, each observed by h; R is added."""
+    draw(of, before.x, before.P, view.weighing.spread, work.nn1, work.errors, work.points)
+    for i in range(len(work.points)):
+        view.h(work.points[i], work.seen[i])
+    mean(observed, work.seen, view.weighing, work.seen_errors, work.z, work.expected)
+    copy(view.R, work.S)
+    add_covariance(work.seen_errors, work.seen_errors, view.weighing, work.S)
+    clear(work.cross)
+    add_covariance(work.seen_errors, work.errors, view.weighing, work.cross)
+
+
+def apply(observed: Space, of: Space, before: Estimate, y: FloatArray, after: Estimate, work: Workspace) -> None:
+    """The measurement y (numbers,) is used, once `expect` has run: K = cross^T S^-1, x' = x + K z, P' = P - K cross.
+
+    y may be longer: what is behind is not read.
+    """
+    minus(observed, y, work.expected, work.z)
+    cholesky(work.S, work.pp1)
+    solve_cholesky(work.pp1, work.cross, work.gain)
+    for e in range(of.errors):
+        total = work.gain[0, e] * work.z[0]
+        for r in range(1, observed.errors):
+            total += work.gain[r, e] * work.z[r]
+        work.n1[e] = total
+    plus(of, before.x, work.n1, after.x)
+    copy(before.P, after.P)
+    for r in range(observed.errors):
+        for i in range(of.errors):
+            factor = work.gain[r, i]
+            for j in range(of.errors):
+                after.P[i, j] -= factor * work.cross[r, j]
+
+
+def _project(R: FloatArray, P: FloatArray, work: Workspace) -> None:
+    """S = H P H^T + R and cross = H P with the H in work."""
+    matmul_blocked(work.H, P, work.cross)
+    for i in range(R.shape[0]):
+        for j in range(R.shape[0]):
+            total = R[i, j]
+            for e in range(P.shape[0]):
+                total += work.cross[i, e] * work.H[j, e]
+            work.S[i, j] = total
+
+
+def _noise_and_space(name: str, R: ArrayLike, observed: Space | None) -> tuple[FloatArray, Space]:
+    noise = as_noise(f"{name}: R", R)
+    seen = space(len(noise)) if observed is None else observed
+    if seen.errors != len(noise):
+        raise ValueError(
+            f"{name}: R has shape {noise.shape}, but an error of the observed space has {seen.errors} numbers (an "
+            f"attitude has 3)"
+        )
+    return noise, seen

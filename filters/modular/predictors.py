@@ -1,0 +1,202 @@
+"""Predictors: what takes the estimate from one step to the next. Linear, extended or unscented."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, Literal, NamedTuple, TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from filters.arrays import FloatArray
+from filters.kernels.dense import add_matmul_blocked, add_matvec, copy, matmul_blocked, matvec, transpose
+from filters.modular.check import as_covariance, as_matrix
+from filters.modular.sigma_points import USUAL, SigmaPoints, Weights, add_covariance, draw, mean, weights
+from filters.modular.space import Space, minus, plus
+from filters.modular.workspace import Workspace
+from filters.records import Estimate
+
+Kind: TypeAlias = Literal["linear", "extended", "unscented"]
+Evolution: TypeAlias = Callable[[FloatArray, FloatArray, float, FloatArray], None]
+"""f(x, u, dt, out) writes the state (numbers,) a time dt after x, under the input u, into out."""
+
+DIFFERENCE = 1e-3
+"""Standard deviations of each error between the point and those at which a numerical Jacobian is taken."""
+
+
+class Predictor(NamedTuple):
+    """predict(motion, of, before, u, dt, after, work) fills `after` from `before`; motion: the model that it takes.
+
+    states: the length of the state's error.
+    """
+
+    kind: Kind
+    states: int
+    predict: Callable[..., None]
+    motion: Any
+
+
+class LinearMotion(NamedTuple):
+    """x' = F x + B u + w, w ~ N(0, Q)."""
+
+    F: FloatArray
+    B: FloatArray
+    Q: FloatArray
+
+
+class ExtendedMotion(NamedTuple):
+    """x' = f(x, u) with an error w ~ N(0, Q); jacobian(x, u, dt, out) writes that of the error's evolution (n, n)."""
+
+    f: Evolution
+    jacobian: Evolution
+    Q: FloatArray
+
+
+class NumericMotion(NamedTuple):
+    """As `ExtendedMotion`, its Jacobian by central differences."""
+
+    f: Evolution
+    Q: FloatArray
+
+
+class UnscentedMotion(NamedTuple):
+    """As `ExtendedMotion`, without Jacobian."""
+
+    f: Evolution
+    weighing: Weights
+    Q: FloatArray
+
+
+def linear_predictor(F: ArrayLike, Q: ArrayLike, B: ArrayLike | None = None) -> Predictor:
+    """x' = F x + B u + w of one step. F (n, n), Q (n, n), B (n, inputs); without B, inputs are not used.
+
+    Raises:
+        ValueError: a shape does not fit, a number is not finite, or Q is no covariance.
+    """
+    noise = as_covariance("linear_predictor: Q", Q)
+    n = len(noise)
+    motion = as_matrix("linear_predictor: F", F, (n, n))
+    entry = np.zeros((n, 0)) if B is None else as_matrix("linear_predictor: B", B, (n, None))
+    return Predictor("linear", n, predict_linear, LinearMotion(motion, entry, noise))
+
+
+def extended_predictor(f: Evolution, Q: ArrayLike, jacobian: Evolution | None = None) -> Predictor:
+    """Any evolution, linearised at the estimate.
+
+    f(x, u, dt, out) writes the state a time dt after x into out, with input u; Q (n, n): the noise of one step.
+    jacobian(x, u, dt, out) writes into out (n, n) how an error of x evolves; by central differences if not given.
+    The functions are plain Python that numba can compile.
+
+    Raises:
+        ValueError: Q is no covariance.
+    """
+    noise = as_covariance("extended_predictor: Q", Q)
+    if jacobian is None:
+        return Predictor("extended", len(noise), predict_numeric, NumericMotion(f, noise))
+    return Predictor("extended", len(noise), predict_extended, ExtendedMotion(f, jacobian, noise))
+
+
+def unscented_predictor(f: Evolution, Q: ArrayLike, points: SigmaPoints = USUAL) -> Predictor:
+    """Any evolution, of 2 n + 1 sigma points. f, Q as in `extended_predictor`.
+
+    Raises:
+        ValueError: Q is no covariance, or the points have no spread.
+    """
+    noise = as_covariance("unscented_predictor: Q", Q)
+    weighing = weights(points, len(noise))
+    return Predictor("unscented", len(noise), predict_unscented, UnscentedMotion(f, weighing, noise))
+
+
+def predict_linear(
+    motion: LinearMotion,
+    _of: Space,
+    before: Estimate,
+    u: FloatArray,
+    _dt: float,
+    after: Estimate,
+    work: Workspace,
+) -> None:
+    """Job: x' = F x + B u, P' = F P F^T + Q."""
+    matvec(motion.F, before.x, after.x)
+    add_matvec(motion.B, u, after.x)
+    copy(motion.F, work.F)
+    _propagate(motion.Q, before.P, after.P, work)
+
+
+def predict_extended(
+    motion: ExtendedMotion,
+    _of: Space,
+    before: Estimate,
+    u: FloatArray,
+    dt: float,
+    after: Estimate,
+    work: Workspace,
+) -> None:
+    """Job: x' = f(x, u), P' = F P F^T + Q with the Jacobian F at x."""
+    motion.f(before.x, u, dt, after.x)
+    motion.jacobian(before.x, u, dt, work.F)
+    _propagate(motion.Q, before.P, after.P, work)
+
+
+def predict_numeric(
+    motion: NumericMotion,
+    of: Space,
+    before: Estimate,
+    u: FloatArray,
+    dt: float,
+    after: Estimate,
+    work: Workspace,
+) -> None:
+    """Job: as `predict_extended`, F by central differences of f."""
+    motion.f(before.x, u, dt, after.x)
+    for i in range(of.errors):
+        step = difference(of, before, i, work)
+        motion.f(work.points[0], u, dt, work.moved[0])
+        motion.f(work.points[1], u, dt, work.moved[1])
+        minus(of, work.moved[0], work.moved[1], work.n1)
+        scale = 0.5 / step
+        for e in range(of.errors):
+            work.F[e, i] = scale * work.n1[e]
+    _propagate(motion.Q, before.P, after.P, work)
+
+
+def difference(of: Space, at: Estimate, i: int, work: Workspace) -> float:
+    """points[0] and points[1] of work = the point moved along error i, by the step that is returned and its negative.
+
+    A small share of the standard deviation: as long as the errors that the filter expects, whatever their unit.
+    """
+    step: float = DIFFERENCE * np.sqrt(at.P[i, i])
+    if not step > 0.0:
+        step = DIFFERENCE
+    for e in range(of.errors):
+        work.n1[e] = 0.0
+    work.n1[i] = step
+    plus(of, at.x, work.n1, work.points[0])
+    work.n1[i] = -step
+    plus(of, at.x, work.n1, work.points[1])
+    return step
+
+
+def predict_unscented(
+    motion: UnscentedMotion,
+    of: Space,
+    before: Estimate,
+    u: FloatArray,
+    dt: float,
+    after: Estimate,
+    work: Workspace,
+) -> None:
+    """Job: x' and P' are mean and covariance of the sigma points, each moved by f; Q is added."""
+    draw(of, before.x, before.P, motion.weighing.spread, work.nn1, work.errors, work.points)
+    for i in range(len(work.points)):
+        motion.f(work.points[i], u, dt, work.moved[i])
+    mean(of, work.moved, motion.weighing, work.errors, work.n1, after.x)
+    copy(motion.Q, after.P)
+    add_covariance(work.errors, work.errors, motion.weighing, after.P)
+
+
+def _propagate(Q: FloatArray, P: FloatArray, P_next: FloatArray, work: Workspace) -> None:
+    """P_next = F P F^T + Q with the F in work."""
+    matmul_blocked(work.F, P, work.nn1)
+    transpose(work.F, work.nn2)
+    add_matmul_blocked(Q, work.nn1, work.nn2, P_next)

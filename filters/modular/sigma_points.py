@@ -1,0 +1,130 @@
+"""Sigma points: their weights, and how a mean and a covariance become points and points become these again."""
+
+from __future__ import annotations
+
+from typing import Literal, NamedTuple
+
+import numpy as np
+
+from filters.arrays import FloatArray
+from filters.kernels.dense import copy_vector
+from filters.kernels.solve import cholesky
+from filters.modular.space import Space, minus, plus
+
+MEAN_STEPS = 20
+MEAN_TOLERANCE = 1e-24
+"""The mean of attitudes is found in steps; the last one's squared length is below this, in radians."""
+
+
+class SigmaPoints(NamedTuple):
+    """How sigma points are spread, from `merwe` or `maccormack`."""
+
+    form: Literal["merwe", "maccormack"]
+    alpha: float
+    beta: float
+    kappa: float
+
+
+class Weights(NamedTuple):
+    """Point 0 is the mean, points i and n + i lie `spread` times column i of the root of P from it.
+
+    mean_0, covariance_0: weights of point 0; other: of each other point, for both.
+    """
+
+    spread: float
+    mean_0: float
+    covariance_0: float
+    other: float
+
+
+def merwe(alpha: float = 1.0, beta: float = 2.0, kappa: float = 0.0) -> SigmaPoints:
+    """The scaled points of van der Merwe: spread alpha sqrt(n + kappa).
+
+    W_m0 = 1 - n / (alpha^2 (n + kappa)), W_c0 = W_m0 + 1 - alpha^2 + beta. Wan and van der Merwe, The unscented Kalman
+    filter for nonlinear estimation, 2000. beta = 2 is best for a normal distribution.
+    """
+    return SigmaPoints("merwe", alpha, beta, kappa)
+
+
+USUAL = merwe()
+
+
+def maccormack(alpha: float = 1.0, beta: float = 2.0, kappa: float = 3.0) -> SigmaPoints:
+    """The points of MacCormack and Rubinstein's modular filter: spread alpha sqrt(kappa), kappa in place of n + kappa.
+
+    W_m0 = (alpha^2 kappa - n) / (alpha^2 kappa), W_c0 = W_m0 - alpha^2 + beta: 1 less than `merwe`'s.
+    """
+    return SigmaPoints("maccormack", alpha, beta, kappa)
+
+
+def weights(points: SigmaPoints, n: int) -> Weights:
+    """The weights for errors of length n.
+
+    Raises:
+        ValueError: a number is not finite, alpha is zero, or the points have no spread.
+    """
+    merwes = points.form == "merwe"
+    scale = points.alpha**2 * (points.kappa + n if merwes else points.kappa)
+    if not (np.isfinite([points.alpha, points.beta, points.kappa]).all() and scale > 0):
+        raise ValueError(
+            f"{points.form}: alpha={points.alpha}, beta={points.beta}, kappa={points.kappa} spread no sigma points for "
+            f"{n} states: alpha^2 times {'(n + kappa)' if merwes else 'kappa'} must be greater than 0"
+        )
+    mean_0 = 1.0 - n / scale
+    covariance_0 = mean_0 - points.alpha**2 + points.beta + (1.0 if merwes else 0.0)
+    return Weights(float(np.sqrt(scale)), mean_0, covariance_0, 0.5 / scale)
+
+
+def draw(
+    of: Space, x: FloatArray, P: FloatArray, spread: float, root: FloatArray, errors: FloatArray, points: FloatArray
+) -> None:
+    """points (2 n + 1, numbers) of the mean x (numbers,) and the covariance P (n, n), through its Cholesky factor.
+
+    errors (2 n + 1, n) = points less x. root (n, n): scratch. P that is not positive definite gives nan.
+    """
+    n = of.errors
+    cholesky(P, root)
+    for e in range(n):
+        errors[0, e] = 0.0
+    copy_vector(x, points[0])
+    for i in range(n):
+        for e in range(n):
+            errors[1 + i, e] = spread * root[e, i] if e >= i else 0.0
+            errors[1 + n + i, e] = -errors[1 + i, e]
+        plus(of, x, errors[1 + i], points[1 + i])
+        plus(of, x, errors[1 + n + i], points[1 + n + i])
+
+
+def mean(
+    of: Space, points: FloatArray, weighing: Weights, errors: FloatArray, step: FloatArray, out: FloatArray
+) -> None:
+    """out (numbers,) = the weighted mean of points (2 n + 1, numbers); errors (2 n + 1, errors) = points less mean.
+
+    The mean is where the weighted errors vanish. For plain quantities that is one step from point 0; for attitudes the
+    step is repeated. step (errors,): scratch.
+    """
+    copy_vector(points[0], out)
+    for _ in range(MEAN_STEPS if len(of.attitudes) else 1):
+        for i in range(points.shape[0]):
+            minus(of, points[i], out, errors[i])
+        squared = 0.0
+        for e in range(of.errors):
+            step[e] = weighing.mean_0 * errors[0, e]
+            for i in range(1, points.shape[0]):
+                step[e] += weighing.other * errors[i, e]
+            squared += step[e] * step[e]
+        plus(of, out, step, out)
+        if squared < MEAN_TOLERANCE:
+            break
+    for i in range(points.shape[0]):
+        minus(of, points[i], out, errors[i])
+
+
+def add_covariance(left: FloatArray, right: FloatArray, weighing: Weights, out: FloatArray) -> None:
+    """out (a, b) += the weighted sum of left_i right_i^T, for left (2 n + 1, a), right (2 n + 1, b)."""
+    for i in range(left.shape[0]):
+        weight = weighing.covariance_0 if i == 0 else weighing.other
+        for r in range(out.shape[0]):
+            factor = weight * left[i, r]
+            for c in range(out.shape[1]):
+                out[r, c] += factor * right[i, c]

@@ -1,0 +1,66 @@
+"""Scratch memory of the steps of a modular filter."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from filters.arrays import FloatArray
+from filters.modular.space import Space
+
+
+class Workspace(NamedTuple):
+    """Of a predictor, or of one corrector. n, p: lengths of the errors of state and measurement.
+
+    After a linear or extended part has run, F (n, n) or H (p, n) hold its matrix. After a correction z (p,) holds the
+    innovation, S (p, p) its covariance, cross (p, n) its covariance with the state's error, gain (p, n) K^T.
+    """
+
+    F: FloatArray
+    nn1: FloatArray
+    nn2: FloatArray
+    points: FloatArray  # (2 n + 1, numbers of the state)
+    moved: FloatArray
+    errors: FloatArray  # (2 n + 1, n)
+    n1: FloatArray
+    x1: FloatArray  # (numbers of the state,)
+    x2: FloatArray
+    H: FloatArray
+    z: FloatArray
+    S: FloatArray
+    cross: FloatArray
+    gain: FloatArray
+    pp1: FloatArray
+    expected: FloatArray  # (numbers of the measurement,)
+    y1: FloatArray
+    y2: FloatArray
+    seen: FloatArray  # (2 n + 1, numbers of the measurement)
+    seen_errors: FloatArray  # (2 n + 1, p)
+
+
+def new_workspace(of: Space, observed: Space) -> Workspace:
+    """Memory for a corrector of these spaces, all zero; for a predictor, a space without numbers is observed."""
+    n, p, count = of.errors, observed.errors, 2 * of.errors + 1
+    return Workspace(
+        F=np.zeros((n, n)),
+        nn1=np.zeros((n, n)),
+        nn2=np.zeros((n, n)),
+        points=np.zeros((count, of.numbers)),
+        moved=np.zeros((count, of.numbers)),
+        errors=np.zeros((count, n)),
+        n1=np.zeros(n),
+        x1=np.zeros(of.numbers),
+        x2=np.zeros(of.numbers),
+        H=np.zeros((p, n)),
+        z=np.zeros(p),
+        S=np.zeros((p, p)),
+        cross=np.zeros((p, n)),
+        gain=np.zeros((p, n)),
+        pp1=np.zeros((p, p)),
+        expected=np.zeros(observed.numbers),
+        y1=np.zeros(observed.numbers),
+        y2=np.zeros(observed.numbers),
+        seen=np.zeros((count, observed.numbers)),
+        seen_errors=np.zeros((count, p)),
+    )
