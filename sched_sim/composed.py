@@ -1,0 +1,246 @@
+"""The jobs of a filter composed of one predictor and several sensors' correctors.
+
+Every step releases a predict job at its start, due at the start of the next step. A measurement that arrives at the
+start of step m = k + delay releases a correct job there, after the predict job of m, due at the start of step
+k + land_by. Its response time is from the arrival until the correction has landed: is in the state.
+
+Held up or preempted. A correction as urgent as the predictor, or more, runs before the next predict job, and lands in
+the step in which it finishes. A less urgent one is preempted by predict jobs (with two processors it runs beside them);
+such corrections of one priority run one after another, each from when the one before has landed.
+
+recalculate. A correction is of step k, so it rolls back: its work is the correction, and for each step from k + 1 to
+the one it aims at a predict, and a correction for each other measurement taken in those steps that has landed or lands
+before it. The step it aims at is the one in which it could start. A preempted correction that finishes in a later step
+has to catch up: it goes on with the steps that passed meanwhile and the corrections made meanwhile, from the step of
+the earliest of those measurements if that is before the one it had reached, until it finishes in the step it aims at.
+On a processor without that much time left this never ends.
+
+larsen. While a measurement of a delayed sensor is in flight, predict jobs also multiply the transition from step k on
+(in step k + 1 the product is the transition itself, as in Steffes 2014, so from k + 2 on), and the corrections of
+undelayed sensors multiply it too. In flight is from when it is taken until it lands; if it never arrives, until the
+next measurement of its sensor is taken, for the filter cannot know. The late correction itself needs no replay, and
+lands in the step in which it finishes. A preempted correction of an undelayed sensor that finishes in a later step
+catches up as above.
+
+What a job costs is settled when it is released.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_right, insort
+from collections import defaultdict, deque
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import partial
+from operator import itemgetter
+from typing import NamedTuple
+
+from sched_sim.draws import fates, stream, total
+from sched_sim.jobs import Job, Parts, Source
+from sched_sim.methods import step_at
+from sched_sim.scenario import Scenario, Sensor
+
+
+class Measurement(NamedTuple):
+    """One that arrived. step: k, in which it was taken; sensor: its number in the scenario; arrival, due: in ticks."""
+
+    step: int
+    sensor: int
+    arrival: int
+    due: int
+
+
+class Branch(NamedTuple):
+    """A correction under way, while the filter goes on without it.
+
+    aim: the step whose state it computes; seen: corrections that had landed when its work was settled;
+    ahead: those that had not, and of which it was clear that they would before it.
+    """
+
+    measurement: Measurement
+    aim: int
+    seen: int
+    ahead: frozenset[Measurement]
+
+
+OnLanding = Callable[[Measurement, int], None]
+"""Called with a measurement and the time, in ticks, when its correction has landed."""
+
+
+class ComposedFilter(Source):
+    """Releases the jobs; `period` (the HR period) and `costs`, by part, in ticks.
+
+    taken, dropped: measurements so far, by the number of the sensor; pending: arrived and not landed.
+    """
+
+    def __init__(
+        self, scenario: Scenario, costs: Mapping[str, Sequence[int]], period: int, on_landing: OnLanding
+    ) -> None:
+        self.scenario = scenario
+        self.sensors = scenario.sensors
+        self.costs = costs
+        self.period = period
+        self.on_landing = on_landing
+        self.step = 0
+        self.next_release = 0
+        self.taken = [0] * len(self.sensors)
+        self.dropped = [0] * len(self.sensors)
+        self.pending: dict[Measurement, None] = {}
+        self.corrector_cpu = scenario.cpus - 1
+        self.larsen = scenario.late == "larsen"
+        self.fates = [
+            fates(sensor.delays, sensor.dropout, _measurements(sensor, scenario.steps), scenario.seed, sensor.name)
+            for sensor in self.sensors
+        ]
+        self.predict_stream = stream(scenario.seed, "predictor cost")
+        self.streams = [stream(scenario.seed, f"{sensor.name} cost") for sensor in self.sensors]
+        self.arrivals: defaultdict[int, list[Measurement]] = defaultdict(list)  # by step
+        self.waiting: dict[int, deque[Measurement]] = {}  # by priority, while one of that priority is under way
+        self.landed: list[tuple[int, Measurement]] = []  # the step of the state it was applied to, in order of landing
+        self.applied: list[tuple[int, Measurement]] = []  # the same, in order of that step
+        self.flights: dict[tuple[int, int], None] = {}  # (step, sensor) of what is in flight, by step
+
+    def release(self) -> tuple[Job, ...]:
+        step, start = self.step, self.next_release
+        self.step, self.next_release = step + 1, start + self.period
+        jobs = [self._predict(step, start)]
+        for number, sensor in enumerate(self.sensors):
+            if step >= sensor.offset and (step - sensor.offset) % sensor.every == 0:
+                self._take(number, sensor, step)
+        arrived = self.arrivals.pop(step, [])
+        for measurement in sorted(arrived, key=lambda one: (self.sensors[one.sensor].priority, one.sensor, one.step)):
+            jobs += self._arrive(measurement, start)
+        return tuple(jobs)
+
+    def at_horizon(self) -> tuple[Job, ...]:
+        return tuple(
+            self._job(measurement, (), _nothing) for waiting in self.waiting.values() for measurement in waiting
+        )
+
+    def _predict(self, step: int, start: int) -> Job:
+        part = "predict_accumulate" if self._in_flight_since(step - 2) else "predict"
+        work = total(self.costs[part], self.predict_stream)
+        priority = self.scenario.priority
+        return Job("predict", step, priority, start, start + self.period, work, (("PR", work),))
+
+    def _in_flight_since(self, step: int) -> bool:
+        """Whether a measurement that was taken by `step` is in flight."""
+        return bool(self.flights) and next(iter(self.flights))[0] <= step
+
+    def _take(self, number: int, sensor: Sensor, step: int) -> None:
+        delay = self.fates[number][self.taken[number]]
+        if self.taken[number] and self.fates[number][self.taken[number] - 1] is None:
+            self.flights.pop((step - sensor.every, number), None)
+        self.taken[number] += 1
+        if self.larsen and sensor.delayed:
+            self.flights[step, number] = None
+        if delay is None:
+            self.dropped[number] += 1
+            return
+        arrives = step + delay
+        due = (step + sensor.land_by) * self.period
+        self.arrivals[arrives].append(Measurement(step, number, arrives * self.period, due))
+
+    def _arrive(self, measurement: Measurement, now: int) -> tuple[Job, ...]:
+        self.pending[measurement] = None
+        sensor = self.sensors[measurement.sensor]
+        if not self.scenario.preempted(sensor):
+            return (self._correct(measurement, now),)
+        if sensor.priority in self.waiting:
+            self.waiting[sensor.priority].append(measurement)
+            return ()
+        self.waiting[sensor.priority] = deque()
+        return (self._correct(measurement, now),)
+
+    def _correct(self, measurement: Measurement, now: int) -> Job:
+        """Settles the work of a correction that can start now."""
+        sensor, draws = self.sensors[measurement.sensor], self.streams[measurement.sensor]
+        if self.larsen and sensor.delayed:
+            late = total(self.costs[f"correct_late.{sensor.name}"], draws)
+            return self._job(measurement, (("CO", late),), partial(self._land, measurement))
+        aim = now // self.period
+        part = "correct_accumulate" if self._in_flight_since(aim - 1) else "correct"
+        work = total(self.costs[f"{part}.{sensor.name}"], draws)
+        ahead = self._ahead_of(measurement)
+        again = [*self._applied_after(measurement.step), *(one for one in ahead if one.step > measurement.step)]
+        replay = self._replay(measurement, aim - measurement.step, again)
+        parts = (("CO", work), ("RP", replay)) if replay else (("CO", work),)
+        if not self.scenario.preempted(sensor):
+            return self._job(measurement, parts, partial(self._land, measurement))
+        branch = Branch(measurement, aim, len(self.landed), ahead)
+        return self._job(measurement, parts, partial(self._finish, branch))
+
+    def _ahead_of(self, measurement: Measurement) -> frozenset[Measurement]:
+        """Arrived corrections that land before this one does; those that wait for it are not among them."""
+        if self.larsen:
+            return frozenset()  # where in time it will be applied is not known before it has landed
+        sensor = self.sensors[measurement.sensor]
+        limit = sensor.priority - self.scenario.preempted(sensor)
+        return frozenset(
+            one for one in self.pending if self.sensors[one.sensor].priority <= limit and one != measurement
+        )
+
+    def _applied_after(self, step: int) -> list[Measurement]:
+        """Corrections in the history of the steps after this one."""
+        return [one for _, one in self.applied[bisect_right(self.applied, step, key=itemgetter(0)) :]]
+
+    def _replay(self, measurement: Measurement, steps: int, again: Iterable[Measurement]) -> int:
+        """The work of so many predicts and these corrections, drawn for the correction of `measurement`."""
+        draws = self.streams[measurement.sensor]
+        work = total(self.costs["predict"], draws, steps)
+        for one in again:
+            sensor = self.sensors[one.sensor]
+            part = "correct_late" if self.larsen and sensor.delayed else "correct"
+            work += total(self.costs[f"{part}.{sensor.name}"], draws)
+        return work
+
+    def _finish(self, branch: Branch, job: Job, now: int) -> tuple[Job, ...]:
+        """The branch has got as far as it aimed at: it lands, or catches up."""
+        measurement = branch.measurement
+        if step_at(now, self.period) <= branch.aim:
+            return self._land(measurement, job, now)
+        news = [(step, one) for step, one in self.landed[branch.seen :] if one not in branch.ahead]
+        after = min([branch.aim, *(step for step, _ in news)])
+        again = [*self._applied_after(after), *(one for step, one in news if step == after)]
+        if measurement.step > after:
+            again.append(measurement)
+        aim = now // self.period
+        work = self._replay(measurement, aim - after, again)
+        further = Branch(measurement, aim, len(self.landed), branch.ahead)
+        return (self._job(measurement, (("CU", work),), partial(self._finish, further)),)
+
+    def _land(self, measurement: Measurement, _job: Job, now: int) -> tuple[Job, ...]:
+        sensor = self.sensors[measurement.sensor]
+        del self.pending[measurement]
+        self.flights.pop((measurement.step, measurement.sensor), None)
+        applied_to = step_at(now, self.period) if self.larsen and sensor.delayed else measurement.step
+        self.landed.append((applied_to, measurement))
+        insort(self.applied, (applied_to, measurement), key=itemgetter(0))
+        self.on_landing(measurement, now)
+        if not self.scenario.preempted(sensor):
+            return ()
+        waiting = self.waiting[sensor.priority]
+        if waiting:
+            return (self._correct(waiting.popleft(), now),)
+        del self.waiting[sensor.priority]
+        return ()
+
+    def _job(self, measurement: Measurement, parts: Parts, then: Callable[[Job, int], tuple[Job, ...]]) -> Job:
+        sensor = self.sensors[measurement.sensor]
+        work = sum(time for _, time in parts)
+        cpu = self.corrector_cpu
+        kind, k = correct_kind(sensor), measurement.step
+        return Job(kind, k, sensor.priority, measurement.arrival, measurement.due, work, parts, then, cpu)
+
+
+def correct_kind(sensor: Sensor) -> str:
+    """What the jobs of a sensor's corrections are filed under."""
+    return f"correct {sensor.name}"
+
+
+def _measurements(sensor: Sensor, steps: int) -> int:
+    """How many a sensor takes in so many steps."""
+    return len(range(sensor.offset, steps, sensor.every))
+
+
+def _nothing(_job: Job, _now: int) -> tuple[Job, ...]:
+    return ()

@@ -1,0 +1,41 @@
+"""What a sample says: its quantiles, and the probability of an event that was seen so often."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import ceil, sqrt
+
+Z95 = 1.959963984540054
+"""97.5 % of a normal distribution lie below."""
+
+
+@dataclass(frozen=True, slots=True)
+class Distribution:
+    """Of one or more values, in their unit. median, p95, p99: the least value that so large a share does not exceed."""
+
+    minimum: float
+    mean: float
+    median: float
+    p95: float
+    p99: float
+    maximum: float
+
+    @classmethod
+    def of(cls, values: Sequence[float]) -> Distribution:
+        ordered = sorted(values)
+        count = len(ordered)
+        median, p95, p99 = (ordered[ceil(count * percent / 100) - 1] for percent in (50, 95, 99))
+        return cls(ordered[0], sum(ordered) / count, median, p95, p99, ordered[-1])
+
+
+def wilson(events: int, trials: int) -> tuple[float, float]:
+    """The 95 % interval of a probability by Wilson's score, for `events` in `trials` independent ones, at least one.
+
+    Misses of a schedule come in a row, which makes them less than independent: the true interval is then wider.
+    """
+    share, z2 = events / trials, Z95**2
+    centre = share + z2 / (2 * trials)
+    half = Z95 * sqrt(share * (1 - share) / trials + z2 / (4 * trials**2))
+    scale = 1 + z2 / trials
+    return max((centre - half) / scale, 0.0), min((centre + half) / scale, 1.0)

@@ -1,0 +1,141 @@
+"""A scenario: a filter composed of one predictor and several sensors' correctors, on one simulated processor."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Literal
+
+from sched_sim.errors import InputError
+from sched_sim.jobs import HR, LR
+from sched_sim.tasks import Task
+
+Late = Literal["recalculate", "larsen"]
+"""What a late measurement does: the filter rolls back to it and replays, or Larsen's method carries it forward."""
+
+Samples = Mapping[str, Sequence[Fraction]]
+"""Execution times by part of the filter, as in `sample_file.SampledCosts`."""
+
+
+@dataclass(frozen=True)
+class Sensor:
+    """One sensor; all times in HR steps.
+
+    A measurement is taken in steps offset, offset + every, ...; it never arrives with the probability `dropout`, else
+    at the start of the step k + delay, the delay drawn from `delays` with equal probability.
+    priority: of its corrections; smaller is more urgent. land_by: the correction must be in the state by the start of
+    step k + land_by.
+    Raises InputError that names the sensor and lists all that is wrong with it.
+    """
+
+    name: str
+    every: int
+    delays: Sequence[int]
+    land_by: int
+    offset: int = 0
+    dropout: float = 0.0
+    priority: int = LR
+
+    def __post_init__(self) -> None:
+        wrong = []
+        if not self.name:
+            wrong.append("the name is empty: give one, it is how its costs and results are found")
+        if self.every < 1:
+            wrong.append(f"every {self.every} must be at least 1: it is the number of steps between measurements")
+        if self.offset < 0:
+            wrong.append(f"offset {self.offset} must be 0 or more: it is the step of the first measurement")
+        if not 0 <= self.dropout <= 1:
+            wrong.append(f"dropout {self.dropout:g} must be from 0 to 1: it is a probability, 10 % is 0.1")
+        if not self.delays:
+            wrong.append(
+                "delay has nothing to draw from: give a number of steps, a list, or { least = ..., most = ... }"
+            )
+        elif min(self.delays) < 0:
+            wrong.append(f"delay {min(self.delays)} must be 0 or more: no measurement arrives before it is taken")
+        elif self.land_by <= min(self.delays):
+            wrong.append(
+                f"land_by {self.land_by} must be greater than the least delay {min(self.delays)}: no correction is in "
+                f"the state before its measurement arrives"
+            )
+        if wrong:
+            raise InputError(f"sensor {self.name!r}: {'; '.join(wrong)}")
+
+    @property
+    def delayed(self) -> bool:
+        """Whether any of its measurements is late."""
+        return max(self.delays) > 0
+
+
+@dataclass(frozen=True)
+class Scenario:
+    """What is simulated, for so many HR `steps`.
+
+    speed: cost units that the processor does per HR period; hr_hz: the HR rate where the unit is a second, else None.
+    costs: from `sample_file`, all parts that `needed_parts` names. priority: of the predict jobs.
+    cpus: with 2, corrections run on the second. context_switch: in cost units, as in `options.Options`.
+    Raises InputError that lists all that is wrong.
+    """
+
+    name: str
+    steps: int
+    speed: Fraction
+    sensors: Sequence[Sensor]
+    costs: Samples
+    hr_hz: Fraction | None = None
+    seed: int = 0
+    late: Late = "recalculate"
+    priority: int = HR
+    tasks: Sequence[Task] = ()
+    context_switch: Fraction = Fraction(0)
+    cpus: Literal[1, 2] = 1
+
+    def __post_init__(self) -> None:
+        wrong = []
+        if self.steps < 1:
+            wrong.append(f"steps {self.steps} must be at least 1: it is how many HR steps are simulated")
+        if self.speed <= 0:
+            wrong.append(f"speed {float(self.speed):g} must be greater than 0 cost units per HR period")
+        if self.seed < 0:
+            wrong.append(f"seed {self.seed} must be a whole number, 0 or more")
+        if self.context_switch < 0:
+            wrong.append(f"context_switch {float(self.context_switch):g} must be 0 or more cost units")
+        names = [sensor.name for sensor in self.sensors]
+        wrong += [
+            f"sensor {name!r} is there {names.count(name)} times: give each its own name"
+            for name in dict.fromkeys(names)
+            if names.count(name) > 1
+        ]
+        wrong += [
+            f"task {task.name!r}: cpu {task.cpu} is not there; give cpus = {task.cpu}, or cpu = 1"
+            for task in self.tasks
+            if task.cpu > self.cpus
+        ]
+        wrong += [f"no costs of {part}: {_remedy(part, self.late)}" for part in self._lacking()]
+        if wrong:
+            raise InputError(f"scenario {self.name!r}: {'; '.join(wrong)}")
+
+    def _lacking(self) -> list[str]:
+        return [part for part in needed_parts(self.sensors, self.late) if not self.costs.get(part)]
+
+    def preempted(self, sensor: Sensor) -> bool:
+        """Whether predict jobs go on while a correction of `sensor` is under way."""
+        return self.cpus == 2 or sensor.priority > self.priority
+
+
+def needed_parts(sensors: Sequence[Sensor], late: Late) -> list[str]:
+    """The parts of the filter that run in such a scenario."""
+    if late == "recalculate" or not any(sensor.delayed for sensor in sensors):
+        return ["predict", *(f"correct.{sensor.name}" for sensor in sensors)]
+    kinds = {True: ("correct_late",), False: ("correct", "correct_accumulate")}
+    of_sensors = [f"{kind}.{sensor.name}" for sensor in sensors for kind in kinds[sensor.delayed]]
+    return ["predict", "predict_accumulate", *of_sensors]
+
+
+def _remedy(part: str, late: Late) -> str:
+    kind, _, sensor = part.partition(".")
+    if kind == "predict":
+        return "give [predictor] a cost, or the scenario a costs file with it"
+    if kind == "correct":
+        return f"give sensor {sensor!r} a cost, or the scenario a costs file with it"
+    return f'late = "{late}" needs them: add them to the costs file, or choose late = "recalculate"'
