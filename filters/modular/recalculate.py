@@ -13,7 +13,7 @@ from filters.kernels.dense import copy, copy_vector, store, store_vector
 from filters.kernels.place import IntArray
 from filters.modular.check import check_start
 from filters.modular.composition import ModularFilter
-from filters.modular.correctors import apply
+from filters.modular.correction import correct_with
 from filters.modular.measurements import Arrivals, Measurement, arrivals
 from filters.modular.space import Space, space
 from filters.modular.workspace import Workspace, new_workspace
@@ -59,8 +59,7 @@ def _first_or(expect: Callable[..., None], rest: Callable[..., None]) -> Callabl
     def correct(number: int, parts: Any, of: Space, before: Estimate, y: FloatArray, after: Estimate) -> None:
         if number == 0:
             view, observed, work = parts[0]
-            expect(view, observed, of, before, work)
-            apply(observed, of, before, y, after, work)
+            correct_with(expect, view, observed, of, before, y, after, work)
         else:
             rest(number - 1, parts[1], of, before, y, after)
 

@@ -1,0 +1,27 @@
+"""The correction of an estimate by one measurement: the part of a filter that is done, and costed, as a whole."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from filters.arrays import FloatArray
+from filters.modular.correctors import apply
+from filters.modular.space import Space
+from filters.modular.workspace import Workspace
+from filters.records import Estimate
+
+
+def correct_with(
+    expect: Callable[..., None],
+    view: Any,
+    observed: Space,
+    of: Space,
+    before: Estimate,
+    y: FloatArray,
+    after: Estimate,
+    work: Workspace,
+) -> None:
+    """Job: `after` is `before`, corrected by the measurement y; expect, view, observed: see `correctors.Corrector`."""
+    expect(view, observed, of, before, work)
+    apply(observed, of, before, y, after, work)
