@@ -77,37 +77,38 @@ def arrivals(composed: ModularFilter, measurements: Iterable[Measurement], steps
             taken before step 0 or after it arrived, is older than the history, or is its sensor's second in one step.
     """
     numbers = {sensor.name: number for number, sensor in enumerate(composed.sensors)}
-    kept: dict[tuple[int, int], Measurement] = {}
-    for one in sorted(measurements, key=lambda each: each.arrives):
-        if one.sensor not in numbers:
-            raise ValueError(f"sensor {one.sensor!r} is none of the filter's: they are {', '.join(numbers) or 'none'}")
-        needed = (composed.sensors[numbers[one.sensor]].corrector.observed.numbers,)
-        where = f"sensor {one.sensor!r}, measurement of step {one.taken}"
-        if np.shape(one.y) != needed:
-            raise ValueError(f"{where}: y has shape {np.shape(one.y)}, its corrector needs {needed}")
-        if not np.isfinite(one.y).all():
-            raise ValueError(f"{where}: y holds a value that is not finite; leave lost measurements out")
-        if not 0 <= one.taken <= one.arrives:
-            raise ValueError(
-                f"{where}: it arrives in step {one.arrives}; it must be taken in step 0 or later, and before"
-            )
-        if one.arrives - one.taken > history:
-            raise ValueError(
-                f"{where}: it arrives in step {one.arrives}, {one.arrives - one.taken} steps late, and the history "
-                f"goes back {history}: give history={one.arrives - one.taken} or more, or leave it out"
-            )
-        if (number_and_step := (numbers[one.sensor], one.taken)) in kept:
-            raise ValueError(f"{where}: there are two; a sensor measures once in a step")
-        if one.arrives <= steps:
-            kept[number_and_step] = one
-    found = list(kept.values())
+    found = sorted(measurements, key=lambda one: one.arrives)
+    for name in {one.sensor for one in found} - set(numbers):
+        raise ValueError(f"sensor {name!r} is none of the filter's: they are {', '.join(numbers) or 'none'}")
+    number = np.array([numbers[one.sensor] for one in found], dtype=np.int64)
+    taken = np.array([one.taken for one in found], dtype=np.int64)
+    arrives = np.array([one.arrives for one in found], dtype=np.int64)
+    _, firsts = np.unique(np.stack([number, taken]), axis=1, return_index=True)
     longest = max((sensor.corrector.observed.numbers for sensor in composed.sensors), default=0)
     y = np.zeros((len(found), longest))
-    for row, one in zip(y, found, strict=True):
-        row[: len(one.y)] = one.y
-    return Arrivals(
-        np.array([numbers[one.sensor] for one in found], dtype=np.int64),
-        np.array([one.taken for one in found], dtype=np.int64),
-        np.array([one.arrives for one in found], dtype=np.int64),
-        y,
+    for each, sensor in enumerate(composed.sensors):
+        rows = np.flatnonzero(number == each)
+        needed = sensor.corrector.observed.numbers
+        values = [found[row].y for row in rows]
+        shapes = {np.shape(value) for value in values}
+        if shapes - {(needed,)}:
+            row = next(row for row in rows if np.shape(found[row].y) != (needed,))
+            raise _unfit(found[row], f"y has shape {np.shape(found[row].y)}, its corrector needs {(needed,)}")
+        y[rows, :needed] = np.array(values).reshape(len(rows), needed)
+    refused = (
+        (~np.isfinite(y).all(axis=1), "y holds a value that is not finite; leave lost measurements out"),
+        ((taken < 0) | (taken > arrives), "it must be taken in step 0 or later, and before it arrives"),
+        (arrives - taken > history, f"the history goes back {history} steps: give a longer one, or leave it out"),
+        (~np.isin(np.arange(len(found)), firsts), "there are two; a sensor measures once in a step"),
+    )
+    for wrong, what in refused:
+        for row in np.flatnonzero(wrong):
+            raise _unfit(found[row], what)
+    here = arrives <= steps
+    return Arrivals(number[here], taken[here], arrives[here], y[here])
+
+
+def _unfit(one: Measurement, what: str) -> ValueError:
+    return ValueError(
+        f"sensor {one.sensor!r}, measurement of step {one.taken}, which arrives in step {one.arrives}: {what}"
     )

@@ -8,12 +8,13 @@ import numpy as np
 
 from filters.arrays import FloatArray
 from filters.kernels.dense import copy_vector
+from filters.kernels.place import clear
 from filters.kernels.solve import cholesky
-from filters.modular.space import Space, minus, plus
+from filters.modular.space import Space, minus_each, plus, plus_each
 
 MEAN_STEPS = 20
 MEAN_TOLERANCE = 1e-24
-"""The mean of attitudes is found in steps; the last one's squared length is below this, in radians."""
+"""The squared length of the last step towards a mean."""
 
 
 class SigmaPoints(NamedTuple):
@@ -84,15 +85,12 @@ def draw(
     """
     n = of.errors
     cholesky(P, root)
+    clear(errors)
     for e in range(n):
-        errors[0, e] = 0.0
-    copy_vector(x, points[0])
-    for i in range(n):
-        for e in range(n):
-            errors[1 + i, e] = spread * root[e, i] if e >= i else 0.0
+        for i in range(e + 1):
+            errors[1 + i, e] = spread * root[e, i]
             errors[1 + n + i, e] = -errors[1 + i, e]
-        plus(of, x, errors[1 + i], points[1 + i])
-        plus(of, x, errors[1 + n + i], points[1 + n + i])
+    plus_each(of, x, errors, points)
 
 
 def mean(
@@ -100,31 +98,43 @@ def mean(
 ) -> None:
     """out (numbers,) = the weighted mean of points (2 n + 1, numbers); errors (2 n + 1, errors) = points less mean.
 
-    The mean is where the weighted errors vanish. For plain quantities that is one step from point 0; for attitudes the
-    step is repeated. step (errors,): scratch.
+    The mean is where the weighted errors vanish: a step from point 0 where all is plain; where attitudes or angles are
+    among the numbers, steps are repeated until they vanish. step (errors,): scratch.
     """
     copy_vector(points[0], out)
-    for _ in range(MEAN_STEPS if len(of.attitudes) else 1):
-        for i in range(points.shape[0]):
-            minus(of, points[i], out, errors[i])
-        squared = 0.0
+    minus_each(of, points, out, errors)
+    for _ in range(MEAN_STEPS):
         for e in range(of.errors):
             step[e] = weighing.mean_0 * errors[0, e]
-            for i in range(1, points.shape[0]):
+        for i in range(1, points.shape[0]):
+            for e in range(of.errors):
                 step[e] += weighing.other * errors[i, e]
-            squared += step[e] * step[e]
         plus(of, out, step, out)
+        if len(of.attitudes) + len(of.angles) == 0:
+            for i in range(points.shape[0]):
+                for e in range(of.errors):
+                    errors[i, e] -= step[e]
+            break
+        minus_each(of, points, out, errors)
+        squared = 0.0
+        for e in range(of.errors):
+            squared += step[e] * step[e]
         if squared < MEAN_TOLERANCE:
             break
-    for i in range(points.shape[0]):
-        minus(of, points[i], out, errors[i])
 
 
 def add_covariance(left: FloatArray, right: FloatArray, weighing: Weights, out: FloatArray) -> None:
-    """out (a, b) += the weighted sum of left_i right_i^T, for left (2 n + 1, a), right (2 n + 1, b)."""
-    for i in range(left.shape[0]):
-        weight = weighing.covariance_0 if i == 0 else weighing.other
+    """out (a, b) += the weighted sum of left_i right_i^T, for left (2 n + 1, a), right (2 n + 1, b).
+
+    Two points at a time, so that `out` is read and written half as often.
+    """
+    for r in range(out.shape[0]):
+        factor = weighing.covariance_0 * left[0, r]
+        for c in range(out.shape[1]):
+            out[r, c] += factor * right[0, c]
+    for i in range(1, left.shape[0], 2):
         for r in range(out.shape[0]):
-            factor = weight * left[i, r]
+            one = weighing.other * left[i, r]
+            other = weighing.other * left[i + 1, r]
             for c in range(out.shape[1]):
-                out[r, c] += factor * right[i, c]
+                out[r, c] += one * right[i, c] + other * right[i + 1, c]

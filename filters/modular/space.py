@@ -50,47 +50,69 @@ def space(numbers: int, attitudes: Sequence[int] = (), angles: Sequence[int] = (
 
 def plus(of: Space, x: FloatArray, error: FloatArray, out: FloatArray) -> None:
     """out = the point x (numbers,), moved by an error (errors,); out may be x."""
-    i = e = 0
-    for a in range(len(of.attitudes) + 1):
-        end = of.attitudes[a] if a < len(of.attitudes) else of.numbers
-        while i < end:
-            out[i] = x[i] + error[e]
-            i += 1
-            e += 1
-        if a < len(of.attitudes):
-            turn(x, i, error, e, out)
-            i += 4
-            e += 3
+    start = 0
+    for part in range(len(of.attitudes) + 1):
+        end = of.attitudes[part] - part if part < len(of.attitudes) else of.errors
+        for e in range(start, end):
+            out[e + part] = x[e + part] + error[e]
+        if part < len(of.attitudes):
+            turn(x, end + part, error, end, out)
+        start = end + 3
 
 
 def minus(of: Space, a: FloatArray, b: FloatArray, out: FloatArray) -> None:
     """out (errors,) = the error that takes the point b to a, both (numbers,)."""
-    i = e = 0
+    start = 0
     for part in range(len(of.attitudes) + 1):
-        end = of.attitudes[part] if part < len(of.attitudes) else of.numbers
-        while i < end:
-            out[e] = a[i] - b[i]
-            i += 1
-            e += 1
+        end = of.attitudes[part] - part if part < len(of.attitudes) else of.errors
+        for e in range(start, end):
+            out[e] = a[e + part] - b[e + part]
         if part < len(of.attitudes):
-            rotation_between(a, b, i, out, e)
-            i += 4
-            e += 3
+            rotation_between(a, b, end + part, out, end)
+        start = end + 3
     for e in of.angles:
         out[e] = (out[e] + np.pi) % (2.0 * np.pi) - np.pi
 
 
 def plain(of: Space, x: FloatArray, out: FloatArray) -> None:
     """out (errors,) = the entries of the point x (numbers,), with zeros in place of each attitude."""
-    i = e = 0
+    start = 0
     for part in range(len(of.attitudes) + 1):
-        end = of.attitudes[part] if part < len(of.attitudes) else of.numbers
-        while i < end:
-            out[e] = x[i]
-            i += 1
-            e += 1
+        end = of.attitudes[part] - part if part < len(of.attitudes) else of.errors
+        for e in range(start, end):
+            out[e] = x[e + part]
         if part < len(of.attitudes):
-            for a in range(3):
-                out[e + a] = 0.0
-            i += 4
-            e += 3
+            for e in range(end, end + 3):
+                out[e] = 0.0
+        start = end + 3
+
+
+def plus_each(of: Space, x: FloatArray, errors: FloatArray, points: FloatArray) -> None:
+    """`plus` for each row of errors (any, errors) and points (any, numbers): all rows part by part, which is faster."""
+    start = 0
+    for part in range(len(of.attitudes) + 1):
+        end = of.attitudes[part] - part if part < len(of.attitudes) else of.errors
+        for i in range(points.shape[0]):
+            for e in range(start, end):
+                points[i, e + part] = x[e + part] + errors[i, e]
+        if part < len(of.attitudes):
+            for i in range(points.shape[0]):
+                turn(x, end + part, errors[i], end, points[i])
+        start = end + 3
+
+
+def minus_each(of: Space, points: FloatArray, x: FloatArray, errors: FloatArray) -> None:
+    """`minus` of each row of points (any, numbers) and x, in the rows of errors (any, errors)."""
+    start = 0
+    for part in range(len(of.attitudes) + 1):
+        end = of.attitudes[part] - part if part < len(of.attitudes) else of.errors
+        for i in range(points.shape[0]):
+            for e in range(start, end):
+                errors[i, e] = points[i, e + part] - x[e + part]
+        if part < len(of.attitudes):
+            for i in range(points.shape[0]):
+                rotation_between(points[i], x, end + part, errors[i], end)
+        start = end + 3
+    for e in of.angles:
+        for i in range(points.shape[0]):
+            errors[i, e] = (errors[i, e] + np.pi) % (2.0 * np.pi) - np.pi
