@@ -1,0 +1,148 @@
+"""A filter for a rocket's flight that knows neither its mass nor its thrust, nor anything else of the rocket.
+
+Acceleration is taken to be constant but for white jerk, the turn rate but for white angular acceleration; the attitude
+is turned by the rate. Five sensors, each with its own rate and delay, linear, extended and unscented. After MacCormack
+and Rubinstein, Implementation of a modular linear and unscented Kalman filter: the same state, and their claim.
+
+State: position (m), velocity (m/s), acceleration (m/s^2) in the world, turn rate in the body (rad/s), attitude as a
+quaternion, body to world: 16 numbers, of which the error has 15.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Literal, NamedTuple, TypeAlias
+
+import numpy as np
+
+from filters.arrays import FloatArray
+from filters.kernels.quaternion import rotate_back, turn
+from filters.modular import (
+    ModularFilter,
+    Sensor,
+    extended_corrector,
+    extended_predictor,
+    linear_corrector,
+    space,
+    unscented_corrector,
+    unscented_predictor,
+)
+from filters.modular.space import plus
+from filters.systems.rocket import RATE_HZ
+
+PredictorName: TypeAlias = Literal["unscented", "extended"]
+
+OF = space(16, attitudes=[12])
+ATTITUDE = space(4, attitudes=[0])
+GRAVITY = 9.80665
+"""What the filter subtracts at any height; that of the simulated flight falls by 0.08 % to 2.6 km."""
+
+GPS, BAROMETER, GYRO, ACCELEROMETER, TRACKER = SENSORS = ("gps", "barometer", "gyro", "accelerometer", "attitude")
+
+
+class ProcessNoise(NamedTuple):
+    """Spectral densities: jerk of each axis of the world, (m/s^3)^2/Hz; angular acceleration about the nose (roll) and
+    across it (pitch, yaw), (rad/s^2)^2/Hz."""
+
+    jerk: float
+    roll: float
+    across: float
+
+
+TUNED = ProcessNoise(jerk=31.0, roll=0.0048, across=0.00099)
+"""Those of the flight of `Rocket()` by `densities`, to two digits. It is none of the flights that the study draws."""
+
+
+def densities(states: FloatArray) -> ProcessNoise:
+    """The noise whose increments have the mean square of those of a true flight (steps + 1, 16).
+
+    Sums over the whole flight: thrust onset and burnout, and the long time between them and after.
+    """
+    squared = np.mean(np.diff(states[:, 6:12], axis=0) ** 2, axis=0) * RATE_HZ
+    return ProcessNoise(float(squared[:3].mean()), float(squared[3]), float(squared[4:].mean()))
+
+
+def process_noise(noise: ProcessNoise, dt: float) -> FloatArray:
+    """Q (15, 15) of one step: integrated white jerk (Bar-Shalom, Estimation with applications, 2001, 6.2.3), and white
+    angular acceleration, as long as the attitude turns little in a step."""
+    Q = np.zeros((15, 15))
+    jerk = [[dt**5 / 20, dt**4 / 8, dt**3 / 6], [dt**4 / 8, dt**3 / 3, dt**2 / 2], [dt**3 / 6, dt**2 / 2, dt]]
+    angular = [[dt, dt**2 / 2], [dt**2 / 2, dt**3 / 3]]
+    for axis, density in enumerate((noise.roll, noise.across, noise.across)):
+        Q[axis:9:3, axis:9:3] = noise.jerk * np.array(jerk)
+        Q[9 + axis :: 3, 9 + axis :: 3] = density * np.array(angular)
+    return Q
+
+
+def move(x: FloatArray, _u: FloatArray, dt: float, out: FloatArray) -> None:
+    """The state a time dt on."""
+    for a in range(3):
+        out[a] = x[a] + dt * x[3 + a] + 0.5 * dt * dt * x[6 + a]
+        out[3 + a] = x[3 + a] + dt * x[6 + a]
+        out[6 + a] = x[6 + a]
+        out[9 + a] = dt * x[9 + a]  # the rotation in dt, until it is used
+    turn(x, 12, out, 9, out)
+    for a in range(3):
+        out[9 + a] = x[9 + a]
+
+
+def specific_force(x: FloatArray, out: FloatArray) -> None:
+    """What accelerometers feel (3,): acceleration less gravity, in the body."""
+    out[0] = x[6]
+    out[1] = x[7]
+    out[2] = x[8] + GRAVITY
+    rotate_back(x, 12, out, 0, out)
+
+
+def attitude(x: FloatArray, out: FloatArray) -> None:
+    """The quaternion (4,)."""
+    for a in range(4):
+        out[a] = x[12 + a]
+
+
+def sensors(dropouts: Mapping[str, float]) -> tuple[Sensor, ...]:
+    """GPS: 10 Hz, 100 ms late. Barometer: 25 Hz, 40 ms. Inertial unit: 100 Hz. Attitude, by camera: 10 Hz, 50 ms.
+
+    dropouts: by name; 0 if not given.
+    """
+    position_velocity, height, rate = np.eye(6, 15), np.eye(15)[[2]], np.eye(15)[9:12]
+    gps = linear_corrector(position_velocity, np.diag([1.5, 1.5, 3.0, 0.1, 0.1, 0.2]) ** 2)
+    every, delay = RATE_HZ // 10, RATE_HZ // 10
+    return (
+        Sensor(GPS, gps, every, delay, dropouts.get(GPS, 0.0)),
+        Sensor(BAROMETER, linear_corrector(height, [[2.0**2]]), 4, 4, dropouts.get(BAROMETER, 0.0)),
+        Sensor(GYRO, linear_corrector(rate, 0.005**2 * np.eye(3)), dropout=dropouts.get(GYRO, 0.0)),
+        Sensor(
+            ACCELEROMETER,
+            extended_corrector(specific_force, 0.3**2 * np.eye(3)),
+            dropout=dropouts.get(ACCELEROMETER, 0.0),
+        ),
+        Sensor(
+            TRACKER,
+            unscented_corrector(attitude, np.radians(1.0) ** 2 * np.eye(3), observed=ATTITUDE),
+            every, 5, dropouts.get(TRACKER, 0.0),
+        ),
+    )  # fmt: skip
+
+
+def rocket_filter(
+    predictor: PredictorName = "unscented", dropouts: Mapping[str, float] | None = None, noise: ProcessNoise = TUNED
+) -> ModularFilter:
+    """The filter. dropouts: the probability that a measurement is lost, by the sensor's name."""
+    dt = 1.0 / RATE_HZ
+    Q = process_noise(noise, dt)
+    predict = unscented_predictor(move, Q) if predictor == "unscented" else extended_predictor(move, Q)
+    return ModularFilter(predict, sensors(dropouts or {}), dt, OF)
+
+
+START_SIGMAS = np.concatenate(
+    [np.full(3, 2.0), np.full(3, 0.1), np.full(3, 0.1), np.full(3, 0.01), np.full(3, np.radians(2.0))]
+)
+"""Standard deviations of the errors on the pad."""
+
+
+def start(truth: FloatArray, seed: int) -> tuple[FloatArray, FloatArray]:
+    """An estimate (16,) for a true state (16,), wrong by a draw from the covariance (15, 15) that is returned too."""
+    x = np.empty(OF.numbers)
+    plus(OF, truth, np.random.default_rng([seed, 2]).normal(0.0, START_SIGMAS), x)
+    return x, np.diag(START_SIGMAS**2)
