@@ -82,7 +82,7 @@ class HighRateTask:
 
 
 class LowRateTask:
-    """The covariance, and the error estimate in the making."""
+    """The error estimate in the making, and P (n, n): P_{k^+} of the last k, P_{k^-} until its measurement is used."""
 
     def __init__(
         self,
@@ -102,23 +102,23 @@ class LowRateTask:
         self._update = function_for(backend, lr_update)
         self._gain = function_for(backend, lr_gain)
         self._correct = function_for(backend, lr_correct)
-        self._P = np.array(P0, dtype=np.float64)  # P_{k^+} of the last k
+        self.P = np.array(P0, dtype=np.float64)
         self._k = 0
-        self._reference = Estimate(np.empty(0), self._P)
+        self._reference = Estimate(np.empty(0), self.P)
         self._correction = new_correction(system)
 
     def propagate(self, message: Message, *, measured: bool) -> FloatArray:
         """Go to the next k, at which a measurement is taken or is missing. Returns P_{k^-}."""
-        P = self._P
+        P = self.P
         if message.transition is not None:
             P = np.empty_like(P)
-            self._propagate(self._form, self._P, message.transition, P, self._work)
+            self._propagate(self._form, self.P, message.transition, P, self._work)
         self._k, self._reference = message.k, Estimate(message.x, P)
-        self._P = P  # stays so if the measurement is missing
+        self.P = P  # stays so if the measurement is missing
         self._correction = new_correction(self._size)
         if measured and self._gain_time == "precomputed":
-            self._P = np.empty_like(P)
-            self._gain(self._system, self._form, self._k, self._reference, self._P, self._correction, self._work)
+            self.P = np.empty_like(P)
+            self._gain(self._system, self._form, self._k, self._reference, self.P, self._correction, self._work)
         return P
 
     def update(self, y: FloatArray) -> Correction:
@@ -126,8 +126,8 @@ class LowRateTask:
         if self._gain_time == "precomputed":
             self._correct(self._system, self._k, y, self._reference, self._correction)
         else:
-            self._P = np.empty_like(self._P)
-            self._update(self._system, self._form, self._k, y, self._reference, self._P, self._correction, self._work)
+            self.P = np.empty_like(self.P)
+            self._update(self._system, self._form, self._k, y, self._reference, self.P, self._correction, self._work)
         return self._correction
 
 

@@ -2,9 +2,10 @@
 
 from filters.modular.composition import ModularFilter, Sensor
 from filters.modular.correctors import extended_corrector, linear_corrector, unscented_corrector
+from filters.modular.history import ModularHistory
+from filters.modular.late import run
 from filters.modular.measurements import Measurement, observe
 from filters.modular.predictors import extended_predictor, linear_predictor, unscented_predictor
-from filters.modular.recalculate import ModularHistory, run
 from filters.modular.sigma_points import maccormack, merwe
 from filters.modular.space import space
 

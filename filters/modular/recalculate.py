@@ -2,34 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from filters.arrays import FloatArray
 from filters.kernels.backends import BackendName, arguments_for, function_for
-from filters.kernels.dense import copy, copy_vector, store, store_vector
+from filters.kernels.dense import store, store_vector
 from filters.kernels.place import IntArray
+from filters.modular.chain import chain, parts_of
 from filters.modular.check import check_start
 from filters.modular.composition import ModularFilter
 from filters.modular.correction import correct_with
+from filters.modular.estimate import copy_estimate, is_sound
+from filters.modular.history import PREDICTOR, SOUND, ModularHistory, breakdown, new_history
 from filters.modular.measurements import Arrivals, Measurement, arrivals
+from filters.modular.problem import check_inputs
 from filters.modular.space import Space, space
 from filters.modular.workspace import Workspace, new_workspace
 from filters.records import Estimate
-
-SOUND, PREDICTOR = -1, -2
-
-
-class ModularHistory(NamedTuple):
-    """The estimate at the end of every step, with what had arrived by then.
-
-    x (steps + 1, numbers); P (steps + 1, n, n): the covariance of its error, of length n.
-    """
-
-    x: FloatArray
-    P: FloatArray
 
 
 class Memory(NamedTuple):
@@ -43,36 +35,23 @@ class Memory(NamedTuple):
     known: IntArray
 
 
-def chain(expects: Sequence[Callable[..., None]]) -> Callable[..., None]:
-    """correct(number, parts, of, before, y, after): the correction by the sensor of this number.
+class Given(NamedTuple):
+    """What one correction takes."""
 
-    parts: (view, observed space, workspace) of the first sensor, then the parts of the others: ((...), ((...), ())).
-    Correctors differ in the types of what they take, and compiled code cannot choose among types by a number.
-    """
-    rest: Callable[..., None] = _no_such_sensor
-    for expect in reversed(expects):
-        rest = _first_or(expect, rest)
-    return rest
+    of: Space
+    before: Estimate
+    y: FloatArray
+    after: Estimate
 
 
-def _first_or(expect: Callable[..., None], rest: Callable[..., None]) -> Callable[..., None]:
-    def correct(number: int, parts: Any, of: Space, before: Estimate, y: FloatArray, after: Estimate) -> None:
-        if number == 0:
-            view, observed, work = parts[0]
-            correct_with(expect, view, observed, of, before, y, after, work)
-        else:
-            rest(number - 1, parts[1], of, before, y, after)
-
-    return correct
-
-
-def _no_such_sensor(_number: int, _parts: Any, _of: Space, _before: Estimate, _y: FloatArray, _after: Estimate) -> None:
-    pass
+def correct(expect: Callable[..., None], view: Any, observed: Space, work: Workspace, given: Given) -> None:
+    """Job: `after` is `before`, corrected by the measurement."""
+    correct_with(expect, view, observed, given.of, given.before, given.y, given.after, work)
 
 
 def filter_all(
     predict: Callable[..., None],
-    correct: Callable[..., None],
+    use: Callable[..., None],
     motion: Any,
     parts: Any,
     of: Space,
@@ -106,32 +85,17 @@ def filter_all(
                 predict(motion, of, current, inputs[i - 1], dt, at, work)
                 if not is_sound(at):
                     return PREDICTOR, i
-            _copy_estimate(at, current)
+            copy_estimate(at, current)
             for s in range(sensors):
                 number = memory.known[i % count, s]
                 if number >= 0:
-                    correct(s, parts, of, current, arrived.y[number], corrected)
+                    use(s, parts, Given(of, current, arrived.y[number], corrected))
                     if not is_sound(corrected):
                         return s, i
-                    _copy_estimate(corrected, current)
+                    copy_estimate(corrected, current)
         store_vector(current.x, history.x, j)
         store(current.P, history.P, j)
     return SOUND, len(inputs)
-
-
-def is_sound(estimate: Estimate) -> bool:
-    """Whether all numbers of x are finite and no variance is negative or nan."""
-    sound = True
-    for value in estimate.x:
-        sound = sound and bool(np.isfinite(value))
-    for i in range(estimate.P.shape[0]):
-        sound = sound and bool(estimate.P[i, i] >= 0.0)
-    return sound
-
-
-def _copy_estimate(source: Estimate, out: Estimate) -> None:
-    copy_vector(source.x, out.x)
-    copy(source.P, out.P)
 
 
 def run(
@@ -156,51 +120,34 @@ def run(
             `measurements.arrivals`), or an estimate breaks down; it says which sensor and step.
     """
     x, P = check_start(composed.of, x0, P0)
-    moves = np.ascontiguousarray(inputs, dtype=np.float64)
-    if moves.ndim != 2:
-        raise ValueError(f"inputs has shape {moves.shape}; needed is (steps, inputs of the predictor)")
+    moves = check_inputs(composed.predictor, inputs)
     steps, of = len(moves), composed.of
     depth = max((sensor.delay for sensor in composed.sensors), default=0) if history is None else history
+    if depth < 0:
+        raise ValueError(f"history={depth} must be at least 0: how many steps the filter can go back")
     arrived = arrivals(composed, measurements, steps, depth)
     count, n = depth + 1, of.errors
     memory = Memory(
         np.zeros((count, of.numbers)), np.zeros((count, n, n)), np.full((count, len(composed.sensors)), -1, np.int64)
     )
     memory.x[0], memory.P[0] = x, P
-    found = ModularHistory(np.empty((steps + 1, of.numbers)), np.empty((steps + 1, n, n)))
-    culprit, step = function_for(backend, filter_all)(
-        arguments_for(backend, composed.predictor.predict),
-        arguments_for(backend, chain([sensor.corrector.expect for sensor in composed.sensors])),
-        arguments_for(backend, composed.predictor.motion),
-        arguments_for(backend, _parts(composed)),
-        of,
-        composed.dt,
-        moves,
-        arrived,
-        memory,
-        found,
-        Estimate(np.empty(of.numbers), np.empty((n, n))),
-        Estimate(np.empty(of.numbers), np.empty((n, n))),
-        new_workspace(of, space(0)),
-    )
+    found = new_history(of, steps)
+    with np.errstate(all="ignore"):  # a breakdown is found by what it leaves
+        culprit, step = function_for(backend, filter_all)(
+            arguments_for(backend, composed.predictor.predict),
+            arguments_for(backend, chain(correct, tuple(sensor.corrector.expect for sensor in composed.sensors))),
+            arguments_for(backend, composed.predictor.motion),
+            arguments_for(backend, parts_of(composed)),
+            of,
+            composed.dt,
+            moves,
+            arrived,
+            memory,
+            found,
+            Estimate(np.empty(of.numbers), np.empty((n, n))),
+            Estimate(np.empty(of.numbers), np.empty((n, n))),
+            new_workspace(of, space(0)),
+        )
     if culprit != SOUND:
         raise breakdown(composed, culprit, step)
     return found
-
-
-def breakdown(composed: ModularFilter, culprit: int, step: int) -> ValueError:
-    """The error that says which part of a filter left an estimate that is none."""
-    part = "predictor" if culprit == PREDICTOR else f"sensor {composed.sensors[culprit].name!r}"
-    return ValueError(
-        f"{part}, step {step}: the covariance is no longer positive definite, or a value is no longer finite; give "
-        f"more noise (Q, R) or a smaller P0, or spread sigma points with alpha = 1, which leaves no weight negative"
-    )
-
-
-def _parts(composed: ModularFilter) -> Any:
-    parts: Any = ()
-    for sensor in reversed(composed.sensors):
-        corrector = sensor.corrector
-        work = new_workspace(composed.of, corrector.observed)
-        parts = ((corrector.view(composed.of.errors), corrector.observed, work), parts)
-    return parts

@@ -1,0 +1,24 @@
+"""Estimates are copied, and looked at."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from filters.kernels.dense import copy, copy_vector
+from filters.records import Estimate
+
+
+def copy_estimate(source: Estimate, out: Estimate) -> None:
+    """out = source."""
+    copy_vector(source.x, out.x)
+    copy(source.P, out.P)
+
+
+def is_sound(estimate: Estimate) -> bool:
+    """Whether all numbers of x are finite and no variance is negative or nan."""
+    sound = True
+    for value in estimate.x:
+        sound = sound and bool(np.isfinite(value))
+    for i in range(estimate.P.shape[0]):
+        sound = sound and bool(estimate.P[i, i] >= 0.0)
+    return sound

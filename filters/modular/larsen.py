@@ -1,0 +1,216 @@
+"""Larsen's measurement extrapolation for filters of linear and extended parts: nothing is done again.
+
+The correction that a late measurement would have made in the step k in which it was taken is carried to the step m in
+which it arrives. Larsen, Andersen, Ravn and Poulsen, Incorporation of time delayed measurements in a discrete-time
+Kalman filter, CDC 1998; Steffes 2014, Eqs. (20) to (22), where no other sensor measures in between. With e the error:
+
+    M <- I at k, M <- F M in each prediction, M <- (I - K H) M in each correction by another sensor in between
+    x_m <- x_m + M K_k z_k,    P_m <- P_m - M K_k S_k K_k^T M^T,    K_k = P_k H_k^T S_k^-1
+
+e_m = M e_k + noise that is independent of e_k and of the measurement's own, so that P_m stays the covariance of the
+error. The estimate is the best one, that of `recalculate`, only if no other sensor measured in between: what these say
+about e_k is not used.
+
+In one step: first the late measurement that arrives, then those of the step itself, in the sensors' order, then one
+that will come late is taken. So a delay as long as the time between the measurements is allowed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from itertools import pairwise
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from filters.arrays import FloatArray
+from filters.kernels.backends import BackendName, arguments_for, function_for
+from filters.kernels.dense import (
+    copy,
+    matmul_blocked,
+    matmul_transposed_narrow,
+    store,
+    store_vector,
+)
+from filters.modular.chain import chain, parts_of
+from filters.modular.check import check_start
+from filters.modular.composition import ModularFilter
+from filters.modular.correctors import apply
+from filters.modular.estimate import copy_estimate, is_sound
+from filters.modular.history import PREDICTOR, SOUND, ModularHistory, breakdown, new_history
+from filters.modular.measurements import Arrivals, Measurement, arrivals
+from filters.modular.problem import check_inputs, check_linearised
+from filters.modular.space import Space, space
+from filters.modular.workspace import Workspace, new_workspace
+from filters.records import Estimate
+
+
+class Flight(NamedTuple):
+    """What is kept of the step in which a measurement was taken that is not there yet.
+
+    reference: the estimate of then. M (n, n): what has become of an error of then.
+    """
+
+    reference: Estimate
+    M: FloatArray
+
+
+class Given(NamedTuple):
+    """What one correction takes.
+
+    late: the measurement was taken at the flight's reference; otherwise now. waiting: one is in flight.
+    """
+
+    of: Space
+    flight: Flight
+    late: bool
+    waiting: bool
+    before: Estimate
+    y: FloatArray
+    after: Estimate
+
+
+def correct(expect: Callable[..., None], view: Any, observed: Space, work: Workspace, given: Given) -> None:
+    """Job: `after` is `before`, corrected by a measurement, late or not; M is kept up if one is waited for."""
+    at = given.flight.reference if given.late else given.before
+    expect(view, observed, given.of, at, work)
+    if given.late:  # the covariance of z_k with e_k becomes that with e_m, and K_k becomes M K_k
+        matmul_transposed_narrow(work.cross, given.flight.M, work.gain)
+        copy(work.gain, work.cross)
+    apply(observed, given.of, given.before, given.y, given.after, work)
+    if given.waiting and not given.late:
+        _condition(given.flight.M, work)
+
+
+def _condition(M: FloatArray, work: Workspace) -> None:
+    """M <- M - K (H M)."""
+    matmul_blocked(work.H, M, work.cross)
+    for r in range(work.gain.shape[0]):
+        for i in range(M.shape[0]):
+            factor = work.gain[r, i]
+            for j in range(M.shape[1]):
+                M[i, j] -= factor * work.cross[r, j]
+
+
+def filter_all(
+    predict: Callable[..., None],
+    use: Callable[..., None],
+    motion: Any,
+    parts: Any,
+    of: Space,
+    dt: float,
+    inputs: FloatArray,
+    arrived: Arrivals,
+    late: NDArray[np.bool_],
+    taken_late: NDArray[np.bool_],
+    history: ModularHistory,
+    current: Estimate,
+    scratch: Estimate,
+    flight: Flight,
+    work: Workspace,
+) -> tuple[int, int]:
+    """The whole filter as one kernel; `current` holds the prediction for step 0, history is filled.
+
+    arrived: in the order of use. late (count,): which of them were taken before. taken_late (steps + 1,): the steps in
+    which these were. Returns as `recalculate.filter_all`.
+    """
+    following = 0
+    waiting = False
+    for j in range(len(inputs) + 1):
+        if j > 0:
+            predict(motion, of, current, inputs[j - 1], dt, scratch, work)
+            if not is_sound(scratch):
+                return PREDICTOR, j
+            copy_estimate(scratch, current)
+            if waiting:
+                matmul_blocked(work.F, flight.M, work.nn1)
+                copy(work.nn1, flight.M)
+        while following < len(arrived.arrives) and arrived.arrives[following] == j:
+            s = arrived.sensor[following]
+            given = Given(of, flight, late[following], waiting, current, arrived.y[following], scratch)
+            use(s, parts, given)
+            if not is_sound(scratch):
+                return s, j
+            copy_estimate(scratch, current)
+            waiting = waiting and not late[following]
+            following += 1
+        if taken_late[j]:
+            waiting = True
+            copy_estimate(current, flight.reference)
+            for i in range(of.errors):
+                for e in range(of.errors):
+                    flight.M[i, e] = 1.0 if i == e else 0.0
+        store_vector(current.x, history.x, j)
+        store(current.P, history.P, j)
+    return SOUND, len(inputs)
+
+
+def run(
+    composed: ModularFilter,
+    x0: FloatArray,
+    P0: FloatArray,
+    inputs: FloatArray,
+    measurements: Iterable[Measurement],
+    *,
+    backend: BackendName = "compiled",
+) -> ModularHistory:
+    """Filter a record of data; each measurement is used in the step in which it arrives. As `recalculate.run`, and
+
+    Raises:
+        ValueError: a part is unscented, which leaves no F or H; or a measurement that will come late is taken before
+            another late one has arrived.
+    """
+    check_linearised(composed, "larsen")
+    x, P = check_start(composed.of, x0, P0)
+    moves = check_inputs(composed.predictor, inputs)
+    steps, of = len(moves), composed.of
+    arrived = _in_order_of_use(arrivals(composed, measurements, steps, steps))
+    late = arrived.taken < arrived.arrives
+    _check_one_in_flight(composed, arrived, late)
+    taken_late = np.zeros(steps + 1, dtype=np.bool_)
+    taken_late[arrived.taken[late]] = True
+    found = new_history(of, steps)
+    with np.errstate(all="ignore"):  # a breakdown is found by what it leaves
+        culprit, step = function_for(backend, filter_all)(
+            arguments_for(backend, composed.predictor.predict),
+            arguments_for(backend, chain(correct, tuple(sensor.corrector.expect for sensor in composed.sensors))),
+            arguments_for(backend, composed.predictor.motion),
+            arguments_for(backend, parts_of(composed)),
+            of,
+            composed.dt,
+            moves,
+            arrived,
+            late,
+            taken_late,
+            found,
+            Estimate(x, P),
+            Estimate(np.empty_like(x), np.empty_like(P)),
+            Flight(Estimate(np.empty_like(x), np.empty_like(P)), np.empty_like(P)),
+            new_workspace(of, space(0)),
+        )
+    if culprit != SOUND:
+        raise breakdown(composed, culprit, step)
+    return found
+
+
+def _in_order_of_use(arrived: Arrivals) -> Arrivals:
+    """In each step those taken before come first, then those of the step in the sensors' order."""
+    order = np.lexsort((arrived.sensor, arrived.taken == arrived.arrives, arrived.arrives))
+    return Arrivals(arrived.sensor[order], arrived.taken[order], arrived.arrives[order], arrived.y[order])
+
+
+def _check_one_in_flight(composed: ModularFilter, arrived: Arrivals, late: NDArray[np.bool_]) -> None:
+    rows = np.flatnonzero(late)
+    rows = rows[np.argsort(arrived.taken[rows], kind="stable")]
+    for one, other in pairwise(rows):
+        if arrived.taken[other] < arrived.arrives[one]:
+            flights = " and ".join(
+                f"sensor {composed.sensors[arrived.sensor[row]].name!r}, steps {arrived.taken[row]} to "
+                f"{arrived.arrives[row]}"
+                for row in (one, other)
+            )
+            raise ValueError(
+                f"{flights}: late='larsen' can wait for one measurement at a time; use late='recalculate', or take the "
+                f"second when the first has arrived"
+            )
