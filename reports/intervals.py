@@ -9,6 +9,8 @@ from typing import NamedTuple
 from sched_sim.schedule import Schedule, Slice
 
 TASK = "task:"
+CORRECT = "correct "
+"""Jobs of a composed filter, behind it the sensor's name: each sensor has a line of its own."""
 
 
 class Row(NamedTuple):
@@ -50,11 +52,14 @@ def row_of(kind: str, cpu: int | None) -> Row:
     """The line on which jobs of one kind are drawn."""
     if kind.startswith(TASK):
         return Row(kind.removeprefix(TASK), cpu)
+    if kind == "predict" or kind.startswith(CORRECT):
+        return Row(kind.removeprefix(CORRECT), cpu)
     return Row("LR" if kind.startswith("lr_") else "HR", cpu)
 
 
 def rows(schedule: Schedule) -> list[Row]:
-    """The lines of the chart from top to bottom: by processor, then HR, LR, the user's tasks by their first run.
+    """The lines of the chart from top to bottom: by processor, then HR (or predict), LR, then sensors and the user's
+    tasks by their first run.
 
     A processor on which nothing ever ran has a line "idle".
     """
@@ -67,7 +72,7 @@ def rows(schedule: Schedule) -> list[Row]:
     ran = {row.name for row in found if row.cpu is not None}
     found = [row for row in found if row.cpu is not None or row.name not in ran]
     found += [Row("idle", cpu) for cpu in range(schedule.cpus) if cpu not in {row.cpu for row in found}]
-    filter_rows = {"HR": 0, "LR": 1}
+    filter_rows = {"HR": 0, "predict": 0, "LR": 1}
     return sorted(found, key=lambda row: (row.cpu is None, row.cpu or 0, filter_rows.get(row.name, 2)))
 
 

@@ -72,6 +72,10 @@ FILLS = {
     "CG": Fill("#dd9009", INK, "", "covariance and gain"),
     "IP": Fill("#b3d4ee", INK, "", "inertial propagation"),
     "RS": Fill("#dd9009", INK, "", "robust step"),
+    "PR": Fill("#b3d4ee", INK, "", "predict"),
+    "CO": Fill("#11538c", "white", "", "correct"),
+    "RP": Fill("#dfe8f0", "#11538c", "\\\\\\\\", "replayed steps"),
+    "CU": Fill("#fbe3b5", "#9a6200", "////", "catch-up"),
     "switch": Fill("#1a1a1a", "white", "", "context switch"),
 }
 

@@ -38,4 +38,6 @@ def wilson(events: int, trials: int) -> tuple[float, float]:
     centre = share + z2 / (2 * trials)
     half = Z95 * sqrt(share * (1 - share) / trials + z2 / (4 * trials**2))
     scale = 1 + z2 / trials
-    return max((centre - half) / scale, 0.0), min((centre + half) / scale, 1.0)
+    least = (centre - half) / scale if events else 0.0
+    most = (centre + half) / scale if events < trials else 1.0
+    return least, most

@@ -79,14 +79,11 @@ def on_processor(table: CostTable, processor: Processor) -> CostTable:
     lacking: dict[str, dict[str, str]] = {}
     for method, entries in table.operations.items():
         for kind, counts in entries.items():
-            needed = _needed(counts, processor)
-            missing = [operation for operation in needed if operation not in processor.seconds]
-            if missing:
-                job = f"[operations.{method}] {kind} of cost table {table.shown}"
-                lacking.setdefault(method, {})[kind] = _no_time(processor, missing, job)
-            else:
-                time = sum((number * processor.seconds[operation] for operation, number in needed.items()), Fraction(0))
+            try:
+                time = seconds_for(counts, processor, f"[operations.{method}] {kind} of cost table {table.shown}")
                 costs.setdefault(method, {})[kind] = Cost.of(time)
+            except InputError as error:
+                lacking.setdefault(method, {})[kind] = str(error)
     if not costs:
         raise InputError(next(reason for entries in lacking.values() for reason in entries.values()))
     return replace(
@@ -97,6 +94,18 @@ def on_processor(table: CostTable, processor: Processor) -> CostTable:
         provenance={**table.provenance, "machine": processor.title, "processor": _about(processor)},
         lacking=lacking,
     )
+
+
+def seconds_for(counts: Counts, processor: Processor, job: str) -> Fraction:
+    """What `processor` takes for one job's operations, one after another. job: how messages name it.
+
+    Raises InputError for a kind of operation that it does not give a time for.
+    """
+    needed = _needed(counts, processor)
+    missing = [operation for operation in needed if operation not in processor.seconds]
+    if missing:
+        raise InputError(_no_time(processor, missing, job))
+    return sum((number * processor.seconds[operation] for operation, number in needed.items()), Fraction(0))
 
 
 def _needed(counts: Counts, processor: Processor) -> dict[str, Fraction]:

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections import Counter, defaultdict
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from sched_sim.composed import ComposedFilter, Measurement, correct_kind
 from sched_sim.distribution import wilson
-from sched_sim.jobs import Job
+from sched_sim.jobs import Job, Source
 from sched_sim.methods import step_at
 from sched_sim.scenario import Scenario, needed_parts
-from sched_sim.schedule import Schedule, Slice
+from sched_sim.schedule import Response, Schedule, Slice
 from sched_sim.simulate import OnSlice, Processor
 from sched_sim.tasks import TaskSource
 from sched_sim.ticks import ticks_per_unit, to_ticks
@@ -74,13 +74,16 @@ class SensorFigures:
 
 @dataclass(frozen=True)
 class Outcome:
-    """jobs: by kind, "predict", "correct NAME", "task:NAME"; a correction that has to catch up is one job, from its
-    arrival until it lands. sensors: by name. schedule: of the processor, whose own figures count each catching-up as
-    a job."""
+    """jobs: by kind, "predict", "correct NAME", "task:NAME"; sensors: by name; schedule: of the processor;
+    first_miss: the earliest deadline that was missed, in HR periods from the start.
+
+    A correction that has to catch up is one job, from its arrival until it lands.
+    """
 
     jobs: Mapping[str, JobFigures]
     sensors: Mapping[str, SensorFigures]
     schedule: Schedule
+    first_miss: float | None
 
     @property
     def misses(self) -> int:
@@ -92,7 +95,8 @@ def run_scenario(
 ) -> Outcome:
     """Simulate it: the same outcome every time, from its seed.
 
-    on_slice: called as slices end; on_progress: called about a hundred times.
+    on_slice: called as slices end, `finished` only where a correction has landed; on_progress: called about a hundred
+    times.
     """
     parts = needed_parts(scenario.sensors, scenario.late)
     speed, tasks = scenario.speed, scenario.tasks
@@ -106,16 +110,8 @@ def run_scenario(
     )
     period = to_ticks(speed, resolution)
     costs = {part: [to_ticks(cost, resolution) for cost in scenario.costs[part]] for part in parts}
-    landings: list[tuple[Measurement, int]] = []
-    finished: defaultdict[str, list[tuple[int, bool]]] = defaultdict(list)  # (response, missed) by kind
-
-    def ended(piece: Slice) -> None:
-        if piece.finished:
-            finished[piece.kind].append((piece.end - piece.release, piece.end > piece.deadline))
-        if on_slice is not None:
-            on_slice(piece)
-
-    composed = ComposedFilter(scenario, costs, period, lambda measurement, now: landings.append((measurement, now)))
+    record = Record(scenario, on_slice)
+    composed = ComposedFilter(scenario, costs, period, record.landed)
     of_tasks = [
         TaskSource(
             task,
@@ -128,38 +124,88 @@ def run_scenario(
     clock = [] if on_progress is None else [Clock(period, scenario.steps, on_progress)]
     context_switch = to_ticks(scenario.context_switch, resolution)
     horizon = scenario.steps * period
-    processor = Processor([composed, *of_tasks, *clock], period, horizon, scenario.cpus, context_switch, ended)
+    sources: list[Source] = [composed, *of_tasks, *clock]
+    processor = Processor(sources, period, horizon, scenario.cpus, context_switch, record.ended)
     processor.run()
     schedule = processor.schedule()
+    record.settle()
 
-    jobs = {"predict": _figures("predict", finished, schedule)}
+    pending = defaultdict(list)
+    for measurement in composed.pending:
+        pending[measurement.sensor].append(measurement)
+    filed = dict(schedule.responses)
+    for number, sensor in enumerate(scenario.sensors):
+        kind = correct_kind(sensor)
+        if kind in filed:
+            filed[kind] = _as_one_job(filed[kind], record.finished[kind], pending[number], horizon)
+    schedule = replace(schedule, responses=filed)
     sensors = {}
     for number, sensor in enumerate(scenario.sensors):
-        own = [(measurement, now) for measurement, now in landings if measurement.sensor == number]
-        pending = [measurement for measurement in composed.pending if measurement.sensor == number]
-        overdue = sum(measurement.due <= horizon for measurement in pending)
-        jobs[correct_kind(sensor)] = JobFigures(
-            released=len(own) + len(pending),
-            responses=[(now - measurement.arrival) / period for measurement, now in own],
-            misses=sum(now > measurement.due for measurement, now in own) + overdue,
-            decided=len(own) + overdue,
-        )
-        achieved = Counter(step_at(now, period) - measurement.step for measurement, now in own)
-        arrived = len(own) + len(pending)
+        achieved = Counter(step_at(job.end, period) - job.step for job in record.finished[correct_kind(sensor)])
+        arrived = achieved.total() + len(pending[number])
         sensors[sensor.name] = SensorFigures(composed.taken[number], composed.dropped[number], arrived, achieved)
-    for task in tasks:
-        jobs[f"task:{task.name}"] = _figures(f"task:{task.name}", finished, schedule)
-    return Outcome(jobs, sensors, schedule)
+    kinds = ["predict", *map(correct_kind, scenario.sensors), *(f"task:{task.name}" for task in tasks)]
+    jobs = {kind: _figures(record.finished[kind], filed.get(kind), period) for kind in kinds}
+    first_miss = None if processor.first_miss is None else processor.first_miss[0] / period
+    return Outcome(jobs, sensors, schedule, first_miss)
 
 
-def _figures(kind: str, finished: Mapping[str, Sequence[tuple[int, bool]]], schedule: Schedule) -> JobFigures:
-    """Of jobs that the processor files as they are."""
-    if kind not in schedule.responses:
+class Record:
+    """What ends as the simulated time goes on. finished: the last slice of each job, by kind."""
+
+    def __init__(self, scenario: Scenario, on_slice: OnSlice | None) -> None:
+        self.kinds = [correct_kind(sensor) for sensor in scenario.sensors]
+        self.on_slice = on_slice
+        self.finished: defaultdict[str, list[Slice]] = defaultdict(list)
+        self.held: Slice | None = None  # of a correction that lands, or catches up, at this very instant
+        self.last: tuple[str, int] | None = None  # kind and step of the correction that landed last
+
+    def landed(self, measurement: Measurement, _now: int) -> None:
+        self.last = self.kinds[measurement.sensor], measurement.step
+
+    def ended(self, piece: Slice) -> None:
+        self.settle()
+        if piece.finished and piece.kind in self.kinds:
+            self.held = piece
+        else:
+            self._keep(piece)
+
+    def settle(self) -> None:
+        """By now it is known whether the correction has landed."""
+        if self.held is not None:
+            piece, self.held = self.held, None
+            self._keep(piece._replace(finished=(piece.kind, piece.step) == self.last))
+
+    def _keep(self, piece: Slice) -> None:
+        if piece.finished:
+            self.finished[piece.kind].append(piece)
+        if self.on_slice is not None:
+            self.on_slice(piece)
+
+
+def _as_one_job(filed: Response, landed: Sequence[Slice], pending: Sequence[Measurement], horizon: int) -> Response:
+    """What the processor filed of a sensor's corrections, each catching-up counted with the job it belongs to."""
+    overdue = [horizon - measurement.due for measurement in pending if measurement.due <= horizon]
+    late = [job.end - job.deadline for job in landed if job.end > job.deadline]
+    responses = [job.end - job.release for job in landed]
+    return replace(
+        filed,
+        releases=len(landed) + len(pending),
+        finished=len(landed),
+        worst=max(responses, default=0),
+        total=sum(responses),
+        misses=len(late) + len(overdue),
+        worst_lateness=max([*late, *overdue], default=0),
+    )
+
+
+def _figures(finished: Sequence[Slice], filed: Response | None, period: int) -> JobFigures:
+    """filed: None if no such job was released."""
+    if filed is None:
         return JobFigures(0, [], 0, 0)
-    ended, filed = finished.get(kind, ()), schedule.responses[kind]
-    unfinished_misses = filed.misses - sum(missed for _, missed in ended)
-    responses = [response / schedule.period for response, _ in ended]
-    return JobFigures(filed.releases, responses, filed.misses, len(ended) + unfinished_misses)
+    unfinished_misses = filed.misses - sum(job.end > job.deadline for job in finished)
+    responses = [(job.end - job.release) / period for job in finished]
+    return JobFigures(filed.releases, responses, filed.misses, len(finished) + unfinished_misses)
 
 
 class Clock:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from fractions import Fraction
 from pathlib import Path
 from typing import Annotated, Any
@@ -27,7 +28,9 @@ def _positive(value: Any) -> Fraction:
     return number
 
 
-class _Task(BaseModel):
+class TaskEntry(BaseModel):
+    """One [[task]]."""
+
     model_config = ConfigDict(extra="forbid", arbitrary_types_allowed=True)
     name: str
     period: Annotated[Fraction, BeforeValidator(_positive)]
@@ -39,7 +42,7 @@ class _Task(BaseModel):
 
 class _TaskFile(BaseModel):
     model_config = ConfigDict(extra="forbid")
-    task: list[_Task]
+    task: list[TaskEntry]
 
 
 def read_tasks(path: Path) -> list[Task]:
@@ -52,8 +55,16 @@ def read_tasks(path: Path) -> list[Task]:
             f"--tasks {str(path)!r}: {problems(error)}; each [[task]] has name, period and offset in HR periods, cost "
             f"in the unit of the cost table, and priority (smaller is more urgent; HR jobs 10, LR jobs 20)"
         ) from None
-    names = [task.name for task in tasks]
-    for name in names:
-        if names.count(name) > 1:
-            raise InputError(f"--tasks {str(path)!r}: task name {name!r} is used twice; give each task its own")
+    if twice := named_twice(tasks):
+        raise InputError(f"--tasks {str(path)!r}: {'; '.join(twice)}")
     return tasks
+
+
+def named_twice(tasks: Sequence[Task]) -> list[str]:
+    """What to say of the names that several tasks have."""
+    names = [task.name for task in tasks]
+    return [
+        f"task name {name!r} is used twice; give each task its own"
+        for name in dict.fromkeys(names)
+        if names.count(name) > 1
+    ]

@@ -50,16 +50,15 @@ def one_or_two(text: str) -> int:
     return number
 
 
-Steps = Annotated[
-    int,
-    typer.Option(
-        "-N",
-        help="HR steps from one measurement to the next; multirate methods: from one gain to the next.",
-        parser=whole,
-        metavar="STEPS",
-        rich_help_panel=DESIGN,
-    ),
-]
+_STEPS = typer.Option(
+    "-N",
+    help="HR steps from one measurement to the next; multirate methods: from one gain to the next.",
+    parser=whole,
+    metavar="STEPS",
+    rich_help_panel=DESIGN,
+)
+Steps = Annotated[int, _STEPS]
+StepsOrNone = Annotated[int | None, _STEPS]
 Delay = Annotated[
     int | None,
     typer.Option(

@@ -1,4 +1,4 @@
-"""`sched-sim simulate`: run one filter's jobs on the simulated processor."""
+"""`sched-sim simulate`: run one filter's jobs, or a whole scenario, on the simulated processor."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ import typer
 
 from sched_sim.cli import options as opt
 from sched_sim.cli.output import print_csv, print_json, print_table
+from sched_sim.errors import InputError
 
 if TYPE_CHECKING:
     from sched_sim.schedule import Response, Slice
@@ -28,8 +29,30 @@ TraceFiles = Annotated[
 ]
 
 
+ScenarioFile = Annotated[
+    Path | None,
+    typer.Option(
+        "--scenario",
+        help="TOML file of a predictor and several sensors, with dropout, random delay and measured costs; instead of "
+        "the options for one filter.",
+        rich_help_panel=opt.DESIGN,
+    ),
+]
+HistogramFile = Annotated[
+    Path | None,
+    typer.Option(
+        "--histogram",
+        help="With --scenario: draw the distributions of response times and of achieved l: FILE.svg, .pdf or .png.",
+        rich_help_panel=opt.OUTPUT,
+    ),
+]
+WITH_SCENARIO = ("scenario", "gantt", "trace", "histogram", "format")
+"""The parameters that go together with --scenario; what the others say, the scenario says itself."""
+
+
 def simulate(
-    N: opt.Steps,
+    context: typer.Context,
+    N: opt.StepsOrNone = None,
     M: opt.Delay = None,
     L: opt.FeedbackStep = None,
     method: opt.OneMethod = "dual-rate",
@@ -48,6 +71,8 @@ def simulate(
     gantt: GanttFile = None,
     trace: TraceFiles = None,
     hr_hz: opt.HrHz = None,
+    scenario: ScenarioFile = None,
+    histogram: HistogramFile = None,
     format: opt.Format = "table",
 ) -> None:
     """Run one filter's jobs on the simulated preemptive processor: achieved l, misses, response times.
@@ -55,7 +80,20 @@ def simulate(
     sched-sim simulate -N 10 -M 4 --speed 0.78 --gantt schedule.svg
     sched-sim simulate -N 10 -M 4 --method larsen --speed 1.2 --trace slices.json
     sched-sim simulate -N 40 -M 20 --processor cortex-m7 --hr-hz 400
+    sched-sim simulate --scenario rocket.toml --histogram rocket.svg
     """
+    if scenario is not None:
+        from sched_sim.cli.scenario import simulate_scenario
+
+        _refuse_beside_scenario(context, scenario)
+        simulate_scenario(scenario, gantt, trace or (), histogram, format)
+        return
+    if histogram is not None:
+        raise InputError(f"--histogram {histogram} is for random times: give --scenario FILE.toml too")
+    if N is None:
+        raise InputError(
+            "-N is missing: give the HR steps between measurements, such as -N 10, or --scenario FILE.toml"
+        )
     from contextlib import ExitStack
 
     from sched_sim.costs import MULTIRATE_METHODS, select
@@ -127,6 +165,22 @@ def simulate(
         if part is not None and rate is None:
             where += f", as fast as it can: HR period {1e6 * float(pace):.6g} us"
         _show(f"{method}, N={N}{delay} L={timing.L}, {where}", document, rate, method in MULTIRATE_METHODS)
+
+
+def _refuse_beside_scenario(context: typer.Context, scenario: Path) -> None:
+    """Raises InputError that names the options which the scenario would not follow."""
+    given = [
+        parameter.opts[0]
+        for parameter in context.command.params
+        if parameter.name not in WITH_SCENARIO
+        and (source := context.get_parameter_source(str(parameter.name)))
+        and source.name == "COMMANDLINE"
+    ]
+    if given:
+        raise InputError(
+            f"{', '.join(given)} and --scenario {scenario} exclude each other: the file says what is simulated; leave "
+            f"{'it' if len(given) == 1 else 'them'} out, or edit the file"
+        )
 
 
 def _response(figures: Response, period: int) -> dict[str, Any]:

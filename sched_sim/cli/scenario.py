@@ -1,0 +1,176 @@
+"""`sched-sim simulate --scenario`: distributions of response times and of achieved l, and the probability of a miss."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from contextlib import ExitStack
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from sched_sim.cli.output import Format, print_csv, print_json, print_table
+from sched_sim.cli.progress import progress_bar
+
+if TYPE_CHECKING:
+    from sched_sim.scenario import Scenario
+    from sched_sim.scenario_run import JobFigures, Outcome, SensorFigures
+    from sched_sim.schedule import Slice
+
+
+def simulate_scenario(
+    path: Path, gantt: Path | None, traces: Sequence[Path], histogram: Path | None, format: Format
+) -> None:
+    """Raises InputError for a scenario that cannot be run, and for a file that cannot be written."""
+    from sched_sim.scenario_file import read_scenario
+    from sched_sim.scenario_run import run_scenario
+    from sched_sim.trace import open_trace
+
+    pictures = [picture for picture in (gantt, histogram) if picture is not None]
+    if pictures:
+        from reports.picture import check_picture
+
+        for picture in pictures:
+            check_picture(picture)
+    scenario = read_scenario(path)
+    with ExitStack() as files:
+        scale = 1000.0 if scenario.hr_hz is None else float(1e6 / scenario.hr_hz)
+        writers = [files.enter_context(open_trace(trace, scale)) for trace in traces]
+
+        def write(piece: Slice) -> None:
+            for writer in writers:
+                writer(piece)
+
+        progress = files.enter_context(progress_bar("Simulating"))
+        outcome = run_scenario(scenario, on_slice=write if writers else None, on_progress=progress)
+    if histogram is not None:
+        from reports.distributions import distributions_figure
+        from reports.picture import save
+
+        save(distributions_figure(scenario, outcome), histogram)
+    if gantt is not None:
+        from reports.gantt import gantt as draw
+        from reports.gantt import save
+        from reports.scenario_panel import scenario_panel
+
+        save(draw([scenario_panel(scenario, outcome)]), gantt)
+    if format == "json":
+        print_json(_document(scenario, outcome))
+    elif format == "csv":
+        print_csv([_flat(kind, figures) for kind, figures in outcome.jobs.items()])
+    else:
+        _show(scenario, outcome)
+
+
+def _document(scenario: Scenario, outcome: Outcome) -> dict[str, Any]:
+    ms = None if scenario.hr_hz is None else float(1000 / scenario.hr_hz)
+    return {
+        "scenario": scenario.name,
+        "steps": scenario.steps,
+        "seed": scenario.seed,
+        "late": scenario.late,
+        "hr_hz": None if scenario.hr_hz is None else float(scenario.hr_hz),
+        "misses": outcome.misses,
+        "utilization": float(outcome.schedule.utilization),
+        "jobs": {kind: _job(figures, ms) for kind, figures in outcome.jobs.items()},
+        "sensors": {name: _sensor(figures) for name, figures in outcome.sensors.items()},
+    }
+
+
+def _job(figures: JobFigures, ms: float | None) -> dict[str, Any]:
+    """Response times in HR periods, and in ms where a period is so many."""
+    from sched_sim.distribution import Distribution
+
+    response = asdict(Distribution.of(figures.responses)) if figures.responses else None
+    in_ms = None if response is None or ms is None else {name: ms * value for name, value in response.items()}
+    return {
+        "released": figures.released,
+        "finished": len(figures.responses),
+        "response": response,
+        "response_ms": in_ms,
+        "misses": figures.misses,
+        "decided": figures.decided,
+        "miss_probability": figures.miss_probability,
+        "miss_interval": figures.miss_interval,
+    }
+
+
+def _flat(kind: str, figures: JobFigures) -> dict[str, Any]:
+    """One row of CSV, in HR periods."""
+    job = _job(figures, None)
+    least, most = figures.miss_interval or (None, None)
+    response = job["response"] or dict.fromkeys(("minimum", "mean", "median", "p95", "p99", "maximum"))
+    return {
+        "job": kind,
+        "released": job["released"],
+        "finished": job["finished"],
+        **{f"response_{name}": value for name, value in response.items()},
+        "misses": job["misses"],
+        "decided": job["decided"],
+        "miss_probability": job["miss_probability"],
+        "miss_probability_least": least,
+        "miss_probability_most": most,
+    }
+
+
+def _sensor(figures: SensorFigures) -> dict[str, Any]:
+    landed = figures.achieved.total()
+    return {
+        "taken": figures.taken,
+        "dropped": figures.dropped,
+        "arrived": figures.arrived,
+        "on_the_way": figures.on_the_way,
+        "landed": landed,
+        "not_landed": figures.not_landed,
+        "achieved_l": {str(L): count / landed for L, count in sorted(figures.achieved.items())},
+    }
+
+
+def _show(scenario: Scenario, outcome: Outcome) -> None:
+    ms = None if scenario.hr_hz is None else float(1000 / scenario.hr_hz)
+    rate = f"at {float(scenario.speed):.6g} cost units a step" if ms is None else f"at {float(1000 / ms):g} Hz"
+    unit = "HR periods" if ms is None else "ms"
+    print_table(
+        f"{scenario.name}: {scenario.steps} steps {rate}, late measurements: {scenario.late}; response times in {unit}",
+        [_job_words(kind, figures, ms or 1.0) for kind, figures in outcome.jobs.items()],
+        f"Processor busy {float(outcome.schedule.utilization):.1%} of the time"
+        + ("" if all(figures.decided for figures in outcome.jobs.values()) else "; -: nothing to tell it from"),
+    )
+    if outcome.sensors:
+        print_table(
+            "Measurements, and the step l = k + ... in which their corrections landed",
+            [_sensor_words(name, figures) for name, figures in outcome.sensors.items()],
+        )
+
+
+def _job_words(kind: str, figures: JobFigures, unit: float) -> dict[str, Any]:
+    response = _job(figures, None)["response"]
+    shown = {"minimum": "min", "mean": "mean", "median": "median", "p95": "p95", "p99": "p99", "maximum": "max"}
+    interval = figures.miss_interval
+    return {
+        "job": kind,
+        "jobs": figures.released,
+        **{word: None if response is None else f"{unit * response[name]:.4g}" for name, word in shown.items()},
+        "missed": figures.misses,
+        "P(miss)": None if figures.miss_probability is None else f"{figures.miss_probability:.3g}",
+        "95 % interval": None if interval is None else f"{interval[0]:.2g} to {interval[1]:.2g}",
+    }
+
+
+def _sensor_words(name: str, figures: SensorFigures) -> dict[str, Any]:
+    from sched_sim.distribution import Distribution
+
+    row = _sensor(figures)
+    words = {key.replace("_", " "): row[key] for key in ("taken", "dropped", "on_the_way", "landed", "not_landed")}
+    if not figures.achieved:
+        return {"sensor": name, **words} | dict.fromkeys(("min", "median", "p95", "max", "most often"))
+    achieved = Distribution.of(list(figures.achieved.elements()))
+    ((often, count),) = figures.achieved.most_common(1)
+    return {
+        "sensor": name,
+        **words,
+        "min": int(achieved.minimum),
+        "median": int(achieved.median),
+        "p95": int(achieved.p95),
+        "max": int(achieved.maximum),
+        "most often": f"{often} ({count / figures.achieved.total():.1%})",
+    }

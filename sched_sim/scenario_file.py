@@ -1,0 +1,224 @@
+"""Reading a scenario from TOML: [predictor], [[sensor]], [[task]] and how they run. Numbers are read as exact
+decimals."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from decimal import Decimal
+from fractions import Fraction
+from pathlib import Path
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import BaseModel, BeforeValidator, ConfigDict, ValidationError, model_validator
+
+from sched_sim.errors import InputError
+from sched_sim.jobs import HR, LR
+from sched_sim.processor import load_processor, seconds_for, shipped_processors
+from sched_sim.sample_file import SampledCosts, read_sampled_costs
+from sched_sim.scenario import Late, Samples, Scenario, Sensor
+from sched_sim.task_file import TaskEntry, named_twice
+from sched_sim.tasks import Task
+from sched_sim.ticks import exact, positive
+from sched_sim.toml_file import problems, read_toml
+
+
+def _whole(value: Any) -> int:
+    if isinstance(value, bool) or not isinstance(value, int):
+        raise ValueError("must be a whole number")
+    return value
+
+
+def _number(value: Any) -> Fraction:
+    if isinstance(value, bool) or not isinstance(value, int | Decimal):
+        raise ValueError("must be a number")
+    return exact(value, "the number")
+
+
+def _positive(value: Any) -> Fraction:
+    return positive(_number(value), "the number")
+
+
+def _several(value: Any, what: str, one: Callable[[Any], Any]) -> tuple[Any, ...]:
+    """A number, or a list of at least one."""
+    values = value if isinstance(value, list) else [value]
+    if not values:
+        raise ValueError(f"is an empty list: give at least one {what}")
+    found = []
+    for number, item in enumerate(values):
+        try:
+            found.append(one(item))
+        except ValueError as error:
+            where = f"entry {number} is {item}: " if isinstance(value, list) else ""
+            raise ValueError(f"{where}{error}") from None
+    return tuple(found)
+
+
+def _cost(value: Any) -> tuple[Fraction, ...]:
+    return _several(value, "execution time", _positive)
+
+
+class _Range(BaseModel):
+    model_config = ConfigDict(extra="forbid")
+    least: Annotated[int, BeforeValidator(_whole)]
+    most: Annotated[int, BeforeValidator(_whole)]
+
+
+def _delays(value: Any) -> Sequence[int]:
+    if not isinstance(value, dict):
+        return _several(value, "number of steps", _whole)
+    try:
+        between = _Range.model_validate(value)
+    except ValidationError as error:
+        raise ValueError(f"{{ least = ..., most = ... }} in whole steps: {problems(error)}") from None
+    if between.least > between.most:
+        raise ValueError(f"least = {between.least} is above most = {between.most}: exchange them")
+    return range(between.least, between.most + 1)
+
+
+_Whole = Annotated[int, BeforeValidator(_whole)]
+_Number = Annotated[Fraction, BeforeValidator(_number)]
+_Positive = Annotated[Fraction, BeforeValidator(_positive)]
+_Cost = Annotated[tuple[Fraction, ...], BeforeValidator(_cost)]
+_Delays = Annotated[Any, BeforeValidator(_delays)]
+
+
+class _Entry(BaseModel):
+    model_config = ConfigDict(extra="forbid", arbitrary_types_allowed=True)
+
+
+class _Predictor(_Entry):
+    priority: _Whole = HR
+    cost: _Cost | None = None
+
+
+class _Sensor(_Entry):
+    name: str
+    every: _Whole
+    delay: _Delays = (0,)
+    offset: _Whole = 0
+    dropout: _Number = Fraction(0)
+    priority: _Whole = LR
+    land_by: _Whole | None = None
+    cost: _Cost | None = None
+
+    @model_validator(mode="after")
+    def _possible(self) -> Self:
+        try:
+            self.sensor()
+        except InputError as error:
+            raise ValueError(str(error).removeprefix(f"sensor {self.name!r}: ")) from None
+        return self
+
+    def sensor(self) -> Sensor:
+        return Sensor(
+            name=self.name,
+            every=self.every,
+            delays=self.delay,
+            land_by=max(self.delay) + max(self.every, 1) if self.land_by is None else self.land_by,
+            offset=self.offset,
+            dropout=float(self.dropout),
+            priority=self.priority,
+        )
+
+
+class _ScenarioFile(_Entry):
+    name: str
+    steps: _Whole
+    seed: _Whole = 0
+    late: Late = "recalculate"
+    hr_hz: _Positive | None = None
+    speed: _Positive | None = None
+    costs: str | None = None
+    processor: str | None = None
+    times_slower: _Positive | None = None
+    context_switch: _Number = Fraction(0)
+    cpus: Literal[1, 2] = 1
+    predictor: _Predictor = _Predictor()
+    sensor: list[_Sensor]
+    task: list[TaskEntry] = []
+
+    @model_validator(mode="after")
+    def _one_unit(self) -> Self:
+        if (self.hr_hz is None) == (self.speed is None):
+            given = "neither is given" if self.speed is None else "both are given"
+            raise ValueError(
+                f"{given} of hr_hz and speed: give hr_hz (steps per second) where costs are in seconds, else speed "
+                f"(cost units per HR period)"
+            )
+        if self.costs is None and (self.processor or self.times_slower):
+            key = "processor" if self.processor else "times_slower"
+            raise ValueError(f"{key} has no meaning without a costs file: give costs, or delete it")
+        if self.processor and self.times_slower:
+            raise ValueError("times_slower is for measured costs, processor for counted ones: give one of them")
+        if self.processor and self.hr_hz is None:
+            raise ValueError(f"processor {self.processor!r} makes seconds of operations: give hr_hz instead of speed")
+        return self
+
+
+def read_scenario(path: Path) -> Scenario:
+    """The scenario in `path`; files that it names are looked for in its folder.
+
+    What it says itself of costs is taken as it stands, before what the costs file says, which is made slower by
+    `times_slower` or turned into seconds on `processor`.
+    Raises InputError that lists every wrong entry of the file with its value.
+    """
+    what = f"--scenario {str(path)!r}"
+    document = read_toml(path, what, "give the path of a TOML file with [predictor] and [[sensor]] entries")
+    try:
+        checked = _ScenarioFile.model_validate(document)
+        return _scenario(checked, path.parent)
+    except ValidationError as error:
+        raise InputError(f"{what}: {problems(error, document)}") from None
+    except InputError as error:
+        raise InputError(f"{what}: {error}") from None
+
+
+def _scenario(checked: _ScenarioFile, folder: Path) -> Scenario:
+    tasks = [Task(**dict(entry)) for entry in checked.task]
+    if twice := named_twice(tasks):
+        raise InputError("; ".join(twice))
+    costs: dict[str, Sequence[Fraction]] = {}
+    if checked.costs is not None:
+        costs |= _from_file(read_sampled_costs(folder / checked.costs), checked, folder)
+    if checked.predictor.cost is not None:
+        costs["predict"] = checked.predictor.cost
+    costs |= {f"correct.{sensor.name}": sensor.cost for sensor in checked.sensor if sensor.cost is not None}
+    speed = checked.speed if checked.hr_hz is None else 1 / checked.hr_hz
+    assert speed is not None  # see _one_unit
+    return Scenario(
+        name=checked.name,
+        steps=checked.steps,
+        speed=speed,
+        sensors=[sensor.sensor() for sensor in checked.sensor],
+        costs=costs,
+        hr_hz=checked.hr_hz,
+        seed=checked.seed,
+        late=checked.late,
+        priority=checked.predictor.priority,
+        tasks=tasks,
+        context_switch=checked.context_switch,
+        cpus=checked.cpus,
+    )
+
+
+def _from_file(sampled: SampledCosts, checked: _ScenarioFile, folder: Path) -> Samples:
+    """Costs in the scenario's unit, on its processor."""
+    if checked.processor is not None:
+        if not sampled.operations:
+            raise InputError(
+                f"costs {sampled.shown} has no [operations] to run on processor {checked.processor!r}: count them with "
+                f"`sched-sim measure --filter ... --backend counted`, or delete processor"
+            )
+        shipped = checked.processor in shipped_processors()
+        part = load_processor(checked.processor if shipped else folder / checked.processor)
+        return {
+            name: (seconds_for(counts, part, f"[operations] {name} of costs {sampled.shown}"),)
+            for name, counts in sampled.operations.items()
+        }
+    if checked.hr_hz is not None and sampled.unit != "second":
+        raise InputError(
+            f"costs {sampled.shown} has the unit {sampled.unit!r}, and hr_hz needs seconds: give processor = ... where "
+            f"operations are counted, or speed = ... (cost units per HR period) instead of hr_hz"
+        )
+    slower = checked.times_slower or Fraction(1)
+    return {name: tuple(slower * sample for sample in samples) for name, samples in sampled.samples.items()}
