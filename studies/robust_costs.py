@@ -18,7 +18,8 @@ from filters.systems.attitude import attitude, attitude_scaling, attitude_uncert
 from filters.systems.position import position, position_scaling, position_uncertainty
 from filters.systems.uncertain import linearised
 from sched_sim.costs import Cost, CostTable
-from studies.measure import BackendName, Progress, cost_table, silent
+from studies.job_times import Progress, silent
+from studies.measure import BackendName, cost_table
 
 SystemName: TypeAlias = Literal["attitude", "position"]
 SYSTEMS: tuple[SystemName, ...] = get_args(SystemName)

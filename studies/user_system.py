@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import importlib
-import sys
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -13,6 +10,7 @@ from filters.arrays import FloatArray
 from filters.problem import check_measurement_noise
 from filters.systems.system import System
 from sched_sim.errors import InputError
+from studies.user_function import returned_by
 
 HOW = (
     "name a function without arguments that returns a filters.systems.system.System, as in --system mymodule:my_system "
@@ -28,21 +26,7 @@ def load_system(name: str) -> tuple[System, FloatArray]:
     Raises InputError that says what is wrong with the name, the module, what the function returned, or which model
     function fails or gives what.
     """
-    module_name, colon, function_name = name.partition(":")
-    if not (colon and module_name and function_name):
-        raise InputError(f"--system {name!r}: {HOW}")
-    sys.path.insert(0, str(Path.cwd()))
-    try:
-        module = importlib.import_module(module_name)
-    except Exception as error:
-        raise InputError(f"--system {name!r}: module {module_name!r} cannot be imported ({error}); {HOW}") from error
-    function: Any = getattr(module, function_name, None)
-    if not callable(function):
-        raise InputError(f"--system {name!r}: module {module_name!r} has no function {function_name!r}; {HOW}")
-    try:
-        returned = function()
-    except Exception as error:
-        raise InputError(f"--system {name!r}: {function_name}() failed: {error}") from error
+    function_name, returned = returned_by(name, "--system", HOW)
     system, x0 = returned if type(returned) is tuple and len(returned) == 2 else (returned, None)
     if not isinstance(system, System):
         raise InputError(f"--system {name!r}: {function_name}() returned a {type(system).__name__}; {HOW}")

@@ -1,0 +1,115 @@
+"""How long jobs take, one after the other on one machine.
+
+Each job runs `repetitions` times inside one call, on arguments that rotate from call to call; jobs are shuffled in each
+of `rounds` rounds, garbage collection is off, and the least time of a loop that does nothing with the same arguments is
+subtracted (passing them costs as much as the smallest jobs).
+"""
+
+from __future__ import annotations
+
+import gc
+import random
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from time import perf_counter_ns
+from typing import Any, Literal, NamedTuple, TypeVar
+
+from filters.kernels.backends import arguments_for, function_for
+from filters.kernels.repeat import repeat
+from filters.registry import Job
+from sched_sim.errors import InputError
+from studies.numba_error import gist, is_numbas
+
+ARGUMENT_SETS = 8
+
+Progress = Callable[[int, int, str], None]
+"""Called with (done, total, what)."""
+
+Key = TypeVar("Key", bound=tuple[str, ...])
+
+
+class Protocol(NamedTuple):
+    """How often a job is timed; see the module."""
+
+    rounds: int
+    repetitions: int
+
+
+def silent(_done: int, _total: int, _what: str) -> None:
+    """No progress shown."""
+
+
+def seconds_per_run(
+    jobs: Mapping[Key, Job],
+    backend: Literal["compiled", "numpy"],
+    protocol: Protocol,
+    seed: int,
+    progress: Progress,
+) -> dict[Key, list[float]]:
+    """Seconds per run of each job, one figure a round; a key is the words that name the job.
+
+    Raises InputError for a job with a function of the user's that numba cannot compile.
+    """
+    total = len(jobs) + protocol.rounds
+    runs, empty_runs = {}, {}
+    for done, (key, job) in enumerate(jobs.items()):
+        progress(done, total, f"preparing {' '.join(key)}")
+        try:
+            runs[key] = _timer(job.function, job.arguments, backend, protocol.repetitions)
+        except Exception as error:
+            if is_numbas(error):
+                raise InputError(f"{' '.join(key)} cannot be compiled by numba: {gist(error)}") from error
+            raise
+        empty_runs[key] = _timer(_nothing, job.arguments, backend, protocol.repetitions)
+    found: dict[Key, list[int]] = {key: [] for key in jobs}
+    overhead: dict[Key, list[int]] = {key: [] for key in jobs}
+    order, shuffle = list(jobs), random.Random(seed)
+    with _no_garbage_collection():
+        for round_number in range(protocol.rounds):
+            progress(len(jobs) + round_number, total, "timing")
+            shuffle.shuffle(order)
+            for key in order:
+                found[key].append(runs[key](round_number))
+                overhead[key].append(empty_runs[key](round_number))
+    progress(total, total, "timed")
+    scale = protocol.repetitions * 1e9
+    return {key: [max(each - min(overhead[key]), 1) / scale for each in found[key]] for key in jobs}
+
+
+def _timer(
+    function: Callable[..., Any],
+    arguments: Callable[[int], tuple[Any, ...]],
+    backend: Literal["compiled", "numpy"],
+    repetitions: int,
+) -> Callable[[int], int]:
+    """A function that runs the job and says how many nanoseconds all repetitions took; compiled and warm."""
+    sets = [arguments_for(backend, arguments(index)) for index in range(ARGUMENT_SETS)]
+    if backend == "compiled":
+        loop, job = function_for(backend, repeat), arguments_for(backend, function)
+    else:
+        loop, job = repeat, function_for(backend, function)
+
+    def run(number: int) -> int:
+        chosen = sets[number % ARGUMENT_SETS]
+        start = perf_counter_ns()
+        loop(job, chosen, repetitions)
+        return perf_counter_ns() - start
+
+    for number in range(ARGUMENT_SETS):
+        run(number)
+    return run
+
+
+def _nothing(*_arguments: Any) -> None:
+    pass
+
+
+@contextmanager
+def _no_garbage_collection() -> Iterator[None]:
+    was_enabled = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if was_enabled:
+            gc.enable()
