@@ -26,7 +26,7 @@ class ComposedParameters(NamedTuple):
     """
 
     motion: Any
-    view: Any
+    observation: Any
     dt: float
     of: Space
     observed: Space
@@ -43,10 +43,10 @@ def composed_system(composed: ModularFilter, P0: FloatArray, inputs: int) -> Sys
     """
     (sensor,) = composed.sensors
     n, observed = composed.of.errors, sensor.corrector.observed
-    motion, view = composed.predictor.motion, sensor.corrector.view(n)
+    motion, observation = composed.predictor.motion, sensor.corrector.view(n)
     parameters = ComposedParameters(
         motion,
-        view,
+        observation,
         composed.dt,
         composed.of,
         observed,
@@ -56,7 +56,7 @@ def composed_system(composed: ModularFilter, P0: FloatArray, inputs: int) -> Sys
         new_workspace(composed.of, observed),
     )
     f, F = _MOTIONS[type(motion)]
-    h, H = _VIEWS[type(view)]
+    h, H = _VIEWS[type(observation)]
     return System(n, inputs, observed.errors, f, F, _Q, h, H, _R, parameters)
 
 
@@ -93,33 +93,33 @@ def _Q(_j: int, parts: ComposedParameters) -> FloatArray:
 
 
 def _h_linear(_k: int, x: FloatArray, parts: ComposedParameters, out: FloatArray) -> None:
-    matvec(parts.view.H, x, out)
+    matvec(parts.observation.H, x, out)
 
 
 def _H_linear(_k: int, _x: FloatArray, parts: ComposedParameters) -> FloatArray:
-    H: FloatArray = parts.view.H
+    H: FloatArray = parts.observation.H
     return H
 
 
 def _h(_k: int, x: FloatArray, parts: ComposedParameters, out: FloatArray) -> None:
-    parts.view.h(x, out)
+    parts.observation.h(x, out)
 
 
 def _H(_k: int, x: FloatArray, parts: ComposedParameters) -> FloatArray:
     out = np.zeros((parts.observed.errors, len(x)))
-    parts.view.jacobian(x, out)
+    parts.observation.jacobian(x, out)
     return out
 
 
 def _H_numeric(_k: int, x: FloatArray, parts: ComposedParameters) -> FloatArray:
-    expect_numeric(parts.view, parts.observed, parts.of, Estimate(x, parts.P0), parts.correcting)
+    expect_numeric(parts.observation, parts.observed, parts.of, Estimate(x, parts.P0), parts.correcting)
     out = np.empty((parts.observed.errors, len(x)))
     copy(parts.correcting.H, out)
     return out
 
 
 def _R(_k: int, parts: ComposedParameters) -> FloatArray:
-    R: FloatArray = parts.view.R
+    R: FloatArray = parts.observation.R
     return R
 
 
