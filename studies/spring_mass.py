@@ -1,0 +1,216 @@
+"""How much dropout does a filter bear? The oscillator of MacCormack and Rubinstein, tracked without its spring.
+
+"Dropout rates of 10% through 99% were tested on the spring-mass system, and model predictive quality remained mostly
+unaffected up to sensor dropout of 80%." The poster says neither how fast it samples nor what its residual is, and the
+two decide it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from typing import NamedTuple, TypeAlias
+
+import numpy as np
+
+from filters.arrays import FloatArray
+from filters.kernels.backends import BackendName
+from studies.nees import Consistency, consistency
+from studies.spring_mass_run import (
+    AMPLITUDES,
+    POSITION_SIGMA_M,
+    SENSORS,
+    Record,
+    Setting,
+    arriving,
+    estimate,
+    oscillation,
+    own_model,
+    residuals,
+    step_s,
+)
+
+Progress: TypeAlias = Callable[[int, int, str], None]
+
+USUAL = Setting()
+KEEN = Setting(tuning=0.3)
+"""With less process noise: the filter believes its model more."""
+
+ONE_SENSOR = (Setting(losing="position"), Setting(losing="acceleration"))
+
+DROPOUTS = (0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.98, 0.99)
+FEW_DROPOUTS = (0.0, 0.1, 0.5, 0.8, 0.9, 0.95, 0.98, 0.99)
+RATES = (20, 50, 200, 400)
+"""Beside the usual one."""
+
+LOWEST = 0.1
+"""The dropout that the poster starts from."""
+
+SEEDS = tuple(range(100))
+OWN_MODEL_SEEDS = SEEDS[:50]
+FEW_SEEDS = SEEDS[:10]
+
+
+class Rms(NamedTuple):
+    """Root mean squares over all runs, and their standard errors, from the differences between the runs."""
+
+    rms: FloatArray
+    standard_error: FloatArray
+
+
+class Row(NamedTuple):
+    """One dropout.
+
+    interval: mean time between measurements that get through, of a sensor that drops some, in periods.
+    error (3,): of the estimate from the truth, in all steps: m, m/s, m/s^2. relative (3,): its RMS over the amplitude;
+    above 0.71 it would be better to say that nothing moves.
+    innovation, after (2,): position and acceleration, measured less predicted, and less estimated with it.
+    """
+
+    setting: Setting
+    dropout: float
+    runs: int
+    interval: float
+    error: Rms
+    relative: FloatArray
+    innovation: Rms
+    after: Rms
+    consistency: Consistency
+
+
+class Ratio(NamedTuple):
+    """One row over that of 10 % dropout, for the three readings of "residual"."""
+
+    dropout: float
+    error: FloatArray
+    innovation: FloatArray
+    after: FloatArray
+
+
+class History(NamedTuple):
+    """One run; the poster's Figure 2.
+
+    time_s (steps + 1,); truth, estimate, sigma (steps + 1, 3): sigma is the standard deviation that the filter gives.
+    position, acceleration (count, 2): time and value of the measurements that got through.
+    """
+
+    time_s: FloatArray
+    truth: FloatArray
+    estimate: FloatArray
+    sigma: FloatArray
+    position: FloatArray
+    acceleration: FloatArray
+
+
+class DropoutStudy(NamedTuple):
+    """rows: the usual setting; keen: with less process noise. by_rate, by_sensor: fewer runs and dropouts.
+
+    own_model: the usual filter where its own model is the truth, the check of NEES.
+    """
+
+    rows: tuple[Row, ...]
+    keen: tuple[Row, ...]
+    by_rate: tuple[Row, ...]
+    by_sensor: tuple[Row, ...]
+    own_model: tuple[Row, ...]
+
+
+def dropout_study(progress: Progress = lambda _done, _total, _what: None) -> DropoutStudy:
+    """The whole study."""
+    progress(0, 4, "dropout")
+    records = [oscillation(USUAL, seed) for seed in SEEDS]
+    usual, keen = rows(records, USUAL), rows(records, KEEN, FEW_DROPOUTS)
+    progress(1, 4, "one sensor alone")
+    few = records[: len(FEW_SEEDS)]
+    by_sensor = _each((few, setting) for setting in ONE_SENSOR)
+    progress(2, 4, "sampling rates")
+    by_rate = _each(([oscillation(Setting(rate), seed) for seed in FEW_SEEDS], Setting(rate)) for rate in RATES)
+    progress(3, 4, "the filter's own model")
+    own = rows([own_model(USUAL, seed) for seed in OWN_MODEL_SEEDS], USUAL, FEW_DROPOUTS)
+    progress(4, 4, "done")
+    return DropoutStudy(usual, keen, by_rate, by_sensor, own)
+
+
+def rows(
+    records: Sequence[Record],
+    setting: Setting,
+    dropouts: Sequence[float] = DROPOUTS,
+    backend: BackendName = "compiled",
+) -> tuple[Row, ...]:
+    """One for each dropout, all from the same records, of which more and more is lost."""
+    return tuple(row(records, setting, dropout, backend) for dropout in dropouts)
+
+
+def row(records: Sequence[Record], setting: Setting, dropout: float, backend: BackendName = "compiled") -> Row:
+    """One dropout, all records."""
+    found = [residuals(record, setting, dropout, backend) for record in records]
+    errors = np.array([one.error for one in found])
+    error = rms([list(each) for each in errors.transpose(2, 0, 1)])
+    sensors = range(len(SENSORS))
+    return Row(
+        setting,
+        dropout,
+        len(records),
+        1 / (setting.rate * (1 - dropout)),
+        error,
+        error.rms / AMPLITUDES,
+        rms([[one.innovation[sensor] for one in found] for sensor in sensors]),
+        rms([[one.after[sensor] for one in found] for sensor in sensors]),
+        consistency(errors, np.array([one.P for one in found])),
+    )
+
+
+def ratios(found: Iterable[Row]) -> tuple[Ratio, ...]:
+    """The verdict on "mostly unaffected": each row of one setting over its row of 10 % dropout."""
+    by_dropout = {one.dropout: one for one in found}
+    base = by_dropout[LOWEST]
+    return tuple(
+        Ratio(
+            one.dropout,
+            one.error.rms / base.error.rms,
+            one.innovation.rms / base.innovation.rms,
+            one.after.rms / base.after.rms,
+        )
+        for one in by_dropout.values()
+    )
+
+
+def reach(sigma_m: float = POSITION_SIGMA_M) -> float:
+    """How long, in periods, a motion of known acceleration and unknown jerk stays within sigma of its prediction.
+
+    The jerk is omega^3 times the amplitude at most, and moves the position by a sixth of it times the time cubed.
+    """
+    return float((6 * sigma_m / AMPLITUDES[0]) ** (1 / 3) / (2 * np.pi))
+
+
+def history_at(dropout: float, seed: int, setting: Setting = USUAL, backend: BackendName = "compiled") -> History:
+    """One run to be looked at."""
+    record = oscillation(setting, seed)
+    measurements = arriving(record, dropout, setting.losing)
+    found = estimate(record, setting, measurements, backend)
+    dt_s = step_s(setting)
+    seen = {
+        name: np.array([(one.taken * dt_s, one.y[0]) for one in measurements if one.sensor == name]).reshape(-1, 2)
+        for name in SENSORS
+    }
+    sigma: FloatArray = np.sqrt(np.diagonal(found.P, axis1=1, axis2=2))
+    time_s: FloatArray = dt_s * np.arange(float(len(found.x)))
+    return History(time_s, record.truth, found.x, sigma, seen["position"], seen["acceleration"])
+
+
+def rms(by_run: Sequence[Sequence[FloatArray]]) -> Rms:
+    """For each quantity, of values of runs, each as many as it has. A ratio of sums, so that runs may have none.
+
+    Its standard error is that of the mean square, by the runs' deviations from it, over twice the root.
+    """
+    squares = np.array([[np.sum(run**2) for run in quantity] for quantity in by_run])
+    counts = np.array([[len(run) for run in quantity] for quantity in by_run])
+    runs, total = counts.shape[1], counts.sum(axis=1)
+    mean_square = squares.sum(axis=1) / total
+    spread = np.sum((squares - mean_square[:, np.newaxis] * counts) ** 2, axis=1)
+    deviation = np.sqrt(spread * runs / (runs - 1)) / total
+    root = np.sqrt(mean_square)
+    return Rms(root, deviation / (2 * root))
+
+
+def _each(settings: Iterable[tuple[Sequence[Record], Setting]]) -> tuple[Row, ...]:
+    return tuple(one for records, setting in settings for one in rows(records, setting, FEW_DROPOUTS))
