@@ -8,7 +8,7 @@ from typing import NamedTuple
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from reports.erkf_axes import AXIS_MM, EDGE_MM, TITLE_MM, decades, plain
+from reports.axes import AXIS_MM, EDGE_MM, TITLE_MM, decades, plain
 from reports.legend import draw_legend, legend_height, line_entry
 from reports.style import (
     INK,

@@ -12,7 +12,7 @@ from matplotlib.ticker import MaxNLocator
 
 from filters.arrays import FloatArray
 from filters.systems.drive import wrap
-from reports.erkf_axes import AXIS_MM, EDGE_MM, TITLE_MM, plain
+from reports.axes import AXIS_MM, EDGE_MM, TITLE_MM, plain
 from reports.legend import Entry, draw_legend, legend_height, line_entry
 from reports.style import INK, PALE, SOURCE_LINES, TITLE_PT, WIDTH_MM, Line, axes_at, drawing, page
 

@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
-from reports.erkf_axes import AXIS_MM, EDGE_MM, TITLE_MM, decades, end_labels, plain
+from reports.axes import AXIS_MM, EDGE_MM, TITLE_MM, decades, end_labels, plain
 from reports.legend import draw_legend, legend_height, line_entry
 from reports.style import SOURCE_LINES, TITLE_PT, WIDTH_MM, axes_at, drawing, page
 

@@ -6,7 +6,6 @@ nothing but last digits. Both are written beside the report with few digits, and
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Callable, Mapping
 from itertools import product
 from pathlib import Path
@@ -16,14 +15,15 @@ import numpy as np
 
 from filters.arrays import FloatArray
 from filters.systems.drive import FIX_EVERY, simulate_cargo_drive
-from reports.render import Row, csv_bytes
+from reports.stored import Rows, digits, read_tables, rows_of, table_files
+from reports.stored import columns as columns_of
+from reports.stored import records as records_of
 from sched_sim.cost_file import cost_table_text, read_cost_table
 from sched_sim.costs import CostTable
 from studies import robust_drive as drive
 from studies import singular_values as singular
 from studies.robust_costs import SYSTEMS, SystemName, robust_costs
 
-Rows = list[Row]
 Progress = Callable[[int, int, str], None]
 
 SEED = 0
@@ -47,34 +47,26 @@ class Results(NamedTuple):
 
     def columns(self, name: str) -> dict[str, FloatArray]:
         """A table of numbers; nan where a cell is empty."""
-        heading, *rows = self.tables[name]
-        return {
-            str(head): np.array([float(row[number] or "nan") for row in rows]) for number, head in enumerate(heading)
-        }
+        return columns_of(self.tables[name])
 
     def records(self, name: str) -> list[dict[str, str]]:
         """The rows of a table by their heading."""
-        heading, *rows = self.tables[name]
-        return [dict(zip(heading, row, strict=True)) for row in rows]
+        return records_of(self.tables[name])
 
     def files(self) -> dict[str, bytes]:
         """What `read` reads."""
         return {
             **{f"measured-{name}.toml": cost_table_text(table).encode() for name, table in self.measured.items()},
-            **{f"stored-{name}.csv": csv_bytes(rows) for name, rows in self.tables.items()},
+            **table_files(self.tables),
         }
 
 
 def read(folder: Path) -> Results:
     """The results that a report in `folder` was made from."""
-    tables: dict[str, Rows] = {}
-    for name in TABLES:
-        with (folder / f"stored-{name}.csv").open(encoding="utf-8", newline="") as file:
-            tables[name] = list(csv.reader(file))
     measured: dict[SystemName, CostTable] = {
         name: read_cost_table(folder / f"measured-{name}.toml") for name in SYSTEMS
     }
-    return Results(measured, tables)
+    return Results(measured, read_tables(folder, TABLES))
 
 
 def results(thorough: bool = False, progress: Progress = lambda _done, _total, _what: None) -> Results:
@@ -121,12 +113,12 @@ def results(thorough: bool = False, progress: Progress = lambda _done, _total, _
             "position": position,
             "raw": [
                 ["imu_yaw_deg", "gps_yaw_deg", *_of("gps", "m"), *_of("held", "m")],
-                [_digits(value) for value in (raw.imu_yaw_deg, raw.gps_yaw_deg, *raw.gps_m, *raw.held_m)],
+                [digits(value) for value in (raw.imu_yaw_deg, raw.gps_yaw_deg, *raw.gps_m, *raw.held_m)],
             ],
             "agreement": agreement,
-            "singular-values": _table(curves, "{:.4g}"),
-            "drive": _table(course, "{:.3f}"),
-            "close-up": _table(close_up, "{:.4f}"),
+            "singular-values": rows_of(curves, "{:.4g}"),
+            "drive": rows_of(course, "{:.3f}"),
+            "close-up": rows_of(close_up, "{:.4f}"),
         },
     )
 
@@ -146,18 +138,14 @@ _POSITION = (
 _AGREEMENT = ("case", "way", "largest", "smallest", "relative_largest", "relative_smallest", "state", "fails_in_step")
 
 
-def _digits(value: float) -> str:
-    return f"{value:#.3g}"
-
-
 def _attitude_row(found: drive.AttitudeResult) -> list[Any]:
     others = (found.yaw_from_gps_deg, found.yaw_from_imu_deg, found.outage_yaw_deg)
-    return [found.scale_error, found.method, *(_digits(value) for value in (*found.errors_deg, *others))]
+    return [found.scale_error, found.method, *(digits(value) for value in (*found.errors_deg, *others))]
 
 
 def _position_row(found: drive.PositionResult) -> list[Any]:
     values = (*found.after_fix_m, *found.between_m, *found.between_velocity, *found.outage_m, found.outage_end_m)
-    return [found.scale_error, found.method, *(_digits(value) for value in values)]
+    return [found.scale_error, found.method, *(digits(value) for value in values)]
 
 
 def _agreement_row(found: singular.Agreement) -> list[Any]:
@@ -210,8 +198,3 @@ def _drives() -> tuple[dict[str, FloatArray], dict[str, FloatArray]]:
 
 def _split(what: str, names: tuple[str, ...], values: FloatArray) -> dict[str, FloatArray]:
     return {f"{what} {name}": values[:, number] for number, name in enumerate(names)}
-
-
-def _table(columns: Mapping[str, FloatArray], form: str) -> Rows:
-    body = [["" if np.isnan(value) else form.format(value) for value in row] for row in np.array([*columns.values()]).T]
-    return [list(columns), *body]

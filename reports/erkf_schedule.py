@@ -9,7 +9,7 @@ from fractions import Fraction
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, NullLocator
 
-from reports.erkf_axes import AXIS_MM, EDGE_MM, TITLE_MM, decades, plain
+from reports.axes import AXIS_MM, EDGE_MM, TITLE_MM, decades, plain
 from reports.legend import draw_legend, legend_height, line_entry
 from reports.panels import Panel, cycle_marks
 from reports.style import SOURCE_LINES, TITLE_PT, WIDTH_MM, axes_at, drawing, page

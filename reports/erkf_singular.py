@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from filters.arrays import FloatArray
-from reports.erkf_axes import AXIS_MM, EDGE_MM, TITLE_MM, decades, plain
+from reports.axes import AXIS_MM, EDGE_MM, TITLE_MM, decades, plain
 from reports.legend import draw_legend, legend_height, line_entry
 from reports.style import INK, SMALL_PT, SOURCE_LINES, TITLE_PT, WIDTH_MM, axes_at, drawing, page
 

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
-import re
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache
@@ -24,8 +21,9 @@ from sched_sim.processor import shipped_processors
 from sched_sim.timing import Timing
 from studies.robust_costs import SYSTEMS, N
 from tests.command_line import Run
+from tests.reports import published
 
-PUBLISHED = Path(__file__).parents[2] / "reports" / "published" / "erkf"
+PUBLISHED = published.FOLDER / "erkf"
 
 
 @cache
@@ -39,26 +37,21 @@ def rebuilt() -> dict[str, bytes]:
 
 
 def text() -> str:
-    return " ".join(rebuilt()["index.md"].decode().split())
+    return published.text(rebuilt())
 
 
 def rows(name: str) -> list[dict[str, str]]:
-    return list(csv.DictReader(io.StringIO(rebuilt()[name].decode())))
+    return published.rows(rebuilt(), name)
 
 
-def test_the_report_has_no_file_too_many_or_too_few() -> None:
-    assert {path.name for path in PUBLISHED.iterdir()} == set(rebuilt())
+def test_the_report_is_complete_and_opens_offline() -> None:
+    published.is_complete("erkf", rebuilt())
+    published.is_self_contained(rebuilt())
 
 
-@pytest.mark.parametrize("name", sorted(path.name for path in PUBLISHED.iterdir()))
+@pytest.mark.parametrize("name", published.names("erkf"))
 def test_the_committed_file_is_rebuilt_byte_for_byte(name: str) -> None:
-    assert rebuilt()[name] == (PUBLISHED / name).read_bytes()
-
-
-def test_the_page_is_self_contained() -> None:
-    page = rebuilt()["index.html"].decode()
-    assert len(re.findall(r'<img src="data:image/svg\+xml;base64,', page)) == 10
-    assert not re.findall(r'(?:src|href)="(?:https?:)?//', page)
+    published.is_rebuilt("erkf", name, rebuilt())
 
 
 def test_another_machine_changes_only_what_is_marked_as_measured() -> None:
@@ -72,32 +65,13 @@ def test_another_machine_changes_only_what_is_marked_as_measured() -> None:
         return replace(table, costs=costs, provenance={**table.provenance, "machine": "another"})
 
     other = build(stored()._replace(measured={name: slower(table) for name, table in stored().measured.items()}))
-    for name, content in rebuilt().items():
-        if name.endswith(".csv"):
-            columns = [
-                number
-                for number, head in enumerate(next(csv.reader(io.StringIO(content.decode()))))
-                if tables.DAGGER not in head
-            ]
-            assert picked(content, columns) == picked(other[name], columns)
-        elif name.endswith(".svg") and name != "costs.svg":
-            assert content == other[name]
-    before, after = (re.split(r"\n\n", files["index.md"].decode()) for files in (rebuilt(), other))
-    changed = [one for one, two in zip(before, after, strict=True) if one != two]
-    assert changed
-    assert all(tables.DAGGER in paragraph for paragraph in changed)
-
-
-def picked(content: bytes, columns: list[int]) -> list[list[str]]:
-    return [[row[column] for column in columns] for row in csv.reader(io.StringIO(content.decode()))]
+    published.differs_only_where_marked(rebuilt(), other, ["costs.svg"])
 
 
 def test_the_command_writes_the_report(sched_sim: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("reports.erkf_results.results", lambda _thorough, _progress: stored())
     monkeypatch.setattr("reports.erkf.build", lambda found: rebuilt() if found is stored() else {})
-    result = sched_sim("report erkf -o here")
-    assert (result.code, result.out) == (0, "")
-    assert {path.name: path.read_bytes() for path in (tmp_path / "here/erkf").iterdir()} == rebuilt()
+    published.is_written("erkf", rebuilt(), sched_sim, tmp_path)
 
 
 def test_what_is_stored_is_read_back() -> None:

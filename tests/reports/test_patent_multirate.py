@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
-import re
 from functools import cache
 from pathlib import Path
 
@@ -19,9 +16,7 @@ from sched_sim.processor import load_processor, shipped_processors
 from studies import patent
 from studies.multirate import largest_good
 from tests.command_line import Run
-
-PUBLISHED = Path(__file__).parents[2] / "reports" / "published" / "patent-multirate"
-
+from tests.reports import published
 
 TOLD: list[tuple[int, int]] = []
 """(done, total), as `found` went on."""
@@ -38,26 +33,21 @@ def rebuilt() -> dict[str, bytes]:
 
 
 def text() -> str:
-    return " ".join(rebuilt()["index.md"].decode().split())
+    return published.text(rebuilt())
 
 
 def rows(name: str) -> list[dict[str, str]]:
-    return list(csv.DictReader(io.StringIO(rebuilt()[name].decode())))
+    return published.rows(rebuilt(), name)
 
 
-def test_the_report_has_no_file_too_many_or_too_few() -> None:
-    assert {path.name for path in PUBLISHED.iterdir()} == set(rebuilt())
+def test_the_report_is_complete_and_opens_offline() -> None:
+    published.is_complete("patent-multirate", rebuilt())
+    published.is_self_contained(rebuilt())
 
 
-@pytest.mark.parametrize("name", sorted(path.name for path in PUBLISHED.iterdir()))
+@pytest.mark.parametrize("name", published.names("patent-multirate"))
 def test_the_committed_file_is_rebuilt_byte_for_byte(name: str) -> None:
-    assert rebuilt()[name] == (PUBLISHED / name).read_bytes()
-
-
-def test_the_page_is_self_contained() -> None:
-    page = rebuilt()["index.html"].decode()
-    assert len(re.findall(r'<img src="data:image/svg\+xml;base64,', page)) == 4
-    assert not re.findall(r'(?:src|href)="(?:https?:)?//', page)
+    published.is_rebuilt("patent-multirate", name, rebuilt())
 
 
 def test_progress_is_told_from_start_to_end() -> None:
@@ -68,9 +58,7 @@ def test_progress_is_told_from_start_to_end() -> None:
 
 def test_the_command_writes_the_report(sched_sim: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("reports.multirate_results.results", lambda _progress: found())
-    result = sched_sim("report patent-multirate -o here")
-    assert (result.code, result.out) == (0, "")
-    assert {path.name: path.read_bytes() for path in (tmp_path / "here/patent-multirate").iterdir()} == rebuilt()
+    published.is_written("patent-multirate", rebuilt(), sched_sim, tmp_path)
 
 
 def test_an_unknown_report_is_answered_with_both_names(sched_sim: Run) -> None:

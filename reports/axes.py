@@ -1,4 +1,4 @@
-"""What the figures of the report on the robust filter share: sizes, logarithmic axes, names at the ends of curves."""
+"""What plots of reports share: sizes, logarithmic axes, names at the ends of curves."""
 
 from __future__ import annotations
 

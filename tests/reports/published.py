@@ -1,0 +1,76 @@
+"""What every published report must hold to: it is rebuilt byte for byte, opens offline, and the command writes it."""
+
+from __future__ import annotations
+
+import csv
+import io
+import re
+from collections.abc import Collection, Mapping
+from pathlib import Path
+
+from tests.command_line import Run
+
+FOLDER = Path(__file__).parents[2] / "reports" / "published"
+
+Files = Mapping[str, bytes]
+
+
+def names(report: str) -> list[str]:
+    """Of the files that are committed."""
+    return sorted(path.name for path in (FOLDER / report).iterdir())
+
+
+def is_rebuilt(report: str, name: str, files: Files) -> None:
+    """files: what the code makes of the report."""
+    assert files[name] == (FOLDER / report / name).read_bytes()
+
+
+def is_complete(report: str, files: Files) -> None:
+    """No file too many or too few."""
+    assert names(report) == sorted(files)
+
+
+def is_self_contained(files: Files) -> None:
+    """Every figure is in the page, and nothing is fetched."""
+    page = files["index.html"].decode()
+    figures = [name for name in files if name.endswith(".svg")]
+    assert figures
+    assert len(re.findall(r'<img src="data:image/svg\+xml;base64,', page)) == len(figures)
+    assert not re.findall(r'(?:src|href)="(?:https?:)?//', page)
+
+
+def is_written(report: str, files: Files, sched_sim: Run, folder: Path) -> None:
+    """By the command, run in `folder`; what takes long must be replaced before."""
+    result = sched_sim(f"report {report} -o here")
+    assert (result.code, result.out) == (0, "")
+    assert {path.name: path.read_bytes() for path in (folder / "here" / report).iterdir()} == files
+
+
+def differs_only_where_marked(files: Files, others: Files, figures: Collection[str], mark: str = "†") -> None:
+    """Between two machines: in tables only columns whose heading has the mark, in the text only paragraphs that have
+    it, and these figures. Stored measurements may differ as they like."""
+    for name, content in files.items():
+        if name.endswith(".csv"):
+            heading = next(csv.reader(io.StringIO(content.decode())))
+            kept = [number for number, head in enumerate(heading) if mark not in head]
+            assert _picked(content, kept) == _picked(others[name], kept)
+        elif name.endswith(".svg") and name not in figures:
+            assert content == others[name]
+    before, after = (re.split(r"\n\n", one["index.md"].decode()) for one in (files, others))
+    changed = [one for one, two in zip(before, after, strict=True) if one != two]
+    assert changed
+    assert all(mark in paragraph for paragraph in changed)
+
+
+def text(files: Files) -> str:
+    """The report in one line."""
+    return " ".join(files["index.md"].decode().split())
+
+
+def rows(files: Files, name: str) -> list[dict[str, str]]:
+    """A table, its rows by their heading."""
+    return list(csv.DictReader(io.StringIO(files[name].decode())))
+
+
+def _picked(content: bytes, kept: list[int]) -> list[list[str]]:
+    return [[row[number] for number in kept] for row in csv.reader(io.StringIO(content.decode()))]
