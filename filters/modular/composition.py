@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from filters.modular.correctors import Corrector
+from filters.modular.correctors import Corrector, check_noise
 from filters.modular.predictors import Predictor
 from filters.modular.space import Space, space
 
@@ -80,6 +80,7 @@ class ModularFilter:
             if names.count(sensor.name) > 1:
                 raise ValueError(f"sensor {sensor.name!r}: the name is used twice; give each sensor its own")
             try:
+                check_noise(sensor.corrector)
                 view = sensor.corrector.view(n)
             except ValueError as error:
                 raise ValueError(f"sensor {sensor.name!r}: {error}") from None
@@ -87,6 +88,6 @@ class ModularFilter:
                 for at, start in enumerate(self.of.attitudes):
                     if np.any(view.H[:, start - at : start - at + 3]):
                         raise ValueError(
-                            f"sensor {sensor.name!r}: linear_corrector: H sees an attitude (columns {start - at} to "
+                            f"sensor {sensor.name!r}: H of a linear one sees an attitude (columns {start - at} to "
                             f"{start - at + 2}); make it extended or unscented"
                         )

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, NamedTuple, TypeAlias
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from filters.arrays import FloatArray
@@ -67,18 +68,18 @@ class UnscentedView(NamedTuple):
 
 
 def linear_corrector(H: ArrayLike, R: ArrayLike) -> Corrector:
-    """y = H x + v. H (p, n), n the length of the state's error; R (p, p).
+    """y = H x + v. H (p, n), n the length of the state's error; R (p, p), positive definite.
 
-    Raises:
-        ValueError: a shape does not fit, a number is not finite, or R is not positive definite.
+    Of this and the other correctors: what is wrong with one is found when the filter is composed, which names the
+    sensor.
     """
-    noise = as_noise("linear_corrector: R", R)
-    matrix = as_matrix("linear_corrector: H", H, (len(noise), None))
+    noise, seen = _noise_and_space(R, None)
+    matrix = np.array(H, dtype=np.float64)
 
     def view(n: int) -> LinearView:
-        return LinearView(as_matrix("linear_corrector: H", matrix, (len(noise), n)), noise)
+        return LinearView(as_matrix("H", matrix, (len(noise), n)), noise)
 
-    return Corrector("linear", expect_linear, view, space(len(noise)), noise)
+    return Corrector("linear", expect_linear, view, seen, noise)
 
 
 def extended_corrector(
@@ -86,15 +87,12 @@ def extended_corrector(
 ) -> Corrector:
     """Any observation, linearised at the estimate.
 
-    h(x, out) writes the measurement expected at the state x into out; R (p, p).
+    h(x, out) writes the measurement expected at the state x into out; R (p, p), positive definite.
     jacobian(x, out) writes into out (p, n) what an error of x does to it; by central differences if not given.
     observed: what a measurement stands for, where it holds angles or attitudes; plain quantities if not given.
     The functions are plain Python that numba can compile.
-
-    Raises:
-        ValueError: R is not positive definite, or its size is not that of the observed space.
     """
-    noise, seen = _noise_and_space("extended_corrector", R, observed)
+    noise, seen = _noise_and_space(R, observed)
     if jacobian is None:
         return Corrector("extended", expect_numeric, lambda _n: NumericView(h, noise), seen, noise)
     given = jacobian
@@ -104,13 +102,20 @@ def extended_corrector(
 def unscented_corrector(
     h: Observation, R: ArrayLike, points: SigmaPoints = USUAL, *, observed: Space | None = None
 ) -> Corrector:
-    """Any observation, of 2 n + 1 sigma points. h, R, observed as in `extended_corrector`.
-
-    Raises:
-        ValueError: as `extended_corrector`. Points without spread are found when the filter is composed.
-    """
-    noise, seen = _noise_and_space("unscented_corrector", R, observed)
+    """Any observation, of 2 n + 1 sigma points. h, R, observed as in `extended_corrector`."""
+    noise, seen = _noise_and_space(R, observed)
     return Corrector("unscented", expect_unscented, lambda n: UnscentedView(h, weights(points, n), noise), seen, noise)
+
+
+def check_noise(corrector: Corrector) -> None:
+    """Raises ValueError unless R is the positive definite covariance of an error of what is observed."""
+    p = corrector.observed.errors
+    if np.shape(corrector.R) != (p, p):
+        raise ValueError(
+            f"R has shape {np.shape(corrector.R)}; needed is {(p, p)}, for an error of a measurement has {p} numbers "
+            f"(that of an attitude has 3)"
+        )
+    as_noise("R", corrector.R)
 
 
 def expect_linear(view: LinearView, _observed: Space, of: Space, before: Estimate, work: Workspace) -> None:
@@ -187,12 +192,6 @@ def _project(R: FloatArray, P: FloatArray, work: Workspace) -> None:
             work.S[i, j] = total
 
 
-def _noise_and_space(name: str, R: ArrayLike, observed: Space | None) -> tuple[FloatArray, Space]:
-    noise = as_noise(f"{name}: R", R)
-    seen = space(len(noise)) if observed is None else observed
-    if seen.errors != len(noise):
-        raise ValueError(
-            f"{name}: R has shape {noise.shape}, but an error of the observed space has {seen.errors} numbers (an "
-            f"attitude has 3)"
-        )
-    return noise, seen
+def _noise_and_space(R: ArrayLike, observed: Space | None) -> tuple[FloatArray, Space]:
+    noise = np.array(R, dtype=np.float64, order="C", ndmin=1)
+    return noise, space(len(noise)) if observed is None else observed
