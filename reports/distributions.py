@@ -83,7 +83,8 @@ def distributions_figure(scenario: Scenario, outcome: Outcome) -> Figure:
             _write_head(axes, cell, width)
             cell.draw(axes)
             if column == 0:
-                axes.set_ylabel("share (%)", labelpad=2)
+                axes.set_ylabel("share (%)")
+                axes.yaxis.set_label_coords(-8.0 / width, 0.5)
         return figure
 
 

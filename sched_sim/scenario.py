@@ -134,7 +134,7 @@ def needed_parts(sensors: Sequence[Sensor], late: Late) -> list[str]:
 
 def _remedy(part: str, late: Late) -> str:
     kind, _, sensor = part.partition(".")
-    if kind == "predict":
+    if part == "predict":
         return "give [predictor] a cost, or the scenario a costs file with it"
     if kind == "correct":
         return f"give sensor {sensor!r} a cost, or the scenario a costs file with it"

@@ -1,0 +1,335 @@
+"""A composed filter on the processor, against what is known of it from elsewhere: the single-filter simulation,
+probability, and schedules worked out by hand."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import replace
+from fractions import Fraction
+from itertools import product
+from math import sqrt
+from typing import Any
+
+import pytest
+
+from sched_sim.costs import JobCosts, LarsenCosts, RecalculateCosts, StandardCosts
+from sched_sim.errors import InputError
+from sched_sim.scenario import Late, Scenario, Sensor
+from sched_sim.scenario_run import Outcome, run_scenario
+from sched_sim.schedule import Slice
+from sched_sim.simulate import simulate
+from sched_sim.tasks import Task
+from sched_sim.timing import Timing
+
+HR, LR = 10, 20
+
+Costs = dict[str, tuple[Fraction, ...]]
+
+
+def costs(entries: dict[str, Any]) -> Costs:
+    """A number stands for one sample."""
+    return {
+        part: tuple(Fraction(str(value)) for value in (values if isinstance(values, list) else [values]))
+        for part, values in entries.items()
+    }
+
+
+def sensor(name: str, every: int, delay: int | Sequence[int] = 0, **settings: Any) -> Sensor:
+    delays = (delay,) if isinstance(delay, int) else delay
+    return Sensor(name, every, delays, **({"land_by": max(delays) + every} | settings))
+
+
+def scenario(speed: object, entries: dict[str, Any], *sensors: Sensor, **settings: Any) -> Scenario:
+    return Scenario("test", sensors=sensors, speed=Fraction(str(speed)), costs=costs(entries), **settings)
+
+
+def slices_of(of: Scenario, kind: str) -> list[tuple[int, int]]:
+    """(start, end) of every slice of one kind."""
+    found: list[Slice] = []
+    run_scenario(of, on_slice=found.append)
+    return [(piece.start, piece.end) for piece in found if piece.kind == kind]
+
+
+def near(share: float, probability: float, count: int) -> bool:
+    """Within 4.5 standard deviations of so many independent trials."""
+    return abs(share - probability) <= 4.5 * sqrt(probability * (1 - probability) / count)
+
+
+# ------------------------------------------------------------------------------- one sensor is the single filter
+
+CONTROL = Task("control", period=Fraction(3), cost=Fraction("0.1"), priority=5)
+
+
+def assert_same(single: JobCosts, M: int, speed: str, late: Late, entries: dict[str, Any]) -> None:
+    """There, predict and correction of step m are one job, and it is the correction that ends it."""
+    N, cycles = 10, 20
+    expected = simulate(single, Timing(N, M, N), Fraction(speed), cycles, tasks=[CONTROL])
+    steps = cycles * N + (M == N)  # the last measurement arrives when the others would end
+    gps = sensor("gps", N, M, priority=HR, land_by=M + 1)
+    found = run_scenario(scenario(speed, entries, gps, late=late, steps=steps, tasks=[CONTROL]))
+    longest = max(*found.jobs["predict"].responses, *found.jobs["correct gps"].responses)
+    assert found.sensors["gps"].achieved == expected.achieved
+    assert longest == expected.responses["hr"].worst / expected.period
+    assert max(found.jobs["task:control"].responses) == expected.responses["task:control"].worst / expected.period
+    assert found.schedule.utilization == expected.utilization
+    assert (found.misses == 0) == (expected.misses == 0)
+
+
+@pytest.mark.parametrize("speed", ["0.9", "1.3", "4"])
+@pytest.mark.parametrize("M", [0, 1, 4, 10])
+def test_recalculate_at_the_predictors_priority_is_recalculate(M: int, speed: str) -> None:
+    """Most of these overrun: 4 replayed steps take 2 at a speed of 0.9."""
+    single = RecalculateCosts(Fraction("0.5"), Fraction("0.7"), Fraction("0.5"))
+    assert_same(single, M, speed, "recalculate", {"predict": 0.5, "correct.gps": 0.7})
+
+
+@pytest.mark.parametrize("speed", ["1.7", "1.8", "4"])
+@pytest.mark.parametrize("M", [1, 4, 10])
+def test_larsen_at_the_predictors_priority_is_larsen(M: int, speed: str) -> None:
+    single = LarsenCosts(Fraction("0.5"), Fraction("0.7"), Fraction("0.9"))
+    entries = {"predict": 0.5, "predict_accumulate": 0.7, "correct_late.gps": 0.9}
+    assert_same(single, M, speed, "larsen", entries)
+
+
+@pytest.mark.parametrize("late", ["recalculate", "larsen"])
+def test_without_delay_both_are_the_standard_filter(late: Late) -> None:
+    single = StandardCosts(Fraction("0.5"), Fraction("0.7"))
+    assert_same(single, 0, "1.3", late, {"predict": 0.5, "correct.gps": 0.7})
+
+
+# ------------------------------------------------------------------------------- probability
+
+
+def test_the_probability_of_a_miss_is_that_of_the_sum_of_two_draws() -> None:
+    """Predict and correction take longer than 8 in 3 of the 9 pairs; an overrun is over in the next step."""
+    predict, correct = [2, 3, 5], [3, 4, 6]
+    exact = sum(sum(pair) > 8 for pair in product(predict, correct)) / 9
+    gps = sensor("gps", 2, priority=HR, land_by=1, dropout=0.25)
+    found = run_scenario(scenario(8, {"predict": predict, "correct.gps": correct}, gps, steps=8_000))
+    figures = found.jobs["correct gps"]
+    assert figures.decided == found.sensors["gps"].arrived
+    assert figures.miss_probability == figures.misses / figures.decided
+    assert near(figures.misses / figures.decided, exact, figures.decided)
+    least, most = figures.miss_interval or (1, 0)
+    assert least < exact < most
+    sums = Counter(sum(pair) for pair in product(predict, correct))
+    responses = Counter(round(8 * response) for response in figures.responses)
+    assert responses.keys() == sums.keys()
+    assert all(near(responses[total] / figures.decided, count / 9, figures.decided) for total, count in sums.items())
+    assert found.jobs["predict"].misses == 0
+
+
+@pytest.mark.parametrize("priority", [HR, LR])
+def test_on_a_fast_processor_the_achieved_l_is_the_delay(priority: int) -> None:
+    entries = {"predict": [1, 2], "correct.gps": 1}
+    gps = sensor("gps", 2, [3, 3, 4, 6], priority=priority)
+    achieved = run_scenario(scenario(1000, entries, gps, steps=4_000)).sensors["gps"].achieved
+    total = achieved.total()
+    assert achieved.keys() == {3, 4, 6}
+    assert near(achieved[3] / total, 1 / 2, total)
+    assert near(achieved[4] / total, 1 / 4, total)
+
+
+@pytest.mark.parametrize(("dropout", "arrived"), [(0.0, 100), (1.0, 0)])
+def test_dropout_of_all_or_nothing(dropout: float, arrived: int) -> None:
+    gps = sensor("gps", 4, dropout=dropout)
+    found = run_scenario(scenario(10, {"predict": 1, "correct.gps": 1}, gps, steps=400))
+    figures = found.sensors["gps"]
+    assert (figures.taken, figures.dropped, figures.arrived) == (100, 100 - arrived, arrived)
+    assert found.jobs["correct gps"].released == arrived
+    assert (found.jobs["correct gps"].miss_probability is None) == (arrived == 0)
+
+
+def test_dropout_is_a_probability() -> None:
+    gps = sensor("gps", 1, dropout=0.8)
+    figures = run_scenario(scenario(10, {"predict": 1, "correct.gps": 1}, gps, steps=4000)).sensors["gps"]
+    assert near(figures.dropped / figures.taken, 0.8, figures.taken)
+
+
+RANDOM = {"predict": [1, 2, 3], "correct.gps": [2, 3], "correct.imu": [1, 2]}
+
+
+def random_scenario(seed: int, gps_dropout: float = 0.2) -> Scenario:
+    gps, imu = sensor("gps", 10, range(2, 8), dropout=gps_dropout), sensor("imu", 3, [0, 1], dropout=0.5)
+    return scenario(10, RANDOM, gps, imu, steps=400, seed=seed)
+
+
+def figures(of: Outcome) -> object:
+    return [(kind, list(jobs.responses)) for kind, jobs in of.jobs.items()], of.sensors
+
+
+def test_the_seed_decides_everything() -> None:
+    assert figures(run_scenario(random_scenario(3))) == figures(run_scenario(random_scenario(3)))
+    assert figures(run_scenario(random_scenario(3))) != figures(run_scenario(random_scenario(4)))
+
+
+def test_the_dropout_of_one_sensor_changes_no_draw_of_the_others() -> None:
+    """Without gps corrections in the way, all else takes as long as with them, if more urgent."""
+    some, none = (run_scenario(random_scenario(3, dropout)) for dropout in (0.2, 1.0))
+    assert some.jobs["predict"].responses == none.jobs["predict"].responses
+    assert some.sensors["imu"].taken == none.sensors["imu"].taken
+    assert some.sensors["imu"].dropped == none.sensors["imu"].dropped
+    assert some.jobs["correct imu"].released == none.jobs["correct imu"].released
+
+
+# ------------------------------------------------------------------------------- worked out by hand
+
+BY_HAND = {"predict": 4, "correct.gps": 2, "correct.imu": 1}
+"""In a period of 10."""
+
+
+def test_a_preempted_correction_catches_up_with_the_steps_that_passed() -> None:
+    """It arrives at 20, and has the correction and steps 1 and 2 to do: 10. It finishes them in step 3, then step 3
+    itself in step 4, then step 4 exactly at its end."""
+    gps = sensor("gps", 20, 2)
+    of = scenario(10, BY_HAND, gps, steps=8)
+    assert slices_of(of, "correct gps") == [(24, 30), (34, 38), (38, 40), (44, 46), (46, 50)]
+    found = run_scenario(of)
+    assert found.sensors["gps"].achieved == {4: 1}
+    assert found.jobs["correct gps"].responses == [3.0]
+    assert found.jobs["correct gps"].released == 1
+    assert found.schedule.responses["correct gps"].finished == 1
+
+
+def test_it_catches_up_with_the_corrections_made_meanwhile_too() -> None:
+    """The other sensor's correction in step 3 is 1 more to replay, and that is a step more in the end."""
+    gps, imu = sensor("gps", 20, 2), sensor("imu", 20, offset=3, priority=HR)
+    of = scenario(10, BY_HAND, gps, imu, steps=8)
+    assert slices_of(of, "correct gps") == [(24, 30), (35, 39), (39, 40), (44, 48), (48, 50), (54, 56), (56, 60)]
+    assert run_scenario(of).sensors["gps"].achieved == {5: 1}
+
+
+def test_an_older_measurement_that_comes_in_between_takes_the_correction_back_to_it() -> None:
+    """The gps is of step 5, and of 10 ticks 8 are done when the camera's of step 3 arrives at 70, which lands at 81. At
+    85 the gps is through with step 6; it goes back to step 3, for both corrections and steps 4 to 8: 19. Then steps 9
+    and 10, then 11."""
+    gps = sensor("gps", 100, 1, offset=5)
+    camera = sensor("camera", 100, 4, offset=3, priority=HR)
+    of = scenario(10, {"predict": 2, "correct.gps": 8, "correct.camera": 1}, gps, camera, steps=14)
+    assert slices_of(of, "correct camera") == [(72, 81)]
+    expected = [(62, 70), (83, 85), (85, 90), (92, 100), (102, 108), (108, 110), (112, 114), (114, 116)]
+    assert slices_of(of, "correct gps") == expected
+    assert run_scenario(of).sensors["gps"].achieved == {6: 1}
+
+
+def test_a_late_correction_replays_what_other_sensors_saw_in_those_steps() -> None:
+    """At 40: the correction of step 1, 2; steps 2 to 4, 12; the other sensor's of step 2, which landed in step 3."""
+    gps, imu = sensor("gps", 100, 3, offset=1, priority=HR), sensor("imu", 100, 1, offset=2, priority=HR)
+    of = scenario(30, BY_HAND, gps, imu, steps=6)
+    assert slices_of(of, "correct gps") == [(124, 124 + 2 + 12 + 1)]
+
+
+def test_a_more_urgent_correction_of_the_same_instant_is_replayed_without_catching_up() -> None:
+    """Both arrive at 60, gps of step 0 and imu of step 2: the imu, 4 behind the predict, is 1 to replay for the gps."""
+    gps, imu = sensor("gps", 100, 2), sensor("imu", 100, offset=2, priority=HR)
+    of = scenario(30, BY_HAND, gps, imu, steps=4)
+    assert slices_of(of, "correct gps") == [(65, 65 + 2 + 8 + 1)]
+
+
+def test_corrections_of_one_priority_run_one_after_another_and_wait_from_their_arrival() -> None:
+    """Both arrive at 60; the second, of the later step, replays nothing of the first's."""
+    gps, imu = sensor("gps", 100, 2), sensor("imu", 100, 1, offset=1)
+    of = scenario(30, BY_HAND, gps, imu, steps=4)
+    assert slices_of(of, "correct gps") == [(64, 74)]
+    assert slices_of(of, "correct imu") == [(74, 79)]
+    assert run_scenario(of).jobs["correct imu"].responses == [19 / 30]
+
+
+def test_a_processor_without_the_time_never_catches_up_and_drops_nothing() -> None:
+    """4 ticks of each 10 are left, and each step that passes is 6 more to replay."""
+    gps = sensor("gps", 10, 2, land_by=5)
+    found = run_scenario(scenario(10, {"predict": 6, "correct.gps": 2}, gps, steps=50))
+    figures, jobs = found.sensors["gps"], found.jobs["correct gps"]
+    assert (figures.arrived, figures.achieved, figures.not_landed) == (5, {}, 5)
+    assert (jobs.released, jobs.misses, jobs.decided, list(jobs.responses)) == (5, 5, 5, [])
+    assert found.schedule.responses["correct gps"].worst_lateness == 450
+    assert found.first_miss == 5.0
+    assert found.schedule.utilization == 1 - Fraction(2 * 4, 500)  # idle until the first arrives
+
+
+def test_what_has_not_arrived_or_is_not_yet_due_is_no_miss() -> None:
+    gps = sensor("gps", 10, 9)
+    found = run_scenario(scenario(10, {"predict": 6, "correct.gps": 2}, gps, steps=25))
+    figures, jobs = found.sensors["gps"], found.jobs["correct gps"]
+    assert (figures.taken, figures.arrived, figures.on_the_way) == (3, 2, 1)
+    assert (jobs.released, jobs.misses, jobs.decided) == (2, 1, 1)  # due at 19 and 29
+
+
+def test_larsen_lands_late_without_replay() -> None:
+    """At 20, behind predict and accumulate, 6 of 8 run until 30; the rest in step 3."""
+    entries = {"predict": 3, "predict_accumulate": 4, "correct_late.gps": 8}
+    of = scenario(10, entries, sensor("gps", 20, 2), late="larsen", steps=6)
+    assert slices_of(of, "correct gps") == [(24, 30), (34, 36)]
+    assert run_scenario(of).sensors["gps"].achieved == {3: 1}
+    assert slices_of(of, "predict") == [(0, 3), (10, 13), (20, 24), (30, 34), (40, 43), (50, 53)]
+
+
+def test_larsen_accumulates_for_a_lost_measurement_until_the_next_is_taken() -> None:
+    """Of steps k+1 to k+4 the last three; of steps 0 to 8 these are 2, 3, 4, 6, 7, 8."""
+    entries = {"predict": 3, "predict_accumulate": 4, "correct_late.gps": 8}
+    of = scenario(10, entries, sensor("gps", 4, 2, dropout=1.0), late="larsen", steps=9)
+    assert [end - start for start, end in slices_of(of, "predict")] == [3, 3, 4, 4, 4, 3, 4, 4, 4]
+
+
+def test_larsen_other_sensors_accumulate_while_a_measurement_is_in_flight() -> None:
+    """The gps of step 0 is in flight in steps 1 and 2."""
+    entries = {"predict": 1, "predict_accumulate": 1, "correct.imu": 1, "correct_accumulate.imu": 2}
+    gps, imu = sensor("gps", 4, 2, priority=HR), sensor("imu", 1, priority=HR)
+    of = scenario(10, entries | {"correct_late.gps": 3}, gps, imu, late="larsen", steps=4)
+    assert [end - start for start, end in slices_of(of, "correct imu")] == [1, 2, 2, 1]
+    assert slices_of(of, "correct gps") == [(21, 24)]
+
+
+def test_on_two_processors_corrections_run_beside_the_predictor() -> None:
+    """10 of work from 20 on, whatever the priority: it ends with step 2."""
+    of = scenario(10, BY_HAND, sensor("gps", 20, 2, priority=HR), cpus=2, steps=8)
+    assert slices_of(of, "correct gps") == [(20, 30)]
+    found = run_scenario(of)
+    assert found.sensors["gps"].achieved == {2: 1}
+    assert set(found.jobs["predict"].responses) == {0.4}
+
+
+def test_progress_is_told_and_changes_nothing() -> None:
+    told: list[tuple[int, int, str]] = []
+    of = random_scenario(3)
+    found = run_scenario(of, on_progress=lambda *progress: told.append(progress))
+    assert figures(found) == figures(run_scenario(of))
+    assert told == [(step, 400, "HR steps") for step in range(0, 400, 4)]
+
+
+# ------------------------------------------------------------------------------- what cannot be
+
+
+@pytest.mark.parametrize(
+    ("settings", "said"),
+    [
+        ({"every": 0}, "every 0 must be at least 1"),
+        ({"offset": -1}, "offset -1 must be 0 or more"),
+        ({"dropout": 1.2}, "dropout 1.2 must be from 0 to 1: it is a probability"),
+        ({"delays": (-3,)}, "delay -3 must be 0 or more"),
+        ({"delays": ()}, "delay has nothing to draw from"),
+        ({"land_by": 4}, "land_by 4 must be greater than the least delay 4"),
+    ],
+)
+def test_a_sensor_that_cannot_be_is_refused_by_name(settings: dict[str, Any], said: str) -> None:
+    with pytest.raises(InputError, match=f"sensor 'gps': .*{said}"):
+        Sensor(**({"name": "gps", "every": 10, "delays": (4,), "land_by": 10} | settings))
+
+
+def test_two_sensors_of_one_name_are_refused() -> None:
+    with pytest.raises(InputError, match="sensor 'gps' is there 2 times: give each its own name"):
+        scenario(10, BY_HAND, sensor("gps", 20), sensor("gps", 10), steps=8)
+
+
+def test_all_that_is_wrong_is_said_at_once() -> None:
+    fine = scenario(10, BY_HAND, sensor("gps", 20, 2), steps=8)
+    with pytest.raises(
+        InputError, match=r"steps 0 must.*speed 0 must.*no costs of correct\.radar: give sensor 'radar' a"
+    ):
+        replace(fine, steps=0, speed=Fraction(0), sensors=[sensor("radar", 20, 2)])
+
+
+def test_larsen_needs_costs_of_its_own() -> None:
+    with pytest.raises(InputError, match=r'predict_accumulate: late = "larsen" needs.*correct_late\.gps: late'):
+        scenario(10, BY_HAND, sensor("gps", 20, 2), steps=8, late="larsen")

@@ -1,0 +1,224 @@
+"""`sched-sim simulate --scenario`: the file, what comes out, and what wrong input gets."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+
+from sched_sim.scenario import Sensor
+from sched_sim.scenario_file import read_scenario
+from sched_sim.scenario_run import run_scenario
+from sched_sim.tasks import Task
+from tests.command_line import Run, is_refused
+
+ROCKET = Path(__file__).parent / "rocket.toml"
+
+SHORT = """\
+name = "short"
+speed = 10
+steps = 40
+costs = "costs.toml"
+[predictor]
+[[sensor]]
+name = "gps"
+every = 10
+delay = 2
+priority = 10
+"""
+COSTS = """\
+name = "c"
+unit = "operation"
+[operations]
+predict = { multiply = 2, add = 1 }
+predict_accumulate = { multiply = 4 }
+[operations.correct]
+gps = { add = 3 }
+[operations.correct_late]
+gps = { add = 7 }
+"""
+
+
+def write(folder: Path, scenario: str = SHORT, costs: str = COSTS) -> None:
+    (folder / "s.toml").write_text(scenario)
+    (folder / "costs.toml").write_text(costs)
+
+
+def test_a_scenario_is_read_exactly() -> None:
+    rocket = read_scenario(ROCKET)
+    assert rocket.sensors == [
+        Sensor("gps", 40, range(15, 31), land_by=70, dropout=0.1, priority=20),
+        Sensor("barometer", 8, (0,), land_by=8, priority=10),
+    ]
+    assert rocket.tasks == [Task("control", Fraction(2), Fraction(5, 10**4), priority=5)]
+    assert rocket.costs["predict"] == (Fraction(5, 10**4), Fraction(6, 10**4), Fraction(9, 10**4))
+    assert (rocket.speed, rocket.hr_hz, rocket.late) == (Fraction(1, 400), 400, "recalculate")
+
+
+def test_costs_come_from_the_file_beside_it_and_from_the_scenario_first(tmp_path: Path) -> None:
+    write(tmp_path, SHORT.replace("[predictor]", "[predictor]\ncost = [4, 5.5]"))
+    found = read_scenario(tmp_path / "s.toml").costs
+    assert (found["predict"], found["correct.gps"]) == ((Fraction(4), Fraction(11, 2)), (Fraction(3),))
+
+
+def test_counts_are_seconds_on_a_processor(tmp_path: Path) -> None:
+    (tmp_path / "mine.toml").write_text(
+        'name = "mine"\ntitle = "mine"\nprecision = "double"\nclock_mhz = 100\nlogic_per_arithmetic = 0\n'
+        "[cycles]\nmultiply = 2\nadd = 1\n"
+    )
+    write(tmp_path, SHORT.replace("speed = 10", 'hr_hz = 100\nprocessor = "mine.toml"'))
+    assert read_scenario(tmp_path / "s.toml").costs["predict"] == (Fraction(5, 10**8),)
+
+
+def test_a_slower_processor_takes_longer_for_what_was_measured(tmp_path: Path) -> None:
+    measured = 'name = "m"\nunit = "second"\n[samples]\npredict = [1e-6, 3e-6]\n[samples.correct]\ngps = [2e-6]\n'
+    write(tmp_path, SHORT.replace("speed = 10", "hr_hz = 100\ntimes_slower = 50"), measured)
+    assert read_scenario(tmp_path / "s.toml").costs["predict"] == (Fraction(5, 10**5), Fraction(15, 10**5))
+
+
+def test_json_has_the_distributions(sched_sim: Run) -> None:
+    document = json.loads(sched_sim(f"simulate --scenario {ROCKET} --format json").out)
+    outcome = run_scenario(read_scenario(ROCKET))
+    assert list(document["jobs"]) == ["predict", "correct gps", "correct barometer", "task:control"]
+    gps = document["jobs"]["correct gps"]
+    assert gps["response_ms"]["maximum"] == pytest.approx(2.5 * max(outcome.jobs["correct gps"].responses))
+    assert gps["response"].keys() == {"minimum", "mean", "median", "p95", "p99", "maximum"}
+    assert gps["miss_probability"] == 0
+    assert gps["miss_interval"][0] == 0 < gps["miss_interval"][1] < 0.05
+    found = document["sensors"]["gps"]
+    assert found["taken"] == 100 == found["dropped"] + found["on_the_way"] + found["landed"] + found["not_landed"]
+    assert sum(found["achieved_l"].values()) == pytest.approx(1)
+    assert document["sensors"]["barometer"]["achieved_l"] == {"0": 1.0}
+    assert document["utilization"] == float(outcome.schedule.utilization)
+
+
+def test_csv_has_a_row_for_each_job(sched_sim: Run) -> None:
+    rows = list(csv.DictReader(io.StringIO(sched_sim(f"simulate --scenario {ROCKET} --format csv").out)))
+    assert [row["job"] for row in rows] == ["predict", "correct gps", "correct barometer", "task:control"]
+    assert {row["misses"] for row in rows} == {"0"}
+
+
+def test_people_get_two_tables(sched_sim: Run) -> None:
+    out = sched_sim(f"simulate --scenario {ROCKET}").out
+    for words in (
+        "rocket: 4000 steps at 400 Hz",
+        "P(miss)",
+        "95 % interval",
+        "response times in ms",
+        "dropped",
+        "most often",
+    ):
+        assert words in out
+
+
+def test_larsen_in_overload(sched_sim: Run, tmp_path: Path) -> None:
+    """In a period of 5, step 2 takes 4 and 7 until 21, steps 3 and 4, still accumulating, until 29, step 5 until 32."""
+    write(tmp_path, SHORT.replace("speed = 10", 'speed = 5\nlate = "larsen"'))
+    document = json.loads(sched_sim("simulate --scenario s.toml --format json").out)
+    assert document["sensors"]["gps"]["achieved_l"] == {"4": 1.0}
+    assert document["jobs"]["predict"]["misses"] == 4 * 3
+    assert "late measurements: larsen" in sched_sim("simulate --scenario s.toml").out
+
+
+def test_pictures_and_traces_are_written(sched_sim: Run, tmp_path: Path) -> None:
+    line = f"simulate --scenario {ROCKET} --gantt g.svg --histogram h.svg --trace t.csv --trace t.json"
+    assert sched_sim(line).code == 0
+    assert {path.name for path in tmp_path.iterdir()} == {"g.svg", "h.svg", "t.csv", "t.json"}
+    with (tmp_path / "t.csv").open() as file:
+        finished = [row for row in csv.DictReader(file) if row["kind"] == "correct gps" and row["finished"] == "1"]
+    assert (
+        len(finished)
+        == json.loads(sched_sim(f"simulate --scenario {ROCKET} --format json").out)["sensors"]["gps"]["landed"]
+    )
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        (("every = 10", "every = 0"), ["sensor 'gps'", "every 0 must be at least 1"]),
+        (("every = 10", "every = 1.5"), ["sensor 'gps'.every", "whole number", "1.5"]),
+        (("every = 10\n", ""), ["sensor 'gps'.every", "required"]),
+        (("every = 10", "every = 10\ndropout = 1.5"), ["sensor 'gps'", "dropout 1.5", "from 0 to 1"]),
+        (("delay = 2", "delay = -2"), ["sensor 'gps'", "delay -2", "0 or more"]),
+        (("delay = 2", "delay = []"), ["sensor 'gps'.delay", "empty"]),
+        (("delay = 2", "delay = [2, true]"), ["sensor 'gps'.delay", "entry 1"]),
+        (("delay = 2", "delay = { least = 5, most = 3 }"), ["sensor 'gps'.delay", "least = 5", "most = 3"]),
+        (("delay = 2", "delay = { least = 5 }"), ["sensor 'gps'.delay", "most"]),
+        (("delay = 2", "delay = 2\nland_by = 2"), ["sensor 'gps'", "land_by 2", "least delay 2"]),
+        (("delay = 2", "delay = 2\ncost = 0"), ["sensor 'gps'.cost", "greater than 0"]),
+        (("delay = 2", "delay = 2\ncost = [1, -1]"), ["sensor 'gps'.cost", "entry 1", "-1"]),
+        (("delay = 2", "latency = 2"), ["sensor 'gps'.latency", "not permitted"]),
+        (('name = "gps"', 'name = ""'), ["sensor", "name is empty"]),
+        (('name = "gps"', 'name = "radar"'), ["no costs of correct.radar", "give sensor 'radar' a cost"]),
+        (("[[sensor]]", '[[sensor]]\nname = "gps"\nevery = 3\n[[sensor]]'), ["sensor 'gps'", "2 times", "own name"]),
+        (("[predictor]", '[predictor]\npriority = "high"'), ["predictor.priority", "high"]),
+        (("[predictor]", "[predictor]\ncost = []"), ["predictor.cost", "empty"]),
+        (("speed = 10", ""), ["neither is given of hr_hz and speed"]),
+        (("speed = 10", "speed = 10\nhr_hz = 400"), ["both are given of hr_hz and speed"]),
+        (("speed = 10", "speed = 0"), ["speed", "greater than 0"]),
+        (("speed = 10", "hr_hz = 400"), ["'operation'", "processor", "speed"]),
+        (("speed = 10", 'speed = 10\nprocessor = "cortex-m7"'), ["processor 'cortex-m7'", "hr_hz"]),
+        (("speed = 10", 'hr_hz = 9\nprocessor = "z80"'), ["z80", "cortex-m7"]),
+        (("speed = 10", 'hr_hz = 9\ntimes_slower = 2\nprocessor = "cortex-m7"'), ["times_slower", "one of them"]),
+        (('costs = "costs.toml"', "times_slower = 2"), ["times_slower", "without a costs file"]),
+        (('costs = "costs.toml"', 'costs = "none.toml"'), ["none.toml", "not found", "measure --filter"]),
+        (('costs = "costs.toml"', ""), ["no costs of predict", "give [predictor] a cost"]),
+        (("steps = 40", "steps = 0"), ["steps 0", "at least 1"]),
+        (("steps = 40", "steps = 40\nseed = -1"), ["seed -1", "0 or more"]),
+        (("steps = 40", "steps = 40\ncpus = 3"), ["cpus", "1 or 2"]),
+        (("steps = 40", "steps = 40\ncontext_switch = -1"), ["context_switch -1", "0 or more"]),
+        (("steps = 40", 'steps = 40\nlate = "dual-rate"'), ["late", "'recalculate' or 'larsen'", "dual-rate"]),
+        (
+            ("priority = 10\n", 'priority = 10\n[[task]]\nname = "t"\nperiod = -1\ncost = 1\npriority = 5'),
+            ["task 't'.period", "-1"],
+        ),
+        (
+            ("priority = 10\n", 'priority = 10\n[[task]]\nname = "t"\nperiod = 1\ncost = 1\npriority = 5\ncpu = 2'),
+            ["cpus = 2"],
+        ),
+        (("steps = 40", "steps ="), ["s.toml", "not valid TOML"]),
+    ],
+)
+def test_a_wrong_entry_is_refused_by_name(
+    sched_sim: Run, tmp_path: Path, change: tuple[str, str], said: list[str]
+) -> None:
+    write(tmp_path, SHORT.replace(*change))
+    is_refused(sched_sim("simulate --scenario s.toml"), ["s.toml", *said])
+
+
+def test_every_wrong_entry_is_listed(sched_sim: Run, tmp_path: Path) -> None:
+    write(
+        tmp_path, SHORT.replace("delay = 2", "delay = -2\ndropout = 2").replace("steps = 40", "steps = 4.5\nseeds = 1")
+    )
+    said = ["steps: must be a whole number (given: 4.5)", "seeds", "dropout 2 must be", "delay -2 must be"]
+    is_refused(sched_sim("simulate --scenario s.toml"), said)
+
+
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        ("--scenario none.toml", ["none.toml", "not found", "[[sensor]]"]),
+        ("--scenario s.toml -N 10 -M 4", ["-N, -M", "--scenario s.toml", "leave them out"]),
+        ("--scenario s.toml -L 8", ["-L", "leave it out"]),
+        ("--scenario s.toml --method larsen", ["--method"]),
+        ("--scenario s.toml --costs steffes2014", ["--costs"]),
+        ("--scenario s.toml --tasks tasks.toml", ["--tasks"]),
+        ("--scenario s.toml --speed 3", ["--speed"]),
+        ("--scenario s.toml --processor cortex-m7 --hr-hz 400", ["--processor, --hr-hz"]),
+        ("--scenario s.toml --cycles 3", ["--cycles"]),
+        ("--scenario s.toml --histogram h.gif", ["h.gif", ".svg"]),
+        ("--scenario s.toml --gantt none/g.svg", ["none/g.svg", "folder"]),
+        ("--scenario s.toml --trace t.txt", ["t.txt", ".json"]),
+        ("-N 10 -M 4 --histogram h.svg", ["--histogram h.svg", "--scenario"]),
+        ("-M 4", ["-N is missing", "--scenario"]),
+    ],
+)
+def test_a_wrong_command_line_is_refused(sched_sim: Run, tmp_path: Path, line: str, said: list[str]) -> None:
+    write(tmp_path)
+    before = {path: path.read_bytes() for path in tmp_path.iterdir()}
+    is_refused(sched_sim(f"simulate {line}"), said)
+    assert {path: path.read_bytes() for path in tmp_path.iterdir()} == before
