@@ -3,6 +3,13 @@
 "Dropout rates of 10% through 99% were tested on the spring-mass system, and model predictive quality remained mostly
 unaffected up to sensor dropout of 80%." The poster says neither how fast it samples nor what its residual is, and the
 two decide it.
+
+The error of the estimate from the truth is more than doubled at 80 %, however fast one samples: of 4.5 times fewer
+measurements the mean is 2.1 times worse. It stays within the error of one measurement up to 80 %, and explodes beyond,
+if each sensor measures a hundred times in a period of the motion; with 20 it does so from the start, with 400 at 95 %.
+What counts is the mean time between measurements that get through, over that period: up to 0.05 the claim holds in
+this sense. The innovation of position, mostly measurement noise, changes little up to there; what is left of a
+measurement after the update only falls, so that it says nothing about the filter.
 """
 
 from __future__ import annotations
@@ -45,9 +52,12 @@ RATES = (20, 50, 200, 400)
 LOWEST = 0.1
 """The dropout that the poster starts from."""
 
+BORNE = 0.05
+"""The mean time between measurements that get through, in periods, from which on the error explodes."""
+
 SEEDS = tuple(range(100))
 OWN_MODEL_SEEDS = SEEDS[:50]
-FEW_SEEDS = SEEDS[:10]
+FEW_SEEDS = SEEDS[:20]
 
 
 class Rms(NamedTuple):
@@ -61,8 +71,8 @@ class Row(NamedTuple):
     """One dropout.
 
     interval: mean time between measurements that get through, of a sensor that drops some, in periods.
-    error (3,): of the estimate from the truth, in all steps: m, m/s, m/s^2. relative (3,): its RMS over the amplitude;
-    above 0.71 it would be better to say that nothing moves.
+    error (3,): of the estimate from the truth, in all steps: m, m/s, m/s^2. relative (3,): its RMS over the amplitude.
+    still (3,): the same of an estimate that says that nothing moves.
     innovation, after (2,): position and acceleration, measured less predicted, and less estimated with it.
     """
 
@@ -72,6 +82,7 @@ class Row(NamedTuple):
     interval: float
     error: Rms
     relative: FloatArray
+    still: FloatArray
     innovation: Rms
     after: Rms
     consistency: Consistency
@@ -118,7 +129,7 @@ def dropout_study(progress: Progress = lambda _done, _total, _what: None) -> Dro
     """The whole study."""
     progress(0, 4, "dropout")
     records = [oscillation(USUAL, seed) for seed in SEEDS]
-    usual, keen = rows(records, USUAL), rows(records, KEEN, FEW_DROPOUTS)
+    usual, keen = rows(records, USUAL), rows(records, KEEN)
     progress(1, 4, "one sensor alone")
     few = records[: len(FEW_SEEDS)]
     by_sensor = _each((few, setting) for setting in ONE_SENSOR)
@@ -144,6 +155,7 @@ def row(records: Sequence[Record], setting: Setting, dropout: float, backend: Ba
     """One dropout, all records."""
     found = [residuals(record, setting, dropout, backend) for record in records]
     errors = np.array([one.error for one in found])
+    truths = np.array([record.truth[-errors.shape[1] :] for record in records])
     error = rms([list(each) for each in errors.transpose(2, 0, 1)])
     sensors = range(len(SENSORS))
     return Row(
@@ -153,6 +165,7 @@ def row(records: Sequence[Record], setting: Setting, dropout: float, backend: Ba
         1 / (setting.rate * (1 - dropout)),
         error,
         error.rms / AMPLITUDES,
+        np.sqrt(np.mean(truths**2, axis=(0, 1))) / AMPLITUDES,
         rms([[one.innovation[sensor] for one in found] for sensor in sensors]),
         rms([[one.after[sensor] for one in found] for sensor in sensors]),
         consistency(errors, np.array([one.P for one in found])),
@@ -174,12 +187,22 @@ def ratios(found: Iterable[Row]) -> tuple[Ratio, ...]:
     )
 
 
+def borne(rate: int) -> float:
+    """The dropout up to which sensors with this many measurements in a period keep to `BORNE`: 1 - 20 / rate."""
+    return max(0.0, 1 - 1 / (rate * BORNE))
+
+
 def reach(sigma_m: float = POSITION_SIGMA_M) -> float:
     """How long, in periods, a motion of known acceleration and unknown jerk stays within sigma of its prediction.
 
     The jerk is omega^3 times the amplitude at most, and moves the position by a sixth of it times the time cubed.
     """
     return float((6 * sigma_m / AMPLITUDES[0]) ** (1 / 3) / (2 * np.pi))
+
+
+def blind_share(rate: int, dropout: float) -> float:
+    """The share of steps in which a sensor's last measurement is older than `reach`; where it is large, errors are."""
+    return float(dropout ** (rate * reach()))
 
 
 def history_at(dropout: float, seed: int, setting: Setting = USUAL, backend: BackendName = "compiled") -> History:
