@@ -10,7 +10,6 @@ quaternion, body to world: 16 numbers, of which the error has 15.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import Literal, NamedTuple, TypeAlias
 
 import numpy as np
@@ -37,7 +36,7 @@ ATTITUDE = space(4, attitudes=[0])
 GRAVITY = 9.80665
 """What the filter subtracts at any height; that of the simulated flight falls by 0.08 % to 2.6 km."""
 
-GPS, BAROMETER, GYRO, ACCELEROMETER, TRACKER = SENSORS = ("gps", "barometer", "gyro", "accelerometer", "attitude")
+GPS, BAROMETER, GYRO, ACCELEROMETER, CAMERA = SENSORS = ("GPS", "barometer", "gyro", "accelerometer", "camera")
 
 
 class ProcessNoise(NamedTuple):
@@ -49,16 +48,21 @@ class ProcessNoise(NamedTuple):
     across: float
 
 
-TUNED = ProcessNoise(jerk=31.0, roll=0.0048, across=0.00099)
+TUNED = ProcessNoise(jerk=140.0, roll=0.048, across=0.0082)
 """Those of the flight of `Rocket()` by `densities`, to two digits. It is none of the flights that the study draws."""
+
+BRIDGED_S = 0.1
 
 
 def densities(states: FloatArray) -> ProcessNoise:
-    """The noise whose increments have the mean square of those of a true flight (steps + 1, 16).
+    """The noise with the mean square changes over 0.1 s, of acceleration and turn rate, of a true flight (steps, 16).
 
-    Sums over the whole flight: thrust onset and burnout, and the long time between them and after.
+    Over the whole flight: thrust onset, burnout, and the long time between and after. Over 0.1 s, for this is how long
+    GPS leaves the filter alone. A true rate turns back less often than a random walk: changes over one step only give a
+    tenth of the noise, and then the errors of the turn rate are three times as large, squared, as the filter says.
     """
-    squared = np.mean(np.diff(states[:, 6:12], axis=0) ** 2, axis=0) * RATE_HZ
+    steps = round(BRIDGED_S * RATE_HZ)
+    squared = np.mean((states[steps:, 6:12] - states[:-steps, 6:12]) ** 2, axis=0) / BRIDGED_S
     return ProcessNoise(float(squared[:3].mean()), float(squared[3]), float(squared[4:].mean()))
 
 
@@ -100,39 +104,34 @@ def attitude(x: FloatArray, out: FloatArray) -> None:
         out[a] = x[12 + a]
 
 
-def sensors(dropouts: Mapping[str, float]) -> tuple[Sensor, ...]:
+def sensors(dropout: float = 0.0) -> tuple[Sensor, ...]:
     """GPS: 10 Hz, 100 ms late. Barometer: 25 Hz, 40 ms. Inertial unit: 100 Hz. Attitude, by camera: 10 Hz, 50 ms.
 
-    dropouts: by name; 0 if not given.
+    dropout: the probability that a measurement is lost, for all sensors.
     """
     position_velocity, height, rate = np.eye(6, 15), np.eye(15)[[2]], np.eye(15)[9:12]
     gps = linear_corrector(position_velocity, np.diag([1.5, 1.5, 3.0, 0.1, 0.1, 0.2]) ** 2)
-    every, delay = RATE_HZ // 10, RATE_HZ // 10
+    barometer = linear_corrector(height, [[2.0**2]])
+    gyro = linear_corrector(rate, 0.005**2 * np.eye(3))
+    accelerometer = extended_corrector(specific_force, 0.3**2 * np.eye(3))
+    camera = unscented_corrector(attitude, np.radians(1.0) ** 2 * np.eye(3), observed=ATTITUDE)
     return (
-        Sensor(GPS, gps, every, delay, dropouts.get(GPS, 0.0)),
-        Sensor(BAROMETER, linear_corrector(height, [[2.0**2]]), 4, 4, dropouts.get(BAROMETER, 0.0)),
-        Sensor(GYRO, linear_corrector(rate, 0.005**2 * np.eye(3)), dropout=dropouts.get(GYRO, 0.0)),
-        Sensor(
-            ACCELEROMETER,
-            extended_corrector(specific_force, 0.3**2 * np.eye(3)),
-            dropout=dropouts.get(ACCELEROMETER, 0.0),
-        ),
-        Sensor(
-            TRACKER,
-            unscented_corrector(attitude, np.radians(1.0) ** 2 * np.eye(3), observed=ATTITUDE),
-            every, 5, dropouts.get(TRACKER, 0.0),
-        ),
-    )  # fmt: skip
+        Sensor(GPS, gps, every=10, delay=10, dropout=dropout),
+        Sensor(BAROMETER, barometer, every=4, delay=4, dropout=dropout),
+        Sensor(GYRO, gyro, dropout=dropout),
+        Sensor(ACCELEROMETER, accelerometer, dropout=dropout),
+        Sensor(CAMERA, camera, every=10, delay=5, dropout=dropout),
+    )
 
 
 def rocket_filter(
-    predictor: PredictorName = "unscented", dropouts: Mapping[str, float] | None = None, noise: ProcessNoise = TUNED
+    predictor: PredictorName = "unscented", dropout: float = 0.0, noise: ProcessNoise = TUNED
 ) -> ModularFilter:
-    """The filter. dropouts: the probability that a measurement is lost, by the sensor's name."""
+    """The filter of all five sensors. dropout: the probability that a measurement of any of them is lost."""
     dt = 1.0 / RATE_HZ
     Q = process_noise(noise, dt)
     predict = unscented_predictor(move, Q) if predictor == "unscented" else extended_predictor(move, Q)
-    return ModularFilter(predict, sensors(dropouts or {}), dt, OF)
+    return ModularFilter(predict, sensors(dropout), dt, OF)
 
 
 START_SIGMAS = np.concatenate(

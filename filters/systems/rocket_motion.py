@@ -51,7 +51,7 @@ def integrate(
     y (steps + 1, 13): position, velocity, turn rate, attitude; row 0 is given. acceleration (steps + 1, 3). wind (steps
     + 1, 4). thrust, mass (2 n steps + 1,): at half the fine steps of RK4, of which there are n in a step.
     """
-    steps = y.shape[0] - 1
+    steps: int = y.shape[0] - 1
     fine = (thrust.shape[0] - 1) // (2 * steps)
     now, at, air = np.empty(13), np.empty(13), np.empty(4)
     k1, k2, k3, k4, body = np.empty(13), np.empty(13), np.empty(13), np.empty(13), np.empty((3, 3))

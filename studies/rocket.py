@@ -1,0 +1,276 @@
+"""Can a filter that knows neither mass nor thrust follow a rocket? Simulated flights, from the pad to apogee.
+
+The claim of MacCormack and Rubinstein, Implementation of a modular linear and unscented Kalman filter: "residuals for
+position and orientation of the rocket were found to be within acceptable ranges (<15%) during ascent". They do not say
+of what 15 % is. So the study tries the readings
+that suggest themselves (`rocket_readings`), and gives for each the time after ignition from which it holds.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import NamedTuple, TypeAlias
+
+import numpy as np
+
+from filters.arrays import FloatArray
+from filters.systems.rocket import BURN_S
+from filters.systems.rocket_filter import OF, SENSORS, TUNED, ProcessNoise
+from studies.nees import Bounds, bounds, nees
+from studies.rocket_flights import Case, Run, flight, follow, measure
+from studies.rocket_readings import READINGS, length
+
+Progress: TypeAlias = Callable[[int, int, str], None]
+
+NAME = "rocket"
+QUESTION = (
+    "Do position and orientation of a rocket stay within 15 % during ascent, if neither mass nor thrust is known?"
+)
+SEEDS, FEW_SEEDS = tuple(range(30)), tuple(range(10))
+CLAIM_PERCENT = 15.0
+SETTLED_S = 1.0
+"""Residuals are summed up from this time after ignition on: at liftoff they are shares of zero."""
+
+
+BASE = Case("unscented")
+EXTENDED = Case("extended", "extended")
+EXTENDED_DROPOUT = Case("extended, dropout 95 %", "extended", dropout=0.95)
+DROPOUT_CASES = (BASE, *(Case(f"dropout {100 * share:.0f} %", dropout=share) for share in (0.5, 0.8, 0.95)))
+BLIND_CASES = tuple(Case(f"no {sensor}", without=sensor) for sensor in SENSORS)
+NOISE_CASES = tuple(
+    Case(f"process noise x {ratio:g}", noise=ProcessNoise(*(ratio * density for density in TUNED)))
+    for ratio in (0.1, 10.0)
+)
+MAIN_CASES, SIDE_CASES = (*DROPOUT_CASES, EXTENDED, EXTENDED_DROPOUT), (*BLIND_CASES, *NOISE_CASES)
+"""The main ones fly with all seeds, the others with few."""
+
+QUANTITIES = ("position, m", "velocity, m/s", "acceleration, m/s^2", "turn rate, deg/s", "orientation, deg")
+UNITS = np.array([1.0, 1.0, 1.0, np.degrees(1.0), np.degrees(1.0)])
+PHASES = {
+    "on the pad": (-0.5, 0.0),
+    "thrust onset": (0.0, 0.3),
+    "powered": (0.3, BURN_S - 0.3),
+    "burnout": (BURN_S - 0.3, BURN_S + 0.3),
+    "coast": (BURN_S + 0.3, np.inf),
+}
+"""Seconds since ignition; the last ends at apogee."""
+
+
+class Summary(NamedTuple):
+    """What is kept of a run.
+
+    residuals (readings, steps + 1), percent. nees (1 + quantities, steps + 1): of all 15 errors, and of each quantity's
+    3. rms, largest (quantities,): of the errors' lengths, from ignition to apogee, in the units of `QUANTITIES`.
+    """
+
+    time_s: FloatArray
+    residuals: FloatArray
+    nees: FloatArray
+    rms: FloatArray
+    largest: FloatArray
+
+
+class ErrorRow(NamedTuple):
+    """mean, standard_error (quantities,): over runs, of root mean squares from ignition to apogee. largest: of all."""
+
+    case: Case
+    runs: int
+    mean: FloatArray
+    standard_error: FloatArray
+    largest: FloatArray
+
+
+class ResidualRow(NamedTuple):
+    """How one reading of the claim fares in one case.
+
+    mean, standard_error: over runs, of the mean from 1 s after ignition to apogee; worst: of all runs and times there;
+    all in percent. within, within_error: percent of the time from ignition to apogee below 15 %. runs_hold: percent of
+    the runs that stay below 15 % from 1 s on. holds_from_s: since ignition, the time from which all runs do, inf if
+    there is none; half_from_s: half of them.
+    """
+
+    case: Case
+    reading: str
+    mean: float
+    standard_error: float
+    worst: float
+    within: float
+    within_error: float
+    runs_hold: float
+    holds_from_s: float
+    half_from_s: float
+
+
+class NeesRow(NamedTuple):
+    """mean, standard_error: over runs, of the mean over a phase; n if consistent, the number of errors in `of`.
+
+    bounds: 95 % of the mean over runs in one step; below, above: the percentage of steps in which it is there.
+    """
+
+    case: Case
+    phase: str
+    of: str
+    n: int
+    mean: float
+    standard_error: float
+    bounds: Bounds
+    below: float
+    above: float
+
+
+class Series(NamedTuple):
+    """Of one case, over time: as long as the shortest of its flights.
+
+    time_s (times,). median, high (readings, times): residuals in percent, half and 95 % of the runs are below.
+    nees (1 + quantities, times): mean over the runs; bounds of the first, bounds_of_three of the others.
+    """
+
+    case: Case
+    time_s: FloatArray
+    median: FloatArray
+    high: FloatArray
+    nees: FloatArray
+    bounds: Bounds
+    bounds_of_three: Bounds
+
+
+class RocketResults(NamedTuple):
+    """Rows of all cases; series of the main ones. apogee_m (runs,): height."""
+
+    apogee_m: FloatArray
+    errors: tuple[ErrorRow, ...]
+    residuals: tuple[ResidualRow, ...]
+    nees: tuple[NeesRow, ...]
+    series: tuple[Series, ...]
+
+
+def summary(one: Run) -> Summary:
+    """A run in short."""
+    ascent = one.time_s >= 0.0
+    parts = [slice(None), *(slice(at, at + 3) for at in range(0, OF.errors, 3))]
+    lengths = np.stack([length(one.errors[ascent, part]) for part in parts[1:]])
+    with np.errstate(divide="ignore", invalid="ignore"):
+        residuals = np.stack([100.0 * reading(one) for reading in READINGS.values()])
+    return Summary(
+        one.time_s,
+        np.where(np.isfinite(residuals), residuals, np.inf),
+        np.stack([nees(one.errors[:, part], one.P[:, part, part]) for part in parts]),
+        UNITS * np.sqrt(np.mean(lengths**2, axis=1)),
+        UNITS * lengths.max(axis=1),
+    )
+
+
+def holds_from(time_s: FloatArray, residual: FloatArray) -> float:
+    """The first of these times, from ignition on, from which the residual stays below 15 %; inf if it ends above."""
+    above = np.flatnonzero(~(residual < CLAIM_PERCENT) | (time_s < 0.0))
+    following = above[-1] + 1
+    return float(time_s[following]) if following < len(time_s) else float("inf")
+
+
+def error_row(case: Case, runs: Sequence[Summary]) -> ErrorRow:
+    """Of all runs of a case."""
+    largest = np.max([one.largest for one in runs], axis=0)
+    return ErrorRow(case, len(runs), *_mean(np.stack([one.rms for one in runs])), largest)
+
+
+def residual_rows(case: Case, runs: Sequence[Summary]) -> tuple[ResidualRow, ...]:
+    """Of all runs of a case, one row for each reading."""
+    return tuple(
+        residual_row(case, reading, [(one.time_s, one.residuals[number]) for one in runs])
+        for number, reading in enumerate(READINGS)
+    )
+
+
+def residual_row(case: Case, reading: str, runs: Sequence[tuple[FloatArray, FloatArray]]) -> ResidualRow:
+    """Of all runs of a case, of each the times and this reading of its residual."""
+    settled = [residual[time_s >= SETTLED_S] for time_s, residual in runs]
+    mean, mean_error = _mean(np.array([np.mean(part) for part in settled]))
+    below = [np.mean(residual[time_s >= 0.0] < CLAIM_PERCENT) for time_s, residual in runs]
+    within, within_error = _mean(100.0 * np.array(below))
+    worst = np.array([np.max(part) for part in settled])
+    from_s = [holds_from(*one) for one in runs]
+    return ResidualRow(
+        case=case,
+        reading=reading,
+        mean=float(mean),
+        standard_error=float(mean_error),
+        worst=float(worst.max()),
+        within=float(within),
+        within_error=float(within_error),
+        runs_hold=100.0 * float(np.mean(worst < CLAIM_PERCENT)),
+        holds_from_s=max(from_s),
+        half_from_s=float(np.median(from_s)),
+    )
+
+
+def nees_rows(case: Case, runs: Sequence[Summary]) -> tuple[NeesRow, ...]:
+    """Of all runs of a case: each phase, all errors and each quantity's."""
+    time_s, values = _together(runs)
+    parts = [("all", OF.errors), *((quantity.split(",")[0], 3) for quantity in QUANTITIES)]
+    return tuple(
+        nees_row(case, phase, of, n, values[:, number, (time_s >= begin_s) & (time_s < end_s)])
+        for phase, (begin_s, end_s) in PHASES.items()
+        for number, (of, n) in enumerate(parts)
+    )
+
+
+def nees_row(case: Case, phase: str, of: str, n: int, values: FloatArray) -> NeesRow:
+    """values (runs, steps): NEES in this phase, of errors of length n."""
+    mean, standard_error = _mean(values.mean(axis=1))
+    limits, steps = bounds(len(values), n), values.mean(axis=0)
+    below, above = 100.0 * float(np.mean(steps < limits.low)), 100.0 * float(np.mean(steps > limits.high))
+    return NeesRow(case, phase, of, n, float(mean), float(standard_error), limits, below, above)
+
+
+def series(case: Case, runs: Sequence[Summary]) -> Series:
+    """Of all runs of a case."""
+    time_s, values = _together(runs)
+    residuals = np.stack([one.residuals[:, : len(time_s)] for one in runs])
+    return Series(
+        case, time_s, np.median(residuals, axis=0), np.percentile(residuals, 95, axis=0, method="lower"),
+        values.mean(axis=0), bounds(len(runs), OF.errors), bounds(len(runs), 3),
+    )  # fmt: skip
+
+
+def rocket_study(
+    seeds: Sequence[int] = SEEDS,
+    few_seeds: Sequence[int] = FEW_SEEDS,
+    *,
+    main: Sequence[Case] = MAIN_CASES,
+    side: Sequence[Case] = SIDE_CASES,
+    progress: Progress = lambda _done, _total, _what: None,
+) -> RocketResults:
+    """The whole study, half a minute once compiled. progress(done, total, what) is told after each flight.
+
+    All cases fly the same flights, with the same measurements as long as these are not lost.
+    """
+    kept: dict[str, list[Summary]] = {case.name: [] for case in (*main, *side)}
+    apogees = []
+    for done, seed in enumerate(seeds):
+        flown = flight(seed)
+        apogees.append(float(flown.states[-1, 2]))
+        cases = (*main, *side) if seed in few_seeds else main
+        measured = {share: measure(share, seed, flown.states) for share in {case.dropout for case in cases}}
+        for case in cases:
+            kept[case.name].append(summary(follow(case, seed, flown.states, flown.time_s, measured[case.dropout])))
+        progress(done + 1, len(seeds), "flights")
+    every = [(case, kept[case.name]) for case in (*main, *side) if kept[case.name]]
+    return RocketResults(
+        np.array(apogees),
+        tuple(error_row(case, runs) for case, runs in every),
+        tuple(row for case, runs in every for row in residual_rows(case, runs)),
+        tuple(row for case, runs in every for row in nees_rows(case, runs)),
+        tuple(series(case, kept[case.name]) for case in main),
+    )
+
+
+def _together(runs: Sequence[Summary]) -> tuple[FloatArray, FloatArray]:
+    """Times of the shortest flight, and NEES (runs, 1 + quantities, times)."""
+    time_s = min((one.time_s for one in runs), key=len)
+    return time_s, np.stack([one.nees[:, : len(time_s)] for one in runs])
+
+
+def _mean(values: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Mean over the first axis, and its standard error."""
+    spread = values.std(axis=0, ddof=1) if len(values) > 1 else np.full(values.shape[1:], np.nan)
+    return values.mean(axis=0), spread / np.sqrt(len(values))

@@ -1,0 +1,102 @@
+"""What an error of position or orientation is a share of: readings of "residuals < 15 %".
+
+MacCormack and Rubinstein, Implementation of a modular linear and unscented Kalman filter, do not say which they mean.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from filters.arrays import FloatArray
+from studies.rocket_flights import Run
+
+
+def distance(one: Run) -> FloatArray:
+    """Error of position over distance from the pad."""
+    share: FloatArray = length(one.errors[:, :3]) / length(one.truth[:, :3])
+    return share
+
+
+def altitude(one: Run) -> FloatArray:
+    """Error of height over height."""
+    share: FloatArray = np.abs(one.errors[:, 2] / one.truth[:, 2])
+    return share
+
+
+def horizontal(one: Run) -> FloatArray:
+    """Horizontal error over horizontal distance."""
+    share: FloatArray = length(one.errors[:, :2]) / length(one.truth[:, :2])
+    return share
+
+
+def worst_axis(one: Run) -> FloatArray:
+    """The worst of east, north, up: each axis' error over its own coordinate."""
+    share: FloatArray = np.abs(one.errors[:, :3] / one.truth[:, :3]).max(axis=1)
+    return share
+
+
+def way_turned(one: Run) -> FloatArray:
+    """Angle of the orientation's error over all that the body has turned since ignition, roll too."""
+    rate = length(one.truth[:, 9:12])
+    steps = (rate[1:] + rate[:-1]) / 2 * np.diff(one.time_s)
+    turned: FloatArray = np.concatenate([[0.0], np.cumsum(steps)])
+    return length(one.errors[:, 12:]) / turned
+
+
+def net_turn(one: Run) -> FloatArray:
+    """Angle of the orientation's error over that between the orientation and the one on the pad, at most 180 deg."""
+    return length(one.errors[:, 12:]) / attitude_angle(one.truth[:, 12:], one.truth[0, 12:])
+
+
+def nose(one: Run) -> FloatArray:
+    """Angle between the nose and where the filter thinks it is, over that between the nose and the rail."""
+    true, estimate = _nose(one.truth), _nose(one.x)
+    return _angle(true, estimate) / _angle(true, true[0])
+
+
+def quaternion(one: Run) -> FloatArray:
+    """Length of the difference of the quaternions, of which each has length 1: 15 % are 17 degrees."""
+    return chord(one.truth[:, 12:], one.x[:, 12:])
+
+
+READINGS: dict[str, Callable[[Run], FloatArray]] = {
+    "position / distance from the pad": distance,
+    "height / height": altitude,
+    "horizontal / horizontal distance": horizontal,
+    "worst axis / its coordinate": worst_axis,
+    "orientation / all turned": way_turned,
+    "orientation / net turn": net_turn,
+    "nose / turn of the nose": nose,
+    "difference of quaternions": quaternion,
+}
+"""Each a share over time; not finite, or meaningless, before liftoff."""
+
+
+def length(vectors: FloatArray) -> FloatArray:
+    """Of each row."""
+    lengths: FloatArray = np.sqrt(np.sum(vectors**2, axis=-1))
+    return lengths
+
+
+def chord(a: FloatArray, b: FloatArray) -> FloatArray:
+    """Length of the difference of unit quaternions (any, 4), of which q and -q are one attitude."""
+    return np.minimum(length(a - b), length(a + b))
+
+
+def attitude_angle(a: FloatArray, b: FloatArray) -> FloatArray:
+    """Angle of the rotation between unit quaternions (any, 4): four times that of half their chord."""
+    return 4 * np.arcsin(chord(a, b) / 2)
+
+
+def _nose(states: FloatArray) -> FloatArray:
+    """Where the body's x points to (steps + 1, 3): the first column of the rotation matrix."""
+    w, x, y, z = states[:, 12:].T
+    return np.stack([w * w + x * x - y * y - z * z, 2 * (x * y + w * z), 2 * (x * z - w * y)], axis=1)
+
+
+def _angle(a: FloatArray, b: FloatArray) -> FloatArray:
+    """Between unit vectors, exact for small angles."""
+    angles: FloatArray = 2 * np.arcsin(np.minimum(length(a - b) / 2, 1.0))
+    return angles
