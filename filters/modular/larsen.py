@@ -71,6 +71,12 @@ class Given(NamedTuple):
     after: Estimate
 
 
+def accumulate(M: FloatArray, work: Workspace) -> None:
+    """M <- F M, once a prediction has left F in work."""
+    matmul_blocked(work.F, M, work.nn1)
+    copy(work.nn1, M)
+
+
 def correct(expect: Callable[..., None], view: Any, observed: Space, work: Workspace, given: Given) -> None:
     """Job: `after` is `before`, corrected by a measurement, late or not; M is kept up if one is waited for."""
     at = given.flight.reference if given.late else given.before
@@ -124,8 +130,7 @@ def filter_all(
                 return PREDICTOR, j
             copy_estimate(scratch, current)
             if waiting:
-                matmul_blocked(work.F, flight.M, work.nn1)
-                copy(work.nn1, flight.M)
+                accumulate(flight.M, work)
         while following < len(arrived.arrives) and arrived.arrives[following] == j:
             s = arrived.sensor[following]
             given = Given(of, flight, late[following], waiting, current, arrived.y[following], scratch)

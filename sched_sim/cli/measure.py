@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 import typer
 
 from sched_sim.cli import options as opt
+from sched_sim.cli.measure_filter import measure_own_filter, refuse_with_filter
 from sched_sim.cli.output import print_csv, print_json, print_table, units
 from sched_sim.costs import SYSTEM_METHODS
 from sched_sim.errors import InputError
@@ -55,6 +56,15 @@ CostFile = Annotated[
 ]
 
 
+OwnFilter = Annotated[
+    str | None,
+    typer.Option(
+        "--filter",
+        help="Your own composed filter: package.module:function that returns a ModularFilter, or with it a typical "
+        "state, covariance and input. Its times are written sample by sample, for a scenario.",
+        rich_help_panel=SYSTEM,
+    ),
+]
 Robust = Annotated[
     Literal["attitude", "position"] | None,
     typer.Option(
@@ -76,10 +86,12 @@ Parallel = Annotated[
 
 
 def measure(
+    context: typer.Context,
     states: Size = 9,
     inputs: Size = 3,
     measurements: Size = 3,
     system: OwnSystem = None,
+    own_filter: OwnFilter = None,
     robust: Robust = None,
     parallel: Parallel = None,
     method: Wanted = None,
@@ -94,6 +106,7 @@ def measure(
     sched-sim measure --states 15 --inputs 6 --measurements 3 -o costs.toml
     sched-sim measure --system mymodule:my_system -o costs.toml
     sched-sim measure --robust position --backend counted -o erkf.toml
+    sched-sim measure --filter mymodule:my_filter -o samples.toml
     """
     from filters.systems.example import example_system
     from sched_sim.cli.progress import progress_bar
@@ -104,6 +117,10 @@ def measure(
 
     if output is not None:
         check_writable(output, "--output")
+    if own_filter is not None:
+        refuse_with_filter(own_filter, context)
+        measure_own_filter(own_filter, backend, thorough, output, format)
+        return
     if robust is None and parallel is not None:
         raise InputError(f"--parallel {parallel} is for the robust filter: give --robust attitude or position too")
     if robust is not None and (system is not None or method):

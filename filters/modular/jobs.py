@@ -1,0 +1,95 @@
+"""The jobs of a composed filter: what it does in every step, and for each measurement, so that it can be costed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cache, partial
+from typing import Any
+
+from numpy.typing import ArrayLike
+
+from filters.arrays import FloatArray
+from filters.modular.composition import ModularFilter
+from filters.modular.correction import correct_with
+from filters.modular.larsen_jobs import (
+    accumulating,
+    arguments_of_correction,
+    arguments_of_prediction,
+    larsen_correction_by,
+)
+from filters.modular.space import Space, space
+from filters.modular.typical import Moment, empty, near, typical_moment
+from filters.modular.workspace import Workspace, new_workspace
+from filters.records import Estimate
+from filters.registry import Job
+
+
+def modular_jobs(
+    composed: ModularFilter,
+    x0: ArrayLike | None = None,
+    P0: ArrayLike | None = None,
+    u: ArrayLike | None = None,
+    seed: int = 0,
+) -> dict[str, Job]:
+    """The jobs by part of the filter: "predict", and "correct.NAME" for each sensor. See `registry.Job`.
+
+    Where no part is unscented, also those of Larsen's way with late measurements: "predict_accumulate", and for each
+    sensor "correct_accumulate.NAME" and "correct_late.NAME".
+
+    x0, P0, u: a typical state and covariance to start from, and a typical input, see `typical.typical_moment`.
+
+    Raises:
+        ValueError: as `typical_moment`.
+    """
+    typical = typical_moment(composed, x0, P0, u, seed)
+
+    def job(kind: str, function: Callable[..., None], arguments: Callable[[Moment], tuple[Any, ...]]) -> Job:
+        return Job(kind, function, lambda index: arguments(near(composed, typical, seed, index)))
+
+    predict = composed.predictor.predict
+    jobs = [job("predict", predict, partial(_predict, composed))]
+    for number, sensor in enumerate(composed.sensors):
+        correct = correction_by(sensor.corrector.expect)
+        jobs.append(job(f"correct.{sensor.name}", correct, partial(_correct, composed, number)))
+    if is_linearised(composed):
+        accumulate = accumulating(predict)
+        jobs.append(job("predict_accumulate", accumulate, partial(arguments_of_prediction, composed)))
+        for number, sensor in enumerate(composed.sensors):
+            correct = larsen_correction_by(sensor.corrector.expect)
+            for kind, late in (("correct_accumulate", False), ("correct_late", True)):
+                arguments = partial(arguments_of_correction, composed, number, late)
+                jobs.append(job(f"{kind}.{sensor.name}", correct, arguments))
+    return {job.kind: job for job in jobs}
+
+
+@cache
+def correction_by(expect: Callable[..., None]) -> Callable[..., None]:
+    """`correct_with` of these correctors: numba inlines a function that a job names, but not one of its arguments.
+
+    Same function in, same function out, so that it is compiled once.
+    """
+
+    def correct(
+        view: Any, observed: Space, of: Space, before: Estimate, y: FloatArray, after: Estimate, work: Workspace
+    ) -> None:
+        correct_with(expect, view, observed, of, before, y, after, work)
+
+    return correct
+
+
+def is_linearised(composed: ModularFilter) -> bool:
+    """Whether no part is unscented."""
+    parts = [composed.predictor.kind, *(sensor.corrector.kind for sensor in composed.sensors)]
+    return "unscented" not in parts
+
+
+def _predict(composed: ModularFilter, at: Moment) -> tuple[Any, ...]:
+    of, motion = composed.of, composed.predictor.motion
+    return motion, of, at.estimate, at.u, composed.dt, empty(of), new_workspace(of, space(0))
+
+
+def _correct(composed: ModularFilter, number: int, at: Moment) -> tuple[Any, ...]:
+    of, corrector = composed.of, composed.sensors[number].corrector
+    view, observed = corrector.view(of.errors), corrector.observed
+    work = new_workspace(of, observed)
+    return view, observed, of, at.estimate, at.y[number], empty(of), work

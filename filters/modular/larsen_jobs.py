@@ -1,0 +1,77 @@
+"""The jobs of a composed filter of linear and extended parts while a late measurement is waited for, and when it comes.
+
+Each starts from the same M, which they copy first: done again and again on its own result it would vanish or overflow.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cache
+from typing import Any
+
+from filters.arrays import FloatArray
+from filters.kernels.dense import copy
+from filters.modular.composition import ModularFilter
+from filters.modular.larsen import Flight, Given, accumulate, correct
+from filters.modular.space import Space, space
+from filters.modular.typical import Moment, empty
+from filters.modular.workspace import Workspace, new_workspace
+from filters.records import Estimate
+
+
+@cache
+def accumulating(predict: Callable[..., None]) -> Callable[..., None]:
+    """The prediction of these predictors that also takes M (n, n) to M_next. Same function in, same function out."""
+
+    def predict_accumulate(
+        motion: Any,
+        of: Space,
+        before: Estimate,
+        u: FloatArray,
+        dt: float,
+        after: Estimate,
+        M: FloatArray,
+        M_next: FloatArray,
+        work: Workspace,
+    ) -> None:
+        predict(motion, of, before, u, dt, after, work)
+        copy(M, M_next)
+        accumulate(M_next, work)
+
+    return predict_accumulate
+
+
+@cache
+def larsen_correction_by(expect: Callable[..., None]) -> Callable[..., None]:
+    """`larsen.correct` of these correctors, from M (n, n). Same function in, same function out."""
+
+    def correct_from(view: Any, observed: Space, work: Workspace, given: Given, M: FloatArray) -> None:
+        copy(M, given.flight.M)
+        correct(expect, view, observed, work, given)
+
+    return correct_from
+
+
+def arguments_of_prediction(composed: ModularFilter, at: Moment) -> tuple[Any, ...]:
+    """Of `predict_accumulate`."""
+    of, predictor = composed.of, composed.predictor
+    flight = _flight(composed, at)
+    work, after = new_workspace(of, space(0)), empty(of)
+    M_next = flight.M.copy()
+    return predictor.motion, of, at.estimate, at.u, composed.dt, after, flight.M, M_next, work
+
+
+def arguments_of_correction(composed: ModularFilter, number: int, late: bool, at: Moment) -> tuple[Any, ...]:
+    """Of `correct_from`, by the sensor of this number: late, or while another is waited for."""
+    of, corrector = composed.of, composed.sensors[number].corrector
+    view, observed = corrector.view(of.errors), corrector.observed
+    flight = _flight(composed, at)
+    given = Given(of, flight, late, True, at.estimate, at.y[number], empty(of))
+    return view, observed, new_workspace(of, observed), given, flight.M.copy()
+
+
+def _flight(composed: ModularFilter, at: Moment) -> Flight:
+    """A measurement taken in the step before, as far as the covariance goes: M = F."""
+    of, work = composed.of, new_workspace(composed.of, space(0))
+    composed.predictor.predict(composed.predictor.motion, of, at.estimate, at.u, composed.dt, empty(of), work)
+    return Flight(Estimate(at.estimate.x.copy(), at.estimate.P.copy()), work.F)

@@ -1,0 +1,130 @@
+"""A typical moment of a composed filter: what it has in memory once it has run for a while."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from filters.arrays import FloatArray
+from filters.kernels.place import IntArray
+from filters.modular.check import check_start
+from filters.modular.composition import ModularFilter, Sensor
+from filters.modular.correction import correct_with
+from filters.modular.estimate import is_sound
+from filters.modular.history import PREDICTOR, breakdown
+from filters.modular.measurements import seen
+from filters.modular.space import Space, plus, space
+from filters.modular.trial import try_functions
+from filters.modular.workspace import new_workspace
+from filters.records import Estimate
+
+WARM_UP = 12
+"""Steps with a measurement of each sensor, after which the covariance is far from its start."""
+
+
+class Moment(NamedTuple):
+    """An estimate, the input of the step, and what each sensor measures in it."""
+
+    estimate: Estimate
+    u: FloatArray
+    y: tuple[FloatArray, ...]
+
+
+def typical_moment(
+    composed: ModularFilter,
+    x0: ArrayLike | None = None,
+    P0: ArrayLike | None = None,
+    u: ArrayLike | None = None,
+    seed: int = 0,
+) -> Moment:
+    """The filter after some steps on measurements of its own model; its functions are tried first, one by one.
+
+    x0 (numbers,): a typical state; zero, with attitudes that turn nothing, if not given. P0 (n, n): the covariance to
+    start from; the unit matrix if not given. u: a typical input; if not given, zero for a linear predictor and an
+    empty one for others.
+
+    Raises:
+        ValueError: a shape is wrong, P0 is not positive definite, a function does not do what it should (see `trial`),
+            or an estimate breaks down; it names the part.
+    """
+    of, random = composed.of, np.random.default_rng(seed)
+    x, P = check_start(of, _origin(of) if x0 is None else x0, np.eye(of.errors) if P0 is None else P0)
+    given = np.zeros(_inputs(composed)) if u is None else np.array(u, dtype=np.float64)
+    if given.ndim != 1 or not np.isfinite(given).all():
+        raise ValueError(f"u has shape {given.shape}; an input has one dimension, and finite numbers")
+    try_functions(composed, x, given)
+    truth, at = drawn(of, x, P, random), Estimate(x, P)
+    for step in range(WARM_UP):
+        for number, sensor in enumerate(composed.sensors):
+            y = drawn(sensor.corrector.observed, seen(sensor, of, truth), sensor.corrector.R, random)
+            at = _sound(composed, number, step, _corrected(composed, sensor, at, y))
+        truth = drawn(of, _evolved(composed, truth, given), composed.predictor.motion.Q, random)
+        at = _sound(composed, PREDICTOR, step, _predicted(composed, at, given))
+    return Moment(at, given, tuple(seen(sensor, of, at.x) for sensor in composed.sensors))
+
+
+def near(composed: ModularFilter, typical: Moment, seed: int, index: int) -> Moment:
+    """Another moment with memory of its own: each index has its values."""
+    random = np.random.default_rng([seed, index])
+    P = typical.estimate.P * random.uniform(0.9, 1.1)
+    estimate = Estimate(drawn(composed.of, typical.estimate.x, P, random), P)
+    y = [
+        drawn(sensor.corrector.observed, value, sensor.corrector.R, random)
+        for sensor, value in zip(composed.sensors, typical.y, strict=True)
+    ]
+    return Moment(estimate, typical.u.copy(), tuple(y))
+
+
+def drawn(of: Space, point: FloatArray, covariance: FloatArray, random: np.random.Generator) -> FloatArray:
+    """The point, moved by a normal error."""
+    out = np.empty(of.numbers)
+    plus(of, point, random.multivariate_normal(np.zeros(of.errors), covariance, method="eigh"), out)
+    return out
+
+
+def empty(of: Space) -> Estimate:
+    """Memory for an estimate."""
+    return Estimate(np.empty(of.numbers), np.empty((of.errors, of.errors)))
+
+
+def _origin(of: Space) -> FloatArray:
+    x = np.zeros(of.numbers)
+    starts: IntArray = of.attitudes
+    x[starts] = 1.0
+    return x
+
+
+def _inputs(composed: ModularFilter) -> int:
+    motion = composed.predictor.motion
+    return int(motion.B.shape[1]) if composed.predictor.kind == "linear" else 0
+
+
+def _evolved(composed: ModularFilter, x: FloatArray, u: FloatArray) -> FloatArray:
+    motion = composed.predictor.motion
+    if composed.predictor.kind == "linear":
+        return np.asarray(motion.F @ x + motion.B @ u)
+    out = np.empty_like(x)
+    motion.f(x, u, composed.dt, out)
+    return out
+
+
+def _predicted(composed: ModularFilter, at: Estimate, u: FloatArray) -> Estimate:
+    of, after = composed.of, empty(composed.of)
+    predict, motion = composed.predictor.predict, composed.predictor.motion
+    predict(motion, of, at, u, composed.dt, after, new_workspace(of, space(0)))
+    return after
+
+
+def _corrected(composed: ModularFilter, sensor: Sensor, at: Estimate, y: FloatArray) -> Estimate:
+    of, corrector, after = composed.of, sensor.corrector, empty(composed.of)
+    work = new_workspace(of, corrector.observed)
+    correct_with(corrector.expect, corrector.view(of.errors), corrector.observed, of, at, y, after, work)
+    return after
+
+
+def _sound(composed: ModularFilter, part: int, step: int, after: Estimate) -> Estimate:
+    if not is_sound(after):
+        raise breakdown(composed, part, step)
+    return after

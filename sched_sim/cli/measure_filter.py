@@ -1,0 +1,85 @@
+"""`sched-sim measure --filter`: what each part of the user's own composed filter takes, sample by sample."""
+
+from __future__ import annotations
+
+import statistics
+from pathlib import Path
+from typing import Any, Literal
+
+import typer
+
+from sched_sim.cli.output import Format, print_csv, print_json, print_table
+from sched_sim.cli.progress import progress_bar
+from sched_sim.errors import InputError
+from sched_sim.sample_file import SampledCosts, write_sampled_costs
+
+OF_A_SYSTEM = ("states", "inputs", "measurements", "system", "robust", "parallel", "method", "update")
+"""Options of `measure` that say what a system's filters are; a composed filter is what it is."""
+
+
+def refuse_with_filter(name: str, context: typer.Context) -> None:
+    """Raises InputError for options that were given beside --filter and have no meaning with it."""
+    given = [f"--{option}" for option in OF_A_SYSTEM if _was_given(option, context)]
+    if given:
+        raise InputError(
+            f"--filter {name}: leave out {', '.join(given)}: the filter that it returns says all of that itself"
+        )
+
+
+def measure_own_filter(
+    name: str,
+    backend: Literal["compiled", "counted", "numpy"],
+    thorough: bool,
+    output: Path | None,
+    format: Format,
+) -> None:
+    """Measure, print, and write the file of samples."""
+    from studies.measure_filter import measure_filter
+    from studies.user_filter import load_filter
+
+    if backend == "numpy":
+        raise InputError(f"--backend numpy does not go with --filter {name}: give --backend compiled or counted")
+    with progress_bar("Measuring") as progress:
+        user = load_filter(name)
+        table = f"{backend}-{name.replace(':', '.')}"
+        costs = measure_filter(user, backend, name=table, thorough=thorough, progress=progress)
+    rows = [_row(costs, part) for part in costs.samples]
+    if format == "json":
+        print_json(rows)
+    elif format == "csv":
+        print_csv(rows)
+    else:
+        timed = costs.unit == "second"
+        shown = [_timed(row) if timed else {key: row[key] for key in ("job", *KINDS, "operations")} for row in rows]
+        print_table(f"{table}, in {'ns' if timed else 'operations'}", shown, _note(costs) if timed else "")
+    if output is not None:
+        write_sampled_costs(costs, output)
+        typer.echo(f"Wrote {output}; name it as `costs` in a scenario: sched-sim simulate --scenario FILE", err=True)
+
+
+KINDS = ("multiply", "add", "divide", "sqrt", "function")
+
+
+def _row(costs: SampledCosts, part: str) -> dict[str, Any]:
+    """In the unit of the table."""
+    values = sorted(map(float, costs.samples[part]))
+    row = {"job": part, "unit": costs.unit}
+    if costs.operations:
+        counts = costs.operations[part]
+        return {**row, "operations": int(values[0]), **{kind: counts.get(kind, 0) for kind in KINDS}}
+    p95 = statistics.quantiles(values, n=20)[-1]
+    median = statistics.median(values)
+    return {**row, "samples": len(values), "minimum": values[0], "median": median, "p95": p95, "maximum": values[-1]}
+
+
+def _timed(row: dict[str, Any]) -> dict[str, str]:
+    return {"job": row["job"]} | {key: f"{1e9 * row[key]:.0f}" for key in ("minimum", "median", "p95", "maximum")}
+
+
+def _note(costs: SampledCosts) -> str:
+    return str(costs.provenance["source"])
+
+
+def _was_given(option: str, context: typer.Context) -> bool:
+    source = context.get_parameter_source(option)
+    return source is not None and source.name != "DEFAULT"

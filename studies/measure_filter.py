@@ -1,0 +1,54 @@
+"""What each part of a composed filter takes, one figure for each of many samples: the distribution, not a bound."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import Any, Literal, TypeAlias
+
+from filters.kernels.counted import count
+from sched_sim.sample_file import SampledCosts
+from studies.job_times import Progress, Protocol, seconds_per_run, silent
+from studies.measure import nonzero, where_timed
+from studies.user_filter import UserFilter
+
+Backend: TypeAlias = Literal["compiled", "counted"]
+
+QUICK = Protocol(rounds=1000, repetitions=20)
+THOROUGH = Protocol(rounds=10_000, repetitions=20)
+"""Few repetitions, so that what disturbs one of them (an interrupt, a cold cache) is seen in its sample."""
+
+
+def measure_filter(
+    user: UserFilter,
+    backend: Backend = "compiled",
+    *,
+    name: str,
+    thorough: bool = False,
+    seed: int = 0,
+    progress: Progress = silent,
+) -> SampledCosts:
+    """The costs of the filter's parts. compiled: samples in seconds; counted: exact operations, one sample of each.
+
+    Raises InputError for a part that numba cannot compile.
+    """
+    about: dict[str, Any] = {
+        "backend": backend,
+        "predictor": user.composed.predictor.kind,
+        "states": user.composed.predictor.states,
+        "sensors": {sensor.name: sensor.corrector.kind for sensor in user.composed.sensors},
+    }
+    if backend == "counted":
+        operations = {part: count(job.function, *job.arguments(0)) for part, job in user.jobs.items()}
+        about["source"] = "exact operation counts: multiply, add, divide, square root, function count one each"
+        samples = {part: (Fraction(found.total),) for part, found in operations.items()}
+        counts = {part: nonzero(found) for part, found in operations.items()}
+        return SampledCosts(name, "operation", samples, counts, about)
+    protocol = THOROUGH if thorough else QUICK
+    times = seconds_per_run({(part,): job for part, job in user.jobs.items()}, "compiled", protocol, seed, progress)
+    about |= {
+        "source": f"{protocol.rounds} samples of each part; a sample is the mean of {protocol.repetitions} executions "
+        "in one compiled call, less the least time of an empty loop; other parts run in between",
+        **where_timed(protocol, seed),
+    }
+    timed = {part: tuple(Fraction(f"{each:.4g}") for each in seconds) for (part,), seconds in times.items()}
+    return SampledCosts(name, "second", timed, {}, about)

@@ -1,0 +1,55 @@
+"""The user's own composed filter, named on the command line as package.module:function."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+from filters.modular.composition import ModularFilter
+from filters.modular.jobs import modular_jobs
+from filters.registry import Job
+from sched_sim.errors import InputError
+from studies.user_function import returned_by
+
+HOW = (
+    "name a function without arguments that returns a filters.modular.ModularFilter, or with it a typical state, "
+    "covariance and input: (filter, x0), (filter, x0, P0), (filter, x0, P0, u); as in --filter mymodule:my_filter for "
+    "a file mymodule.py in this folder"
+)
+
+
+class UserFilter(NamedTuple):
+    """A filter and its jobs, by part."""
+
+    composed: ModularFilter
+    jobs: Mapping[str, Job]
+
+
+def load_filter(name: str, seed: int = 0) -> UserFilter:
+    """The filter that the function `package.module:function` returns; the current folder is searched first.
+
+    Its functions are tried at the typical state that is returned with it, or else at zero.
+    Raises InputError that says what is wrong with the name, the module or what the function returned, or which part of
+    the filter does what.
+    """
+    returned = returned_by(name, "--filter", HOW)
+    composed, *typical = returned.value if isinstance(returned.value, tuple) else (returned.value,)
+    if not isinstance(composed, ModularFilter) or len(typical) > 3:
+        raise InputError(f"--filter {name!r}: {returned.function}() returned {_shown(returned.value)}; {HOW}")
+    try:
+        x0, P0, u = (*typical, None, None, None)[:3]
+        return UserFilter(composed, modular_jobs(composed, x0, P0, u, seed))
+    except (TypeError, ValueError) as error:
+        raise InputError(f"--filter {name!r}: {error}; it was tried with {_tried(typical)}") from error
+
+
+def _shown(value: Any) -> str:
+    if not isinstance(value, tuple):
+        return f"a {type(value).__name__}"
+    return f"({', '.join(type(item).__name__ for item in value)})"
+
+
+def _tried(typical: list[Any]) -> str:
+    given = ("your x0", "your P0", "your u")[: len(typical)]
+    usual = ("x0 zero", "P0 the unit matrix", "no input")[len(typical) :]
+    return ", ".join([*given, *usual]) + (": return (filter, x0, P0, u) with others" if usual else "")
