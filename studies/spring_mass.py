@@ -4,11 +4,11 @@
 unaffected up to sensor dropout of 80%." The poster says neither how fast it samples nor what its residual is, and the
 two decide it.
 
-The error of the estimate from the truth is more than doubled at 80 %, however fast one samples: of 4.5 times fewer
-measurements the mean is 2.1 times worse. It stays within the error of one measurement up to 80 %, and explodes beyond,
-if each sensor measures a hundred times in a period of the motion; with 20 it does so from the start, with 400 at 95 %.
-What counts is the mean time between measurements that get through, over that period: up to 0.05 the claim holds in
-this sense. The innovation of position, mostly measurement noise, changes little up to there; what is left of a
+The error of the estimate from the truth is more than doubled from 10 % to 80 %, however fast one samples: of 4.5 times
+fewer measurements the mean is 2.1 times worse. If each sensor measures a hundred times in a period of the motion, the
+position's is then about the error of one measurement, and explodes beyond; with 20 in a period it does so at once, with
+400 at 95 %. What counts is the mean time between measurements that get through, over that period: up to 0.05 the claim
+holds in this sense. The innovation of position, mostly measurement noise, rises by half up to there. What is left of a
 measurement after the update only falls, so that it says nothing about the filter.
 """
 

@@ -115,10 +115,10 @@ def test_error_from_the_truth_is_more_than_doubled_at_80_percent_however_fast_on
     assert (ratio(CLAIMED).error > 2.5).all()
 
 
-def test_error_of_position_stays_within_that_of_a_measurement_up_to_80_percent_and_explodes_beyond() -> None:
+def test_error_of_position_is_about_that_of_one_measurement_at_80_percent_and_explodes_beyond() -> None:
     position = {dropout: row(dropout).error.rms[0] / POSITION_SIGMA_M for dropout in (0.5, 0.8, 0.9, 0.98, 0.99)}
     assert position[0.5] < 0.7
-    assert position[0.8] < 1.3
+    assert position[0.8] == pytest.approx(1.0, abs=0.25)
     assert position[0.9] > 2
     assert position[0.98] > 30
     assert position[0.99] > 100
@@ -129,7 +129,7 @@ def test_at_98_percent_to_say_that_nothing_moves_would_be_better() -> None:
     assert (row(0.98).relative > row(0.98).still).all()
 
 
-def test_innovation_of_position_is_mostly_unaffected_up_to_80_percent_but_not_that_of_acceleration() -> None:
+def test_innovation_of_position_rises_by_half_up_to_80_percent_and_that_of_acceleration_threefold() -> None:
     at_80, at_90 = ratio(CLAIMED).innovation, ratio(0.9).innovation
     assert 1.2 < at_80[0] < 1.7
     assert at_90[0] > 2.5
