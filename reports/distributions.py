@@ -59,14 +59,16 @@ def distributions_figure(scenario: Scenario, outcome: Outcome) -> Figure:
     for number, task in enumerate(scenario.tasks):
         fill = TASK_FILLS[number % len(TASK_FILLS)]
         kind = f"task:{task.name}"
-        plain.append(_response(kind, scenario, outcome.jobs[kind], fill, float(task.period)))
+        plain.append(_response(shortened(task.name), scenario, outcome.jobs[kind], fill, float(task.period)))
     if len(plain) % 2:
         plain.append(None)
     for sensor in scenario.sensors:
         kind = correct_kind(sensor)
         least, most = min(sensor.delays), max(sensor.delays)
         deadline = float(sensor.land_by - most) if least == most else None
-        plain.append(_response(kind, scenario, outcome.jobs[kind], FILLS["CO"], deadline))
+        plain.append(
+            _response(f"correct {shortened(sensor.name)}", scenario, outcome.jobs[kind], FILLS["CO"], deadline)
+        )
         plain.append(_achieved(sensor, outcome.sensors[sensor.name]))
     width = (WIDTH_MM - LEFT_MM - GAP_MM - RIGHT_MM) / 2
     with drawing():
@@ -119,7 +121,7 @@ def _deadline(axes: Axes, at: float) -> None:
     name.set_path_effects([withStroke(linewidth=2.5, foreground="white")])
 
 
-def _response(kind: str, scenario: Scenario, figures: JobFigures, fill: Fill, deadline: float | None) -> Cell:
+def _response(title: str, scenario: Scenario, figures: JobFigures, fill: Fill, deadline: float | None) -> Cell:
     """deadline: in HR periods from the release, None if it differs from job to job."""
     unit, scale = ("HR periods", 1.0) if scenario.hr_hz is None else ("ms", float(1000 / scenario.hr_hz))
     values = [scale * response for response in figures.responses]
@@ -142,7 +144,7 @@ def _response(kind: str, scenario: Scenario, figures: JobFigures, fill: Fill, de
         for at in shown:
             _deadline(axes, at)
 
-    return Cell(shortened(kind.removeprefix("task:")), notes, missed, draw)
+    return Cell(title, notes, missed, draw)
 
 
 def _achieved(sensor: Sensor, figures: SensorFigures) -> Cell:

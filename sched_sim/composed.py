@@ -15,12 +15,14 @@ has to catch up: it goes on with the steps that passed meanwhile and the correct
 the earliest of those measurements if that is before the one it had reached, until it finishes in the step it aims at.
 On a processor without that much time left this never ends.
 
-larsen. While a measurement of a delayed sensor is in flight, predict jobs also multiply the transition from step k on
-(in step k + 1 the product is the transition itself, as in Steffes 2014, so from k + 2 on), and the corrections of
-undelayed sensors multiply it too. In flight is from when it is taken until it lands; if it never arrives, until the
-next measurement of its sensor is taken, for the filter cannot know. The late correction itself needs no replay, and
-lands in the step in which it finishes. A preempted correction of an undelayed sensor that finishes in a later step
-catches up as above.
+larsen. While a measurement of a delayed sensor is in flight, each predict job also multiplies what has become of an
+error of step k by the transition, and so do the corrections of undelayed sensors with their own part. In flight is from
+when it is taken until it lands; if it never arrives, until the next measurement of its sensor is taken, for the filter
+cannot know. (Each one in flight needs a product of its own; what is charged is one.) The late correction itself needs
+no replay, and lands in the step in which it finishes. A preempted correction of an undelayed sensor that finishes in a
+later step catches up as above.
+
+In one step and of one priority, late corrections come first, then those of the sensors in their order.
 
 What a job costs is settled when it is released.
 """
@@ -36,7 +38,7 @@ from typing import NamedTuple
 
 from sched_sim.draws import fates, stream, total
 from sched_sim.jobs import Job, Parts, Source
-from sched_sim.methods import step_at
+from sched_sim.methods import Then, step_at
 from sched_sim.scenario import Scenario, Sensor
 
 
@@ -97,7 +99,7 @@ class ComposedFilter(Source):
         self.waiting: dict[int, deque[Measurement]] = {}  # by priority, while one of that priority is under way
         self.landed: list[tuple[int, Measurement]] = []  # the step of the state it was applied to, in order of landing
         self.applied: list[tuple[int, Measurement]] = []  # the same, in order of that step
-        self.flights: dict[tuple[int, int], None] = {}  # (step, sensor) of what is in flight, by step
+        self.flights: dict[tuple[int, int], None] = {}  # (step, sensor) of what is in flight
 
     def release(self) -> tuple[Job, ...]:
         step, start = self.step, self.next_release
@@ -107,24 +109,23 @@ class ComposedFilter(Source):
             if step >= sensor.offset and (step - sensor.offset) % sensor.every == 0:
                 self._take(number, sensor, step)
         arrived = self.arrivals.pop(step, [])
-        for measurement in sorted(arrived, key=lambda one: (self.sensors[one.sensor].priority, one.sensor, one.step)):
+        for measurement in sorted(arrived, key=self._order):
             jobs += self._arrive(measurement, start)
         return tuple(jobs)
 
     def at_horizon(self) -> tuple[Job, ...]:
-        return tuple(
-            self._job(measurement, (), _nothing) for waiting in self.waiting.values() for measurement in waiting
-        )
+        return tuple(self._job(measurement, (), None) for waiting in self.waiting.values() for measurement in waiting)
+
+    def _order(self, one: Measurement) -> tuple[int, bool, int, int]:
+        """Of corrections that are released at one instant."""
+        sensor = self.sensors[one.sensor]
+        return sensor.priority, one.step * self.period == one.arrival, one.sensor, one.step
 
     def _predict(self, step: int, start: int) -> Job:
-        part = "predict_accumulate" if self._in_flight_since(step - 2) else "predict"
+        part = "predict_accumulate" if self.flights else "predict"
         work = total(self.costs[part], self.predict_stream)
         priority = self.scenario.priority
         return Job("predict", step, priority, start, start + self.period, work, (("PR", work),))
-
-    def _in_flight_since(self, step: int) -> bool:
-        """Whether a measurement that was taken by `step` is in flight."""
-        return bool(self.flights) and next(iter(self.flights))[0] <= step
 
     def _take(self, number: int, sensor: Sensor, step: int) -> None:
         delay = self.fates[number][self.taken[number]]
@@ -154,15 +155,14 @@ class ComposedFilter(Source):
     def _correct(self, measurement: Measurement, now: int) -> Job:
         """Settles the work of a correction that can start now."""
         sensor, draws = self.sensors[measurement.sensor], self.streams[measurement.sensor]
-        if self.larsen and sensor.delayed:
+        if self._is_larsens(measurement):
             late = total(self.costs[f"correct_late.{sensor.name}"], draws)
             return self._job(measurement, (("CO", late),), partial(self._land, measurement))
-        aim = now // self.period
-        part = "correct_accumulate" if self._in_flight_since(aim - 1) else "correct"
+        aim, ahead = now // self.period, self._ahead_of(measurement)
+        part = "correct_accumulate" if self._waits(aim, ahead) else "correct"
         work = total(self.costs[f"{part}.{sensor.name}"], draws)
-        ahead = self._ahead_of(measurement)
-        again = [*self._applied_after(measurement.step), *(one for one in ahead if one.step > measurement.step)]
-        replay = self._replay(measurement, aim - measurement.step, again)
+        again = [one for one in ahead if one.step > measurement.step and not self._is_larsens(one)]
+        replay = self._replay(measurement, aim - measurement.step, [*again, *self._applied_after(measurement.step)])
         parts = (("CO", work), ("RP", replay)) if replay else (("CO", work),)
         if not self.scenario.preempted(sensor):
             return self._job(measurement, parts, partial(self._land, measurement))
@@ -171,13 +171,20 @@ class ComposedFilter(Source):
 
     def _ahead_of(self, measurement: Measurement) -> frozenset[Measurement]:
         """Arrived corrections that land before this one does; those that wait for it are not among them."""
-        if self.larsen:
-            return frozenset()  # where in time it will be applied is not known before it has landed
         sensor = self.sensors[measurement.sensor]
         limit = sensor.priority - self.scenario.preempted(sensor)
         return frozenset(
             one for one in self.pending if self.sensors[one.sensor].priority <= limit and one != measurement
         )
+
+    def _waits(self, step: int, ahead: frozenset[Measurement]) -> bool:
+        """Whether something taken before `step` will still be in flight when these have landed."""
+        landing = {(one.step, one.sensor) for one in ahead}
+        return any(taken < step and (taken, number) not in landing for taken, number in self.flights)
+
+    def _is_larsens(self, one: Measurement) -> bool:
+        """Whether it is carried to the step in which it lands, instead of being replayed from its own."""
+        return self.larsen and self.sensors[one.sensor].delayed
 
     def _applied_after(self, step: int) -> list[Measurement]:
         """Corrections in the history of the steps after this one."""
@@ -189,7 +196,7 @@ class ComposedFilter(Source):
         work = total(self.costs["predict"], draws, steps)
         for one in again:
             sensor = self.sensors[one.sensor]
-            part = "correct_late" if self.larsen and sensor.delayed else "correct"
+            part = "correct_late" if self._is_larsens(one) else "correct"
             work += total(self.costs[f"{part}.{sensor.name}"], draws)
         return work
 
@@ -212,7 +219,7 @@ class ComposedFilter(Source):
         sensor = self.sensors[measurement.sensor]
         del self.pending[measurement]
         self.flights.pop((measurement.step, measurement.sensor), None)
-        applied_to = step_at(now, self.period) if self.larsen and sensor.delayed else measurement.step
+        applied_to = step_at(now, self.period) if self._is_larsens(measurement) else measurement.step
         self.landed.append((applied_to, measurement))
         insort(self.applied, (applied_to, measurement), key=itemgetter(0))
         self.on_landing(measurement, now)
@@ -224,7 +231,7 @@ class ComposedFilter(Source):
         del self.waiting[sensor.priority]
         return ()
 
-    def _job(self, measurement: Measurement, parts: Parts, then: Callable[[Job, int], tuple[Job, ...]]) -> Job:
+    def _job(self, measurement: Measurement, parts: Parts, then: Then | None) -> Job:
         sensor = self.sensors[measurement.sensor]
         work = sum(time for _, time in parts)
         cpu = self.corrector_cpu
@@ -240,7 +247,3 @@ def correct_kind(sensor: Sensor) -> str:
 def _measurements(sensor: Sensor, steps: int) -> int:
     """How many a sensor takes in so many steps."""
     return len(range(sensor.offset, steps, sensor.every))
-
-
-def _nothing(_job: Job, _now: int) -> tuple[Job, ...]:
-    return ()
