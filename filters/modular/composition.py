@@ -29,11 +29,15 @@ class Sensor:
     dropout: float = 0.0
 
     def __post_init__(self) -> None:
-        if self.every < 1:
-            raise ValueError(f"sensor {self.name!r}: every={self.every} must be at least 1: steps between measurements")
-        if self.delay < 0:
+        if not isinstance(self.every, int | np.integer) or self.every < 1:
             raise ValueError(
-                f"sensor {self.name!r}: delay={self.delay} must be at least 0: steps until it is available"
+                f"sensor {self.name!r}: every={self.every} must be a whole number, at least 1: the steps between "
+                f"measurements"
+            )
+        if not isinstance(self.delay, int | np.integer) or self.delay < 0:
+            raise ValueError(
+                f"sensor {self.name!r}: delay={self.delay} must be a whole number, at least 0: the steps until a "
+                f"measurement is available"
             )
         if not 0 <= self.dropout <= 1:
             raise ValueError(
@@ -49,7 +53,7 @@ class ModularFilter:
     if not given, as many as the predictor's noise has. In one step the sensors are used in their order.
 
     Raises:
-        ValueError: two sensors have one name, or a part does not fit the state; the sensor is named.
+        ValueError: dt is not positive, two sensors have one name, or a part does not fit the state; the sensor is named.
     """
 
     predictor: Predictor
@@ -68,6 +72,8 @@ class ModularFilter:
 
     def _check(self) -> None:
         n = self.predictor.states
+        if not 0 < self.dt < np.inf:
+            raise ValueError(f"dt={self.dt} must be positive and finite: it is the time of a step, in seconds")
         if self.of.errors != n:
             raise ValueError(
                 f"predictor: its Q has shape {(n, n)}, but an error of the state has {self.of.errors} numbers (an "

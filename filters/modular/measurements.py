@@ -39,7 +39,12 @@ def observe(composed: ModularFilter, truth: FloatArray, seed: int) -> list[Measu
 
     Each with noise N(0, R), its delay, and its dropout. Each sensor has random numbers of its own, which do not depend
     on its dropout: with a higher one the same measurements are left, or fewer.
+
+    Raises:
+        ValueError: the truth has a wrong shape.
     """
+    if truth.ndim != 2 or truth.shape[1] != composed.of.numbers:
+        raise ValueError(f"truth has shape {truth.shape}, the filter's states need (any, {composed.of.numbers})")
     found = []
     for number, sensor in enumerate(composed.sensors):
         random = np.random.default_rng([seed, number])
@@ -73,13 +78,17 @@ def arrivals(composed: ModularFilter, measurements: Iterable[Measurement], steps
     history: the steps that a filter can go back.
 
     Raises:
-        ValueError: a measurement is of no sensor of the filter, has a wrong shape or a number that is not finite, was
-            taken before step 0 or after it arrived, is older than the history, or is its sensor's second in one step.
+        ValueError: a measurement is of no sensor of the filter, has a wrong shape, a number that is not finite or a
+            step that is not whole, was taken before step 0 or after it arrived, is older than the history, or is its
+            sensor's second in one step.
     """
     numbers = {sensor.name: number for number, sensor in enumerate(composed.sensors)}
     found = sorted(measurements, key=lambda one: one.arrives)
     for name in {one.sensor for one in found} - set(numbers):
         raise ValueError(f"sensor {name!r} is none of the filter's: they are {', '.join(numbers) or 'none'}")
+    for one in found:
+        if not (isinstance(one.taken, int | np.integer) and isinstance(one.arrives, int | np.integer)):
+            raise _unfit(one, "steps must be whole numbers")
     number = np.array([numbers[one.sensor] for one in found], dtype=np.int64)
     taken = np.array([one.taken for one in found], dtype=np.int64)
     arrives = np.array([one.arrives for one in found], dtype=np.int64)
@@ -98,7 +107,7 @@ def arrivals(composed: ModularFilter, measurements: Iterable[Measurement], steps
     refused = (
         (~np.isfinite(y).all(axis=1), "y holds a value that is not finite; leave lost measurements out"),
         ((taken < 0) | (taken > arrives), "it must be taken in step 0 or later, and before it arrives"),
-        (arrives - taken > history, f"the history goes back {history} steps: give a longer one, or leave it out"),
+        (arrives - taken > history, f"the history goes back {history} steps: give a longer history=, or leave it out"),
         (~np.isin(np.arange(len(found)), firsts), "there are two; a sensor measures once in a step"),
     )
     for wrong, what in refused:

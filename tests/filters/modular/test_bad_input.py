@@ -1,0 +1,254 @@
+"""Errors name the sensor, or the argument, its value and what to do."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+from filters.arrays import FloatArray
+from filters.modular import (
+    Measurement,
+    ModularFilter,
+    Sensor,
+    extended_corrector,
+    extended_predictor,
+    linear_corrector,
+    linear_predictor,
+    merwe,
+    observe,
+    run,
+    space,
+    unscented_corrector,
+    unscented_predictor,
+)
+from tests.filters.modular import cases
+from tests.filters.modular.cases import ATTITUDE, UNSCENTED, Case, linear_case, pendulum_case
+
+POSITION = linear_corrector(cases.H_POSITION, cases.R_POSITION)
+NOT_DEFINITE = np.array([[1.0, 2.0], [2.0, 1.0]])
+
+
+def refused(message: str, action: Callable[[], Any]) -> None:
+    with pytest.raises(ValueError, match=message):
+        action()
+
+
+@pytest.mark.parametrize(
+    ("timing", "message"),
+    [
+        ({"every": 0}, "sensor 'gps': every=0 must be a whole number, at least 1"),
+        ({"every": 1.5}, "sensor 'gps': every=1.5 must be a whole number"),
+        ({"delay": -1}, "sensor 'gps': delay=-1 must be a whole number, at least 0"),
+        ({"delay": np.nan}, "sensor 'gps': delay=nan must be a whole number"),
+        ({"dropout": 1.01}, r"sensor 'gps': dropout=1.01 must lie in \[0, 1\]: it is a probability; 10 % is 0.1"),
+        ({"dropout": -0.1}, r"sensor 'gps': dropout=-0.1 must lie in \[0, 1\]"),
+        ({"dropout": np.nan}, r"sensor 'gps': dropout=nan must lie in \[0, 1\]"),
+    ],
+)
+def test_when_a_sensor_measures(timing: dict[str, Any], message: str) -> None:
+    refused(message, lambda: Sensor("gps", POSITION, **timing))
+
+
+@pytest.mark.parametrize(
+    ("corrector", "message"),
+    [
+        (linear_corrector(cases.H_BOTH, NOT_DEFINITE), "R is not positive definite|R is no covariance"),
+        (linear_corrector(cases.H_POSITION, [[0.0]]), "R is not positive definite .*; give each measurement noise"),
+        (linear_corrector(cases.H_POSITION, [[np.nan]]), "R holds a value that is not finite"),
+        (linear_corrector(cases.H_BOTH, [[1.0, 0.5], [0.0, 1.0]]), "R is not symmetric.*give"),
+        (linear_corrector(cases.H_POSITION, [1.0]), r"R has shape \(1,\); needed is \(1, 1\)"),
+        (linear_corrector(cases.H_POSITION, np.eye(2)), r"H has shape \(1, 2\); needed is \(2, 2\)"),
+        (linear_corrector(np.ones((1, 3)), [[1.0]]), r"H has shape \(1, 3\); needed is \(1, 2\)"),
+        (linear_corrector([[np.inf, 1.0]], [[1.0]]), "H holds a value that is not finite"),
+        (extended_corrector(cases.height, [[-1.0]]), "R is no covariance: its smallest eigenvalue is -1"),
+        (
+            extended_corrector(cases.attitude, np.eye(4), observed=space(4, attitudes=[0])),
+            "R has shape .*attitude has 3",
+        ),
+        (unscented_corrector(cases.height, np.zeros((1, 2))), r"R has shape \(1, 2\); needed is \(1, 1\)"),
+        (unscented_corrector(cases.height, [[1.0]], merwe(kappa=-2.0)), "spread no sigma points for 2 states"),
+    ],
+)
+def test_correctors_are_refused_with_the_sensor_s_name(corrector: Any, message: str) -> None:
+    refused(f"sensor 'gps': .*({message})", lambda: linear_case(Sensor("good", POSITION), Sensor("gps", corrector)))
+
+
+@pytest.mark.parametrize(
+    ("predictor", "message"),
+    [
+        (lambda: linear_predictor(np.eye(3), cases.Q), r"linear_predictor: F has shape \(3, 3\); needed is \(2, 2\)"),
+        (lambda: linear_predictor(cases.F, np.ones((2, 3))), r"linear_predictor: Q has shape \(2, 3\)"),
+        (lambda: linear_predictor(cases.F, cases.Q, np.ones((3, 1))), r"linear_predictor: B has shape \(3, 1\)"),
+        (lambda: linear_predictor(cases.F, NOT_DEFINITE), "linear_predictor: Q is no covariance"),
+        (lambda: extended_predictor(cases.pendulum, -np.eye(2)), "extended_predictor: Q is no covariance"),
+        (lambda: unscented_predictor(cases.pendulum, np.full((2, 2), np.nan)), "unscented_predictor: Q holds a value"),
+        (lambda: unscented_predictor(cases.pendulum, cases.Q, merwe(alpha=0.0)), "merwe: alpha=0.0.*no sigma points"),
+    ],
+)
+def test_predictors(predictor: Callable[[], Any], message: str) -> None:
+    refused(message, predictor)
+
+
+def test_composition() -> None:
+    predictor, gps = linear_predictor(cases.F, cases.Q), Sensor("gps", POSITION)
+    refused("sensor 'gps': the name is used twice; give each", lambda: ModularFilter(predictor, [gps, gps]))
+    refused("dt=nan must be positive", lambda: ModularFilter(predictor, [gps], dt=np.nan))
+    refused(r"predictor: its Q has shape \(2, 2\), but an error", lambda: ModularFilter(predictor, [gps], of=space(3)))
+    of = space(4, attitudes=[0])
+    turned = linear_predictor(np.eye(3), np.eye(3))
+    refused("predictor: a linear one cannot turn an attitude; make it", lambda: ModularFilter(turned, [], of=of))
+    refused(
+        "sensor 'compass': H of a linear one sees an attitude",
+        lambda: ATTITUDE.with_sensors(Sensor("compass", linear_corrector(np.eye(1, 6), np.eye(1)))),
+    )
+
+
+GPS = linear_case(Sensor("gps", POSITION, every=2, delay=3), Sensor("other", POSITION))
+Y = np.zeros(1)
+
+
+@pytest.mark.parametrize(
+    ("measurements", "message"),
+    [
+        ([Measurement("gsp", 0, 0, Y)], "sensor 'gsp' is none of the filter's: they are gps, other"),
+        (
+            [Measurement("gps", 0, 4, Y)],
+            "sensor 'gps', measurement of step 0, .* step 4: the history goes back 3 steps: give a longer history=",
+        ),
+        (
+            [Measurement("gps", 2, 3, Y), Measurement("gps", 2, 4, Y)],
+            "sensor 'gps', measurement of step 2.*there are two",
+        ),
+        (
+            [Measurement("other", 1, 1, np.array([np.nan]))],
+            "sensor 'other', .* not finite; leave lost measurements out",
+        ),
+        ([Measurement("gps", 0, 1, np.zeros(2))], r"sensor 'gps', .* y has shape \(2,\), its corrector needs \(1,\)"),
+        ([Measurement("gps", 0, 1, np.array(1.0))], r"sensor 'gps', .* y has shape \(\), its corrector needs \(1,\)"),
+        ([Measurement("gps", 3, 2, Y)], "sensor 'gps', measurement of step 3.*before it arrives"),
+        ([Measurement("gps", -1, 2, Y)], "sensor 'gps', measurement of step -1.*in step 0 or later"),
+        ([Measurement("gps", 0.5, 2, Y)], "sensor 'gps', measurement of step 0.5.*whole numbers"),
+    ],
+)
+def test_measurements(measurements: list[Measurement], message: str) -> None:
+    refused(message, lambda: run(GPS.composed, GPS.x0, GPS.P0, GPS.inputs(6), measurements, backend="reference"))
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"x0": np.zeros(3)}, r"x0 has shape \(3,\), the filter needs \(2,\)"),
+        ({"x0": np.array([0.0, np.nan])}, "x0 .*finite numbers"),
+        ({"P0": np.eye(3)}, r"P0 has shape \(3, 3\); needed is \(2, 2\)"),
+        ({"P0": NOT_DEFINITE}, "P0 is not positive definite .*give each state a positive variance"),
+        ({"P0": np.zeros((2, 2))}, "P0 is not positive definite"),
+        ({"P0": np.full((2, 2), np.nan)}, "P0 holds a value that is not finite"),
+        ({"inputs": np.zeros(6)}, r"inputs has shape \(6,\); needed is \(steps, inputs of the predictor\)"),
+        ({"inputs": np.zeros((6, 2))}, r"inputs has shape \(6, 2\), the predictor's B needs \(steps, 1\)"),
+        ({"inputs": np.full((6, 1), np.inf)}, "inputs holds a value that is not finite"),
+        ({"history": -1}, "history=-1 must be at least 0"),
+        ({"late": "never"}, "late='never' is unknown; give one of recalculate, larsen, dual-rate"),
+        ({"late": "larsen", "history": 3}, "history=3 goes with late='recalculate'; late='larsen' goes back no step"),
+        ({"L": 3}, "L=3 goes with late='dual-rate'; late='recalculate' corrects on arrival"),
+        ({"backend": "gpu"}, "backend 'gpu' is unknown"),
+    ],
+)
+def test_arguments_of_a_run(change: dict[str, Any], message: str) -> None:
+    good = {"x0": GPS.x0, "P0": GPS.P0, "inputs": GPS.inputs(6), "measurements": [], "backend": "reference"}
+    refused(message, lambda: run(GPS.composed, **{**good, **change}))
+
+
+def test_a_quaternion_to_start_from_has_unit_length() -> None:
+    x0 = np.array([1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0])
+    refused(
+        "x0: the attitude at 0 has length 1.414.*divide by it",
+        lambda: run(ATTITUDE.composed, x0, ATTITUDE.P0, ATTITUDE.inputs(1), [], backend="reference"),
+    )
+
+
+def test_the_truth_that_is_observed_has_the_state_s_shape() -> None:
+    refused(
+        r"truth has shape \(5, 3\), the filter's states need \(any, 2\)",
+        lambda: observe(GPS.composed, np.zeros((5, 3)), 1),
+    )
+
+
+def filtered(case: Case, late: str, *measurements: Measurement, **options: Any) -> Callable[[], Any]:
+    return lambda: run(
+        case.composed, case.x0, case.P0, case.inputs(8), measurements, late=late, backend="reference", **options
+    )
+
+
+def test_larsen_s_way_needs_matrices_and_one_measurement_in_flight() -> None:
+    extended = extended_corrector(cases.height, [[1.0]])
+    refused("predictor: late='larsen' .* use late='recalculate'", filtered(UNSCENTED, "larsen"))
+    sigma = pendulum_case(
+        extended_predictor, Sensor("gps", extended), Sensor("camera", UNSCENTED.composed.sensors[0].corrector)
+    )
+    refused("sensor 'camera': late='larsen' .* use late='recalculate'", filtered(sigma, "larsen"))
+    refused(
+        "sensor 'gps', steps 1 to 4 and sensor 'other', steps 3 to 5: .* one measurement at a time; use late='recal",
+        filtered(GPS, "larsen", Measurement("other", 3, 5, Y), Measurement("gps", 1, 4, Y)),
+    )
+    refused(
+        "sensor 'gps', steps 2 to 5 and sensor 'gps', steps 4 to 7: .*use late='recalculate'",
+        filtered(GPS, "larsen", Measurement("gps", 2, 5, Y), Measurement("gps", 4, 7, Y)),
+    )
+
+
+def test_the_dual_rate_way_needs_one_sensor_that_fits_its_cycle() -> None:
+    case = linear_case(Sensor("gps", POSITION, every=4, delay=2))
+    refused("late='dual-rate' works with one sensor, .* are 'gps', 'other'; use", filtered(GPS, "dual-rate"))
+    refused("late='dual-rate' works with one sensor, .* are none", filtered(linear_case(), "dual-rate"))
+    refused("predictor: late='dual-rate' .*use late='recalculate'", filtered(UNSCENTED, "dual-rate"))
+    refused("sensor 'gps': L=2 must be more than delay=2 and at most every=4", filtered(case, "dual-rate", L=2))
+    refused("sensor 'gps': L=5 must be more than delay=2 and at most every=4", filtered(case, "dual-rate", L=5))
+    late = Measurement("gps", 4, 7, Y)
+    refused(
+        "sensor 'gps', .* step 4: it arrives in step 7.*lands in step 7; give a greater",
+        filtered(case, "dual-rate", late, L=3),
+    )
+    between = Measurement("gps", 2, 4, Y)
+    refused("sensor 'gps', .* step 2: .*every 4 steps from step 0 on; use", filtered(case, "dual-rate", between))
+
+
+def test_the_dual_rate_way_needs_plain_quantities() -> None:
+    turned = cases.attitude_case(extended_predictor, Sensor("field", extended_corrector(cases.field, np.eye(3))))
+    refused("late='dual-rate' .*the filter's state holds attitudes or angles; use", filtered(turned, "dual-rate"))
+    bearing = extended_corrector(cases.height, [[1.0]], observed=space(1, angles=[0]))
+    angle = pendulum_case(extended_predictor, Sensor("bearing", bearing))
+    refused("sensor 'bearing': late='dual-rate' .*observes attitudes or angles; use", filtered(angle, "dual-rate"))
+
+
+def steep(x: FloatArray, out: FloatArray) -> None:
+    out[0] = np.exp(3.0 * x[0])
+
+
+def explode(x: FloatArray, _u: FloatArray, _dt: float, out: FloatArray) -> None:
+    out[:] = np.exp(1000.0 * x)
+
+
+def test_a_covariance_that_breaks_down_names_sensor_step_and_remedy() -> None:
+    """Sigma points whose weights are negative leave an innovation covariance that is."""
+    case = pendulum_case(
+        extended_predictor,
+        Sensor("gps", POSITION),
+        Sensor("steep", unscented_corrector(steep, [[0.1]], merwe(0.1, -5.0))),
+    )
+    refused(
+        "sensor 'steep', step 3: the covariance is no longer positive definite.*; give more noise .* alpha = 1",
+        filtered(case, "recalculate", Measurement("gps", 0, 0, Y), Measurement("steep", 3, 3, Y)),
+    )
+
+
+@pytest.mark.parametrize("late", ["recalculate", "larsen", "dual-rate"])
+def test_an_estimate_that_is_no_longer_finite_names_the_part(late: str) -> None:
+    case = pendulum_case(extended_predictor, Sensor("gps", POSITION, every=9))
+    exploding = case._replace(composed=ModularFilter(extended_predictor(explode, cases.Q), case.composed.sensors))
+    refused("predictor, step 1: .*no longer finite; give", filtered(exploding, late))
+    steeper = case.with_sensors(Sensor("gps", extended_corrector(steep, [[1.0]]), every=9))
+    hot = steeper._replace(x0=np.array([300.0, 0.0]))
+    refused("sensor 'gps', step 0: .*no longer finite; give", filtered(hot, late, Measurement("gps", 0, 0, Y)))

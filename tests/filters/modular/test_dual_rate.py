@@ -1,0 +1,50 @@
+"""The dual rate filter of a modular filter: a correction counts from step k + L on, and not before."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from filters import dual_rate
+from filters.modular import run
+from tests.filters.modular.cases import ONE_SENSOR, measured, measured_rows, with_timing
+
+
+@pytest.mark.parametrize("name", ONE_SENSOR)
+@pytest.mark.parametrize(("every", "delay", "L"), [(1, 0, 1), (3, 0, 2), (3, 1, 2), (4, 2, 4), (5, 4, 5)])
+def test_it_is_the_dual_rate_filter_of_the_system(name: str, every: int, delay: int, L: int) -> None:
+    case, system = with_timing(ONE_SENSOR[name], every, delay)
+    measurements = measured(case, 13)
+    found = run(
+        case.composed, case.x0, case.P0, case.inputs(13), measurements, late="dual-rate", L=L, backend="reference"
+    )
+    expected = dual_rate.run(system, every, delay, L, case.x0, case.P0, case.inputs(13), measured_rows(measurements))
+    np.testing.assert_allclose(found.x, expected.x, rtol=0, atol=1e-10)
+    np.testing.assert_allclose(found.P[::every], expected.P_reference, rtol=0, atol=1e-10)
+
+
+@settings(max_examples=60)
+@given(data=st.data())
+def test_it_is_the_filter_to_which_each_measurement_came_L_steps_late(data: st.DataObject) -> None:
+    """With any dropouts, and any delays of those that come; outside [k, l - 1] that is the filter without delay."""
+    every = data.draw(st.integers(1, 5))
+    L = data.draw(st.integers(1, every))
+    case, _ = with_timing(ONE_SENSOR["linear"], every, 0)
+    steps = 14
+    delays = {k: data.draw(st.none() | st.integers(0, L - 1)) for k in range(0, steps + 1, every)}
+    came = [
+        one._replace(arrives=one.taken + delays[one.taken])
+        for one in measured(case, steps)
+        if delays[one.taken] is not None
+    ]
+    given_to_all = case.composed, case.x0, case.P0, case.inputs(steps)
+    found = run(*given_to_all, came, late="dual-rate", L=L, backend="reference")
+    landed = [one._replace(arrives=one.taken + L) for one in came]
+    expected = run(*given_to_all, landed, history=L, backend="reference")
+    in_time = run(*given_to_all, [one._replace(arrives=one.taken) for one in came], backend="reference")
+    outside = [j for j in range(steps + 1) if j % every >= L]
+    for each, late, undelayed in zip(found, expected, in_time, strict=True):
+        np.testing.assert_allclose(each, late, rtol=0, atol=1e-10)
+        np.testing.assert_allclose(each[outside], undelayed[outside], rtol=0, atol=1e-10)
