@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from typing import NamedTuple
 
 import numpy as np
@@ -48,28 +48,33 @@ def observe(composed: ModularFilter, truth: FloatArray, seed: int) -> list[Measu
     found = []
     for number, sensor in enumerate(composed.sensors):
         random = np.random.default_rng([seed, number])
-        R = sensor.corrector.R
-        for taken in range(0, len(truth), sensor.every):
-            noise = random.multivariate_normal(np.zeros(len(R)), R, method="cholesky")
-            lost = random.random() < sensor.dropout
-            if not lost:
-                y = np.empty(sensor.corrector.observed.numbers)
-                plus(sensor.corrector.observed, seen(sensor, composed.of, truth[taken]), noise, y)
-                found.append(Measurement(sensor.name, taken, taken + sensor.delay, y))
+        R, observed = sensor.corrector.R, sensor.corrector.observed
+        steps = range(0, len(truth), sensor.every)
+        noise = random.multivariate_normal(np.zeros(len(R)), R, size=len(steps), method="cholesky")
+        arrived = random.random(len(steps)) >= sensor.dropout
+        expected = expected_by(sensor, composed.of)
+        for at in np.flatnonzero(arrived):
+            y = np.empty(observed.numbers)
+            plus(observed, expected(truth[steps[at]]), noise[at], y)
+            found.append(Measurement(sensor.name, steps[at], steps[at] + sensor.delay, y))
     return sorted(found, key=lambda one: one.arrives)
 
 
-def seen(sensor: Sensor, of: Space, x: FloatArray) -> FloatArray:
-    """The measurement (numbers,) that the sensor's model expects at the state x, without noise."""
+def expected_by(sensor: Sensor, of: Space) -> Callable[[FloatArray], FloatArray]:
+    """The measurement (numbers,) that the sensor's model expects at a state x (numbers,), without noise."""
     view = sensor.corrector.view(of.errors)
-    out = np.empty(sensor.corrector.observed.numbers)
-    if sensor.corrector.kind == "linear":
-        quantities = np.empty(of.errors)
-        plain(of, x, quantities)
-        out[:] = view.H @ quantities
-    else:
-        view.h(x, out)
-    return out
+
+    def expected(x: FloatArray) -> FloatArray:
+        out = np.empty(sensor.corrector.observed.numbers)
+        if sensor.corrector.kind == "linear":
+            quantities = np.empty(of.errors)
+            plain(of, x, quantities)
+            out[:] = view.H @ quantities
+        else:
+            view.h(x, out)
+        return out
+
+    return expected
 
 
 def arrivals(composed: ModularFilter, measurements: Iterable[Measurement], steps: int, history: int) -> Arrivals:

@@ -14,7 +14,7 @@ from filters.modular.composition import ModularFilter, Sensor
 from filters.modular.correction import correct_with
 from filters.modular.estimate import is_sound
 from filters.modular.history import PREDICTOR, breakdown
-from filters.modular.measurements import seen
+from filters.modular.measurements import expected_by
 from filters.modular.space import Space, plus, space
 from filters.modular.trial import try_functions
 from filters.modular.workspace import new_workspace
@@ -58,11 +58,11 @@ def typical_moment(
     truth, at = drawn(of, x, P, random), Estimate(x, P)
     for step in range(WARM_UP):
         for number, sensor in enumerate(composed.sensors):
-            y = drawn(sensor.corrector.observed, seen(sensor, of, truth), sensor.corrector.R, random)
+            y = drawn(sensor.corrector.observed, expected_by(sensor, of)(truth), sensor.corrector.R, random)
             at = _sound(composed, number, step, _corrected(composed, sensor, at, y))
         truth = drawn(of, _evolved(composed, truth, given), composed.predictor.motion.Q, random)
         at = _sound(composed, PREDICTOR, step, _predicted(composed, at, given))
-    return Moment(at, given, tuple(seen(sensor, of, at.x) for sensor in composed.sensors))
+    return Moment(at, given, tuple(expected_by(sensor, of)(at.x) for sensor in composed.sensors))
 
 
 def near(composed: ModularFilter, typical: Moment, seed: int, index: int) -> Moment:
