@@ -6,7 +6,8 @@ k + land_by. Its response time is from the arrival until the correction has land
 
 Held up or preempted. A correction as urgent as the predictor, or more, runs before the next predict job, and lands in
 the step in which it finishes. A less urgent one is preempted by predict jobs (with two processors it runs beside them);
-such corrections of one priority run one after another, each from when the one before has landed.
+such corrections of one priority run one after another, each from when the one before has landed, and those that wait
+by then go together.
 
 recalculate. A correction is of step k, so it rolls back: its work is the correction, and for each step from k + 1 to
 the one it aims at a predict, and a correction for each other measurement taken in those steps that has landed or lands
@@ -30,7 +31,7 @@ What a job costs is settled when it is released.
 from __future__ import annotations
 
 from bisect import bisect_right, insort
-from collections import defaultdict, deque
+from collections import defaultdict
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import partial
 from operator import itemgetter
@@ -51,14 +52,18 @@ class Measurement(NamedTuple):
     due: int
 
 
-class Branch(NamedTuple):
-    """A correction under way, while the filter goes on without it.
+Together = tuple[Measurement, ...]
+"""Corrections that are one job, that of the first of them, and land together."""
 
-    aim: the step whose state it computes; seen: corrections that had landed when its work was settled;
-    ahead: those that had not, and of which it was clear that they would before it.
+
+class Branch(NamedTuple):
+    """Corrections under way, while the filter goes on without them.
+
+    aim: the step whose state they compute; seen: corrections that had landed when the work was settled;
+    ahead: those that had not, and of which it was clear that they would before these.
     """
 
-    measurement: Measurement
+    together: Together
     aim: int
     seen: int
     ahead: frozenset[Measurement]
@@ -96,7 +101,7 @@ class ComposedFilter(Source):
         self.predict_stream = stream(scenario.seed, "predictor cost")
         self.streams = [stream(scenario.seed, f"{sensor.name} cost") for sensor in self.sensors]
         self.arrivals: defaultdict[int, list[Measurement]] = defaultdict(list)  # by step
-        self.waiting: dict[int, deque[Measurement]] = {}  # by priority, while one of that priority is under way
+        self.waiting: dict[int, list[Measurement]] = {}  # by priority, while one of that priority is under way
         self.landed: list[tuple[int, Measurement]] = []  # the step of the state it was applied to, in order of landing
         self.applied: list[tuple[int, Measurement]] = []  # the same, in order of that step
         self.flights: dict[tuple[int, int], None] = {}  # (step, sensor) of what is in flight
@@ -144,30 +149,41 @@ class ComposedFilter(Source):
     def _arrive(self, measurement: Measurement, now: int) -> tuple[Job, ...]:
         self.pending[measurement] = None
         sensor = self.sensors[measurement.sensor]
-        if not self.scenario.preempted(sensor):
-            return (self._correct(measurement, now),)
-        if sensor.priority in self.waiting:
-            self.waiting[sensor.priority].append(measurement)
-            return ()
-        self.waiting[sensor.priority] = deque()
-        return (self._correct(measurement, now),)
+        if self.scenario.preempted(sensor):
+            if sensor.priority in self.waiting:
+                self.waiting[sensor.priority].append(measurement)
+                return ()
+            self.waiting[sensor.priority] = []
+        return (self._correct((measurement,), now),)
 
-    def _correct(self, measurement: Measurement, now: int) -> Job:
-        """Settles the work of a correction that can start now."""
-        sensor, draws = self.sensors[measurement.sensor], self.streams[measurement.sensor]
-        if self._is_larsens(measurement):
+    def _next(self, priority: int, now: int) -> tuple[Job, ...]:
+        """The preempted correction of this priority has landed: what waits for it starts."""
+        waiting = self.waiting[priority]
+        if not waiting:
+            del self.waiting[priority]
+            return ()
+        first = waiting[0]
+        together = (first, *(one for one in waiting[1:] if not self._is_larsens(first) and not self._is_larsens(one)))
+        self.waiting[priority] = [one for one in waiting if one not in together]
+        return (self._correct(together, now),)
+
+    def _correct(self, together: Together, now: int) -> Job:
+        """Settles the work of corrections that can start now."""
+        first = together[0]
+        sensor, draws = self.sensors[first.sensor], self.streams[first.sensor]
+        if self._is_larsens(first):
             late = total(self.costs[f"correct_late.{sensor.name}"], draws)
-            return self._job(measurement, (("CO", late),), partial(self._land, measurement))
-        aim, ahead = now // self.period, self._ahead_of(measurement)
-        part = "correct_accumulate" if self._waits(aim, ahead) else "correct"
-        work = total(self.costs[f"{part}.{sensor.name}"], draws)
-        again = [one for one in ahead if one.step > measurement.step and not self._is_larsens(one)]
-        replay = self._replay(measurement, aim - measurement.step, [*again, *self._applied_after(measurement.step)])
+            return self._job(first, (("CO", late),), partial(self._land, together))
+        aim, ahead = now // self.period, self._ahead_of(first)
+        kind = "correct_accumulate" if self._waits(aim, ahead) else "correct"
+        work = sum(total(self.costs[f"{kind}.{self.sensors[one.sensor].name}"], draws) for one in together)
+        after = min(one.step for one in together)
+        again = [one for one in ahead if one.step > after and not self._is_larsens(one)]
+        replay = self._replay(first, aim - after, [*again, *self._applied_after(after)])
         parts = (("CO", work), ("RP", replay)) if replay else (("CO", work),)
         if not self.scenario.preempted(sensor):
-            return self._job(measurement, parts, partial(self._land, measurement))
-        branch = Branch(measurement, aim, len(self.landed), ahead)
-        return self._job(measurement, parts, partial(self._finish, branch))
+            return self._job(first, parts, partial(self._land, together))
+        return self._job(first, parts, partial(self._finish, Branch(together, aim, len(self.landed), ahead)))
 
     def _ahead_of(self, measurement: Measurement) -> frozenset[Measurement]:
         """Arrived corrections that land before this one does; those that wait for it are not among them."""
@@ -202,34 +218,28 @@ class ComposedFilter(Source):
 
     def _finish(self, branch: Branch, job: Job, now: int) -> tuple[Job, ...]:
         """The branch has got as far as it aimed at: it lands, or catches up."""
-        measurement = branch.measurement
         if step_at(now, self.period) <= branch.aim:
-            return self._land(measurement, job, now)
+            return self._land(branch.together, job, now)
+        first = branch.together[0]
         news = [(step, one) for step, one in self.landed[branch.seen :] if one not in branch.ahead]
         after = min([branch.aim, *(step for step, _ in news)])
         again = [*self._applied_after(after), *(one for step, one in news if step == after)]
-        if measurement.step > after:
-            again.append(measurement)
+        again += [one for one in branch.together if one.step > after]
         aim = now // self.period
-        work = self._replay(measurement, aim - after, again)
-        further = Branch(measurement, aim, len(self.landed), branch.ahead)
-        return (self._job(measurement, (("CU", work),), partial(self._finish, further)),)
+        work = self._replay(first, aim - after, again)
+        further = branch._replace(aim=aim, seen=len(self.landed))
+        return (self._job(first, (("CU", work),), partial(self._finish, further)),)
 
-    def _land(self, measurement: Measurement, _job: Job, now: int) -> tuple[Job, ...]:
-        sensor = self.sensors[measurement.sensor]
-        del self.pending[measurement]
-        self.flights.pop((measurement.step, measurement.sensor), None)
-        applied_to = step_at(now, self.period) if self._is_larsens(measurement) else measurement.step
-        self.landed.append((applied_to, measurement))
-        insort(self.applied, (applied_to, measurement), key=itemgetter(0))
-        self.on_landing(measurement, now)
-        if not self.scenario.preempted(sensor):
-            return ()
-        waiting = self.waiting[sensor.priority]
-        if waiting:
-            return (self._correct(waiting.popleft(), now),)
-        del self.waiting[sensor.priority]
-        return ()
+    def _land(self, together: Together, _job: Job, now: int) -> tuple[Job, ...]:
+        for one in together:
+            del self.pending[one]
+            self.flights.pop((one.step, one.sensor), None)
+            applied_to = step_at(now, self.period) if self._is_larsens(one) else one.step
+            self.landed.append((applied_to, one))
+            insort(self.applied, (applied_to, one), key=itemgetter(0))
+            self.on_landing(one, now)
+        sensor = self.sensors[together[0].sensor]
+        return self._next(sensor.priority, now) if self.scenario.preempted(sensor) else ()
 
     def _job(self, measurement: Measurement, parts: Parts, then: Then | None) -> Job:
         sensor = self.sensors[measurement.sensor]

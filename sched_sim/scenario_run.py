@@ -77,7 +77,7 @@ class Outcome:
     """jobs: by kind, "predict", "correct NAME", "task:NAME"; sensors: by name; schedule: of the processor;
     first_miss: the earliest deadline that was missed, in HR periods from the start.
 
-    A correction that has to catch up is one job, from its arrival until it lands.
+    A correction is one job, from its arrival until it lands, whether it has to catch up or lands together with others.
     """
 
     jobs: Mapping[str, JobFigures]
@@ -95,8 +95,8 @@ def run_scenario(
 ) -> Outcome:
     """Simulate it: the same outcome every time, from its seed.
 
-    on_slice: called as slices end, `finished` only where a correction has landed; on_progress: called about a hundred
-    times.
+    on_slice: called as slices end, `finished` only where a correction has landed; those that go together have the
+    slices of the first. on_progress: called about a hundred times.
     """
     parts = needed_parts(scenario.sensors, scenario.late)
     speed, tasks = scenario.speed, scenario.tasks
@@ -136,8 +136,9 @@ def run_scenario(
     filed = dict(schedule.responses)
     for number, sensor in enumerate(scenario.sensors):
         kind = correct_kind(sensor)
-        if kind in filed:
-            filed[kind] = _as_one_job(filed[kind], record.finished[kind], pending[number], horizon)
+        if record.finished[kind] or pending[number]:
+            preemptions = filed[kind].preemptions if kind in filed else 0
+            filed[kind] = _response(record.finished[kind], pending[number], preemptions, horizon)
     schedule = replace(schedule, responses=filed)
     sensors = {}
     for number, sensor in enumerate(scenario.sensors):
@@ -146,8 +147,10 @@ def run_scenario(
         sensors[sensor.name] = SensorFigures(composed.taken[number], composed.dropped[number], arrived, achieved)
     kinds = ["predict", *map(correct_kind, scenario.sensors), *(f"task:{task.name}" for task in tasks)]
     jobs = {kind: _figures(record.finished[kind], filed.get(kind), period) for kind in kinds}
-    first_miss = None if processor.first_miss is None else processor.first_miss[0] / period
-    return Outcome(jobs, sensors, schedule, first_miss)
+    missed = [job.deadline for ended in record.finished.values() for job in ended if job.end > job.deadline]
+    missed += [measurement.due for measurement in composed.pending if measurement.due <= horizon]
+    missed += [processor.first_miss[0]] if processor.first_miss else []
+    return Outcome(jobs, sensors, schedule, min(missed) / period if missed else None)
 
 
 class Record:
@@ -158,44 +161,50 @@ class Record:
         self.on_slice = on_slice
         self.finished: defaultdict[str, list[Slice]] = defaultdict(list)
         self.held: Slice | None = None  # of a correction that lands, or catches up, at this very instant
-        self.last: tuple[str, int] | None = None  # kind and step of the correction that landed last
+        self.landing: list[Measurement] = []  # at this very instant, with that slice
 
     def landed(self, measurement: Measurement, _now: int) -> None:
-        self.last = self.kinds[measurement.sensor], measurement.step
+        self.landing.append(measurement)
 
     def ended(self, piece: Slice) -> None:
         self.settle()
         if piece.finished and piece.kind in self.kinds:
             self.held = piece
-        else:
-            self._keep(piece)
+            return
+        if piece.finished:
+            self.finished[piece.kind].append(piece)
+        self._tell(piece)
 
     def settle(self) -> None:
         """By now it is known whether the correction has landed."""
         if self.held is not None:
-            piece, self.held = self.held, None
-            self._keep(piece._replace(finished=(piece.kind, piece.step) == self.last))
+            piece = self.held._replace(finished=bool(self.landing))
+            for one in self.landing:
+                kind = self.kinds[one.sensor]
+                job = piece._replace(kind=kind, step=one.step, release=one.arrival, deadline=one.due)
+                self.finished[kind].append(job)
+            self.held = None
+            self.landing.clear()
+            self._tell(piece)
 
-    def _keep(self, piece: Slice) -> None:
-        if piece.finished:
-            self.finished[piece.kind].append(piece)
+    def _tell(self, piece: Slice) -> None:
         if self.on_slice is not None:
             self.on_slice(piece)
 
 
-def _as_one_job(filed: Response, landed: Sequence[Slice], pending: Sequence[Measurement], horizon: int) -> Response:
-    """What the processor filed of a sensor's corrections, each catching-up counted with the job it belongs to."""
+def _response(landed: Sequence[Slice], pending: Sequence[Measurement], preemptions: int, horizon: int) -> Response:
+    """Of a sensor's corrections: the processor's own figures count each catching-up, and not those that go together."""
     overdue = [horizon - measurement.due for measurement in pending if measurement.due <= horizon]
     late = [job.end - job.deadline for job in landed if job.end > job.deadline]
     responses = [job.end - job.release for job in landed]
-    return replace(
-        filed,
+    return Response(
         releases=len(landed) + len(pending),
         finished=len(landed),
         worst=max(responses, default=0),
         total=sum(responses),
         misses=len(late) + len(overdue),
         worst_lateness=max([*late, *overdue], default=0),
+        preemptions=preemptions,
     )
 
 

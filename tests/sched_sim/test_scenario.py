@@ -240,6 +240,19 @@ def test_corrections_of_one_priority_run_one_after_another_and_wait_from_their_a
     assert run_scenario(of).jobs["correct imu"].responses == [19 / 30]
 
 
+def test_corrections_that_waited_go_back_together_and_land_together() -> None:
+    """The gps lands at 50, as above. Those of steps 3 and 4 waited: 2 for both, steps 4 and 5, then 6, then 7, until
+    80."""
+    gps, imu = sensor("gps", 20, 2), sensor("imu", 1, offset=3)
+    of = scenario(10, BY_HAND, gps, imu, steps=8)
+    assert slices_of(of, "correct imu") == [(54, 60), (64, 68), (68, 70), (74, 76), (76, 80)]
+    found = run_scenario(of)
+    assert found.sensors["imu"].achieved == {4: 1, 3: 1}
+    assert found.jobs["correct imu"].responses == [5.0, 4.0]
+    assert found.sensors["imu"].not_landed == 3
+    assert (found.jobs["correct imu"].misses, found.first_miss) == (5, 4.0)
+
+
 def test_a_processor_without_the_time_never_catches_up_and_drops_nothing() -> None:
     """4 ticks of each 10 are left, and each step that passes is 6 more to replay."""
     gps = sensor("gps", 10, 2, land_by=5)
