@@ -53,7 +53,7 @@ class ModularFilter:
     if not given, as many as the predictor's noise has. In one step the sensors are used in their order.
 
     Raises:
-        ValueError: dt is not positive, two sensors have one name, or a part does not fit the state; the sensor is named.
+        ValueError: dt is not positive, two sensors have one name, or a part does not fit the state; it is named.
     """
 
     predictor: Predictor

@@ -17,12 +17,11 @@ from filters.covariance_forms import covariance_form
 from filters.dual_rate import HighRateTask, LowRateTask
 from filters.kernels.backends import BackendName
 from filters.low_rate_noise import NOISE_METHODS
-from filters.modular.check import check_start
 from filters.modular.composition import ModularFilter, Sensor
 from filters.modular.estimate import is_sound
 from filters.modular.history import PREDICTOR, ModularHistory, breakdown, new_history
 from filters.modular.measurements import Arrivals, Measurement, arrivals
-from filters.modular.problem import check_inputs, check_linearised
+from filters.modular.problem import check_linearised, check_problem
 from filters.records import Correction, Estimate
 from filters.systems.composed import composed_system
 
@@ -51,8 +50,7 @@ def run(
     sensor = _only_sensor(composed)
     N, lands = sensor.every, sensor.every if L is None else L
     _check_landing(sensor, lands)
-    x, P = check_start(composed.of, x0, P0)
-    moves = check_inputs(composed.predictor, inputs)
+    x, P, moves = check_problem(composed, x0, P0, inputs)
     arrived = arrivals(composed, measurements, len(moves), len(moves))
     _check_arrivals(sensor, arrived, lands)
     system = composed_system(composed, P, moves.shape[1])

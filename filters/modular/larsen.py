@@ -34,13 +34,12 @@ from filters.kernels.dense import (
     store_vector,
 )
 from filters.modular.chain import chain, parts_of
-from filters.modular.check import check_start
 from filters.modular.composition import ModularFilter
 from filters.modular.correctors import apply
 from filters.modular.estimate import copy_estimate, is_sound
 from filters.modular.history import PREDICTOR, SOUND, ModularHistory, breakdown, new_history
 from filters.modular.measurements import Arrivals, Measurement, arrivals
-from filters.modular.problem import check_inputs, check_linearised
+from filters.modular.problem import check_linearised, check_problem
 from filters.modular.space import Space, space
 from filters.modular.workspace import Workspace, new_workspace
 from filters.records import Estimate
@@ -160,15 +159,16 @@ def run(
     *,
     backend: BackendName = "compiled",
 ) -> ModularHistory:
-    """Filter a record of data; each measurement is used in the step in which it arrives. As `recalculate.run`, and
+    """Filter a record of data; each measurement is used in the step in which it arrives.
+
+    Arguments and results as in `late.run`.
 
     Raises:
-        ValueError: a part is unscented, which leaves no F or H; or a measurement that will come late is taken before
-            another late one has arrived.
+        ValueError: a part is unscented, which leaves no F or H; a measurement that will come late is taken before
+            another late one has arrived; and as `late.run`.
     """
     check_linearised(composed, "larsen")
-    x, P = check_start(composed.of, x0, P0)
-    moves = check_inputs(composed.predictor, inputs)
+    x, P, moves = check_problem(composed, x0, P0, inputs)
     steps, of = len(moves), composed.of
     arrived = _in_order_of_use(arrivals(composed, measurements, steps, steps))
     late = arrived.taken < arrived.arrives

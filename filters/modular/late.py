@@ -39,9 +39,9 @@ def run(
     backend: "compiled" takes seconds the first time and is then some hundred times as fast as "reference".
 
     Raises:
-        ValueError: a shape is wrong, P0 is not positive definite, the way cannot do with the filter or a measurement,
-            a measurement does not fit it (see `measurements.arrivals`), or an estimate breaks down; the sensor is
-            named.
+        ValueError: a shape is wrong, P0 is not positive definite, a function does not do what it should (see `trial`),
+            a measurement does not fit (see `measurements.arrivals`), the way cannot do with the filter or a
+            measurement, or an estimate breaks down; the predictor or sensor is named.
     """
     check_choice("late", late, ("recalculate", "larsen", "dual-rate"))
     if history is not None and late != "recalculate":

@@ -6,25 +6,30 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from filters.arrays import FloatArray
+from filters.modular.check import check_start
 from filters.modular.composition import ModularFilter
-from filters.modular.predictors import Predictor
+from filters.modular.trial import try_functions
 
 
-def check_inputs(predictor: Predictor, inputs: ArrayLike) -> FloatArray:
-    """The inputs (steps, any) as a contiguous array.
+def check_problem(
+    composed: ModularFilter, x0: ArrayLike, P0: ArrayLike, inputs: ArrayLike
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """x0, P0 and the inputs (steps, any) as arrays that the filter may write to or read row by row.
+
+    The filter's functions are tried at the start.
 
     Raises:
-        ValueError: they are no matrix, or not finite, or not as many in a step as a linear predictor's B has columns.
+        ValueError: as `check.check_start` and `trial.try_functions`; the inputs are no matrix, or not finite.
     """
+    x, P = check_start(composed.of, x0, P0)
     rows = np.ascontiguousarray(inputs, dtype=np.float64)
     if rows.ndim != 2:
         raise ValueError(f"inputs has shape {rows.shape}; needed is (steps, inputs of the predictor)")
     if not np.isfinite(rows).all():
         raise ValueError("inputs holds a value that is not finite")
-    columns = predictor.motion.B.shape[1] if predictor.kind == "linear" else 0
-    if columns not in (0, rows.shape[1]):
-        raise ValueError(f"inputs has shape {rows.shape}, the predictor's B needs (steps, {columns})")
-    return rows
+    if len(rows) > 0:
+        try_functions(composed, x, rows[0])
+    return x, P, rows
 
 
 def check_linearised(composed: ModularFilter, late: str) -> None:

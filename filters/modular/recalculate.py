@@ -12,13 +12,12 @@ from filters.kernels.backends import BackendName, arguments_for, function_for
 from filters.kernels.dense import store, store_vector
 from filters.kernels.place import IntArray
 from filters.modular.chain import chain, parts_of
-from filters.modular.check import check_start
 from filters.modular.composition import ModularFilter
 from filters.modular.correction import correct_with
 from filters.modular.estimate import copy_estimate, is_sound
 from filters.modular.history import PREDICTOR, SOUND, ModularHistory, breakdown, new_history
 from filters.modular.measurements import Arrivals, Measurement, arrivals
-from filters.modular.problem import check_inputs
+from filters.modular.problem import check_problem
 from filters.modular.space import Space, space
 from filters.modular.workspace import Workspace, new_workspace
 from filters.records import Estimate
@@ -110,17 +109,10 @@ def run(
 ) -> ModularHistory:
     """Filter a record of data; each measurement is used from the step on in which it arrives, in whatever order.
 
-    x0 (numbers,), P0 (n, n): estimate and covariance at step 0, before its measurements.
-    inputs (steps, any): row j takes the state from j to j + 1; np.zeros((steps, 0)) if there are none.
+    Other arguments, results and errors as in `late.run`.
     history: how many steps the filter can go back; if not given, as many as the sensors' longest delay.
-    backend: "compiled" takes seconds the first time and is then some hundred times as fast as "reference".
-
-    Raises:
-        ValueError: a shape is wrong, P0 is not positive definite, a measurement does not fit (see
-            `measurements.arrivals`), or an estimate breaks down; it says which sensor and step.
     """
-    x, P = check_start(composed.of, x0, P0)
-    moves = check_inputs(composed.predictor, inputs)
+    x, P, moves = check_problem(composed, x0, P0, inputs)
     steps, of = len(moves), composed.of
     depth = max((sensor.delay for sensor in composed.sensors), default=0) if history is None else history
     if depth < 0:

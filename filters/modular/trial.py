@@ -25,7 +25,7 @@ def try_functions(composed: ModularFilter, x: FloatArray, u: FloatArray) -> None
     """
     motion, dt, n = composed.predictor.motion, composed.dt, composed.of.errors
     if composed.predictor.kind == "linear":
-        if len(u) != motion.B.shape[1]:
+        if motion.B.shape[1] not in (0, len(u)):
             raise ValueError(f"predictor: B has {motion.B.shape[1]} columns, but the input has {len(u)} numbers")
     else:
         _try("predictor: f(x, u, dt, out)", motion.f, (x, u, dt), (len(x),), np.nan)
@@ -65,5 +65,5 @@ def _try(
         where = ", ".join(str(index) for index in np.argwhere(~np.isfinite(out)).tolist()[:3])
         raise ValueError(
             f"{what} left in out {out.tolist()}: not written, or not finite, is {where}; it must write all of "
-            f"shape {shape} and be finite at the typical state x = {given[0].tolist()}"
+            f"shape {shape} and be finite at x = {given[0].tolist()}"
         )
