@@ -35,6 +35,7 @@ def ratio_text(ratio: float) -> str:
     return f"{ratio:.3f}" if ratio < 10 else f"{ratio:.1f}" if ratio < 100 else f"{ratio:.0f}"
 
 
-def significant(value: Fraction) -> str:
-    """Three digits, with commas between thousands; such as a rate in Hz."""
-    return f"{float(f'{float(value):.3g}'):,.0f}" if value >= 100 else f"{float(value):#.3g}"
+def significant(value: Fraction | float, digits: int = 3) -> str:
+    """So many digits, with commas between thousands; such as a rate in Hz."""
+    rounded = float(f"{float(value):.{digits}g}")
+    return f"{rounded:,.0f}" if rounded >= 10 ** (digits - 1) else f"{rounded:#.{digits}g}"

@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 
 import typer
 
-Name = Annotated[Literal["steffes2014", "patent-multirate", "erkf"], typer.Argument(help="Which report.")]
+Name = Annotated[Literal["steffes2014", "patent-multirate", "erkf", "modular"], typer.Argument(help="Which report.")]
 Folder = Annotated[Path, typer.Option("--output", "-o", help="Folder in which the report's own folder is written.")]
 Thorough = Annotated[
     bool, typer.Option("--thorough", help="Measure ten times as many rounds; patent-multirate measures nothing.")
@@ -21,6 +21,7 @@ def report(name: Name = "steffes2014", thorough: Thorough = False, output: Folde
     sched-sim report --thorough
     sched-sim report patent-multirate
     sched-sim report erkf
+    sched-sim report modular
     """
     from reports.render import make_folder, write_report
 
@@ -69,8 +70,19 @@ def _erkf(thorough: bool) -> dict[str, bytes]:
     return build(found)
 
 
+def _modular(_thorough: bool) -> dict[str, bytes]:
+    from reports.modular import build
+    from reports.modular_results import results
+    from sched_sim.cli.progress import progress_bar
+
+    with progress_bar("Simulating") as progress:
+        found = results(progress)
+    return build(found)
+
+
 REPORTS: Mapping[str, Callable[[bool], dict[str, bytes]]] = {
     "steffes2014": _steffes,
     "patent-multirate": _patent_multirate,
     "erkf": _erkf,
+    "modular": _modular,
 }

@@ -1,0 +1,55 @@
+"""The report on "Implementation of a Modular Linear and Unscented Kalman Filter" (MacCormack and Rubinstein, a poster):
+what its filter bears of dropout, delay and ignorance, what it costs, and when its corrections land."""
+
+from __future__ import annotations
+
+from matplotlib.figure import Figure
+
+from filters.systems.spring_mass import period_s
+from reports import modular_oscillator as oscillator
+from reports import modular_tables as tables
+from reports import modular_words as words
+from reports.modular_results import OWN_MODEL, SHOWN_PERIODS, Results
+from reports.picture import image
+from reports.render import csv_bytes, render
+from studies import spring_mass
+from studies.spring_mass_run import OSCILLATOR
+
+TITLE = "Modular Kalman filters: what dropout, delay and ignorance do to them, what they cost, and when they land"
+
+
+def build(found: Results) -> dict[str, bytes]:
+    """All files of the report by name, as a pure function of what was simulated and measured."""
+    rows = {
+        "dropout": tables.dropout_rows(found),
+        "verdict": tables.verdict_rows(found),
+        "rates": tables.rate_rows(found),
+        "sensors": tables.sensor_rows(found),
+        "consistency": tables.consistency_rows(found),
+    }
+    figures = {name: image(figure, "svg") for name, figure in _figures(found).items()}
+    pages = render(
+        "modular",
+        TITLE,
+        figures,
+        **{name.replace("-", "_"): table for name, table in rows.items()},
+        points=words.sigma_point_words(),
+        spring=words.oscillator_words(found),
+    )
+    return {**pages, **figures, **found.files(), **{f"{name}.csv": csv_bytes(table) for name, table in rows.items()}}
+
+
+def _figures(found: Results) -> dict[str, Figure]:
+    half = {name: found.records("dropout", group=name, dropout="0.5")[0] for name in (OWN_MODEL, "usual")}
+    return {
+        "oscillator.svg": oscillator.history_figure(found.columns("oscillator"), SHOWN_PERIODS * period_s(OSCILLATOR)),
+        "dropout.svg": oscillator.dropout_figure(found.records("dropout", group="usual")),
+        "rates.svg": oscillator.rate_figure(
+            {rate: found.records("dropout", group=tables.group_of(rate)) for rate in words.RATES}, spring_mass.reach()
+        ),
+        "consistency.svg": oscillator.nees_figure(
+            found.columns("consistency"),
+            {f"{row['runs']} runs": (float(row["low"]), float(row["high"])) for row in half.values()},
+            {name: found.records("dropout", group=name) for name in ("usual", "less process noise", OWN_MODEL)},
+        ),
+    }

@@ -1,0 +1,199 @@
+"""The oscillator of the report on modular filters: a run, residuals against dropout, sampling rates, consistency."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import TypeAlias
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullLocator
+
+from filters.arrays import FloatArray
+from reports.axes import decades
+from reports.legend import fill_entries, line_entry
+from reports.sheet import label, sheet
+from reports.style import GREY, INK, PALE, SMALL_PT, SOURCE_LINES, Fill, Line, drawing
+from studies.spring_mass_run import ACCELERATION_SIGMA, AMPLITUDES, POSITION_SIGMA_M
+
+Columns: TypeAlias = Mapping[str, FloatArray]
+Record: TypeAlias = Mapping[str, str]
+
+QUANTITIES = {"position": "m", "velocity": "m/s", "acceleration": "m/s²"}
+UNITS = {"position": "m", "velocity": "m_s", "acceleration": "m_s2"}
+"""As the columns are called."""
+SENSORS = ("position", "acceleration")
+LINES = dict(zip(QUANTITIES, SOURCE_LINES[1:4], strict=True))
+
+TRUE = Line(INK, "-", "")
+ESTIMATE = Line("#11538c", "-", "")
+MEASURED = Line("#c77d00", "-", ".", 5.0)
+BAND = {"band:": Fill("#cfdde9", "#cfdde9", "", "twice the standard deviation that the filter gives")}
+BOUNDS = (Fill(PALE, PALE, "", "95 % bounds"), Fill("#bdbdbd", "#bdbdbd", "", "95 % bounds"))
+"""The wider ones first."""
+
+SHOWN = (0.1, 0.5, 0.8, 0.9, 0.95, 0.98, 0.99)
+"""Dropouts with a number on the axis."""
+CLAIMED = 0.8
+OSCILLATOR_AMPLITUDES = dict(zip(QUANTITIES, map(float, AMPLITUDES), strict=True))
+NOISES = {"position": float(POSITION_SIGMA_M), "acceleration": float(ACCELERATION_SIGMA)}
+
+
+def history_figure(run: Columns, periods_s: float) -> Figure:
+    """One run: states at the left, errors at the right, up to so many seconds."""
+    with drawing():
+        legend = [
+            line_entry("true", TRUE),
+            line_entry("estimate, and its error", ESTIMATE),
+            line_entry("measurement", MEASURED, dashes=False),
+            *fill_entries(BAND),
+        ]
+        figure, rows = sheet(3, 2, legend, height_mm=29.0, stacked=True)
+        kept = run["time_s"] <= periods_s
+        time_s = run["time_s"][kept]
+        for (left, right), (name, unit) in zip(rows, QUANTITIES.items(), strict=True):
+            truth, found, sigma = (run[f"{name} {what}"][kept] for what in ("true", "estimate", "sigma"))
+            if name in SENSORS:
+                seen = run[f"{name} measured"][kept]
+                left.plot(time_s, seen, MEASURED.marker, color=MEASURED.colour, ms=3.2, mew=0, zorder=4)
+            left.plot(time_s, found, color=ESTIMATE.colour, lw=1.8)
+            left.plot(time_s, truth, color=INK, lw=0.7)
+            right.fill_between(time_s, -2 * sigma, 2 * sigma, color=BAND["band:"].colour, lw=0)
+            right.axhline(0.0, color=INK, lw=0.6)
+            right.plot(time_s, found - truth, color=ESTIMATE.colour, lw=0.9)
+            settled = np.abs(np.concatenate([2 * sigma, found - truth])[np.tile(time_s > 0.1 * periods_s, 2)])
+            right.set_ylim(-1.2 * settled.max(), 1.2 * settled.max())
+            for axes in (left, right):
+                axes.set_xlim(0, periods_s)
+                axes.yaxis.set_major_locator(MaxNLocator(nbins=5, steps=[1, 2, 5, 10]))
+            across = "time (s)" if name == "acceleration" else ""
+            label(left, "State" if name == "position" else "", across, f"{name} ({unit})")
+            label(right, "Estimate less truth" if name == "position" else "", across, f"error ({unit})")
+        return figure
+
+
+def dropout_figure(rows: Sequence[Record]) -> Figure:
+    """The three readings of "residual" against dropout; bars: twice the standard error."""
+    shown = [row for row in rows if float(row["dropout"]) >= SHOWN[0]]
+    titles = ("Error of the estimate", "Innovation", "What is left after the update")
+    names = ("RMS over amplitude (%)", "RMS over sensor noise", "RMS over sensor noise")
+    with drawing():
+        figure, [plots] = sheet(1, 3, [line_entry(name, line) for name, line in LINES.items()], gap_mm=14.0)
+        for axes, title, up, what in zip(plots, titles, names, ("error", "innovation", "after"), strict=True):
+            for name in QUANTITIES if what == "error" else SENSORS:
+                unit = 0.01 * OSCILLATOR_AMPLITUDES[name] if what == "error" else NOISES[name]
+                value = _column(shown, f"{what} {UNITS[name]}") / unit
+                bar = 2 * _column(shown, f"{what} se {UNITS[name]}") / unit
+                _curve(axes, _spaced(_column(shown, "dropout")), value, bar, LINES[name])
+            label(axes, title, "dropout (%)", up)
+            dropout_axis(axes)
+        decades(plots[0], "y", 1, 20_000)
+        _level(plots[0], 100 * float(rows[0]["still"]), "motion ignored")
+        decades(plots[1], "y", 0.7, 2_000)
+        decades(plots[2], "y", 0.01, 3)
+        plots[2].yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+        return figure
+
+
+def rate_figure(by_rate: Mapping[int, Sequence[Record]], reach: float) -> Figure:
+    """The error of position for each sampling rate: against dropout, and against the time between measurements.
+
+    by_rate: by measurements in a period. reach: in periods, see `studies.spring_mass.reach`.
+    """
+    lines = dict(zip(by_rate, SOURCE_LINES, strict=False))
+    with drawing():
+        legend = [line_entry(f"{rate} in a period", line) for rate, line in lines.items()]
+        figure, [[left, right]] = sheet(1, 2, legend)
+        for rate, rows in by_rate.items():
+            shown = [row for row in rows if float(row["dropout"]) >= SHOWN[0]]
+            value, bar = (
+                _column(shown, f"error {se}m") / (0.01 * OSCILLATOR_AMPLITUDES["position"]) for se in ("", "se ")
+            )
+            _curve(left, _spaced(_column(shown, "dropout")), value, 2 * bar, lines[rate])
+            _curve(right, _column(shown, "interval"), value, 2 * bar, lines[rate])
+        for axes in (left, right):
+            decades(axes, "y", 0.5, 50_000)
+        still = 100 * float(next(iter(by_rate.values()))[0]["still"])
+        _level(left, still)
+        _level(right, still, "motion ignored")
+        dropout_axis(left)
+        label(left, "Against dropout", "dropout (%)", "RMS error of position over amplitude (%)")
+        decades(right, "x", 0.002, 7)
+        right.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+        right.axvline(reach, color=GREY, lw=0.9, ls=(0, (2, 1.5)), zorder=1)
+        right.annotate(
+            f"{reach:.2g}: the jerk has\nmoved the mass by\none sensor noise", (reach, 0.03), (4, 0),
+            xycoords=right.get_xaxis_transform(), textcoords="offset points", va="bottom", size=SMALL_PT,
+        )  # fmt: skip
+        label(right, "Against the gap", "mean time between measurements (periods)")
+        return figure
+
+
+def nees_figure(
+    course: Columns, bounds: Mapping[str, tuple[float, float]], overall: Mapping[str, Sequence[Record]]
+) -> Figure:
+    """Left: mean NEES over the runs in each step, by filter; right: of all steps against dropout.
+
+    bounds: by what they are of, the wider ones first.
+    """
+    lines = dict(zip(overall, SOURCE_LINES[1:], strict=False))
+    bands = dict(zip(bounds, BOUNDS, strict=True))
+    with drawing():
+        fills = {f"{of}:": band._replace(meaning=f"{band.meaning}, {of}") for of, band in bands.items()}
+        legend = [*(line_entry(name, line) for name, line in lines.items()), *fill_entries(fills)]
+        figure, [[left, right]] = sheet(1, 2, legend)
+        for of, (low, high) in bounds.items():
+            left.axhspan(low, high, color=bands[of].colour, lw=0, zorder=0.3)
+        for name, line in lines.items():
+            left.plot(course["time_s"], course[name], color=line.colour, lw=0.8)
+        left.set(xlim=(course["time_s"][0], course["time_s"][-1]), ylim=(0, None))
+        label(left, "Dropout 50 %", "time (s)", "NEES, mean over the runs")
+        for name, rows in overall.items():
+            shown = [row for row in rows if float(row["dropout"]) >= SHOWN[0]]
+            at, value, line = _spaced(_column(shown, "dropout")), _column(shown, "nees"), lines[name]
+            right.plot(at, value, line.marker, color=line.colour, ms=line.size, mew=0, ls="-", lw=1.0)
+        right.set_ylim(0, None)
+        for axes in (left, right):
+            axes.axhline(3.0, color=INK, lw=0.7, zorder=1)
+        dropout_axis(right)
+        label(right, "All steps", "dropout (%)", "NEES, mean over runs and steps")
+        return figure
+
+
+def dropout_axis(axes: Axes) -> None:
+    """An axis of the time between measurements, logarithmic, that names the dropout; the claim's end is marked."""
+    axes.set_xscale("log")
+    axes.set_xlim(0.95 * _gap(SHOWN[0]), 1.2 * _gap(SHOWN[-1]))
+    axes.xaxis.set_major_locator(FixedLocator([_gap(dropout) for dropout in SHOWN]))
+    axes.xaxis.set_minor_locator(NullLocator())
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda gap, _: f"{100 * (1 - 1 / gap):.0f}"))
+    axes.axvline(_gap(CLAIMED), color=GREY, lw=0.9, ls=(0, (2, 1.5)), zorder=1)
+
+
+def _gap(dropout: float) -> float:
+    """Mean time between measurements, in their intervals without dropout."""
+    return 1 / (1 - dropout)
+
+
+def _spaced(dropouts: FloatArray) -> FloatArray:
+    return 1 / (1 - dropouts)
+
+
+def _column(rows: Iterable[Record], name: str) -> FloatArray:
+    return np.array([float(row[name]) for row in rows])
+
+
+def _curve(axes: Axes, across: FloatArray, up: FloatArray, bar: FloatArray, line: Line) -> None:
+    axes.errorbar(
+        across, up, bar, fmt=line.marker, color=line.colour, ms=line.size, mew=1.3 if line.marker == "|" else 0,
+        ls=line.dashes, lw=1.0, elinewidth=0.8, capsize=1.6, capthick=0.8,
+    )  # fmt: skip
+
+
+def _level(axes: Axes, at: float, text: str = "") -> None:
+    axes.axhline(at, color=GREY, lw=0.9, ls=(0, (2, 1.5)), zorder=1)
+    axes.annotate(
+        text, (0.02, at), (0, 2), xycoords=axes.get_yaxis_transform(), textcoords="offset points", va="bottom",
+        size=SMALL_PT,
+    )  # fmt: skip
