@@ -8,8 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from filters import dual_rate
-from filters.modular import run
-from tests.filters.modular.cases import ONE_SENSOR, measured, measured_rows, with_timing
+from filters.modular import Sensor, extended_corrector, extended_predictor, run
+from tests.filters.modular.cases import ONE_SENSOR, height, measured, measured_rows, pendulum_case, with_timing
 
 
 @pytest.mark.parametrize("name", ONE_SENSOR)
@@ -48,3 +48,15 @@ def test_it_is_the_filter_to_which_each_measurement_came_L_steps_late(data: st.D
     for each, late, undelayed in zip(found, expected, in_time, strict=True):
         np.testing.assert_allclose(each, late, rtol=0, atol=1e-10)
         np.testing.assert_allclose(each[outside], undelayed[outside], rtol=0, atol=1e-10)
+
+
+def test_jacobians_by_differences_are_as_good_as_given_ones() -> None:
+    exact, _ = with_timing(ONE_SENSOR["extended"], 4, 2)
+    by_differences = pendulum_case(extended_predictor, Sensor("height", extended_corrector(height, [[0.01]]), 4, 2))
+    measurements = measured(exact, 13)
+    by_both = [
+        run(case.composed, case.x0, case.P0, case.inputs(13), measurements, late="dual-rate", backend="reference")
+        for case in (by_differences, exact)
+    ]
+    for found, expected in zip(*by_both, strict=True):
+        np.testing.assert_allclose(found, expected, rtol=0, atol=1e-7)
