@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
@@ -19,7 +18,7 @@ from sched_sim.scenario_file import read_scenario
 from sched_sim.scenario_run import run_scenario
 from tests.reports.layout import flaws, texts
 
-ROCKET = replace(read_scenario(Path(__file__).parents[1] / "sched_sim" / "rocket.toml"), steps=2000)
+ROCKET = read_scenario(Path(__file__).parents[1] / "sched_sim" / "rocket.toml")
 OVERLOAD = Scenario(
     "overload",
     steps=400,

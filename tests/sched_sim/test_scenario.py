@@ -110,7 +110,7 @@ def test_the_probability_of_a_miss_is_that_of_the_sum_of_two_draws() -> None:
     predict, correct = [2, 3, 5], [3, 4, 6]
     exact = sum(sum(pair) > 8 for pair in product(predict, correct)) / 9
     gps = sensor("gps", 2, priority=HR, land_by=1, dropout=0.25)
-    found = run_scenario(scenario(8, {"predict": predict, "correct.gps": correct}, gps, steps=8_000))
+    found = run_scenario(scenario(8, {"predict": predict, "correct.gps": correct}, gps, steps=6_000))
     figures = found.jobs["correct gps"]
     assert figures.decided == found.sensors["gps"].arrived
     assert figures.miss_probability == figures.misses / figures.decided

@@ -88,9 +88,9 @@ def test_json_has_the_distributions(sched_sim: Run) -> None:
     assert gps["response_ms"]["maximum"] == pytest.approx(2.5 * max(outcome.jobs["correct gps"].responses))
     assert gps["response"].keys() == {"minimum", "mean", "median", "p95", "p99", "maximum"}
     assert gps["miss_probability"] == 0
-    assert gps["miss_interval"][0] == 0 < gps["miss_interval"][1] < 0.05
+    assert gps["miss_interval"][0] == 0 < gps["miss_interval"][1] < 0.1
     found = document["sensors"]["gps"]
-    assert found["taken"] == 100 == found["dropped"] + found["on_the_way"] + found["landed"] + found["not_landed"]
+    assert found["taken"] == 50 == found["dropped"] + found["on_the_way"] + found["landed"] + found["not_landed"]
     assert sum(found["achieved_l"].values()) == pytest.approx(1)
     assert document["sensors"]["barometer"]["achieved_l"] == {"0": 1.0}
     assert document["utilization"] == float(outcome.schedule.utilization)
@@ -105,7 +105,7 @@ def test_csv_has_a_row_for_each_job(sched_sim: Run) -> None:
 def test_people_get_two_tables(sched_sim: Run) -> None:
     out = sched_sim(f"simulate --scenario {ROCKET}").out
     for words in (
-        "rocket: 4000 steps at 400 Hz",
+        "rocket: 2000 steps at 400 Hz",
         "P(miss)",
         "95 % interval",
         "response times in ms",
