@@ -58,6 +58,20 @@ class Tally:
 Operand: TypeAlias = "Scalar | float"
 
 
+def _each(operator: Callable[[Scalar, Any], Scalar]) -> Callable[[Scalar, Any], Any]:
+    """The operator, with an array on the other side entry by entry: NumPy leaves it to the scalar, see its priority."""
+
+    def either(self: Scalar, other: Any) -> Any:
+        if not isinstance(other, np.ndarray):
+            return operator(self, other)
+        results = np.empty(other.shape, dtype=object)
+        for index in np.ndindex(other.shape):
+            results[index] = operator(self, other[index])
+        return results
+
+    return either
+
+
 class Scalar:
     """A float that counts, in a tally shared with others, what is done with it."""
 
@@ -74,34 +88,41 @@ class Scalar:
     def __repr__(self) -> str:
         return f"Scalar({self.value!r})"
 
+    @_each
     def __add__(self, other: Operand) -> Scalar:
         self.tally.add += 1
         return Scalar(self.value + float(other), self.tally)
 
     __radd__ = __add__
 
+    @_each
     def __sub__(self, other: Operand) -> Scalar:
         self.tally.add += 1
         return Scalar(self.value - float(other), self.tally)
 
+    @_each
     def __rsub__(self, other: Operand) -> Scalar:
         self.tally.add += 1
         return Scalar(float(other) - self.value, self.tally)
 
+    @_each
     def __mul__(self, other: Operand) -> Scalar:
         self.tally.multiply += 1
         return Scalar(self.value * float(other), self.tally)
 
     __rmul__ = __mul__
 
+    @_each
     def __truediv__(self, other: Operand) -> Scalar:
         self.tally.divide += 1
         return Scalar(_divide(self.value, float(other)), self.tally)
 
+    @_each
     def __rtruediv__(self, other: Operand) -> Scalar:
         self.tally.divide += 1
         return Scalar(_divide(float(other), self.value), self.tally)
 
+    @_each
     def __mod__(self, other: Operand) -> Scalar:
         """a - b floor(a / b): a divide, a multiply and an add."""
         self.tally.divide += 1
@@ -109,6 +130,7 @@ class Scalar:
         self.tally.add += 1
         return Scalar(self.value % float(other), self.tally)
 
+    @_each
     def __pow__(self, exponent: Operand) -> Scalar:
         """A square is one multiply; any other power is a function."""
         if exponent == 2:

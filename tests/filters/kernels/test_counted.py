@@ -38,6 +38,17 @@ def test_functions_of_numpy() -> None:
     assert count(work, 4.0, np.ones(3)) == Operations(multiply=3, add=2, sqrt=1, function=5)
 
 
+def test_a_scalar_counts_with_each_entry_of_an_array_on_either_side() -> None:
+    def work(x: Any, row: Any) -> None:
+        for result in (x * row, row * x, x + row, row + x, x - row, row - x, x / row, row / x, x**row):
+            assert len(result) == 2
+        assert [float(item) for item in x - row] == [3.0, 2.0]
+        assert [float(item) for item in row / x] == [0.25, 0.5]
+
+    found = count(work, 4.0, np.array([1.0, 2.0]))
+    assert found == Operations(multiply=5, add=10, divide=6, function=1)  # x**1 is a function, x**2 a multiply
+
+
 def test_records_and_functions_inside_the_arguments_count() -> None:
     def model(x: Any) -> Any:
         matrix = np.eye(2)
