@@ -34,7 +34,7 @@ def run(
     measurements: Iterable[Measurement],
     *,
     L: int | None = None,
-    backend: BackendName = "compiled",
+    backend: BackendName = "reference",
 ) -> ModularHistory:
     """Filter a record of data; the measurement of step k corrects the estimate at the start of step k + L.
 

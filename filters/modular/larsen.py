@@ -157,7 +157,7 @@ def run(
     inputs: FloatArray,
     measurements: Iterable[Measurement],
     *,
-    backend: BackendName = "compiled",
+    backend: BackendName = "reference",
 ) -> ModularHistory:
     """Filter a record of data; each measurement is used in the step in which it arrives.
 

@@ -26,7 +26,7 @@ def run(
     late: Late = "recalculate",
     history: int | None = None,
     L: int | None = None,
-    backend: BackendName = "compiled",
+    backend: BackendName = "reference",
 ) -> ModularHistory:
     """Filter a record of data in which measurements arrive in their steps or late.
 
@@ -36,7 +36,7 @@ def run(
         "larsen" carries its correction forward, with linear and extended parts, one at a time; "dual-rate" corrects
         in a later step, with one sensor, linear or extended.
     history: of "recalculate", see there. L: of "dual-rate", see there.
-    backend: "compiled" takes seconds the first time and is then some hundred times as fast as "reference".
+    backend: "compiled" takes ten seconds or more the first time and is then some hundred times as fast as "reference".
 
     Raises:
         ValueError: a shape is wrong, P0 is not positive definite, a function does not do what it should (see `trial`),

@@ -105,7 +105,7 @@ def run(
     measurements: Iterable[Measurement],
     *,
     history: int | None = None,
-    backend: BackendName = "compiled",
+    backend: BackendName = "reference",
 ) -> ModularHistory:
     """Filter a record of data; each measurement is used from the step on in which it arrives, in whatever order.
 
