@@ -149,11 +149,9 @@ def summary(one: Run) -> Summary:
     ascent = one.time_s >= 0.0
     parts = [slice(None), *(slice(at, at + 3) for at in range(0, OF.errors, 3))]
     lengths = np.stack([length(one.errors[ascent, part]) for part in parts[1:]])
-    with np.errstate(divide="ignore", invalid="ignore"):
-        residuals = np.stack([100.0 * reading(one) for reading in READINGS.values()])
     return Summary(
         one.time_s,
-        np.where(np.isfinite(residuals), residuals, np.inf),
+        100.0 * np.stack([reading(one) for reading in READINGS.values()]),
         np.stack([nees(one.errors[:, part], one.P[:, part, part]) for part in parts]),
         UNITS * np.sqrt(np.mean(lengths**2, axis=1)),
         UNITS * lengths.max(axis=1),

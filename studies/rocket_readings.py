@@ -15,45 +15,41 @@ from studies.rocket_flights import Run
 
 def distance(one: Run) -> FloatArray:
     """Error of position over distance from the pad."""
-    share: FloatArray = length(one.errors[:, :3]) / length(one.truth[:, :3])
-    return share
+    return share(length(one.errors[:, :3]), length(one.truth[:, :3]))
 
 
 def altitude(one: Run) -> FloatArray:
     """Error of height over height."""
-    share: FloatArray = np.abs(one.errors[:, 2] / one.truth[:, 2])
-    return share
+    return share(one.errors[:, 2], one.truth[:, 2])
 
 
 def horizontal(one: Run) -> FloatArray:
     """Horizontal error over horizontal distance."""
-    share: FloatArray = length(one.errors[:, :2]) / length(one.truth[:, :2])
-    return share
+    return share(length(one.errors[:, :2]), length(one.truth[:, :2]))
 
 
 def worst_axis(one: Run) -> FloatArray:
     """The worst of east, north, up: each axis' error over its own coordinate."""
-    share: FloatArray = np.abs(one.errors[:, :3] / one.truth[:, :3]).max(axis=1)
-    return share
+    worst: FloatArray = share(one.errors[:, :3], one.truth[:, :3]).max(axis=1)
+    return worst
 
 
 def way_turned(one: Run) -> FloatArray:
     """Angle of the orientation's error over all that the body has turned since ignition, roll too."""
     rate = length(one.truth[:, 9:12])
     steps = (rate[1:] + rate[:-1]) / 2 * np.diff(one.time_s)
-    turned: FloatArray = np.concatenate([[0.0], np.cumsum(steps)])
-    return length(one.errors[:, 12:]) / turned
+    return share(length(one.errors[:, 12:]), np.concatenate([[0.0], np.cumsum(steps)]))
 
 
 def net_turn(one: Run) -> FloatArray:
     """Angle of the orientation's error over that between the orientation and the one on the pad, at most 180 deg."""
-    return length(one.errors[:, 12:]) / attitude_angle(one.truth[:, 12:], one.truth[0, 12:])
+    return share(length(one.errors[:, 12:]), attitude_angle(one.truth[:, 12:], one.truth[0, 12:]))
 
 
 def nose(one: Run) -> FloatArray:
     """Angle between the nose and where the filter thinks it is, over that between the nose and the rail."""
     true, estimate = _nose(one.truth), _nose(one.x)
-    return _angle(true, estimate) / _angle(true, true[0])
+    return share(_angle(true, estimate), _angle(true, true[0]))
 
 
 def quaternion(one: Run) -> FloatArray:
@@ -71,7 +67,13 @@ READINGS: dict[str, Callable[[Run], FloatArray]] = {
     "nose / turn of the nose": nose,
     "difference of quaternions": quaternion,
 }
-"""Each a share over time; not finite, or meaningless, before liftoff."""
+"""Each a share over time (steps + 1,), infinite or meaningless before liftoff."""
+
+
+def share(error: FloatArray, of: FloatArray) -> FloatArray:
+    """The size of the error over that of something else; infinite over nothing."""
+    shares: FloatArray = np.divide(np.abs(error), np.abs(of), out=np.full(error.shape, np.inf), where=of != 0.0)
+    return shares
 
 
 def length(vectors: FloatArray) -> FloatArray:

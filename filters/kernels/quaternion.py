@@ -66,7 +66,10 @@ def rotation_between(a: FloatArray, b: FloatArray, at: int, out: FloatArray, sta
 
 
 def rotate(q: FloatArray, at: int, v: FloatArray, start: int, out: FloatArray) -> None:
-    """out (3,) = the vector v[start : start + 3] of the body in the frame to which the quaternion at q[at] refers."""
+    """out (3,) = the vector v[start : start + 3] of the body in the frame to which the quaternion at q[at] refers.
+
+    out may be v.
+    """
     w, x, y, z = q[at], q[at + 1], q[at + 2], q[at + 3]
     a, b, c = v[start], v[start + 1], v[start + 2]
     i = 2.0 * (y * c - z * b)
@@ -78,7 +81,7 @@ def rotate(q: FloatArray, at: int, v: FloatArray, start: int, out: FloatArray) -
 
 
 def rotate_back(q: FloatArray, at: int, v: FloatArray, start: int, out: FloatArray) -> None:
-    """out (3,) = the vector v[start : start + 3] in the frame of the body: the inverse of `rotate`."""
+    """out (3,) = the vector v[start : start + 3] in the frame of the body: the inverse of `rotate`; out may be v."""
     w, x, y, z = q[at], -q[at + 1], -q[at + 2], -q[at + 3]
     a, b, c = v[start], v[start + 1], v[start + 2]
     i = 2.0 * (y * c - z * b)

@@ -87,6 +87,12 @@ def simulate_flight(rocket: Rocket, seed: int = 0, *, backend: BackendName = "co
     steps, halves = round(LONGEST_S * RATE_HZ), 2 * FINE_STEPS
     half_s = np.arange(steps * halves + 1) / (RATE_HZ * halves) - PAD_S
     thrust, mass = burn(rocket, half_s)
+    weight = mass[0] * rocket.airframe.gravity
+    if thrust.max() <= weight:
+        raise ValueError(
+            f"simulate_flight: {rocket} does not leave the pad: it weighs {weight:.0f} N, its thrust is "
+            f"{thrust.max():.0f} N at most; give it less mass or more exhaust speed"
+        )
     y = np.zeros((steps + 1, 13))
     y[0, 9:13] = rail_attitude(rocket)
     acceleration = np.zeros((steps + 1, 3))
@@ -94,8 +100,8 @@ def simulate_flight(rocket: Rocket, seed: int = 0, *, backend: BackendName = "co
         arguments_for(backend, rocket.airframe), 1.0 / (RATE_HZ * FINE_STEPS), thrust, mass, _wind(rocket, steps, seed),
         y, acceleration,
     )  # fmt: skip
-    if last <= round((PAD_S + BURN_S) * RATE_HZ) or last == steps:
-        raise ValueError(f"simulate_flight: {rocket} does not leave the pad, or does not reach apogee in {LONGEST_S} s")
+    if last == steps:
+        raise ValueError(f"simulate_flight: {rocket} does not reach apogee in {LONGEST_S:.0f} s")
     kept = slice(0, last + 1)
     states = np.hstack([y[kept, :6], acceleration[kept], y[kept, 6:]])
     return Flight(half_s[::halves][kept], states, mass[::halves][kept], thrust[::halves][kept])
