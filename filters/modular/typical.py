@@ -55,13 +55,8 @@ def typical_moment(
     if given.ndim != 1 or not np.isfinite(given).all():
         raise ValueError(f"u has shape {given.shape}; an input has one dimension, and finite numbers")
     try_functions(composed, x, given)
-    truth, at = drawn(of, x, P, random), Estimate(x, P)
-    for step in range(WARM_UP):
-        for number, sensor in enumerate(composed.sensors):
-            y = drawn(sensor.corrector.observed, expected_by(sensor, of)(truth), sensor.corrector.R, random)
-            at = _sound(composed, number, step, _corrected(composed, sensor, at, y))
-        truth = drawn(of, _evolved(composed, truth, given), composed.predictor.motion.Q, random)
-        at = _sound(composed, PREDICTOR, step, _predicted(composed, at, given))
+    with np.errstate(all="ignore"):  # a breakdown is found by what it leaves
+        at = _warmed_up(composed, Estimate(x, P), given, random)
     return Moment(at, given, tuple(expected_by(sensor, of)(at.x) for sensor in composed.sensors))
 
 
@@ -87,6 +82,18 @@ def drawn(of: Space, point: FloatArray, covariance: FloatArray, random: np.rando
 def empty(of: Space) -> Estimate:
     """Memory for an estimate."""
     return Estimate(np.empty(of.numbers), np.empty((of.errors, of.errors)))
+
+
+def _warmed_up(composed: ModularFilter, start: Estimate, u: FloatArray, random: np.random.Generator) -> Estimate:
+    of, at = composed.of, start
+    truth = drawn(of, at.x, at.P, random)
+    for step in range(WARM_UP):
+        for number, sensor in enumerate(composed.sensors):
+            y = drawn(sensor.corrector.observed, expected_by(sensor, of)(truth), sensor.corrector.R, random)
+            at = _sound(composed, number, step, _corrected(composed, sensor, at, y))
+        truth = drawn(of, _evolved(composed, truth, u), composed.predictor.motion.Q, random)
+        at = _sound(composed, PREDICTOR, step, _predicted(composed, at, u))
+    return at
 
 
 def _origin(of: Space) -> FloatArray:

@@ -218,7 +218,7 @@ def test_what_is_counted_is_the_filter_itself(job: Job) -> None:
 
 @pytest.mark.slow
 def test_what_is_compiled_is_the_filter_itself() -> None:
-    job = modular_jobs(UNSCENTED.composed, UNSCENTED.x0, UNSCENTED.P0, UNSCENTED.u)["predict"]
+    job = modular_jobs(UNSCENTED.composed, UNSCENTED.x0, UNSCENTED.P0, UNSCENTED.u)["correct.height"]
     arguments = job.arguments(1)
     function_for("compiled", job.function)(*arguments_for("compiled", arguments))
     np.testing.assert_allclose(numbers(arguments), left_by(job), rtol=1e-12, atol=1e-14)

@@ -1,0 +1,223 @@
+"""`sched-sim measure --filter`: what it writes, and what it says to a filter that cannot be measured."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from sched_sim.errors import InputError
+from sched_sim.sample_file import read_sampled_costs
+from studies.user_filter import load_filter
+from tests.command_line import Run, is_refused
+
+OWN_FILTER = """
+import numpy as np
+from filters.modular import *
+
+def move(x, u, dt, out):
+    out[0] = x[0] + dt * x[1]
+    out[1] = x[1]
+
+def distance(x, out):
+    out[0] = np.log(x[0])
+
+Q, R = 0.1 * np.eye(2), [[1.0]]
+GPS = Sensor("gps", linear_corrector([[1.0, 0.0]], R), delay=2)
+LINEAR = linear_predictor([[1.0, 0.1], [0.0, 1.0]], Q)
+
+def cart():
+    return ModularFilter(LINEAR, [GPS], dt=0.1)
+
+def radar():
+    return ModularFilter(unscented_predictor(move, Q), [GPS, Sensor("radar", unscented_corrector(distance, R))], 0.1)
+
+def distant_radar():
+    return radar(), [100.0, 2.0]
+
+def far_off_radar():
+    return radar(), [-100.0, 2.0]
+
+def short_start():
+    return cart(), [1.0]
+
+def flat_start():
+    return cart(), [1.0, 2.0], np.zeros((2, 2))
+
+def blind():
+    return ModularFilter(unscented_predictor(move, Q), [], 0.1)
+
+def pushed():
+    return moving(lambda x, u, dt, out: move(x, u[0] * dt, dt, out)), [0.0, 0.0], np.eye(2), [1.0]
+
+def moving(f, jacobian=None):
+    return ModularFilter(extended_predictor(f, Q, jacobian), [GPS], 0.1)
+
+def without_input():
+    return pushed()[0]
+
+def observing(h, jacobian=None):
+    return ModularFilter(LINEAR, [GPS, Sensor("eye", extended_corrector(h, R, jacobian))], 0.1)
+
+def two_inputs():
+    return ModularFilter(linear_predictor(np.eye(2), Q, np.eye(2)), []), None, None, [1.0]
+
+def returning():
+    return observing(lambda x, out: x[:1])
+
+def forgetful():
+    return moving(lambda x, u, dt, out: out.__setitem__(0, x[0]))
+
+def changing():
+    return observing(lambda x, out: x.__setitem__(0, 2.0))
+
+def too_long():
+    return observing(lambda x, out: out.__setitem__(1, 2.0))
+
+def wrong_jacobian():
+    return observing(lambda x, out: out.__setitem__(0, x[0]), lambda x, out: np.array([[1.0, 0.0]]))
+
+def not_plain():
+    return moving(np.add)
+
+def unstable():
+    return moving(lambda x, u, dt, out: move(1e200 * x, u, dt, out))
+
+def written(x, u, dt, out):
+    out[0] = float("%.3f" % x[0])
+    out[1] = x[1]
+
+def not_compilable():
+    return moving(written)
+
+def raising():
+    raise RuntimeError("boom")
+
+def number():
+    return 9
+
+def too_many():
+    return cart(), None, None, None, None
+"""
+
+
+@pytest.fixture(autouse=True)
+def own_module(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "own_filter.py").write_text(OWN_FILTER)
+    monkeypatch.chdir(tmp_path)
+
+
+def test_counts_of_each_part_are_printed_and_written(sched_sim: Run, tmp_path: Path) -> None:
+    line = "measure --filter own_filter:distant_radar --backend counted"
+    rows = json.loads(sched_sim(f"{line} --format json -o costs.toml").out)
+    assert [row["job"] for row in rows] == ["predict", "correct.gps", "correct.radar"]
+    assert rows[2]["function"] == 5  # a logarithm for each sigma point
+    costs = read_sampled_costs(tmp_path / "costs.toml")
+    assert costs.unit == "operation"
+    assert {part: [float(one) for one in samples] for part, samples in costs.samples.items()} == {
+        row["job"]: [row["operations"]] for row in rows
+    }
+    assert costs.provenance["sensors"] == {"gps": "linear", "radar": "unscented"}
+    assert list(csv.DictReader(io.StringIO(sched_sim(f"{line} --format csv").out))) == [
+        {key: str(value) for key, value in row.items()} for row in rows
+    ]
+    assert "operations" in sched_sim(line).out
+
+
+def test_a_filter_of_linear_parts_has_the_jobs_of_larsens_way_too() -> None:
+    assert list(load_filter("own_filter:cart").jobs) == [
+        "predict",
+        "correct.gps",
+        "predict_accumulate",
+        "correct_accumulate.gps",
+        "correct_late.gps",
+    ]
+
+
+def test_an_input_can_be_given() -> None:
+    assert load_filter("own_filter:pushed").jobs["predict"].arguments(0)[3].tolist() == [1.0]
+
+
+@pytest.mark.parametrize("part", ["predict", "correct.gps", "correct.radar"])
+def test_each_set_of_arguments_is_of_its_own_and_the_same_again(part: str) -> None:
+    job = load_filter("own_filter:distant_radar").jobs[part]
+    first, again, other = (job.arguments(index)[2 if part == "predict" else 3] for index in (0, 0, 1))
+    np.testing.assert_array_equal(first.x, again.x)
+    assert not np.shares_memory(first.x, again.x)
+    assert (first.x != other.x).all()
+    assert (first.P != other.P).any()
+
+
+@pytest.mark.slow
+def test_a_thousand_samples_of_each_part_are_timed(sched_sim: Run, tmp_path: Path) -> None:
+    """Of a filter without sensors, which compiles in seconds."""
+    (row,) = json.loads(sched_sim("measure --filter own_filter:blind --format json -o costs.toml").out)
+    costs = read_sampled_costs(tmp_path / "costs.toml")
+    assert (costs.unit, list(costs.samples)) == ("second", ["predict"])
+    samples = costs.samples["predict"]
+    assert len(samples) == row["samples"] == 1000
+    assert float(min(samples)) == row["minimum"] <= row["median"] <= row["p95"] <= row["maximum"]
+    assert len(set(samples)) > 100
+    assert "a sample is the mean of 20 executions" in costs.provenance["source"]
+    assert {"machine", "date", "versions", "protocol"} <= set(costs.provenance)
+
+
+@pytest.mark.slow
+def test_a_function_that_cannot_be_compiled_is_named_with_its_line(sched_sim: Run) -> None:
+    said = ["predict cannot be compiled by numba", "own_filter.py, line", '"%.3f" % x[0]']
+    is_refused(sched_sim("measure --filter own_filter:not_compilable"), said)
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [
+        ("own_filter", "name a function"),
+        ("not_there:cart", "'not_there' cannot be imported"),
+        ("own_filter:truck", "has no function 'truck'"),
+        ("own_filter:raising", r"raising\(\) failed: boom"),
+        ("own_filter:number", r"number\(\) returned a int; name a function"),
+        ("own_filter:too_many", r"returned \(ModularFilter, NoneType, NoneType, NoneType, NoneType\)"),
+        ("own_filter:radar", r"sensor 'radar': h\(x, out\).*finite.*x = \[0.0, 0.0\].*return \(filter, x0, P0, u\)"),
+        ("own_filter:far_off_radar", r"sensor 'radar': h\(x, out\).*finite.*x = \[-100.0, 2.0\].*tried with your x0"),
+        ("own_filter:short_start", r"x0 has shape \(1,\), the filter needs \(2,\)"),
+        ("own_filter:flat_start", "P0 is not positive definite"),
+        ("own_filter:without_input", r"predictor: f\(x, u, dt, out\) failed: IndexError.*u \(0,\).*no input"),
+        ("own_filter:two_inputs", "predictor: B has 2 columns, but the input has 1 numbers"),
+        (
+            "own_filter:returning",
+            r"sensor 'eye': h\(x, out\) returned a ndarray of shape \(1,\); it must write into out",
+        ),
+        ("own_filter:forgetful", r"predictor: f\(x, u, dt, out\) left in out \[0.0, nan\]: not written.* is \[1\]"),
+        ("own_filter:changing", r"sensor 'eye': h\(x, out\) changes what it is given"),
+        ("own_filter:too_long", r"sensor 'eye': h\(x, out\) failed: IndexError.*out \(1,\)"),
+        ("own_filter:wrong_jacobian", r"sensor 'eye': jacobian\(x, out\) returned a ndarray of shape \(1, 2\)"),
+        ("own_filter:not_plain", r"predictor: f\(x, u, dt, out\) is a ufunc; give a plain function"),
+        ("own_filter:unstable", "sensor 'gps', step 1: the covariance is no longer positive definite"),
+    ],
+)
+def test_what_is_wrong_with_a_users_filter_is_named(name: str, said: str) -> None:
+    with pytest.raises(InputError, match=said) as error:
+        load_filter(name)
+    assert f"--filter {name!r}" in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        ("--states 9", ["--states"]),
+        ("--inputs 3 --measurements 2", ["--inputs, --measurements"]),
+        ("--system a:b", ["--system"]),
+        ("--robust position --parallel 3", ["--robust, --parallel"]),
+        ("--update short --method larsen", ["--method, --update"]),
+        ("--backend numpy", ["--backend numpy", "compiled or counted"]),
+        ("-o nowhere/costs.toml", ["nowhere/costs.toml"]),
+    ],
+)
+def test_options_that_say_nothing_of_a_composed_filter_are_refused(
+    sched_sim: Run, options: str, said: list[str]
+) -> None:
+    is_refused(sched_sim(f"measure --filter own_filter:cart {options}"), said)
