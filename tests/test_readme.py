@@ -6,9 +6,12 @@ import re
 import shlex
 import sys
 from pathlib import Path
+from typing import Any
 
+import numpy as np
 import pytest
 
+import filters.modular
 from sched_sim.cli import main
 from sched_sim.costs import load
 from sched_sim.timing import Timing
@@ -44,6 +47,8 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     (tmp_path / "mypart.toml").write_text(block("toml", 'name = "mypart"'))
     (tmp_path / "counts.toml").write_text(block("toml", "[operations.larsen]"))
     (tmp_path / "pendulum.py").write_text(block("python", "def system"))
+    (tmp_path / "vehicle.py").write_text(block("python", "def vehicle"))
+    (tmp_path / "vehicle.toml").write_text(block("toml", "[[sensor]]"))
     return tmp_path
 
 
@@ -69,6 +74,17 @@ def test_every_command_runs(monkeypatch: pytest.MonkeyPatch) -> None:
     assert len(lines) >= 9
     for line in lines:
         run(line, monkeypatch)
+
+
+def test_the_composed_filter_runs_on_data(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.syspath_prepend(folder)
+    names: dict[str, Any] = {}
+    exec(block("python", "from vehicle import vehicle"), names)
+    composed, x0, P0, inputs = (names[name] for name in ("composed", "x0", "P0", "inputs"))
+    x = names["history"].x
+    without_gps = filters.modular.run(composed, x0, P0, inputs, names["measurements"][:1]).x
+    assert np.array_equal(x[:120], without_gps[:120])
+    assert not np.array_equal(x[120], without_gps[120])
 
 
 def test_the_table_of_least_speeds_is_what_the_analysis_gives() -> None:
