@@ -2,8 +2,24 @@
 
 The claim of MacCormack and Rubinstein, Implementation of a modular linear and unscented Kalman filter: "residuals for
 position and orientation of the rocket were found to be within acceptable ranges (<15%) during ascent". They do not say
-of what 15 % is. So the study tries the readings
-that suggest themselves (`rocket_readings`), and gives for each the time after ignition from which it holds.
+of what 15 % is. So the study tries the readings that suggest themselves (`rocket_readings`), and gives for each the
+time after ignition from which it holds.
+
+Position: as a share of the distance from the pad it holds from half a second after ignition on, in all flights; after
+a second the worst is 3 %, the mean 0.05 %. It also holds if 80 % of all measurements are lost, or all of any one
+sensor: even the accelerometer, without which the filter lags behind the thrust. At 95 % it fails in every fifth flight.
+As a share of the horizontal distance it holds from 1.5 s on. Each axis for itself it does not: coordinates pass through
+zero.
+
+Orientation: as a share of all that was turned it holds from 0.9 s on, for before that nothing turns. As a share of the
+net turn it fails whenever roll has come round to where it began, and of the nose's turn where that is small, although
+the errors are 0.16 degrees, and 0.9 at most. As difference of quaternions, where 15 % are 17 degrees, it says little:
+it holds at once. By the readings that are shares of a turn, a third to a half of the flights fail at 80 % dropout, and
+nearly all at 95 %.
+
+The filter is as accurate as it says, but for the first 50 ms of thrust, and for lost measurements: noise that has the
+mean square of the flight's jerk is not that of its onset. An extended predictor does as well as the unscented one, to
+four digits: 10 ms of flight are as good as linear. Sensors have white noise only, of known size; no biases.
 """
 
 from __future__ import annotations
