@@ -15,7 +15,7 @@ Backend: TypeAlias = Literal["compiled", "counted"]
 
 QUICK = Protocol(rounds=1000, repetitions=20)
 THOROUGH = Protocol(rounds=10_000, repetitions=20)
-"""Few repetitions, so that what disturbs one of them (an interrupt, a cold cache) is seen in its sample."""
+"""Few repetitions, so that what slows one of them (a cold cache, another clock rate) is seen in its sample."""
 
 
 def measure_filter(
@@ -47,7 +47,8 @@ def measure_filter(
     times = seconds_per_run({(part,): job for part, job in user.jobs.items()}, "compiled", protocol, seed, progress)
     about |= {
         "source": f"{protocol.rounds} samples of each part; a sample is the mean of {protocol.repetitions} executions "
-        "in one compiled call, less the least time of an empty loop; other parts run in between",
+        "in one compiled call, less the least time of an empty loop; other parts run in between; time in which the "
+        "operating system runs something else is not counted",
         **where_timed(protocol, seed),
     }
     timed = {part: tuple(Fraction(f"{each:.4g}") for each in seconds) for (part,), seconds in times.items()}
