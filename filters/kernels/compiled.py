@@ -7,6 +7,10 @@ arithmetic of a 9-state step. Hence the two versions of a function: `compiled`, 
 disk, and `inlined`, to be called by compiled code, which is only ever a part of a compiled function. (Machine code
 read from the disk cannot be inlined: if the parts were cached too, the speed would depend on what the cache held.)
 
+Most of the time to compile goes into parts that nobody calls, at every level of nesting anew. So a part can be called
+from compiled code only, and is not optimised before it is inlined, save for the kernels: LLVM vectorises their loops
+only while they stand alone, without which the dense inverse takes half as long again.
+
 Machine code is kept in the user's cache folder. numba's own cache looks only at the file of the outermost function
 and so goes stale when a callee in another file changes; here the folder's name carries a hash of the sources of all
 functions involved. Functions passed as arguments (those of a system model) are part of a signature, and numba finds
@@ -85,13 +89,28 @@ def _kept_on_disk(clone: FunctionType, original: FunctionType) -> Any:
 
 
 def _inlined(clone: FunctionType, original: FunctionType) -> Any:
-    dispatcher = _jit(clone, forceinline=True, _nrt=not original.__module__.startswith(_ALLOCATION_FREE))
+    module = original.__module__
+    options = {} if module.startswith("filters.kernels.") else {"pipeline_class": _compiler_without_optimiser}
+    dispatcher = _jit(
+        clone,
+        forceinline=True,
+        no_cpython_wrapper=True,
+        no_cfunc_wrapper=True,
+        _nrt=not module.startswith(_ALLOCATION_FREE),
+        **options,
+    )
     identity = uuid.uuid5(uuid.NAMESPACE_URL, f"sched_sim:{original.__qualname__}:{source_hash(original)}")
     dispatcher._set_uuid(str(identity))
     return dispatcher
 
 
-def _jit(clone: FunctionType, **options: bool) -> Any:
+def _compiler_without_optimiser(typing: Any, target: Any, _library: None, *rest: Any) -> Any:
+    library = target.codegen().create_library("part")
+    library._optimize_final_module = lambda: None
+    return import_module("numba.core.compiler").Compiler(typing, target, library, *rest)
+
+
+def _jit(clone: FunctionType, **options: Any) -> Any:
     njit: Any = import_module("numba").njit
     return njit(error_model="numpy", **options)(clone)
 
