@@ -35,6 +35,7 @@ from filters.systems.rocket_filter import (
     rocket_filter,
 )
 from sched_sim.distribution import wilson
+from sched_sim.draws import fates
 from sched_sim.jobs import HR, LR
 from sched_sim.sample_file import SampledCosts
 from sched_sim.scenario import Late, Scenario, Sensor
@@ -58,6 +59,10 @@ CONTROL_EVERY, CONTROL_PRIORITY = 2, 15
 STEPS, CURVE_STEPS, SEED = 10_000, 4_000, 0
 """Simulated of a chosen processor, and of each one on a curve."""
 PERIOD_MS = 1000 / RATE_HZ
+
+
+BEARABLE = 0.01
+"""The share of missed deadlines up to which a processor is said to hold."""
 
 
 class Way(NamedTuple):
@@ -215,7 +220,7 @@ def slowness_of_a_full_processor(costs: SampledCosts) -> float:
     return 1 / (RATE_HZ * work_s)
 
 
-POINTS, SLOWEST, FASTEST = 15, 1.25, 0.035
+POINTS, SLOWEST, FASTEST = 14, 1.2, 0.035
 SURE = 0.95
 """A curve ends with the processor on which every job misses so often: on still slower ones no simulation is needed."""
 
@@ -289,6 +294,13 @@ def chosen(costs: Costs, way: Way, urgency: str, times_slower: int, *, steps: in
     return Run(way.name, urgency, times_slower, responses, shares, outcome)
 
 
+def arrivals(steps: int = STEPS, seed: int = SEED) -> Counter[int]:
+    """How many GPS measurements take so many steps to arrive, of those of a simulation: the achieved l - k if no
+    computation took any time. The last ones may arrive after its end."""
+    fixes = fates(GPS_DELAYS, DROPOUT, len(range(0, steps, GPS_EVERY)), seed, GPS)
+    return Counter(delay for delay in fixes if delay is not None)
+
+
 PURPOSES = ("prediction", "on-time corrections", "GPS correction", "replay", "catching up", "control")
 _OF_GPS = {"CO": "GPS correction", "RP": "replay", "CU": "catching up"}
 
@@ -299,9 +311,9 @@ def _purpose(kind: str, label: str) -> str:
     return {"predict": "prediction", JOBS["control"]: "control"}.get(kind, "on-time corrections")
 
 
-def slowest_that_holds(rows: Iterable[MissRow], way: str, urgency: str, limit: float) -> int | None:
-    """The slowest of the processors tried up to which no job misses more than this share of its deadlines; None if the
-    fastest does."""
+def slowest_that_holds(rows: Iterable[MissRow], way: str, urgency: str, limit: float = BEARABLE) -> int | None:
+    """The slowest of the processors tried up to which no job misses more than this share of its deadlines; None if some
+    job does on the fastest."""
     held = None
     by_speed: dict[int, list[MissRow]] = {}
     for row in rows:
@@ -312,3 +324,10 @@ def slowest_that_holds(rows: Iterable[MissRow], way: str, urgency: str, limit: f
             break
         held = slower
     return held
+
+
+def compared_at(rows: Sequence[MissRow]) -> int:
+    """The slowest processor tried on which the extended filter, preempted while it replays, holds: there all others are
+    looked at too. The fastest one if there is none."""
+    held = slowest_that_holds(rows, WAYS[1].name, "preempted", BEARABLE)
+    return min(row.times_slower for row in rows) if held is None else held

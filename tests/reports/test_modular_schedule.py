@@ -1,0 +1,155 @@
+"""Figures and tables on the rocket's filter on slow processors: their numbers are those they were given, and they can
+be read."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from fractions import Fraction
+from itertools import product
+
+import numpy as np
+import pytest
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Rectangle
+
+from filters.arrays import FloatArray
+from filters.systems.rocket_filter import SENSORS, PredictorName
+from reports.modular_schedule import (
+    LEVELS,
+    landing_figure,
+    landings,
+    miss_figure,
+    miss_rows_of,
+    miss_table,
+    response_figure,
+    responses,
+    share_rows,
+    verdict_rows,
+)
+from reports.stored import Rows, records
+from sched_sim.sample_file import SampledCosts
+from studies.rocket_schedule import JOBS, STEPS, URGENCIES, WAYS, MissRow, Run, arrivals, chosen
+from tests.reports.layout import flaws, texts
+
+GRID = (20, 100, 500, 2000)
+PARTS = {"predict": 4, "predict_accumulate": 5} | {
+    f"{kind}.{name}": 1 for kind in ("correct", "correct_accumulate", "correct_late") for name in SENSORS
+}
+COSTS: dict[PredictorName, SampledCosts] = {
+    name: SampledCosts(name, "second", {part: (Fraction(time, 10**6),) for part, time in PARTS.items()})
+    for name in ("unscented", "extended")
+}
+
+
+def rows() -> list[MissRow]:
+    """The slower, the more misses; the urgent ones twice as many, the later ways of `WAYS` fewer."""
+    found = []
+    for (number, way), (doubled, urgency), (at, slower), job in product(
+        enumerate(WAYS), enumerate(URGENCIES), enumerate(GRID), JOBS
+    ):
+        misses = (doubled + 1) * at * 100 // (number + 1)
+        found.append(MissRow(way.name, urgency, slower, job, misses, 600, misses / 7, 0.1 * at))
+    return found
+
+
+@pytest.fixture(scope="module")
+def runs() -> list[Run]:
+    return [chosen(COSTS, way, urgency, 200, steps=400) for way in WAYS for urgency in URGENCIES]
+
+
+def as_records(table: Rows) -> list[dict[str, str]]:
+    """As they are read from a file."""
+    return records([[str(cell) for cell in row] for row in table])
+
+
+def plots(figure: Figure) -> Iterator[Axes]:
+    """Those that have an axis; the legend has none."""
+    return (axes for axes in figure.axes if axes.axison)
+
+
+def curve(line: Line2D) -> FloatArray:
+    """(2, points)."""
+    return np.array(line.get_data(), dtype=float)
+
+
+def bars(axes: Axes) -> list[float]:
+    return [patch.get_height() for patch in axes.patches if isinstance(patch, Rectangle)]
+
+
+def test_rows_are_read_back_as_they_were_stored() -> None:
+    for row, again in zip(rows(), miss_rows_of(as_records(miss_table(rows()))), strict=True):
+        assert again[:6] == row[:6]
+        assert again[6:] == pytest.approx(row[6:], rel=5e-3)
+
+
+def test_curves_are_the_shares_of_missed_deadlines_in_their_bands() -> None:
+    figure = miss_figure(rows())
+    assert flaws(figure) == []
+    for axes, (urgency, job) in zip(plots(figure), product(URGENCIES, JOBS), strict=True):
+        for way, line, band in zip(WAYS, axes.lines, axes.collections, strict=True):
+            of_way = [row for row in rows() if (row.way, row.urgency, row.job) == (way.name, urgency, job)]
+            np.testing.assert_allclose(curve(line), [GRID, [100 * row.misses / 600 for row in of_way]])
+            (corners,) = [path.vertices for path in band.get_paths()]
+            edges = {round(float(share), 6) for share in np.asarray(corners)[:, 1]}
+            assert {round(100 * limit, 6) for row in of_way for limit in row.interval} == edges
+
+
+def test_a_curve_may_end_before_the_others() -> None:
+    """And there may be none."""
+    shorter = [row for row in rows() if row.way != WAYS[0].name and (row.way == WAYS[1].name or row.times_slower < 500)]
+    assert flaws(miss_figure(shorter)) == []
+
+
+def test_response_times_are_quantiles(runs: list[Run]) -> None:
+    found = responses(runs)
+    times = np.array(runs[0].responses_ms["loop"])
+    kept = found[f"loop, {runs[0].way}, {runs[0].urgency}"]
+    assert len(kept) == len(found["share"]) == LEVELS
+    assert kept[0] == times[0]
+    for share, time in zip(found["share"], kept, strict=True):
+        assert (times > time).mean() <= share <= (times >= time).mean() + 1e-12
+
+
+def test_response_figure_shows_them(runs: list[Run]) -> None:
+    found = responses(runs)
+    figure = response_figure(found)
+    assert flaws(figure) == []
+    for axes, (urgency, job) in zip(plots(figure), product(URGENCIES, JOBS), strict=True):
+        for way, line in zip(WAYS, axes.lines, strict=False):
+            np.testing.assert_allclose(curve(line), [found[f"{job}, {way.name}, {urgency}"], 100 * found["share"]])
+
+
+def test_landings_are_shares_of_all_that_arrived() -> None:
+    found = landings([chosen(COSTS, WAYS[2], "preempted", 1)])
+    np.testing.assert_allclose(found[f"GPS, {WAYS[2].name}, preempted"], found["arrivals"], atol=0.3)
+    assert found["arrivals"].sum() == pytest.approx(100)
+    assert arrivals(STEPS).total() > 400
+
+
+def test_landing_figure_shows_them(runs: list[Run]) -> None:
+    found = landings(runs)
+    figure = landing_figure(found)
+    assert flaws(figure) == []
+    first, *_, last = plots(figure)
+    assert bars(first) == pytest.approx(list(found[f"GPS, {WAYS[0].name}, preempted"]))
+    assert bars(last) == pytest.approx(list(found[f"GPS, {WAYS[2].name}, preempted"]))
+
+
+def test_figures_say_what_is_what(runs: list[Run]) -> None:
+    said = {text.get_text() for text, _ in texts(response_figure(responses(runs)))}
+    assert {way.name for way in WAYS} <= said
+    assert {"Loop: predict, IMU", "Control task", "GPS correction", "deadline"} <= said
+
+
+def test_verdicts_say_how_slow_a_processor_may_be() -> None:
+    table = verdict_rows(rows(), 500)
+    assert [row[2] for row in table[1:]] == [20] * 6
+    by_case = {(row[0], row[1]): row for row in table}
+    assert by_case[WAYS[0].name, "in the loop"][3:] == ["20", "66.7", "57", "66.7", "66.7"]
+
+
+def test_shares_add_up(runs: list[Run]) -> None:
+    for row in share_rows(runs)[1:]:
+        assert sum(float(cell) for cell in row[3:-1]) == pytest.approx(100, abs=0.4)
