@@ -5,14 +5,21 @@ from __future__ import annotations
 
 from matplotlib.figure import Figure
 
+from filters.systems.rocket import BURN_S
 from filters.systems.spring_mass import period_s
 from reports import modular_oscillator as oscillator
+from reports import modular_rocket as rocket
 from reports import modular_tables as tables
 from reports import modular_words as words
+from reports.modular_costs import cost_figure
+from reports.modular_late import late_figure
 from reports.modular_results import OWN_MODEL, SHOWN_PERIODS, Results
+from reports.modular_rocket_rows import READINGS
 from reports.picture import image
 from reports.render import csv_bytes, render
 from studies import spring_mass
+from studies.late_measurements import SENSORS
+from studies.rocket import BASE, PHASES
 from studies.spring_mass_run import OSCILLATOR
 
 TITLE = "Modular Kalman filters: what dropout, delay and ignorance do to them, what they cost, and when they land"
@@ -26,6 +33,12 @@ def build(found: Results) -> dict[str, bytes]:
         "rates": tables.rate_rows(found),
         "sensors": tables.sensor_rows(found),
         "consistency": tables.consistency_rows(found),
+        "rocket-errors": tables.rocket_error_rows(found),
+        "readings": tables.reading_rows(found),
+        "lost": tables.lost_rows(found),
+        "rocket-nees": tables.rocket_nees_rows(found),
+        "late": tables.late_rows(found),
+        "parts": tables.part_rows(found),
     }
     figures = {name: image(figure, "svg") for name, figure in _figures(found).items()}
     pages = render(
@@ -35,6 +48,9 @@ def build(found: Results) -> dict[str, bytes]:
         **{name.replace("-", "_"): table for name, table in rows.items()},
         points=words.sigma_point_words(),
         spring=words.oscillator_words(found),
+        rocket=words.rocket_words(found),
+        delayed=words.late_words(found),
+        cost=words.cost_words(found),
     )
     return {**pages, **figures, **found.files(), **{f"{name}.csv": csv_bytes(table) for name, table in rows.items()}}
 
@@ -52,4 +68,19 @@ def _figures(found: Results) -> dict[str, Figure]:
             {f"{row['runs']} runs": (float(row["low"]), float(row["high"])) for row in half.values()},
             {name: found.records("dropout", group=name) for name in ("usual", "less process noise", OWN_MODEL)},
         ),
+        "flight.svg": rocket.flight_figure(found.columns("flight"), BURN_S),
+        "residuals.svg": rocket.residual_figure(found.columns("rocket-residual-course"), READINGS),
+        "rocket-consistency.svg": _rocket_consistency(found),
+        "late.svg": late_figure({sensors: found.records("late", sensors=sensors) for sensors in SENSORS}),
+        "parts.svg": cost_figure(found.records("parts")),
     }
+
+
+def _rocket_consistency(found: Results) -> Figure:
+    rows = found.records("rocket-nees", case=BASE.name)
+    bounds = {row["n"]: (float(row["low"]), float(row["high"])) for row in rows}
+    of_phase = {
+        phase: [(float(row["mean"]), float(row["se"])) for row in rows if row["phase"] == phase and row["of"] != "all"]
+        for phase in PHASES
+    }
+    return rocket.nees_figure(found.columns("rocket-nees-course"), of_phase, bounds["15"], bounds["3"])

@@ -6,29 +6,36 @@ machines, and the report is made from these files.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
+from statistics import median
 from typing import NamedTuple
 
 import numpy as np
 
 from filters.arrays import FloatArray
 from filters.systems.spring_mass import period_s
+from reports.modular_costs import OPERATIONS, SECONDS
 from reports.modular_oscillator import QUANTITIES, SENSORS, UNITS
+from reports.modular_rocket_rows import rocket_tables
 from reports.stored import Rows, Tables, columns, digits, read_tables, records, rows_of, table_files
-from studies import spring_mass
+from studies import late_measurements, modular_costs, rocket, spring_mass
 from studies.spring_mass_run import OSCILLATOR, SETTLED_PERIODS, step_s
 
 Progress = Callable[[int, int, str], None]
 
-SEED, HALF, SHOWN_PERIODS = 0, 0.5, 3
+SEED, HALF, SHOWN_PERIODS = 0, 0.5, 2
 """Of the run that is drawn: its seed, its dropout, and how much of it."""
 EVERY = 4
 """Steps between the points of a curve over all runs."""
 
 OWN_MODEL = "usual, its own model true"
 
-TABLES = ("oscillator", "dropout", "consistency")
+TABLES = (
+    "oscillator", "dropout", "consistency", "rocket-errors", "rocket-residuals", "rocket-nees",
+    "rocket-residual-course", "rocket-nees-course", "rocket-apogee", "flight", "late",
+    "parts", "machine",
+)  # fmt: skip
 
 
 class Results(NamedTuple):
@@ -54,9 +61,16 @@ def read(folder: Path) -> Results:
     return Results(read_tables(folder, TABLES))
 
 
-def results(progress: Progress = lambda _done, _total, _what: None) -> Results:
-    """Runs the studies."""
-    return Results(oscillator_tables(spring_mass.dropout_study(progress)))
+def results(thorough: bool = False, progress: Progress = lambda _done, _total, _what: None) -> Results:
+    """Runs the studies and times the code: two minutes, and as many again if nothing was compiled before."""
+    return Results(
+        {
+            **oscillator_tables(spring_mass.dropout_study(progress)),
+            **rocket_tables(rocket.rocket_study(progress=progress)),
+            "late": late_rows(late_measurements.late_study(progress=progress)),
+            **part_tables(modular_costs.operations(), modular_costs.times(thorough=thorough, progress=progress)),
+        }
+    )
 
 
 # ----------------------------------------------------------------------------------------------------- the oscillator
@@ -122,3 +136,34 @@ def _consistency(study: spring_mass.DropoutStudy) -> dict[str, FloatArray]:
     steps = EVERY * np.arange(float(len(means[OWN_MODEL])))
     time_s: FloatArray = SETTLED_PERIODS * period_s(OSCILLATOR) + steps * step_s(spring_mass.USUAL)
     return {"time_s": time_s, **means}
+
+
+# -------------------------------------------------------------------------------------------------- late measurements
+
+
+def late_rows(found: Iterable[late_measurements.Row]) -> Rows:
+    """Errors of position, and operations."""
+    rows: Rows = [["sensors", "way", "delay", "runs", "error", "se", "mean", "longest"]]
+    for row in found:
+        error = map(digits, (row.error.rms[0], row.error.standard_error[0]))
+        rows.append([row.sensors, row.way, row.delay, row.runs, *error, f"{row.work.mean:.1f}", row.work.longest])
+    return rows
+
+
+# -------------------------------------------------------------------------------------------------------------- costs
+
+
+def part_tables(operations: Mapping[modular_costs.Key, int], timed: modular_costs.Times) -> dict[str, Rows]:
+    """Operations and times of each part, and where they were taken."""
+    rows: Rows = [["kind", "states", "part", OPERATIONS, SECONDS, "median, µs †"]]
+    for key, number in operations.items():
+        micros = [1e6 * each for each in timed.seconds[key]]
+        rows.append([*key, number, *map(digits, (min(micros), median(micros)))])
+    about = timed.about
+    versions = ", ".join(f"{name} {number}" for name, number in about["versions"].items())
+    protocol = f"{about['protocol']['rounds']} rounds of {about['protocol']['repetitions']} repetitions"
+    where: Rows = [
+        ["machine †", "date †", "versions †", "protocol †"],
+        [about["machine"], about["date"], versions, protocol],
+    ]
+    return {"parts": rows, "machine": where}

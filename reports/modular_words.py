@@ -5,10 +5,14 @@ from __future__ import annotations
 from typing import Any
 
 from filters.modular.sigma_points import maccormack, merwe, weights
+from filters.systems.rocket import BURN_S
 from filters.systems.spring_mass import period_s
+from reports.modular_costs import OPERATIONS, SECONDS
 from reports.modular_results import HALF, OWN_MODEL, SHOWN_PERIODS, Results
+from reports.modular_rocket_rows import CASES
 from reports.modular_tables import group_of, over, percent_of_amplitude
-from studies import spring_mass
+from reports.multirate_words import significant
+from studies import late_measurements, modular_costs, rocket, spring_mass
 from studies.spring_mass_run import OSCILLATOR, PERIODS, SETTLED_PERIODS
 
 STATES = (3, 15)
@@ -64,3 +68,91 @@ def oscillator_words(found: Results) -> dict[str, Any]:
 
 
 RATES = sorted({*spring_mass.RATES, spring_mass.USUAL.rate})
+
+
+def rocket_words(found: Results) -> dict[str, Any]:
+    """What was found of the rocket."""
+    errors = {row["case"]: row for row in found.records("rocket-errors")}
+    base, lossy = errors[rocket.BASE.name], errors[CASES["95 %"]]
+    apogee = found.columns("rocket-apogee")["apogee_m"]
+    nees = {
+        (dropout, row["phase"]): row
+        for dropout, case in CASES.items()
+        for row in found.records("rocket-nees", case=case, of="all")
+    }
+    (onset,) = found.records("rocket-nees", case=rocket.BASE.name, phase="thrust onset", of="acceleration")
+    readings = {
+        dropout: {row["reading"]: row for row in found.records("rocket-residuals", case=case)}
+        for dropout, case in CASES.items()
+    }
+    return {
+        "flights": base["runs"],
+        "few": len(rocket.FEW_SEEDS),
+        "apogee": [f"{float(height):,.0f}" for height in (apogee.min(), apogee.max())],
+        "burn": f"{BURN_S:g}",
+        "claim": f"{rocket.CLAIM_PERCENT:g}",
+        "base": base,
+        "errors": errors,
+        "lossy": lossy,
+        "readings": readings,
+        "from_s": {
+            dropout: {name: _time(row["holds from s"]) for name, row in of.items()} for dropout, of in readings.items()
+        },
+        "hold": {
+            dropout: {name: f"{float(row['runs hold']):.0f}" for name, row in of.items()}
+            for dropout, of in readings.items()
+        },
+        "onset": onset["mean"],
+        "nees": {
+            dropout: {phase: significant(float(row["mean"])) for (of, phase), row in nees.items() if of == dropout}
+            for dropout in CASES
+        },
+        "bounds": nees["0 %", "coast"],
+    }
+
+
+def late_words(found: Results) -> dict[str, Any]:
+    """What was found of late measurements."""
+    of = {(row["sensors"], row["way"], int(row["delay"])): row for row in found.records("late")}
+    alone, both = late_measurements.SENSORS
+
+    def percent(sensors: str, way: str, delay: int) -> str:
+        return significant(100 * float(of[sensors, way, delay]["error"]))
+
+    longest = {way: int(of[both, way, 10]["longest"]) for way in ("recalculate", "larsen", "as new")}
+    return {
+        "runs": of[both, "larsen", 0]["runs"],
+        "rate": late_measurements.SETTING.rate,
+        "every": late_measurements.EVERY,
+        "in_time": {"alone": percent(alone, "as new", 0), "both": percent(both, "as new", 0)},
+        "late": {
+            way: {"alone": percent(alone, way, 10), "both": percent(both, way, 10)} for way in ("recalculate", "as new")
+        },
+        "soon": {way: percent(alone, way, 2) for way in ("recalculate", "as new")},
+        "dual": percent(alone, "dual-rate", 2),
+        "peak": significant(longest["recalculate"] / longest["as new"]),
+        "larsen_peak": significant(longest["larsen"] / longest["as new"]),
+    }
+
+
+def cost_words(found: Results) -> dict[str, Any]:
+    """Ratios of costs; those of times are marked in the text."""
+    of = {(row["kind"], row["part"], int(row["states"])): row for row in found.records("parts")}
+    (machine,) = found.records("machine")
+
+    def ratio(column: str, part: str, states: int) -> str:
+        return significant(
+            float(of["unscented", part, states][column]) / float(of["extended", part, states][column]), 2
+        )
+
+    shown = (3, 15)
+    return {
+        "machine": {name.removesuffix(" †"): value for name, value in machine.items()},
+        "counted": {part: [ratio(OPERATIONS, part, states) for states in shown] for part in modular_costs.PARTS},
+        "timed": {part: [ratio(SECONDS, part, states) for states in shown] for part in modular_costs.PARTS},
+        "largest": of["unscented", "predict", 15][SECONDS],
+    }
+
+
+def _time(seconds: str) -> str:
+    return "never" if seconds == "inf" else f"{float(seconds):.2g}"

@@ -70,13 +70,13 @@ def _erkf(thorough: bool) -> dict[str, bytes]:
     return build(found)
 
 
-def _modular(_thorough: bool) -> dict[str, bytes]:
+def _modular(thorough: bool) -> dict[str, bytes]:
     from reports.modular import build
     from reports.modular_results import results
     from sched_sim.cli.progress import progress_bar
 
-    with progress_bar("Simulating") as progress:
-        found = results(progress)
+    with progress_bar("Simulating and measuring") as progress:
+        found = results(thorough, progress)
     return build(found)
 
 

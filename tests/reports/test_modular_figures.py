@@ -7,6 +7,8 @@ import pytest
 from matplotlib.figure import Figure
 
 from filters.arrays import FloatArray
+from reports.modular_costs import OPERATIONS, SECONDS, cost_figure
+from reports.modular_late import late_figure
 from reports.modular_oscillator import (
     NOISES,
     OSCILLATOR_AMPLITUDES,
@@ -18,6 +20,8 @@ from reports.modular_oscillator import (
     nees_figure,
     rate_figure,
 )
+from reports.modular_rocket import DROPOUTS, HALVES, SHOWN, flight_figure, residual_figure
+from reports.modular_rocket import nees_figure as rocket_nees_figure
 from tests.reports.layout import flaws, texts
 
 
@@ -97,3 +101,74 @@ def test_consistency() -> None:
     for _, up in curves(figure, 1, 4):
         assert up == pytest.approx([2.5] * 4)
     assert "95 % bounds, 50 runs" in {text.get_text() for text, _ in texts(figure)}
+
+
+def test_a_flight() -> None:
+    time_s = np.linspace(-1, 22, 231)
+    columns = {"time_s": time_s}
+    for name in SHOWN:
+        truth = 100 * np.maximum(time_s, 0)
+        columns |= {f"{name} true": truth, f"{name} estimate": truth + 0.3, f"{name} error": np.full(231, 0.3)}
+        columns[f"{name} sigma"] = np.full(231, 0.2)
+    figure = flight_figure(columns, 3.5)
+    assert flaws(figure) == []
+    for row in range(len(SHOWN)):
+        estimate, truth = curves(figure, 2 * row, 231)
+        np.testing.assert_allclose(estimate[1] - truth[1], 0.3)
+        (error,) = curves(figure, 2 * row + 1, 231)
+        np.testing.assert_allclose(error[1], 0.3)
+
+
+def test_readings_of_the_claim_over_time() -> None:
+    time_s = np.geomspace(0.1, 22, 70)
+    readings = [f"reading {number} / what it is of" for number in range(4)]
+    columns = {"time_s": time_s}
+    for number, reading in enumerate(readings):
+        for dropout in DROPOUTS:
+            columns |= {f"{reading}, {dropout}, {half}": (number + 1) / time_s for half in HALVES}
+    figure = residual_figure(columns, readings)
+    assert flaws(figure) == []
+    for number in range(4):
+        drawn = curves(figure, number, 70)
+        assert len(drawn) == len(DROPOUTS) * len(HALVES)
+        for curve in drawn:
+            np.testing.assert_allclose(curve, [time_s, (number + 1) / time_s])
+    assert {"Reading 0 over what it is of", "15 %"} <= {text.get_text() for text, _ in texts(figure)}
+
+
+def test_consistency_of_the_rocket() -> None:
+    time_s = np.linspace(-0.5, 22, 450)
+    course = {"time_s": time_s, **{dropout: np.full(450, 15.0 + at) for at, dropout in enumerate(DROPOUTS)}}
+    phases = {name: [(3.0, 0.5)] * 5 for name in ("on the pad", "thrust onset", "powered", "burnout", "coast")}
+    figure = rocket_nees_figure(course, phases, (13.1, 17.0), (2.2, 3.9))
+    assert flaws(figure) == []
+    assert [curve[1][0] for curve in curves(figure, 0, 450)] == [15, 16, 17, 18]
+
+
+def test_late_measurements() -> None:
+    ways = {"recalculate": 2, "larsen": 2, "dual-rate": 4, "as new": 8}
+    rows = [
+        {"way": way, "delay": str(delay), "error": str(0.01 * factor), "se": "0.001", "longest": str(100 * factor)}
+        for way, factor in ways.items()
+        for delay in (0, 5, 10)
+    ]
+    figure = late_figure({"position": rows, "position and acceleration": rows[:6]})
+    assert flaws(figure) == []
+    assert [curve[1][0] for curve in curves(figure, 0, 3)] == pytest.approx([2, 2, 4, 8])
+    assert [curve[1][0] for curve in curves(figure, 2, 3)] == [200, 200, 400, 800]
+    assert len(curves(figure, 1, 3)) == 2
+
+
+def test_costs_of_parts() -> None:
+    rows = [
+        {"kind": kind, "part": part, "states": str(n), OPERATIONS: str(10 * n**3 * factor), SECONDS: str(0.02 * factor)}
+        for factor, kind in enumerate(("linear", "extended", "unscented"), start=1)
+        for part in ("predict", "correct")
+        for n in (3, 9)
+    ]
+    figure = cost_figure(rows)
+    assert flaws(figure) == []
+    for axes in (0, 1):
+        assert [curve[1][0] for curve in curves(figure, axes, 2)] == [270, 540, 810]
+    for axes in (2, 3):
+        assert [curve[1][0] for curve in curves(figure, axes, 2)] == pytest.approx([0.02, 0.04, 0.06])

@@ -1,0 +1,46 @@
+"""What predict and correct cost in the report on modular filters, by kind and number of states."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TypeAlias
+
+from matplotlib.figure import Figure
+from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
+
+from reports.axes import decades
+from reports.legend import line_entry
+from reports.sheet import label, sheet
+from reports.style import SOURCE_LINES, drawing
+
+Record: TypeAlias = Mapping[str, str]
+
+LINES = dict(zip(("linear", "extended", "unscented"), SOURCE_LINES[1:], strict=False))
+OPERATIONS, SECONDS = "operations", "minimum, µs †"
+"""As the columns are called."""
+
+
+def cost_figure(rows: Sequence[Record]) -> Figure:
+    """Above, operations; below, times: of predict at the left, of correct at the right."""
+    shown = {OPERATIONS: ("operations", 60, 40_000), SECONDS: ("time, compiled † (µs)", 0.015, 5)}
+    states = sorted({int(row["states"]) for row in rows})
+    with drawing():
+        figure, plots = sheet(2, 2, [line_entry(kind, line) for kind, line in LINES.items()], height_mm=36.0)
+        for of_row, (column, (up, low, high)) in zip(plots, shown.items(), strict=True):
+            for axes, part in zip(of_row, ("predict", "correct"), strict=True):
+                for kind, line in LINES.items():
+                    of_kind = [row for row in rows if (row["kind"], row["part"]) == (kind, part)]
+                    axes.plot(
+                        [int(row["states"]) for row in of_kind], [float(row[column]) for row in of_kind], line.marker,
+                        color=line.colour, ms=line.size, mew=0, ls=line.dashes, lw=1.0,
+                    )  # fmt: skip
+                axes.set_xscale("log")
+                axes.set_xlim(states[0] / 1.1, states[-1] * 1.1)
+                axes.xaxis.set_major_locator(FixedLocator(states))
+                axes.xaxis.set_minor_locator(NullLocator())
+                axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:.0f}"))
+                decades(axes, "y", low, high)
+                axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,g}"))
+                title = part.capitalize() if column == OPERATIONS else ""
+                label(axes, title, "states", up if part == "predict" else "")
+        return figure

@@ -1,0 +1,113 @@
+"""Results of the rocket study as tables to be stored."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from filters.arrays import FloatArray
+from filters.systems.rocket import RATE_HZ
+from reports.modular_rocket import DROPOUTS, HALVES, QUANTITIES, SHOWN
+from reports.stored import Rows, digits, rows_of
+from studies import rocket
+from studies.rocket_flights import Run, fly
+from studies.rocket_readings import READINGS as ALL_READINGS
+
+SEED, EVERY, NEES_EVERY = 0, 10, 5
+"""Of the flight that is drawn, and of curves: the seed, and steps between points."""
+POINTS = 70
+"""Of a curve on a logarithmic axis of time."""
+FIRST_S = 0.1
+READINGS = (
+    "position / distance from the pad",
+    "horizontal / horizontal distance",
+    "orientation / net turn",
+    "nose / turn of the nose",
+)
+"""Those that are drawn."""
+CASES = dict(zip(DROPOUTS, (case.name for case in rocket.DROPOUT_CASES), strict=True))
+
+ERRORS = ("case", "runs", *(f"{name}{what}" for name in QUANTITIES for what in ("", " se", " largest")))
+RESIDUALS = (
+    "case", "reading", "mean", "se", "worst", "within", "within se", "runs hold", "holds from s", "half from s",
+)  # fmt: skip
+NEES = ("case", "phase", "of", "n", "mean", "se", "low", "high", "below", "above")
+
+
+def rocket_tables(found: rocket.RocketResults) -> dict[str, Rows]:
+    """Errors, residuals and NEES of all cases; courses over time; one flight."""
+    return {
+        "rocket-errors": [[*ERRORS], *(_error_row(row) for row in found.errors)],
+        "rocket-residuals": [
+            [*RESIDUALS],
+            *([row.case.name, row.reading, *map(_digits, row[2:])] for row in found.residuals),
+        ],
+        "rocket-nees": [[*NEES], *(_nees_row(row) for row in found.nees)],
+        "rocket-residual-course": rows_of(_residual_course(found.series), "{:.3g}"),
+        "rocket-nees-course": rows_of(_nees_course(found.series), "{:.4g}"),
+        "rocket-apogee": rows_of({"apogee_m": found.apogee_m}, "{:.0f}"),
+        "flight": rows_of(flight_columns(fly(rocket.BASE, SEED, backend="compiled")), "{:.4g}"),
+    }
+
+
+def _digits(value: float) -> str:
+    return digits(value) if np.isfinite(value) else "inf"
+
+
+def _error_row(row: rocket.ErrorRow) -> list[str]:
+    values = np.stack([row.mean, row.standard_error, row.largest], axis=1)
+    return [row.case.name, str(row.runs), *map(digits, values.ravel())]
+
+
+def _nees_row(row: rocket.NeesRow) -> list[str]:
+    return [row.case.name, row.phase, row.of, str(row.n), *map(digits, (row.mean, row.standard_error, *row.bounds)),
+            f"{row.below:.0f}", f"{row.above:.0f}"]  # fmt: skip
+
+
+def _by_dropout(series: Iterable[rocket.Series]) -> dict[str, rocket.Series]:
+    by_name = {one.case.name: one for one in series}
+    return {dropout: by_name[name] for dropout, name in CASES.items()}
+
+
+def _residual_course(series: Iterable[rocket.Series]) -> dict[str, FloatArray]:
+    by_dropout = _by_dropout(series)
+    time_s = by_dropout[DROPOUTS[0]].time_s
+    asked = np.geomspace(FIRST_S, time_s[-1], POINTS)
+    at = np.unique(np.abs(time_s[:, np.newaxis] - asked).argmin(axis=0))
+    found = {"time_s": time_s[at]}
+    for number, name in enumerate(ALL_READINGS):
+        if name in READINGS:
+            for dropout, one in by_dropout.items():
+                for which, curve in zip(HALVES, (one.median, one.high), strict=True):
+                    found[f"{name}, {dropout}, {which}"] = curve[number, at]
+    return found
+
+
+def _nees_course(series: Iterable[rocket.Series]) -> dict[str, FloatArray]:
+    by_dropout = _by_dropout(series)
+    time_s = by_dropout[DROPOUTS[0]].time_s
+    kept = slice(RATE_HZ // 2, None, NEES_EVERY)
+    return {"time_s": time_s[kept], **{dropout: one.nees[0, kept] for dropout, one in by_dropout.items()}}
+
+
+def flight_columns(one: Run) -> dict[str, FloatArray]:
+    """One flight, up: true, estimated, their difference and the standard deviation that the filter gives."""
+    kept = slice(0, None, EVERY)
+    truth, x = one.truth[kept], one.x[kept]
+    sigma = np.sqrt(np.diagonal(one.P[kept], axis1=1, axis2=2))
+    found = {"time_s": one.time_s[kept]}
+    for name, at in zip(SHOWN, (2, 5, 8, 13), strict=True):
+        upright = name == "tilt"
+        found[f"{name} true"] = tilt_deg(truth) if upright else truth[:, at]
+        found[f"{name} estimate"] = tilt_deg(x) if upright else x[:, at]
+        found[f"{name} error"] = np.degrees(-one.errors[kept, at]) if upright else x[:, at] - truth[:, at]
+        found[f"{name} sigma"] = np.degrees(sigma[:, at]) if upright else sigma[:, at]
+    return found
+
+
+def tilt_deg(states: FloatArray) -> FloatArray:
+    """Between the nose and the vertical (steps,), of states (steps, 16)."""
+    w, x, y, z = states[:, 12:].T
+    angle: FloatArray = np.degrees(np.arccos(np.clip(2 * (x * z - w * y), -1.0, 1.0)))
+    return angle
