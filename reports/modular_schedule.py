@@ -4,6 +4,7 @@ which step the GPS correction lands."""
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
 from statistics import median
 
 import numpy as np
@@ -12,18 +13,20 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullLocator
 
 from filters.arrays import FloatArray
-from filters.systems.rocket_filter import GPS
+from filters.systems.rocket_filter import GPS, PredictorName
 from reports.axes import decades
 from reports.legend import fill_entries, line_entry
 from reports.sheet import label, sheet
 from reports.stored import Rows, digits, rows_of
 from reports.style import GREY, PALE, RED, SMALL_PT, SOURCE_LINES, Fill, Line, drawing
+from sched_sim.sample_file import read_sampled_costs, sampled_costs_text
 from studies.rocket_schedule import (
     CONTROL_EVERY,
     GPS_DELAYS,
     JOBS,
     LAND_BY,
     PERIOD_MS,
+    PREDICTORS,
     PURPOSES,
     URGENCIES,
     WAYS,
@@ -69,6 +72,20 @@ def schedule_tables(costs: Costs, progress: Progress = lambda _done, _total, _wh
     runs = [chosen(costs, way, urgency, at) for way in WAYS for urgency in URGENCIES]
     found = (miss_table(rows), rows_of(responses(runs), "{:.4g}"), rows_of(landings(runs), "{:.3g}"), share_rows(runs))
     return dict(zip(TABLES, found, strict=True))
+
+
+def sample_files(costs: Costs) -> dict[str, bytes]:
+    """The execution times as files that `read_samples` reads, and that a scenario can name as its costs."""
+    return {_sample_file(predictor): sampled_costs_text(found).encode() for predictor, found in costs.items()}
+
+
+def read_samples(folder: Path) -> Costs:
+    """The execution times that a report in `folder` was made from."""
+    return {predictor: read_sampled_costs(folder / _sample_file(predictor)) for predictor in PREDICTORS}
+
+
+def _sample_file(predictor: PredictorName) -> str:
+    return f"samples-rocket-{predictor}.toml"
 
 
 def miss_table(rows: Iterable[MissRow]) -> Rows:

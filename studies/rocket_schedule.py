@@ -76,6 +76,7 @@ class Way(NamedTuple):
         return f"{self.late}, {self.predictor}"
 
 
+PREDICTORS: tuple[PredictorName, ...] = ("unscented", "extended")
 WAYS = (Way("unscented", "recalculate"), Way("extended", "recalculate"), Way("extended", "larsen"))
 URGENCIES = {"preempted": LR, "in the loop": HR}
 """Priority of the GPS correction: below the predictor, which then goes on meanwhile, or the predictor's own, so that
@@ -153,9 +154,8 @@ def measured(*, thorough: bool = False, progress: Progress = lambda _done, _tota
 ]:  # fmt: skip
     """Both filters, timed on this machine; takes minutes if they were not compiled before."""
     upright = np.eye(16)[12]
-    predictors: tuple[PredictorName, ...] = ("unscented", "extended")
     found: dict[PredictorName, SampledCosts] = {}
-    for predictor in predictors:
+    for predictor in PREDICTORS:
         composed = filter_of(predictor)
         user = UserFilter(composed, modular_jobs(composed, upright, np.diag(START_SIGMAS**2)))
         costs = measure_filter(user, name=f"rocket-{predictor}", thorough=thorough, progress=progress)
@@ -211,13 +211,27 @@ def control_task(costs: Costs, times_slower: int) -> Task:
     return Task("control", Fraction(CONTROL_EVERY), times_slower * usual, CONTROL_PRIORITY)
 
 
-def slowness_of_a_full_processor(costs: SampledCosts) -> float:
-    """How many times slower the processor is that a step's prediction and corrections fill on average, with no late
-    measurement, nor any dropout, and no other task."""
+def step_s(costs: SampledCosts, dropout: float) -> float:
+    """What a step's prediction and corrections take on average, in seconds, without late measurements."""
     means = {part: fmean(map(float, values)) for part, values in costs.samples.items()}
     on_time = [sensor for sensor in rocket_filter().sensors if sensor.name != GPS]
-    work_s = means["predict"] + sum(means[f"correct.{sensor.name}"] / sensor.every for sensor in on_time)
-    return 1 / (RATE_HZ * work_s)
+    return means["predict"] + (1 - dropout) * sum(means[f"correct.{sensor.name}"] / sensor.every for sensor in on_time)
+
+
+def slowness_of_a_full_processor(costs: SampledCosts) -> float:
+    """How many times slower the processor is that is filled by the steps alone, if nothing drops out."""
+    return 1 / (RATE_HZ * step_s(costs, 0.0))
+
+
+def slowness_of_no_return(costs: Costs, predictor: PredictorName) -> float:
+    """How many times slower the processor is on which preempted replays pile up, by average work.
+
+    Where each period leaves time for r steps beside the one that is due, replaying d steps takes T = d / (r - 1)
+    periods, since the T steps that pass meanwhile have to be replayed too. T must be below the time between fixes.
+    """
+    step, control = step_s(costs[predictor], DROPOUT), float(control_task(costs, 1).cost) / CONTROL_EVERY
+    r = 1 + fmean(GPS_DELAYS) * (1 - DROPOUT) / GPS_EVERY
+    return 1 / (RATE_HZ * (step + control + r * step))
 
 
 POINTS, SLOWEST, FASTEST = 14, 1.2, 0.035

@@ -11,6 +11,7 @@ import pytest
 from filters.modular.jobs import is_linearised
 from filters.systems.rocket_filter import ACCELEROMETER, BAROMETER, CAMERA, GPS, GYRO, SENSORS, PredictorName
 from sched_sim.sample_file import SampledCosts
+from sched_sim.scenario_run import run_scenario
 from studies.rocket_schedule import (
     JOBS,
     LAND_BY,
@@ -20,6 +21,7 @@ from studies.rocket_schedule import (
     Costs,
     MissRow,
     Run,
+    Way,
     arrivals,
     chosen,
     compared_at,
@@ -28,6 +30,7 @@ from studies.rocket_schedule import (
     scenario,
     slowest_that_holds,
     slowness_of_a_full_processor,
+    slowness_of_no_return,
     slownesses,
     thinned,
 )
@@ -113,6 +116,18 @@ def test_lateness_is_that_of_the_replay() -> None:
         if (row.way, row.urgency, row.times_slower, row.job) == (EXTENDED.name, "in the loop", 300, "loop")
     ]
     assert 0.8 * (43 + 2.2) - PERIOD_MS < row.late_ms < 1.1 * (43 + 2.2)
+
+
+@pytest.mark.parametrize("way", [UNSCENTED, EXTENDED], ids=lambda way: way.name)
+def test_preempted_replays_pile_up_where_average_work_says(way: Way) -> None:
+    """Of 67 fixes that arrive, hardly one is not in the state at the end, or most are not."""
+    limit = slowness_of_no_return(COSTS, way.predictor)
+    waiting = []
+    for slower in (0.85 * limit, 1.2 * limit):
+        outcome = run_scenario(scenario(COSTS, way, "preempted", int(slower), steps=1500))
+        waiting.append(outcome.sensors[GPS].not_landed)
+    assert waiting[0] <= 2
+    assert waiting[1] > 30
 
 
 def test_slowest_that_holds_ends_before_the_first_that_does_not() -> None:
