@@ -234,7 +234,7 @@ def slowness_of_no_return(costs: Costs, predictor: PredictorName) -> float:
     return 1 / (RATE_HZ * (step + control + r * step))
 
 
-POINTS, SLOWEST, FASTEST = 14, 1.2, 0.035
+POINTS, SLOWEST, FASTEST = 14, 1.2, 0.02
 SURE = 0.95
 """A curve ends with the processor on which every job misses so often: on still slower ones no simulation is needed."""
 
