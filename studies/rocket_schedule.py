@@ -56,7 +56,7 @@ GPS_EVERY, GPS_DELAYS, LAND_BY = 20, range(5, 21), 25
 """In steps of 10 ms; the correction must be in the state 250 ms after the measurement."""
 DROPOUT = 0.1
 CONTROL_EVERY, CONTROL_PRIORITY = 2, 15
-STEPS, CURVE_STEPS, SEED = 10_000, 4_000, 0
+STEPS, CURVE_STEPS, SEED = 10_000, 3_400, 0
 """Simulated of a chosen processor, and of each one on a curve."""
 PERIOD_MS = 1000 / RATE_HZ
 
