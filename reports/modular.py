@@ -9,17 +9,21 @@ from filters.systems.rocket import BURN_S
 from filters.systems.spring_mass import period_s
 from reports import modular_oscillator as oscillator
 from reports import modular_rocket as rocket
+from reports import modular_schedule as schedule
 from reports import modular_tables as tables
 from reports import modular_words as words
+from reports.gantt import gantt
 from reports.modular_costs import cost_figure
 from reports.modular_late import late_figure
 from reports.modular_results import OWN_MODEL, SHOWN_PERIODS, Results
 from reports.modular_rocket_rows import READINGS
+from reports.modular_schedule_gantt import fix_panels
 from reports.picture import image
 from reports.render import csv_bytes, render
 from studies import spring_mass
 from studies.late_measurements import SENSORS
 from studies.rocket import BASE, PHASES
+from studies.rocket_schedule import compared_at
 from studies.spring_mass_run import OSCILLATOR
 
 TITLE = "Modular Kalman filters: what dropout, delay and ignorance do to them, what they cost, and when they land"
@@ -29,7 +33,7 @@ def build(found: Results) -> dict[str, bytes]:
     """All files of the report by name, as a pure function of what was simulated and measured."""
     rows = {
         "dropout": tables.dropout_rows(found),
-        "verdict": tables.verdict_rows(found),
+        "claim": tables.claim_rows(found),
         "rates": tables.rate_rows(found),
         "sensors": tables.sensor_rows(found),
         "consistency": tables.consistency_rows(found),
@@ -39,6 +43,8 @@ def build(found: Results) -> dict[str, bytes]:
         "rocket-nees": tables.rocket_nees_rows(found),
         "late": tables.late_rows(found),
         "parts": tables.part_rows(found),
+        "processors": tables.verdict_on_processors(found),
+        "spent": tables.spent_on(found),
     }
     figures = {name: image(figure, "svg") for name, figure in _figures(found).items()}
     pages = render(
@@ -51,11 +57,13 @@ def build(found: Results) -> dict[str, bytes]:
         rocket=words.rocket_words(found),
         delayed=words.late_words(found),
         cost=words.cost_words(found),
+        schedule=words.schedule_words(found),
     )
     return {**pages, **figures, **found.files(), **{f"{name}.csv": csv_bytes(table) for name, table in rows.items()}}
 
 
 def _figures(found: Results) -> dict[str, Figure]:
+    misses = schedule.miss_rows_of(found.records("schedule-misses"))
     half = {name: found.records("dropout", group=name, dropout="0.5")[0] for name in (OWN_MODEL, "usual")}
     return {
         "oscillator.svg": oscillator.history_figure(found.columns("oscillator"), SHOWN_PERIODS * period_s(OSCILLATOR)),
@@ -73,6 +81,10 @@ def _figures(found: Results) -> dict[str, Figure]:
         "rocket-consistency.svg": _rocket_consistency(found),
         "late.svg": late_figure({sensors: found.records("late", sensors=sensors) for sensors in SENSORS}),
         "parts.svg": cost_figure(found.records("parts")),
+        "misses.svg": schedule.miss_figure(misses),
+        "responses.svg": schedule.response_figure(found.columns("schedule-responses")),
+        "landings.svg": schedule.landing_figure(found.columns("schedule-landings")),
+        "one-fix.svg": gantt(fix_panels(found.costs, compared_at(misses))),
     }
 
 

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from reports.modular_costs import OPERATIONS, SECONDS
 from reports.modular_oscillator import OSCILLATOR_AMPLITUDES, QUANTITIES, SENSORS, UNITS, Record
 from reports.modular_results import OWN_MODEL, Results
 from reports.modular_rocket import QUANTITIES as OF_ROCKET
 from reports.modular_rocket_rows import CASES
+from reports.modular_schedule import miss_rows_of, verdict_rows
 from reports.multirate_words import significant
 from reports.stored import Rows
 from studies import late_measurements, modular_costs, rocket, spring_mass
 from studies.rocket_readings import READINGS
+from studies.rocket_schedule import compared_at
 
 COMPARED = ("0.1", "0.8")
 """The dropouts that the claim is about."""
@@ -38,7 +42,7 @@ def dropout_rows(found: Results) -> Rows:
     return rows
 
 
-def verdict_rows(found: Results) -> Rows:
+def claim_rows(found: Results) -> Rows:
     """At 80 % over 10 %, by reading of "residual"."""
     low, high = (found.records("dropout", group="usual", dropout=dropout)[0] for dropout in COMPARED)
     rows: Rows = [["Reading, 80 % over 10 %", *QUANTITIES]]
@@ -164,6 +168,30 @@ def part_rows(found: Results) -> Rows:
             numbers = [cell for row in of for cell in (f"{int(row[OPERATIONS]):,}", row[SECONDS])]
             rows.append([kind, part, *numbers])
     return rows
+
+
+# ------------------------------------------------------------------------------------------------------- the schedule
+
+MARK = "†"
+
+
+def verdict_on_processors(found: Results) -> Rows:
+    """How slow a processor may be, and what is late on one of them; all by times measured here."""
+    misses = miss_rows_of(found.records("schedule-misses"))
+    at = compared_at(misses)
+    heads = ("holds to", f"busy at {at}, %", "loop, %", "by, ms", "control, %", "GPS, %")
+    return _marked(("Late fix", "correction", *heads), verdict_rows(misses, at))
+
+
+def spent_on(found: Results) -> Rows:
+    """What the time of that processor goes into, in percent."""
+    heads = ("times", "predict", "on time", "GPS", "replay", "catch up", "control", "idle", "GPS, ms")
+    return _marked(("Late fix", "correction", *heads), found.tables["schedule-shares"])
+
+
+def _marked(heads: Sequence[str], rows: Rows) -> Rows:
+    """The rows under these heads, of which all but the first two are marked as measured."""
+    return [[*heads[:2], *(f"{head} {MARK}" for head in heads[2:])], *rows[1:]]
 
 
 def _never(seconds: str) -> str:

@@ -5,14 +5,17 @@ from __future__ import annotations
 from typing import Any
 
 from filters.modular.sigma_points import maccormack, merwe, weights
-from filters.systems.rocket import BURN_S
+from filters.systems.rocket import BURN_S, RATE_HZ
 from filters.systems.spring_mass import period_s
 from reports.modular_costs import OPERATIONS, SECONDS
-from reports.modular_results import HALF, OWN_MODEL, SHOWN_PERIODS, Results
+from reports.modular_results import HALF, OWN_MODEL, SHOWN_PERIODS, TRIALS, Results
 from reports.modular_rocket_rows import CASES
+from reports.modular_schedule import miss_rows_of
 from reports.modular_tables import group_of, over, percent_of_amplitude
 from reports.multirate_words import significant
-from studies import late_measurements, modular_costs, rocket, spring_mass
+from studies import late_measurements, modular_costs, rocket, rocket_schedule, spring_mass
+from studies.rocket_schedule import GPS_DELAYS as DELAYS
+from studies.rocket_schedule import compared_at
 from studies.spring_mass_run import OSCILLATOR, PERIODS, SETTLED_PERIODS
 
 STATES = (3, 15)
@@ -151,6 +154,38 @@ def cost_words(found: Results) -> dict[str, Any]:
         "counted": {part: [ratio(OPERATIONS, part, states) for states in shown] for part in modular_costs.PARTS},
         "timed": {part: [ratio(SECONDS, part, states) for states in shown] for part in modular_costs.PARTS},
         "largest": of["unscented", "predict", 15][SECONDS],
+    }
+
+
+def schedule_words(found: Results) -> dict[str, Any]:
+    """How the rocket's filter fares on slower processors; all of it by measured times."""
+    misses = miss_rows_of(found.records("schedule-misses"))
+    at = compared_at(misses)
+    urgent, preempted = "in the loop", "preempted"
+    there = {(row.way, row.urgency, row.job): row for row in misses if row.times_slower == at}
+    names = dict(zip(("unscented", "extended", "larsen"), (way.name for way in rocket_schedule.WAYS), strict=True))
+    spent = {(row["late GPS fix"], row["its correction"]): row for row in found.records("schedule-shares")}
+    response = "GPS response, median (ms)"
+    return {
+        "at": at,
+        "trials": TRIALS,
+        "rate": RATE_HZ,
+        "fix_hz": RATE_HZ // rocket_schedule.GPS_EVERY,
+        "delays": [f"{rocket_schedule.PERIOD_MS * delay:g}" for delay in (min(DELAYS), max(DELAYS))],
+        "dropout": f"{100 * rocket_schedule.DROPOUT:g}",
+        "land_by": f"{rocket_schedule.PERIOD_MS * rocket_schedule.LAND_BY:g}",
+        "bearable": f"{100 * rocket_schedule.BEARABLE:g}",
+        "holds": {
+            short: {
+                urgency: rocket_schedule.slowest_that_holds(misses, name, urgency) or "none"
+                for urgency in (urgent, preempted)
+            }
+            for short, name in names.items()
+        },
+        "loop": f"{100 * there[names['extended'], urgent, 'loop'].probability:.1f}",
+        "loop_late": f"{there[names['extended'], urgent, 'loop'].late_ms:.0f}",
+        "busy": f"{100 * there[names['extended'], urgent, 'loop'].utilization:.0f}",
+        "response": {short: spent[name, preempted][response] for short, name in names.items()},
     }
 
 

@@ -16,6 +16,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from markdown_it import MarkdownIt
 from markupsafe import Markup
 
+from reports.data_uri import data_uri
 from sched_sim.errors import InputError
 
 Row = Sequence[Any]
@@ -36,12 +37,7 @@ def render(template: str, title: str, figures: Mapping[str, bytes], **values: An
 
 def _inlined(body: str, figures: Mapping[str, bytes]) -> str:
     """Each <img src="NAME"> as the SVG itself, as a data URI: identifiers in one SVG cannot meet those of another."""
-    from base64 import b64encode
-
-    def data_uri(match: re.Match[str]) -> str:
-        return f'src="data:image/svg+xml;base64,{b64encode(figures[match[1]]).decode()}"'
-
-    return re.sub(r'src="([^":]+\.svg)"', data_uri, body)
+    return re.sub(r'src="([^":]+\.svg)"', lambda match: f'src="{data_uri(figures[match[1]])}"', body)
 
 
 def markdown_table(rows: Sequence[Row]) -> str:

@@ -40,6 +40,11 @@ def digits(value: float) -> str:
     return f"{value:#.3g}"
 
 
+def as_stored(tables: Tables) -> dict[str, Rows]:
+    """The same tables as `read_tables` will read them: every cell a text."""
+    return {name: [[str(cell) for cell in row] for row in rows] for name, rows in tables.items()}
+
+
 def table_files(tables: Tables) -> dict[str, bytes]:
     """What `read_tables` reads."""
     return {f"stored-{name}.csv": csv_bytes(rows) for name, rows in tables.items()}

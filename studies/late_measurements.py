@@ -46,7 +46,7 @@ SETTING = Setting(rate=200)
 EVERY = 10
 """Steps between measurements of the position; the correction of the dual rate filter lands when the next is taken."""
 DELAYS = (0, 2, 4, 6, 8, 10)
-SEEDS = tuple(range(20))
+SEEDS = tuple(range(12))
 
 
 class Work(NamedTuple):
