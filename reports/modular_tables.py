@@ -100,7 +100,9 @@ def rocket_error_rows(found: Results) -> Rows:
     """RMS errors of every case, means over the flights."""
     rows: Rows = [["Filter", "flights", *OF_ROCKET, "position, max"]]
     for row in found.records("rocket-errors"):
-        rows.append([row["case"], row["runs"], *(row[name] for name in OF_ROCKET), row["position largest"]])
+        rows.append(
+            [row["case"], row["runs"], *(row[name] for name in OF_ROCKET), significant(float(row["position largest"]))]
+        )
     return rows
 
 
@@ -185,8 +187,17 @@ def verdict_on_processors(found: Results) -> Rows:
 
 def spent_on(found: Results) -> Rows:
     """What the time of that processor goes into, in percent."""
-    heads = ("times", "predict", "on time", "GPS", "replay", "catch up", "control", "idle", "GPS, ms")
-    return _marked(("Late fix", "correction", *heads), found.tables["schedule-shares"])
+    heads = {
+        "predict": "prediction (%)",
+        "on time": "on-time corrections (%)",
+        "replay": "replay (%)",
+        "catch up": "catching up (%)",
+        "idle": "idle (%)",
+        "GPS, ms": "GPS response, median (ms)",
+    }
+    kept = ("late GPS fix", "its correction", *heads.values())
+    records = found.records("schedule-shares")
+    return _marked(("Late fix", "correction", *heads), [kept, *([row[name] for name in kept] for row in records)])
 
 
 def _marked(heads: Sequence[str], rows: Rows) -> Rows:

@@ -9,7 +9,9 @@ import numpy as np
 import pytest
 
 from reports.modular import build
+from reports.modular_costs import OPERATIONS
 from reports.modular_results import TABLES, Results, read
+from studies import late_measurements, modular_costs
 from tests.command_line import Run
 from tests.reports import published
 
@@ -140,6 +142,14 @@ def test_linear_and_extended_cost_the_same() -> None:
             )
             assert extended == pytest.approx(linear, rel=0.06)
             assert 1.3 < unscented / extended < 3
+
+
+def test_the_stored_counts_are_those_of_the_code() -> None:
+    counted = {key: str(number) for key, number in modular_costs.operations().items()}
+    assert {(r["kind"], r["states"], r["part"]): r[OPERATIONS] for r in stored().records("parts")} == counted
+    for row in stored().records("late"):
+        work = late_measurements.work(row["sensors"], row["way"], int(row["delay"]))
+        assert (row["mean"], row["longest"]) == (f"{work.mean:.1f}", str(work.longest))
 
 
 def test_another_machine_changes_only_what_is_marked_as_measured() -> None:
