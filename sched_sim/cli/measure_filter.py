@@ -3,15 +3,21 @@
 from __future__ import annotations
 
 import statistics
+from collections.abc import Sequence
+from fractions import Fraction
 from pathlib import Path
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import typer
 
+from sched_sim.cli.options import given_options
 from sched_sim.cli.output import Format, print_csv, print_json, print_table
 from sched_sim.cli.progress import progress_bar
 from sched_sim.errors import InputError
 from sched_sim.sample_file import SampledCosts, write_sampled_costs
+
+if TYPE_CHECKING:
+    from sched_sim.scenario import Samples
 
 OF_A_SYSTEM = ("states", "inputs", "measurements", "system", "robust", "parallel", "method", "update")
 """Options of `measure` that say what a system's filters are; a composed filter is what it is."""
@@ -19,7 +25,7 @@ OF_A_SYSTEM = ("states", "inputs", "measurements", "system", "robust", "parallel
 
 def refuse_with_filter(name: str, context: typer.Context) -> None:
     """Raises InputError for options that were given beside --filter and have no meaning with it."""
-    given = [f"--{option}" for option in OF_A_SYSTEM if _was_given(option, context)]
+    given = given_options(context, lambda name: name in OF_A_SYSTEM)
     if given:
         raise InputError(
             f"--filter {name}: leave out {', '.join(given)}: the filter that it returns says all of that itself"
@@ -76,10 +82,32 @@ def _timed(row: dict[str, Any]) -> dict[str, str]:
     return {"job": row["job"]} | {key: f"{1e9 * row[key]:.0f}" for key in ("minimum", "median", "p95", "maximum")}
 
 
+NOISY = 3
+"""A part is noisy where its p95 is more than so many times its median."""
+
+
 def _note(costs: SampledCosts) -> str:
-    return str(costs.provenance["source"])
+    repetitions = costs.provenance["protocol"]["repetitions"]
+    return "\n".join([str(costs.provenance["source"]), what_a_sample_means(repetitions), *noise(costs.samples)])
 
 
-def _was_given(option: str, context: typer.Context) -> bool:
-    source = context.get_parameter_source(option)
-    return source is not None and source.name != "DEFAULT"
+def what_a_sample_means(repetitions: int) -> str:
+    return (
+        f"A mean of {repetitions} executions hides single slow ones: where only those would miss a deadline, P(miss) "
+        f"from these samples is too low"
+    )
+
+
+def noise(samples: Samples) -> list[str]:
+    """A line, if something else had the machine while these parts were timed."""
+    spread = {part: (statistics.median(times), _p95(times)) for part, times in samples.items() if len(times) > 1}
+    loud = [
+        f"p95 of {part} is {float(p95 / median):.1f} times its median"
+        for part, (median, p95) in spread.items()
+        if p95 > NOISY * median
+    ]
+    return [f"noisy: {', '.join(loud)}; repeat on an idle machine"] if loud else []
+
+
+def _p95(times: Sequence[Fraction]) -> Fraction:
+    return statistics.quantiles(times, n=20)[-1]

@@ -82,6 +82,8 @@ def simulate(
     sched-sim simulate -N 40 -M 20 --processor cortex-m7 --hr-hz 400
     sched-sim simulate --scenario rocket.toml --histogram rocket.svg
     """
+    outputs = [("--histogram", histogram), ("--gantt", gantt), *(("--trace", path) for path in trace or ())]
+    opt.refuse_one_file_for_two(outputs)
     if scenario is not None:
         from sched_sim.cli.scenario import simulate_scenario
 
@@ -169,13 +171,7 @@ def simulate(
 
 def _refuse_beside_scenario(context: typer.Context, scenario: Path) -> None:
     """Raises InputError that names the options which the scenario would not follow."""
-    given = [
-        parameter.opts[0]
-        for parameter in context.command.params
-        if parameter.name not in WITH_SCENARIO
-        and (source := context.get_parameter_source(str(parameter.name)))
-        and source.name == "COMMANDLINE"
-    ]
+    given = opt.given_options(context, lambda name: name not in WITH_SCENARIO)
     if given:
         raise InputError(
             f"{', '.join(given)} and --scenario {scenario} exclude each other: the file says what is simulated; leave "

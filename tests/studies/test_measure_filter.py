@@ -5,13 +5,15 @@ from __future__ import annotations
 import csv
 import io
 import json
+from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from sched_sim.cli.measure_filter import noise
 from sched_sim.errors import InputError
-from sched_sim.sample_file import read_sampled_costs
+from sched_sim.sample_file import SampledCosts, read_sampled_costs
 from studies.user_filter import load_filter
 from tests.command_line import Run, is_refused
 
@@ -164,6 +166,29 @@ def test_a_thousand_samples_of_each_part_are_timed(sched_sim: Run, tmp_path: Pat
     assert len(set(samples)) > 100
     assert "a sample is the mean of 20 executions" in costs.provenance["source"]
     assert {"machine", "date", "versions", "protocol"} <= set(costs.provenance)
+
+
+def times(*nanoseconds: int) -> list[Fraction]:
+    return [Fraction(each, 10**9) for each in nanoseconds]
+
+
+def test_a_noisy_part_is_named_and_a_quiet_one_is_not() -> None:
+    quiet, loud = times(*[100] * 90, *[290] * 10), times(*[100] * 90, *[310] * 10)
+    assert noise({"predict": quiet, "once": times(5)}) == []
+    said = "noisy: p95 of correct.gps is 3.1 times its median; repeat on an idle machine"
+    assert noise({"predict": quiet, "correct.gps": loud}) == [said]
+
+
+def test_below_the_times_it_is_said_what_a_sample_means_for_misses(
+    sched_sim: Run, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    about = {"source": "2 samples", "protocol": {"repetitions": 7}}
+    costs = SampledCosts("c", "second", {"predict": times(100, 100)}, {}, about)
+    monkeypatch.setattr("studies.measure_filter.measure_filter", lambda *_, **__: costs)
+    out = sched_sim("measure --filter own_filter:cart").out
+    assert "A mean of 7 executions" in out
+    assert "P(miss) from these samples is too low" in out
+    assert "noisy" not in out
 
 
 @pytest.mark.slow
