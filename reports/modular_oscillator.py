@@ -146,7 +146,10 @@ def nees_figure(
         for of, (low, high) in bounds.items():
             left.axhspan(low, high, color=bands[of].colour, lw=0, zorder=0.3)
         for name, line in lines.items():
-            left.plot(course["time_s"], course[name], color=line.colour, lw=0.8)
+            left.plot(
+                course["time_s"], course[name], line.marker, color=line.colour, ls="-", lw=0.8, ms=0.8 * line.size,
+                mew=0, markevery=12,
+            )  # fmt: skip
         left.set(xlim=(course["time_s"][0], course["time_s"][-1]), ylim=(0, None))
         label(left, "Dropout 50 %", "time (s)", "NEES, mean over the runs")
         for name, rows in overall.items():

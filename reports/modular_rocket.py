@@ -65,17 +65,20 @@ def residual_figure(series: Columns, readings: Sequence[str]) -> Figure:
     """
     with drawing():
         legend = [
-            *(line_entry(f"dropout {dropout}", line._replace(marker="")) for dropout, line in LINES.items()),
+            *(line_entry(f"dropout {dropout}", line) for dropout, line in LINES.items()),
             *(line_entry(name, Line(INK, dashes, "")) for name, dashes in HALVES.items()),
             line_entry(f"{CLAIM_PERCENT:g} %", CLAIM),
         ]
         figure, rows = sheet(2, 2, legend, height_mm=42.0)
         for number, reading in enumerate(readings):
             axes = rows[number // 2][number % 2]
-            for dropout, line in LINES.items():
+            for start, (dropout, line) in enumerate(LINES.items()):
                 for name, dashes in HALVES.items():
                     curve = series[f"{reading}, {dropout}, {name}"]
-                    axes.plot(series["time_s"], curve, color=line.colour, ls=dashes, lw=1.2)
+                    axes.plot(
+                        series["time_s"], curve, line.marker, color=line.colour, ls=dashes, lw=1.2, ms=0.8 * line.size,
+                        mew=0, markevery=(2 * start, 9),
+                    )  # fmt: skip
             axes.axhline(CLAIM_PERCENT, color=CLAIM.colour, ls=CLAIM.dashes, lw=1.0)
             decades(axes, "y", 0.01, 1000)
             axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
@@ -97,14 +100,17 @@ def nees_figure(
     """
     with drawing():
         legend = [
-            *(line_entry(f"dropout {dropout}", line._replace(marker="")) for dropout, line in LINES.items()),
+            *(line_entry(f"dropout {dropout}", line) for dropout, line in LINES.items()),
             *fill_entries(BOUNDS),
             *(line_entry(name, line, dashes=False) for name, line in SIGNS.items()),
         ]
         figure, [[above], [below]] = sheet(2, 1, legend, height_mm=38.0)
         above.axhspan(*bounds, color=PALE, lw=0, zorder=0.3)
-        for dropout, line in LINES.items():
-            above.plot(series["time_s"], series[dropout], color=line.colour, lw=0.9)
+        for start, (dropout, line) in enumerate(LINES.items()):
+            above.plot(
+                series["time_s"], series[dropout], line.marker, color=line.colour, ls="-", lw=0.9, ms=0.8 * line.size,
+                mew=0, markevery=(9 * start, 37),
+            )  # fmt: skip
         decades(above, "y", 3, 2000)
         above.set_xlim(series["time_s"][0], series["time_s"][-1])
         above.xaxis.set_major_locator(MaxNLocator(nbins=12, steps=[1, 2, 5, 10]))

@@ -208,15 +208,18 @@ def miss_figure(rows: Sequence[MissRow]) -> Figure:
 def response_figure(found: Columns) -> Figure:
     """The share of jobs that take longer than a time, from their release; found: from `responses`."""
     with drawing():
-        legend = [*(line_entry(name, _bare(line)) for name, line in LINES.items()), *fill_entries(DEADLINES)]
+        legend = [*(line_entry(name, _solid(line)) for name, line in LINES.items()), *fill_entries(DEADLINES)]
         figure, plots = sheet(len(URGENCIES), len(JOBS), legend, height_mm=38.0, gap_mm=9.0)
         times = {job: [found[name] for name in found if name.startswith(f"{job}, ")] for job in JOBS}
         for of_urgency, urgency in zip(plots, URGENCIES, strict=True):
             for axes, job in zip(of_urgency, JOBS, strict=True):
-                for way in WAYS:
+                for start, way in enumerate(WAYS):
                     line = LINES[way.name]
                     values = found[f"{job}, {way.name}, {urgency}"]
-                    axes.plot(values, 100 * found["share"], color=line.colour, lw=1.3)
+                    axes.plot(
+                        values, 100 * found["share"], line.marker, color=line.colour, ls="-", lw=1.2,
+                        ms=0.9 * line.size, mew=0, markevery=(5 * start, 15),
+                    )  # fmt: skip
                 decades(axes, "y", 100 * LEAST_SHARE, 130)
                 axes.yaxis.set_major_formatter(FuncFormatter(lambda share, _: f"{share:g}"))
                 _time_axis(axes, np.concatenate([*times[job], _deadline_ms(job)]))
@@ -263,8 +266,8 @@ def _landing(way: Way, urgency: str) -> str:
     return f"GPS, {way.name}, {urgency}"
 
 
-def _bare(line: Line) -> Line:
-    return line._replace(marker="", dashes="-")
+def _solid(line: Line) -> Line:
+    return line._replace(dashes="-")
 
 
 def _miss_curve(axes: Axes, rows: Sequence[MissRow], line: Line) -> None:
