@@ -45,7 +45,10 @@ def check_covariance(name: str, P: FloatArray) -> None:
         raise ValueError(f"{name} holds a value that is not finite")
     scale = np.abs(P).max(initial=0.0)
     if not np.allclose(P, np.transpose(P), rtol=0.0, atol=1e-9 * scale):
-        raise ValueError(f"{name} is not symmetric, so it is no covariance; give (P + P.T) / 2 if that is meant")
+        raise ValueError(
+            f"{name} is not symmetric, so it is no covariance; give half the sum of it and its transpose "
+            f"if that is meant"
+        )
     smallest = np.linalg.eigvalsh(P)[0]
     if smallest < -1e-9 * scale:
         raise ValueError(f"{name} is no covariance: its smallest eigenvalue is {smallest:.3g}, which is negative")

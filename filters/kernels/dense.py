@@ -159,6 +159,13 @@ def transpose(A: FloatArray, out: FloatArray) -> None:
             out[j, i] = A[i, j]
 
 
+def mirror(P: FloatArray) -> None:
+    """P (n, n) becomes symmetric: what is above its diagonal is taken from below."""
+    for i in range(P.shape[0]):
+        for j in range(i):
+            P[j, i] = P[i, j]
+
+
 def copy(A: FloatArray, out: FloatArray) -> None:
     """out = A, for matrices (n, m)."""
     for i in range(A.shape[0]):

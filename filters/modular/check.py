@@ -25,7 +25,9 @@ def as_matrix(name: str, value: ArrayLike, shape: tuple[int | None, int | None])
 
 def as_covariance(name: str, value: ArrayLike) -> FloatArray:
     """A square matrix, not empty. Raises ValueError unless it is symmetric and positive semidefinite."""
-    size = len(np.atleast_1d(np.asarray(value, dtype=np.float64)))
+    if np.ndim(value) != 2:
+        raise ValueError(f"{name} has shape {np.shape(value)}; needed is a covariance (n, n), n the number of errors")
+    size = len(np.asarray(value))
     matrix = as_matrix(name, value, (size, size))
     if size == 0:
         raise ValueError(f"{name} is empty; it gives the number of errors")

@@ -29,6 +29,11 @@ class Sensor:
     dropout: float = 0.0
 
     def __post_init__(self) -> None:
+        if not isinstance(self.corrector, Corrector):
+            raise ValueError(
+                f"sensor {self.name!r}: the corrector is a {type(self.corrector).__name__}; make one by "
+                f"linear_corrector, extended_corrector or unscented_corrector"
+            )
         if not isinstance(self.every, int | np.integer) or self.every < 1:
             raise ValueError(
                 f"sensor {self.name!r}: every={self.every} must be a whole number, at least 1: the steps between "
@@ -39,9 +44,9 @@ class Sensor:
                 f"sensor {self.name!r}: delay={self.delay} must be a whole number, at least 0: the steps until a "
                 f"measurement is available"
             )
-        if not 0 <= self.dropout <= 1:
+        if not (isinstance(self.dropout, int | float) and 0 <= self.dropout <= 1):
             raise ValueError(
-                f"sensor {self.name!r}: dropout={self.dropout} must lie in [0, 1]: it is a probability; 10 % is 0.1"
+                f"sensor {self.name!r}: dropout={self.dropout!r} must lie in [0, 1]: it is a probability; 10 % is 0.1"
             )
 
 
@@ -64,6 +69,13 @@ class ModularFilter:
     def __init__(
         self, predictor: Predictor, sensors: tuple[Sensor, ...] | list[Sensor], dt: float = 1.0, of: Space | None = None
     ) -> None:
+        if not isinstance(predictor, Predictor):
+            raise ValueError(
+                f"the predictor is a {type(predictor).__name__}; make one by linear_predictor, extended_predictor or "
+                f"unscented_predictor"
+            )
+        if not (isinstance(sensors, list | tuple) and all(isinstance(sensor, Sensor) for sensor in sensors)):
+            raise ValueError(f"sensors is {sensors!r}; give a list of Sensor(name, corrector, ...)")
         object.__setattr__(self, "predictor", predictor)
         object.__setattr__(self, "sensors", tuple(sensors))
         object.__setattr__(self, "dt", float(dt))

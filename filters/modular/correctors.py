@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from filters.arrays import FloatArray
-from filters.kernels.dense import copy, matmul_blocked, matvec
+from filters.kernels.dense import copy, matmul_blocked, matvec, mirror
 from filters.kernels.place import clear
 from filters.kernels.solve import cholesky, solve_cholesky
 from filters.modular.check import as_matrix, as_noise
@@ -179,6 +179,7 @@ def apply(observed: Space, of: Space, before: Estimate, y: FloatArray, after: Es
             factor = work.gain[r, i]
             for j in range(of.errors):
                 after.P[i, j] -= factor * work.cross[r, j]
+    mirror(after.P)
 
 
 def _project(R: FloatArray, P: FloatArray, work: Workspace) -> None:

@@ -22,6 +22,7 @@ from filters.modular.estimate import is_sound
 from filters.modular.history import PREDICTOR, ModularHistory, breakdown, new_history
 from filters.modular.measurements import Arrivals, Measurement, arrivals
 from filters.modular.problem import check_linearised, check_problem
+from filters.modular.running import running
 from filters.records import Correction, Estimate
 from filters.systems.composed import composed_system
 
@@ -63,7 +64,7 @@ def run(
 
     correction: Correction | None = None
     before_or_after = P  # P_{k^-} of the last k, and P_{k^+} once the correction has landed
-    with np.errstate(all="ignore"):  # a breakdown is found by what it leaves
+    with running():
         for j in range(len(moves) + 1):
             if j > 0:
                 high_rate.step(j - 1, moves[j - 1])
@@ -107,11 +108,11 @@ def _only_sensor(composed: ModularFilter) -> Sensor:
 
 
 def _check_landing(sensor: Sensor, L: int) -> None:
-    if not sensor.delay < L <= sensor.every:
+    if not (isinstance(L, int | np.integer) and sensor.delay < L <= sensor.every):
         raise ValueError(
-            f"sensor {sensor.name!r}: L={L} must be more than delay={sensor.delay} and at most every={sensor.every}: "
-            f"the correction lands after the measurement has arrived and no later than the next is taken; give such "
-            f"an L, or use late='recalculate'"
+            f"sensor {sensor.name!r}: L={L!r} must be a whole number, more than delay={sensor.delay} and at most "
+            f"every={sensor.every}: the correction lands after the measurement has arrived and no later than the next "
+            f"is taken; give such an L, or use late='recalculate'"
         )
 
 

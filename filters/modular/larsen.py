@@ -40,6 +40,7 @@ from filters.modular.estimate import copy_estimate, is_sound
 from filters.modular.history import PREDICTOR, SOUND, ModularHistory, breakdown, new_history
 from filters.modular.measurements import Arrivals, Measurement, arrivals
 from filters.modular.problem import check_linearised, check_problem
+from filters.modular.running import running
 from filters.modular.space import Space, space
 from filters.modular.workspace import Workspace, new_workspace
 from filters.records import Estimate
@@ -176,7 +177,7 @@ def run(
     taken_late = np.zeros(steps + 1, dtype=np.bool_)
     taken_late[arrived.taken[late]] = True
     found = new_history(of, steps)
-    with np.errstate(all="ignore"):  # a breakdown is found by what it leaves
+    with running():
         culprit, step = function_for(backend, filter_all)(
             arguments_for(backend, composed.predictor.predict),
             arguments_for(backend, chain(correct, tuple(sensor.corrector.expect for sensor in composed.sensors))),

@@ -43,8 +43,8 @@ def observe(composed: ModularFilter, truth: FloatArray, seed: int) -> list[Measu
     Raises:
         ValueError: the truth has a wrong shape.
     """
-    if truth.ndim != 2 or truth.shape[1] != composed.of.numbers:
-        raise ValueError(f"truth has shape {truth.shape}, the filter's states need (any, {composed.of.numbers})")
+    if np.ndim(truth) != 2 or np.shape(truth)[1] != composed.of.numbers:
+        raise ValueError(f"truth has shape {np.shape(truth)}, the filter's states need (any, {composed.of.numbers})")
     found = []
     for number, sensor in enumerate(composed.sensors):
         random = np.random.default_rng([seed, number])
@@ -55,7 +55,7 @@ def observe(composed: ModularFilter, truth: FloatArray, seed: int) -> list[Measu
         expected = expected_by(sensor, composed.of)
         for at in np.flatnonzero(arrived):
             y = np.empty(observed.numbers)
-            plus(observed, expected(truth[steps[at]]), noise[at], y)
+            plus(observed, expected(np.asarray(truth[steps[at]])), noise[at], y)
             found.append(Measurement(sensor.name, steps[at], steps[at] + sensor.delay, y))
     return sorted(found, key=lambda one: one.arrives)
 
@@ -88,12 +88,15 @@ def arrivals(composed: ModularFilter, measurements: Iterable[Measurement], steps
             sensor's second in one step.
     """
     numbers = {sensor.name: number for number, sensor in enumerate(composed.sensors)}
-    found = sorted(measurements, key=lambda one: one.arrives)
-    for name in {one.sensor for one in found} - set(numbers):
-        raise ValueError(f"sensor {name!r} is none of the filter's: they are {', '.join(numbers) or 'none'}")
-    for one in found:
+    given = list(measurements)
+    for one in given:
+        if not isinstance(one, Measurement):
+            raise ValueError(f"measurements holds {one!r:.60}; give a list of Measurement(sensor, taken, arrives, y)")
         if not (isinstance(one.taken, int | np.integer) and isinstance(one.arrives, int | np.integer)):
             raise _unfit(one, "steps must be whole numbers")
+    found = sorted(given, key=lambda one: one.arrives)
+    for name in {one.sensor for one in found} - set(numbers):
+        raise ValueError(f"sensor {name!r} is none of the filter's: they are {', '.join(numbers) or 'none'}")
     number = np.array([numbers[one.sensor] for one in found], dtype=np.int64)
     taken = np.array([one.taken for one in found], dtype=np.int64)
     arrives = np.array([one.arrives for one in found], dtype=np.int64)
@@ -103,12 +106,13 @@ def arrivals(composed: ModularFilter, measurements: Iterable[Measurement], steps
     for each, sensor in enumerate(composed.sensors):
         rows = np.flatnonzero(number == each)
         needed = sensor.corrector.observed.numbers
-        values = [found[row].y for row in rows]
-        shapes = {np.shape(value) for value in values}
-        if shapes - {(needed,)}:
-            row = next(row for row in rows if np.shape(found[row].y) != (needed,))
-            raise _unfit(found[row], f"y has shape {np.shape(found[row].y)}, its corrector needs {(needed,)}")
-        y[rows, :needed] = np.array(values).reshape(len(rows), needed)
+        try:
+            values = np.array([found[row].y for row in rows], dtype=np.float64)
+        except (TypeError, ValueError):
+            values = np.empty(0)
+        if values.shape != (len(rows), needed) and len(rows):
+            raise _misshapen([found[row] for row in rows], needed)
+        y[rows, :needed] = values.reshape(len(rows), needed)
     refused = (
         (~np.isfinite(y).all(axis=1), "y holds a value that is not finite; leave lost measurements out"),
         ((taken < 0) | (taken > arrives), "it must be taken in step 0 or later, and before it arrives"),
@@ -120,6 +124,18 @@ def arrivals(composed: ModularFilter, measurements: Iterable[Measurement], steps
             raise _unfit(found[row], what)
     here = arrives <= steps
     return Arrivals(number[here], taken[here], arrives[here], y[here])
+
+
+def _misshapen(measurements: list[Measurement], needed: int) -> ValueError:
+    """Names the first of them whose y is not as many numbers."""
+    for one in measurements:
+        try:
+            shape = np.array(one.y, dtype=np.float64).shape
+        except (TypeError, ValueError):
+            return _unfit(one, f"y is {one.y!r:.60}; its corrector needs an array of {needed} numbers")
+        if shape != (needed,):
+            return _unfit(one, f"y has shape {shape}, its corrector needs {(needed,)}")
+    raise AssertionError("all are as they should be")
 
 
 def _unfit(one: Measurement, what: str) -> ValueError:

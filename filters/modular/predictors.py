@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from filters.arrays import FloatArray
-from filters.kernels.dense import add_matmul_blocked, add_matvec, copy, matmul_blocked, matvec, transpose
+from filters.kernels.dense import add_matmul_blocked, add_matvec, copy, matmul_blocked, matvec, mirror, transpose
 from filters.modular.check import as_covariance, as_matrix
 from filters.modular.sigma_points import USUAL, SigmaPoints, Weights, add_covariance, draw, mean, weights
 from filters.modular.space import Space, minus, plus
@@ -193,6 +193,7 @@ def predict_unscented(
     mean(of, work.moved, motion.weighing, work.errors, work.n1, after.x)
     copy(motion.Q, after.P)
     add_covariance(work.errors, work.errors, motion.weighing, after.P)
+    mirror(after.P)
 
 
 def _propagate(Q: FloatArray, P: FloatArray, P_next: FloatArray, work: Workspace) -> None:
@@ -200,3 +201,4 @@ def _propagate(Q: FloatArray, P: FloatArray, P_next: FloatArray, work: Workspace
     matmul_blocked(work.F, P, work.nn1)
     transpose(work.F, work.nn2)
     add_matmul_blocked(Q, work.nn1, work.nn2, P_next)
+    mirror(P_next)

@@ -9,6 +9,7 @@ from filters.arrays import FloatArray
 from filters.modular.check import check_start
 from filters.modular.composition import ModularFilter
 from filters.modular.trial import try_functions
+from filters.records import Estimate
 
 
 def check_problem(
@@ -28,7 +29,7 @@ def check_problem(
     if not np.isfinite(rows).all():
         raise ValueError("inputs holds a value that is not finite")
     if len(rows) > 0:
-        try_functions(composed, x, rows[0])
+        try_functions(composed, Estimate(x, P), rows[0])
     return x, P, rows
 
 

@@ -18,6 +18,7 @@ from filters.modular.estimate import copy_estimate, is_sound
 from filters.modular.history import PREDICTOR, SOUND, ModularHistory, breakdown, new_history
 from filters.modular.measurements import Arrivals, Measurement, arrivals
 from filters.modular.problem import check_problem
+from filters.modular.running import running
 from filters.modular.space import Space, space
 from filters.modular.workspace import Workspace, new_workspace
 from filters.records import Estimate
@@ -115,8 +116,10 @@ def run(
     x, P, moves = check_problem(composed, x0, P0, inputs)
     steps, of = len(moves), composed.of
     depth = max((sensor.delay for sensor in composed.sensors), default=0) if history is None else history
-    if depth < 0:
-        raise ValueError(f"history={depth} must be at least 0: how many steps the filter can go back")
+    if not isinstance(depth, int | np.integer) or depth < 0:
+        raise ValueError(
+            f"history={history!r} must be a whole number, at least 0: how many steps the filter can go back"
+        )
     arrived = arrivals(composed, measurements, steps, depth)
     count, n = depth + 1, of.errors
     memory = Memory(
@@ -124,7 +127,7 @@ def run(
     )
     memory.x[0], memory.P[0] = x, P
     found = new_history(of, steps)
-    with np.errstate(all="ignore"):  # a breakdown is found by what it leaves
+    with running():
         culprit, step = function_for(backend, filter_all)(
             arguments_for(backend, composed.predictor.predict),
             arguments_for(backend, chain(correct, tuple(sensor.corrector.expect for sensor in composed.sensors))),

@@ -14,36 +14,55 @@ import numpy as np
 
 from filters.arrays import FloatArray
 from filters.modular.composition import ModularFilter
+from filters.modular.correctors import NumericView, expect_numeric
+from filters.modular.predictors import NumericMotion, predict_numeric
+from filters.modular.space import space
+from filters.modular.workspace import new_workspace
+from filters.records import Estimate
+
+TOLERANCE = 1e-3
+"""Jacobians may differ by this share of the largest effect in their row."""
+ROUNDING = 1e-11
+"""What differences of a thousandth of a deviation lose to rounding, as a share of the values that they are of."""
 
 
-def try_functions(composed: ModularFilter, x: FloatArray, u: FloatArray) -> None:
-    """Call each of the user's functions at the state x (numbers,) with the input u.
+def try_functions(composed: ModularFilter, at: Estimate, u: FloatArray) -> None:
+    """Call each of the user's functions at an estimate, with the input u.
 
     Raises:
         ValueError: one fails, changes x, returns what it should write into out, or leaves a number that is not finite;
-            it names the predictor or the sensor, the function and what came back.
+            or a Jacobian is not that of its function. It names the predictor or the sensor, the function and what came
+            back.
     """
-    motion, dt, n = composed.predictor.motion, composed.dt, composed.of.errors
+    motion, dt, of, n, x = composed.predictor.motion, composed.dt, composed.of, composed.of.errors, at.x
     if composed.predictor.kind == "linear":
         if motion.B.shape[1] not in (0, len(u)):
             raise ValueError(f"predictor: B has {motion.B.shape[1]} columns, but the input has {len(u)} numbers")
     else:
         _try("predictor: f(x, u, dt, out)", motion.f, (x, u, dt), (len(x),), np.nan)
         if hasattr(motion, "jacobian"):
-            _try("predictor: jacobian(x, u, dt, out)", motion.jacobian, (x, u, dt), (n, n), 0.0)
+            what = "predictor: jacobian(x, u, dt, out)"
+            F = _try(what, motion.jacobian, (x, u, dt), (n, n), 0.0)
+            work = new_workspace(of, space(0))
+            after = Estimate(np.empty_like(x), np.empty((n, n)))
+            predict_numeric(NumericMotion(motion.f, motion.Q), of, at, u, dt, after, work)
+            _compare(what, F, work.F, at, after.x)
     for sensor in composed.sensors:
         if sensor.corrector.kind != "linear":
             view, observed = sensor.corrector.view(n), sensor.corrector.observed
             _try(f"sensor {sensor.name!r}: h(x, out)", view.h, (x,), (observed.numbers,), np.nan)
             if hasattr(view, "jacobian"):
                 what = f"sensor {sensor.name!r}: jacobian(x, out)"
-                _try(what, view.jacobian, (x,), (observed.errors, n), 0.0)
+                H = _try(what, view.jacobian, (x,), (observed.errors, n), 0.0)
+                work = new_workspace(of, observed)
+                expect_numeric(NumericView(view.h, view.R), observed, of, at, work)
+                _compare(what, H, work.H, at, work.expected)
 
 
 def _try(
     what: str, function: Callable[..., Any], given: tuple[Any, ...], shape: tuple[int, ...], unwritten: float
-) -> None:
-    """unwritten: what out holds beforehand; a Jacobian may leave its zeros as they are."""
+) -> FloatArray:
+    """What the function wrote. unwritten: what out holds beforehand; a Jacobian may leave its zeros as they are."""
     if not isinstance(function, FunctionType):
         raise ValueError(f"{what} is a {type(function).__name__}; give a plain function, made by def or lambda")
     before = [np.copy(value) for value in given]
@@ -66,4 +85,19 @@ def _try(
         raise ValueError(
             f"{what} left in out {out.tolist()}: not written, or not finite, is {where}; it must write all of "
             f"shape {shape} and be finite at x = {given[0].tolist()}"
+        )
+    return out
+
+
+def _compare(what: str, given: FloatArray, differences: FloatArray, at: Estimate, values: FloatArray) -> None:
+    """Raises ValueError if two Jacobians differ in what a typical error does; values: of the function itself."""
+    deviations = np.sqrt(np.diag(at.P))
+    effects, wrong = np.abs(differences) * deviations, np.abs(given - differences) * deviations
+    excess = wrong - TOLERANCE * effects.max(axis=1, keepdims=True) - ROUNDING * np.abs(values).max()
+    row, column = np.unravel_index(np.argmax(excess), excess.shape)
+    if excess[row, column] > 0:
+        raise ValueError(
+            f"{what} gives {given[row, column]:.6g} in [{row}, {column}], where differences give "
+            f"{differences[row, column]:.6g}, at x = {at.x.tolist()}; it is the derivative by the errors of x (of an "
+            f"attitude, by a rotation vector in the frame of the body): mend it, or leave it out"
         )

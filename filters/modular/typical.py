@@ -54,7 +54,7 @@ def typical_moment(
     given = np.zeros(_inputs(composed)) if u is None else np.array(u, dtype=np.float64)
     if given.ndim != 1 or not np.isfinite(given).all():
         raise ValueError(f"u has shape {given.shape}; an input has one dimension, and finite numbers")
-    try_functions(composed, x, given)
+    try_functions(composed, Estimate(x, P), given)
     with np.errstate(all="ignore"):  # a breakdown is found by what it leaves
         at = _warmed_up(composed, Estimate(x, P), given, random)
     return Moment(at, given, tuple(expected_by(sensor, of)(at.x) for sensor in composed.sensors))

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from filters.arrays import FloatArray
 from filters.modular import (
@@ -46,6 +47,7 @@ def refused(message: str, action: Callable[[], Any]) -> None:
         ({"dropout": 1.01}, r"sensor 'gps': dropout=1.01 must lie in \[0, 1\]: it is a probability; 10 % is 0.1"),
         ({"dropout": -0.1}, r"sensor 'gps': dropout=-0.1 must lie in \[0, 1\]"),
         ({"dropout": np.nan}, r"sensor 'gps': dropout=nan must lie in \[0, 1\]"),
+        ({"dropout": "0.1"}, r"sensor 'gps': dropout='0.1' must lie in \[0, 1\]"),
     ],
 )
 def test_when_a_sensor_measures(timing: dict[str, Any], message: str) -> None:
@@ -131,6 +133,14 @@ Y = np.zeros(1)
         ([Measurement("gps", 3, 2, Y)], "sensor 'gps', measurement of step 3.*before it arrives"),
         ([Measurement("gps", -1, 2, Y)], "sensor 'gps', measurement of step -1.*in step 0 or later"),
         ([Measurement("gps", 0.5, 2, Y)], "sensor 'gps', measurement of step 0.5.*whole numbers"),
+        ([Measurement("gps", 0, None, Y)], "sensor 'gps', measurement of step 0.*whole numbers"),
+        (
+            [Measurement("gps", 0, 2, ["one"])],
+            "sensor 'gps', .* y is .'one'.; its corrector needs an array of 1 numbers",
+        ),
+        ([Measurement("gps", 0, 2, [1j])], "sensor 'gps', .* y is .1j.; its corrector needs an array of 1 numbers"),
+        (Measurement("gps", 0, 2, Y), "measurements holds 'gps'; give a list of Measurement"),
+        ([("gps", 0, 2, Y)], "measurements holds .'gps', .*; give a list of Measurement"),
     ],
 )
 def test_measurements(measurements: list[Measurement], message: str) -> None:
@@ -149,7 +159,8 @@ def test_measurements(measurements: list[Measurement], message: str) -> None:
         ({"inputs": np.zeros(6)}, r"inputs has shape \(6,\); needed is \(steps, inputs of the predictor\)"),
         ({"inputs": np.zeros((6, 2))}, "predictor: B has 1 columns, but the input has 2 numbers"),
         ({"inputs": np.full((6, 1), np.inf)}, "inputs holds a value that is not finite"),
-        ({"history": -1}, "history=-1 must be at least 0"),
+        ({"history": -1}, "history=-1 must be a whole number, at least 0"),
+        ({"history": 5.5}, "history=5.5 must be a whole number, at least 0"),
         ({"late": "never"}, "late='never' is unknown; give one of recalculate, larsen, dual-rate"),
         ({"late": "larsen", "history": 3}, "history=3 goes with late='recalculate'; late='larsen' goes back no step"),
         ({"L": 3}, "L=3 goes with late='dual-rate'; late='recalculate' corrects on arrival"),
@@ -204,8 +215,15 @@ def test_the_dual_rate_way_needs_one_sensor_that_fits_its_cycle() -> None:
     refused("late='dual-rate' works with one sensor, .* are 'gps', 'other'; use", filtered(GPS, "dual-rate"))
     refused("late='dual-rate' works with one sensor, .* are none", filtered(linear_case(), "dual-rate"))
     refused("predictor: late='dual-rate' .*use late='recalculate'", filtered(UNSCENTED, "dual-rate"))
-    refused("sensor 'gps': L=2 must be more than delay=2 and at most every=4", filtered(case, "dual-rate", L=2))
-    refused("sensor 'gps': L=5 must be more than delay=2 and at most every=4", filtered(case, "dual-rate", L=5))
+    refused(
+        "sensor 'gps': L=2 must be a whole number, more than delay=2 and at most every=4",
+        filtered(case, "dual-rate", L=2),
+    )
+    refused(
+        "sensor 'gps': L=5 must be a whole number, more than delay=2 and at most every=4",
+        filtered(case, "dual-rate", L=5),
+    )
+    refused("sensor 'gps': L=3.5 must be a whole number", filtered(case, "dual-rate", L=3.5))
     late = Measurement("gps", 4, 7, Y)
     refused(
         "sensor 'gps', .* step 4: it arrives in step 7.*lands in step 7; give a greater",
@@ -252,6 +270,65 @@ def test_an_estimate_that_is_no_longer_finite_names_the_part(late: str) -> None:
     steeper = case.with_sensors(Sensor("gps", extended_corrector(steep, [[1.0]])))
     hot = steeper._replace(x0=np.array([200.0, 500.0]))  # then 300, and exp(900) is beyond all numbers
     refused("sensor 'gps', step 1: .*no longer finite; give", filtered(hot, late, Measurement("gps", 1, 1, Y)))
+
+
+def test_parts_are_made_by_the_functions_that_make_them() -> None:
+    predictor = linear_predictor(cases.F, cases.Q)
+    refused("sensor 'gps': the corrector is a function; make one by linear_c", lambda: Sensor("gps", cases.height))
+    refused("the predictor is a function; make one by linear_predictor", lambda: ModularFilter(cases.height, []))
+    refused("sensors is .'gps'.; give a list of Sensor", lambda: ModularFilter(predictor, ["gps"]))
+    refused("sensors is Sensor.*; give a list of Sensor", lambda: ModularFilter(predictor, Sensor("gps", POSITION)))
+
+
+FIELD = np.array([0.6, 0.0, 0.8])
+"""Of `cases.field`, in the frame of the world."""
+
+
+def slope_by_the_body(x: FloatArray, out: FloatArray) -> None:
+    """How `cases.field` changes as the attitude is turned in the frame of the body."""
+    out[:, :3] = cross_matrix(Rotation.from_quat(x[:4], scalar_first=True).inv().apply(FIELD))
+
+
+def slope_by_the_world(x: FloatArray, out: FloatArray) -> None:
+    """The same as the attitude is turned in the frame of the world."""
+    turned = Rotation.from_quat(x[:4], scalar_first=True).inv()
+    out[:, :3] = turned.as_matrix() @ cross_matrix(FIELD)
+
+
+def cross_matrix(v: FloatArray) -> FloatArray:
+    return np.array([[0.0, -v[2], v[1]], [v[2], 0.0, -v[0]], [-v[1], v[0], 0.0]])
+
+
+def test_a_jacobian_in_the_frame_of_the_world_is_found() -> None:
+    def by(jacobian: Callable[[FloatArray, FloatArray], None]) -> Callable[[], Any]:
+        sensor = Sensor("magnetometer", extended_corrector(cases.field, np.eye(3), jacobian))
+        return filtered(ATTITUDE.with_sensors(sensor), "recalculate")
+
+    by(slope_by_the_body)()
+    refused(r"sensor 'magnetometer': jacobian\(x, out\) gives .* frame of the body", by(slope_by_the_world))
+
+
+def test_a_jacobian_with_a_wrong_sign_is_found() -> None:
+    def slope(_x: FloatArray, _u: FloatArray, _dt: float, out: FloatArray) -> None:
+        out[:] = [[1.0, 0.2], [0.14, 1.0]]
+
+    case = pendulum_case(extended_predictor)
+    wrong = case._replace(composed=ModularFilter(extended_predictor(cases.pendulum, cases.Q, slope), [], 0.2))
+    refused(
+        r"predictor: jacobian\(x, u, dt, out\) gives 0.14 in \[1, 0\], where differences", filtered(wrong, "larsen")
+    )
+
+
+def test_what_numba_cannot_compile_is_said_in_a_line() -> None:
+    def unheard(x: FloatArray, out: FloatArray) -> None:
+        out[0] = x[0] + Rotation.identity().magnitude()
+
+    case = pendulum_case(extended_predictor, Sensor("odd", extended_corrector(unheard, [[1.0]])))
+    inputs = case.inputs(2)
+    refused(
+        "^backend='compiled': numba cannot compile the filter: [^\n]*; mend that line, or use backend='reference'$",
+        lambda: run(case.composed, case.x0, case.P0, inputs, [], backend="compiled"),
+    )
 
 
 @pytest.mark.parametrize("late", ["recalculate", "larsen", "dual-rate"])

@@ -52,6 +52,11 @@ def ones(_x: FloatArray, out: FloatArray) -> None:
         out[i, i] = 1.0
 
 
+def halves_of_motion(_x: FloatArray, _u: FloatArray, _dt: float, out: FloatArray) -> None:
+    for i in range(len(out)):
+        out[i, i] = 0.5
+
+
 def ones_of_motion(_x: FloatArray, _u: FloatArray, _dt: float, out: FloatArray) -> None:
     for i in range(len(out)):
         out[i, i] = 1.0
@@ -158,13 +163,17 @@ def test_larsens_way_costs_products_with_the_accumulated_matrix(n: int, p: int) 
 def test_the_users_function_counts_as_often_as_it_is_called() -> None:
     """Linearised: once, and twice for each error if there is no Jacobian; unscented: once for each sigma point."""
     n, sensor = 3, linear_corrector(np.eye(1, 3), [[1.0]])
+
+    def multiplies(predictor: Predictor) -> int:
+        return counts(predictor, sensor)["predict"].multiply
+
     makers = {
-        "extended": lambda f: extended_predictor(f, np.eye(n), ones_of_motion),
-        "numeric": lambda f: extended_predictor(f, np.eye(n)),
-        "unscented": lambda f: unscented_predictor(f, np.eye(n)),
+        "extended": lambda f, jacobian: extended_predictor(f, np.eye(n), jacobian),
+        "numeric": lambda f, _: extended_predictor(f, np.eye(n)),
+        "unscented": lambda f, _: unscented_predictor(f, np.eye(n)),
     }
     calls = {
-        name: (counts(make(halved), sensor)["predict"].multiply - counts(make(still), sensor)["predict"].multiply) // n
+        name: (multiplies(make(halved, halves_of_motion)) - multiplies(make(still, ones_of_motion))) // n
         for name, make in makers.items()
     }
     assert calls == {"extended": 1, "numeric": 2 * n + 1, "unscented": 2 * n + 1}

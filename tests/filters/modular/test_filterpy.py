@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 
 from filters.arrays import FloatArray
 from filters.modular import (
+    Measurement,
     ModularFilter,
     ModularHistory,
     Sensor,
@@ -212,3 +213,30 @@ def test_on_a_linear_system_every_mix_equals_the_linear_filter(predictor: str, c
     found, _ = filtered(PREDICTORS[predictor], CORRECTORS[corrector])
     np.testing.assert_allclose(found.x, expected.x, rtol=1e-9, atol=1e-9)
     np.testing.assert_allclose(found.P, expected.P, rtol=1e-9, atol=1e-9)
+
+
+@pytest.mark.parametrize("extended", [False, True])
+def test_a_start_that_knows_nothing_costs_no_digits_that_matter(extended: bool) -> None:
+    """100 km of doubt, measurements to 1 m: P stays symmetric, and is what FilterPy's Joseph form gives."""
+    T, noise, wide, steps = np.array([[1.0, 1.0], [0.0, 1.0]]), 1e-9 * np.eye(2), 1e10 * np.eye(2), 50
+
+    def move(x: FloatArray, _u: FloatArray, _dt: float, out: FloatArray) -> None:
+        out[:] = T @ x
+
+    def first(x: FloatArray, out: FloatArray) -> None:
+        out[0] = x[0]
+
+    predictor = extended_predictor(move, noise) if extended else linear_predictor(T, noise)
+    corrector = extended_corrector(first, [[1.0]]) if extended else linear_corrector([[1.0, 0.0]], [[1.0]])
+    composed = ModularFilter(predictor, [Sensor("position", corrector)])
+    positions = [Measurement("position", k, k, [float(k)]) for k in range(steps + 1)]
+    found = run(composed, np.zeros(2), wide, np.zeros((steps, 0)), positions).P
+
+    kalman = KalmanFilter(dim_x=2, dim_z=1)
+    kalman.P, kalman.F, kalman.Q, kalman.H, kalman.R = wide, T, noise, np.array([[1.0, 0.0]]), np.eye(1)
+    for k in range(steps + 1):
+        if k:
+            kalman.predict()
+        kalman.update([[float(k)]])
+    np.testing.assert_array_equal(found, np.swapaxes(found, 1, 2))
+    np.testing.assert_allclose(found[-1], kalman.P, rtol=1e-6)
