@@ -65,7 +65,7 @@ def distributions_figure(scenario: Scenario, outcome: Outcome) -> Figure:
     for sensor in scenario.sensors:
         kind = correct_kind(sensor)
         least, most = min(sensor.delays), max(sensor.delays)
-        deadline = float(sensor.land_by - most) if least == most else None
+        deadline = float(sensor.land_by + 1 - most) if least == most else None
         plain.append(
             _response(f"correct {shortened(sensor.name)}", scenario, outcome.jobs[kind], FILLS["CO"], deadline)
         )
@@ -159,9 +159,9 @@ def _achieved(sensor: Sensor, figures: SensorFigures) -> Cell:
         shares = [100 * figures.achieved[step] / max(landed, 1) for step in steps]
         first, last = steps[0], steps[-1]
         axes.bar(steps, shares, 0.8, color=FILLS["CO"].colour, lw=0)
-        limit = sensor.land_by - 0.5  # what lands in step k + land_by is late
+        limit = sensor.land_by + 0.5  # what lands in step k + land_by has met it
         seen = limit <= FARTHEST_LIMIT * last + 1
-        last = max(last, sensor.land_by if seen else last, first + FEWEST_SHOWN)
+        last = max(last, sensor.land_by + 1 if seen else last, first + FEWEST_SHOWN)
         axes.set(xlim=(first - 1, last + 1), ylim=(0, HEADROOM * max(shares) or 100))
         if seen:
             _deadline(axes, limit)

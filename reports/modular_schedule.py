@@ -253,7 +253,7 @@ def landing_figure(found: Columns) -> Figure:
             axes.set(xlim=(0, last + 1), ylim=(0, 1.15 * highest))
             axes.xaxis.set_major_locator(MaxNLocator(nbins=8, integer=True))
             axes.yaxis.set_major_locator(MaxNLocator(nbins=4))
-            _line(axes, LAND_BY - 0.5, "deadline")
+            _line(axes, LAND_BY + 0.5, "deadline")
             label(axes, f"{way.name}: {urgency}")
         for row in plots:
             label(row[0], up="share of fixes (%)")
@@ -322,7 +322,7 @@ def _time_axis(axes: Axes, values: FloatArray) -> None:
 def _deadline_ms(job: str) -> list[float]:
     """From the release. Of the GPS correction the first and the last: the sooner a fix arrives the more time it has."""
     if job == "GPS":
-        return [PERIOD_MS * (LAND_BY - delay) for delay in (GPS_DELAYS[-1], GPS_DELAYS[0])]
+        return [PERIOD_MS * (LAND_BY + 1 - delay) for delay in (GPS_DELAYS[-1], GPS_DELAYS[0])]
     return [PERIOD_MS * (CONTROL_EVERY if job == "control" else 1)]
 
 

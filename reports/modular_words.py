@@ -173,7 +173,7 @@ def schedule_words(found: Results) -> dict[str, Any]:
         "fix_hz": RATE_HZ // rocket_schedule.GPS_EVERY,
         "delays": [f"{rocket_schedule.PERIOD_MS * delay:g}" for delay in (min(DELAYS), max(DELAYS))],
         "dropout": f"{100 * rocket_schedule.DROPOUT:g}",
-        "land_by": f"{rocket_schedule.PERIOD_MS * rocket_schedule.LAND_BY:g}",
+        "land_by": f"{rocket_schedule.PERIOD_MS * (rocket_schedule.LAND_BY + 1):g}",
         "bearable": f"{100 * rocket_schedule.BEARABLE:g}",
         "holds": {
             short: {

@@ -17,7 +17,7 @@ AFTER_MISS = 2
 
 def scenario_panel(scenario: Scenario, outcome: Outcome) -> Panel:
     """outcome: of this scenario; it says where to look. The steps up to there are simulated again, to the same end."""
-    needed = max((sensor.offset + sensor.land_by + AFTER_MISS for sensor in scenario.sensors), default=FEWEST_STEPS)
+    needed = max((sensor.offset + sensor.land_by + 1 + AFTER_MISS for sensor in scenario.sensors), default=FEWEST_STEPS)
     width = min(max(needed, FEWEST_STEPS), MOST_STEPS)
     last = width if outcome.first_miss is None else max(ceil(outcome.first_miss) + AFTER_MISS, width)
     last = min(last, scenario.steps)

@@ -1,8 +1,9 @@
 """The jobs of a filter composed of one predictor and several sensors' correctors.
 
 Every step releases a predict job at its start, due at the start of the next step. A measurement that arrives at the
-start of step m = k + delay releases a correct job there, after the predict job of m, due at the start of step
-k + land_by. Its response time is from the arrival until the correction has landed: is in the state.
+start of step m = k + delay releases a correct job there, after the predict job of m, due at the end of step
+k + land_by. Its response time is from the arrival until the correction has landed: is in the state. The step in which
+that is, is the achieved l; so the deadline is met exactly if l <= k + land_by.
 
 Held up or preempted. A correction as urgent as the predictor, or more, runs before the next predict job, and lands in
 the step in which it finishes. A less urgent one is preempted by predict jobs (with two processors it runs beside them);
@@ -143,7 +144,7 @@ class ComposedFilter(Source):
             self.dropped[number] += 1
             return
         arrives = step + delay
-        due = (step + sensor.land_by) * self.period
+        due = (step + sensor.land_by + 1) * self.period
         self.arrivals[arrives].append(Measurement(step, number, arrives * self.period, due))
 
     def _arrive(self, measurement: Measurement, now: int) -> tuple[Job, ...]:

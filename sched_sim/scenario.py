@@ -24,8 +24,8 @@ class Sensor:
 
     A measurement is taken in steps offset, offset + every, ...; it never arrives with the probability `dropout`, else
     at the start of the step k + delay, the delay drawn from `delays` with equal probability.
-    priority: of its corrections; smaller is more urgent. land_by: the correction must be in the state by the start of
-    step k + land_by.
+    priority: of its corrections; smaller is more urgent. land_by: the correction must finish during step k + land_by,
+    or before; its deadline is the end of that step, met exactly if the achieved l is k + land_by or less.
     Raises InputError that names the sensor and lists all that is wrong with it.
     """
 
@@ -53,10 +53,10 @@ class Sensor:
             )
         elif min(self.delays) < 0:
             wrong.append(f"delay {min(self.delays)} must be 0 or more: no measurement arrives before it is taken")
-        elif self.land_by <= min(self.delays):
+        elif self.land_by < min(self.delays):
             wrong.append(
-                f"land_by {self.land_by} must be greater than the least delay {min(self.delays)}: no correction is in "
-                f"the state before its measurement arrives"
+                f"land_by {self.land_by} must not be less than the least delay {min(self.delays)}: the correction "
+                f"may land in the step so many after the measurement's, and none lands before its measurement arrives"
             )
         if wrong:
             raise InputError(f"sensor {self.name!r}: {'; '.join(wrong)}")

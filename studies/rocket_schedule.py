@@ -52,8 +52,8 @@ Costs: TypeAlias = Mapping[PredictorName, SampledCosts]
 NAME = "rocket-schedule"
 QUESTION = "Which processor does the rocket's filter need, if its GPS fix is late by a random time?"
 
-GPS_EVERY, GPS_DELAYS, LAND_BY = 20, range(5, 21), 25
-"""In steps of 10 ms; the correction must be in the state 250 ms after the measurement."""
+GPS_EVERY, GPS_DELAYS, LAND_BY = 20, range(5, 21), 24
+"""In steps of 10 ms; the correction must be in the state at the end of step k + 24, 250 ms after the measurement."""
 DROPOUT = 0.1
 CONTROL_EVERY, CONTROL_PRIORITY = 2, 15
 STEPS, CURVE_STEPS, SEED = 10_000, 3_400, 0
@@ -187,7 +187,7 @@ def scenario(
     composed = rocket_filter(way.predictor, DROPOUT)
     late = Sensor(GPS, GPS_EVERY, GPS_DELAYS, LAND_BY, dropout=DROPOUT, priority=URGENCIES[urgency])
     on_time = [
-        Sensor(sensor.name, sensor.every, (0,), land_by=1, dropout=sensor.dropout, priority=HR)
+        Sensor(sensor.name, sensor.every, (0,), land_by=0, dropout=sensor.dropout, priority=HR)
         for sensor in composed.sensors
         if sensor.name != GPS
     ]

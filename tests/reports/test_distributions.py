@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
@@ -24,9 +25,9 @@ OVERLOAD = Scenario(
     steps=400,
     speed=Fraction(10),
     sensors=[
-        Sensor("gps $1$", 20, (4, 5, 6), land_by=12, dropout=0.1),
-        Sensor("a barometer with a long name", 3, (0,), land_by=3, priority=10),
-        Sensor("lost", 3, (2,), land_by=3, dropout=1.0),
+        Sensor("gps $1$", 20, (4, 5, 6), land_by=11, dropout=0.1),
+        Sensor("a barometer with a long name", 3, (0,), land_by=2, priority=10),
+        Sensor("lost", 3, (2,), land_by=2, dropout=1.0),
     ],
     costs={
         "predict": [Fraction(value) for value in ("3", "4", "5", "9.5")],
@@ -72,6 +73,14 @@ def test_both_pictures_can_be_read(scenario: Scenario) -> None:
     outcome = run_scenario(scenario)
     assert flaws(distributions_figure(scenario, outcome)) == []
     assert flaws(gantt([scenario_panel(scenario, outcome)])) == []
+
+
+def test_the_deadline_of_l_is_behind_the_last_step_that_meets_it() -> None:
+    gps = replace(ROCKET.sensors[0], land_by=30)
+    scenario = replace(ROCKET, sensors=[gps, *ROCKET.sensors[1:]])
+    figure = distributions_figure(scenario, run_scenario(scenario))
+    (axes,) = [axes for axes in figure.axes if "gps: achieved l" in {text.get_text() for text in axes.texts}]
+    assert [list(line.get_xdata()) for line in axes.lines] == [[30.5, 30.5]]
 
 
 def test_misses_are_told() -> None:

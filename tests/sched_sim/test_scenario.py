@@ -12,6 +12,8 @@ from math import sqrt
 from typing import Any
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from sched_sim.costs import JobCosts, LarsenCosts, RecalculateCosts, StandardCosts
 from sched_sim.errors import InputError
@@ -37,7 +39,7 @@ def costs(entries: dict[str, Any]) -> Costs:
 
 def sensor(name: str, every: int, delay: int | Sequence[int] = 0, **settings: Any) -> Sensor:
     delays = (delay,) if isinstance(delay, int) else delay
-    return Sensor(name, every, delays, **({"land_by": max(delays) + every} | settings))
+    return Sensor(name, every, delays, **({"land_by": max(delays) + every - 1} | settings))
 
 
 def scenario(speed: object, entries: dict[str, Any], *sensors: Sensor, **settings: Any) -> Scenario:
@@ -69,7 +71,7 @@ def assert_same(
     N, cycles = 10, 20
     expected = simulate(single, Timing(N, M, N), Fraction(speed), cycles, tasks=[CONTROL])
     steps = cycles * N + (M == N)  # the last measurement arrives when the others would end
-    gps = sensor("gps", N, M, priority=HR, land_by=M + 1)
+    gps = sensor("gps", N, M, priority=HR, land_by=M)
     found = run_scenario(scenario(speed, entries, gps, late=late, steps=steps, tasks=[CONTROL]))
     longest = max(*found.jobs["predict"].responses, *found.jobs["correct gps"].responses)
     assert found.sensors["gps"].achieved == expected.achieved
@@ -109,7 +111,7 @@ def test_the_probability_of_a_miss_is_that_of_the_sum_of_two_draws() -> None:
     """Predict and correction take longer than 8 in 3 of the 9 pairs; an overrun is over in the next step."""
     predict, correct = [2, 3, 5], [3, 4, 6]
     exact = sum(sum(pair) > 8 for pair in product(predict, correct)) / 9
-    gps = sensor("gps", 2, priority=HR, land_by=1, dropout=0.25)
+    gps = sensor("gps", 2, priority=HR, land_by=0, dropout=0.25)
     found = run_scenario(scenario(8, {"predict": predict, "correct.gps": correct}, gps, steps=6_000))
     figures = found.jobs["correct gps"]
     assert figures.decided == found.sensors["gps"].arrived
@@ -175,6 +177,30 @@ def test_the_dropout_of_one_sensor_changes_no_draw_of_the_others() -> None:
     assert some.sensors["imu"].taken == none.sensors["imu"].taken
     assert some.sensors["imu"].dropped == none.sensors["imu"].dropped
     assert some.jobs["correct imu"].released == none.jobs["correct imu"].released
+
+
+# ------------------------------------------------------------------------------- deadlines
+
+
+@given(
+    speed=st.integers(5, 14),
+    delays=st.lists(st.integers(0, 6), min_size=1, max_size=3),
+    more=st.integers(0, 4),
+    priority=st.sampled_from([HR, LR]),
+    late=st.sampled_from(["recalculate", "larsen"]),
+)
+@settings(max_examples=60, deadline=None)
+def test_a_correction_has_met_its_deadline_exactly_if_it_lands_in_step_land_by_or_before(
+    speed: int, delays: list[int], more: int, priority: int, late: Late
+) -> None:
+    land_by = min(delays) + more
+    gps, imu = sensor("gps", 7, delays, priority=priority, land_by=land_by), sensor("imu", 3)
+    entries = {"predict": [1, 3], "correct.gps": [2, 4], "correct.imu": 1}
+    larsens = {"predict_accumulate": [2, 3], "correct_late.gps": [2, 5], "correct_accumulate.imu": 2}
+    found = run_scenario(scenario(speed, entries | larsens, gps, imu, late=late, steps=60))
+    achieved, jobs = found.sensors["gps"].achieved, found.jobs["correct gps"]
+    waiting = jobs.decided - len(jobs.responses)  # not landed, although due
+    assert jobs.misses - waiting == sum(count for step, count in achieved.items() if step > land_by)
 
 
 # ------------------------------------------------------------------------------- worked out by hand
@@ -255,7 +281,7 @@ def test_corrections_that_waited_go_back_together_and_land_together() -> None:
 
 def test_a_processor_without_the_time_never_catches_up_and_drops_nothing() -> None:
     """4 ticks of each 10 are left, and each step that passes is 6 more to replay."""
-    gps = sensor("gps", 10, 2, land_by=5)
+    gps = sensor("gps", 10, 2, land_by=4)
     found = run_scenario(scenario(10, {"predict": 6, "correct.gps": 2}, gps, steps=50))
     figures, jobs = found.sensors["gps"], found.jobs["correct gps"]
     assert (figures.arrived, figures.achieved, figures.not_landed) == (5, {}, 5)
@@ -327,7 +353,7 @@ def test_progress_is_told_and_changes_nothing() -> None:
         ({"dropout": 1.2}, "dropout 1.2 must be from 0 to 1: it is a probability"),
         ({"delays": (-3,)}, "delay -3 must be 0 or more"),
         ({"delays": ()}, "delay has nothing to draw from"),
-        ({"land_by": 4}, "land_by 4 must be greater than the least delay 4"),
+        ({"land_by": 3}, "land_by 3 must not be less than the least delay 4"),
     ],
 )
 def test_a_sensor_that_cannot_be_is_refused_by_name(settings: dict[str, Any], said: str) -> None:

@@ -51,8 +51,8 @@ def write(folder: Path, scenario: str = SHORT, costs: str = COSTS) -> None:
 def test_a_scenario_is_read_exactly() -> None:
     rocket = read_scenario(ROCKET)
     assert rocket.sensors == [
-        Sensor("gps", 40, range(15, 31), land_by=70, dropout=0.1, priority=20),
-        Sensor("barometer", 8, (0,), land_by=8, priority=10),
+        Sensor("gps", 40, range(15, 31), land_by=69, dropout=0.1, priority=20),
+        Sensor("barometer", 8, (0,), land_by=7, priority=10),
     ]
     assert rocket.tasks == [Task("control", Fraction(2), Fraction(5, 10**4), priority=5)]
     assert rocket.costs["predict"] == (Fraction(5, 10**4), Fraction(6, 10**4), Fraction(9, 10**4))
@@ -148,7 +148,7 @@ def test_pictures_and_traces_are_written(sched_sim: Run, tmp_path: Path) -> None
         (("delay = 2", "delay = [2, true]"), ["sensor 'gps'.delay", "entry 1"]),
         (("delay = 2", "delay = { least = 5, most = 3 }"), ["sensor 'gps'.delay", "least = 5", "most = 3"]),
         (("delay = 2", "delay = { least = 5 }"), ["sensor 'gps'.delay", "most"]),
-        (("delay = 2", "delay = 2\nland_by = 2"), ["sensor 'gps'", "land_by 2", "least delay 2"]),
+        (("delay = 2", "delay = 2\nland_by = 1"), ["sensor 'gps'", "land_by 1", "least delay 2"]),
         (("delay = 2", "delay = 2\ncost = 0"), ["sensor 'gps'.cost", "greater than 0"]),
         (("delay = 2", "delay = 2\ncost = [1, -1]"), ["sensor 'gps'.cost", "entry 1", "-1"]),
         (("delay = 2", "latency = 2"), ["sensor 'gps'.latency", "not permitted"]),
