@@ -9,6 +9,8 @@ from math import ceil, sqrt
 Z95 = 1.959963984540054
 """97.5 % of a normal distribution lie below."""
 
+PERCENTS = (50, 95, 99)
+
 
 @dataclass(frozen=True, slots=True)
 class Distribution:
@@ -25,8 +27,22 @@ class Distribution:
     def of(cls, values: Sequence[float]) -> Distribution:
         ordered = sorted(values)
         count = len(ordered)
-        median, p95, p99 = (ordered[ceil(count * percent / 100) - 1] for percent in (50, 95, 99))
+        median, p95, p99 = (ordered[ceil(count * percent / 100) - 1] for percent in PERCENTS)
         return cls(ordered[0], sum(ordered) / count, median, p95, p99, ordered[-1])
+
+
+def finished_or_not(values: Sequence[float], unfinished: int) -> dict[str, float | None]:
+    """As `Distribution.of`, where so many more values are not known yet and any of them may be long.
+
+    minimum, mean, maximum: of the known values. median, p95, p99: of all; None where the unknown ones decide. At least
+    one value is known.
+    """
+    known = Distribution.of(values)
+    ordered, count = sorted(values), len(values) + unfinished
+    ranks = (ceil(count * percent / 100) for percent in PERCENTS)
+    median, p95, p99 = (ordered[rank - 1] if rank <= len(ordered) else None for rank in ranks)
+    quantiles = {"median": median, "p95": p95, "p99": p99}
+    return {"minimum": known.minimum, "mean": known.mean, **quantiles, "maximum": known.maximum}
 
 
 def wilson(events: int, trials: int) -> tuple[float, float]:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from contextlib import ExitStack
-from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -36,12 +36,15 @@ def simulate_scenario(
         scale = 1000.0 if scenario.hr_hz is None else float(1e6 / scenario.hr_hz)
         writers = [files.enter_context(open_trace(trace, scale)) for trace in traces]
 
+        busy: Counter[int] = Counter()  # ticks, by processor
+
         def write(piece: Slice) -> None:
+            busy[piece.cpu] += piece.end - piece.start
             for writer in writers:
                 writer(piece)
 
         progress = files.enter_context(progress_bar("Simulating"))
-        outcome = run_scenario(scenario, on_slice=write if writers else None, on_progress=progress)
+        outcome = run_scenario(scenario, on_slice=write if writers or scenario.cpus > 1 else None, on_progress=progress)
     if histogram is not None:
         from reports.distributions import distributions_figure
         from reports.picture import save
@@ -58,10 +61,12 @@ def simulate_scenario(
     elif format == "csv":
         print_csv([_flat(kind, figures) for kind, figures in outcome.jobs.items()])
     else:
-        _show(scenario, outcome)
+        _show(scenario, outcome, busy)
 
 
 def _document(scenario: Scenario, outcome: Outcome) -> dict[str, Any]:
+    from sched_sim.scenario_load import demand
+
     ms = None if scenario.hr_hz is None else float(1000 / scenario.hr_hz)
     return {
         "scenario": scenario.name,
@@ -71,6 +76,7 @@ def _document(scenario: Scenario, outcome: Outcome) -> dict[str, Any]:
         "hr_hz": None if scenario.hr_hz is None else float(scenario.hr_hz),
         "misses": outcome.misses,
         "utilization": float(outcome.schedule.utilization),
+        "demand": demand(scenario),
         "jobs": {kind: _job(figures, ms) for kind, figures in outcome.jobs.items()},
         "sensors": {name: _sensor(figures) for name, figures in outcome.sensors.items()},
     }
@@ -78,13 +84,14 @@ def _document(scenario: Scenario, outcome: Outcome) -> dict[str, Any]:
 
 def _job(figures: JobFigures, ms: float | None) -> dict[str, Any]:
     """Response times in HR periods, and in ms where a period is so many."""
-    from sched_sim.distribution import Distribution
+    from sched_sim.distribution import finished_or_not
 
-    response = asdict(Distribution.of(figures.responses)) if figures.responses else None
-    in_ms = None if response is None or ms is None else {name: ms * value for name, value in response.items()}
+    finished = len(figures.responses)
+    response = finished_or_not(figures.responses, figures.released - finished) if finished else None
+    in_ms = None if response is None or ms is None else {name: _times(ms, value) for name, value in response.items()}
     return {
         "released": figures.released,
-        "finished": len(figures.responses),
+        "finished": finished,
         "response": response,
         "response_ms": in_ms,
         "misses": figures.misses,
@@ -92,6 +99,10 @@ def _job(figures: JobFigures, ms: float | None) -> dict[str, Any]:
         "miss_probability": figures.miss_probability,
         "miss_interval": figures.miss_interval,
     }
+
+
+def _times(unit: float, value: float | None) -> float | None:
+    return None if value is None else unit * value
 
 
 def _flat(kind: str, figures: JobFigures) -> dict[str, Any]:
@@ -125,21 +136,38 @@ def _sensor(figures: SensorFigures) -> dict[str, Any]:
     }
 
 
-def _show(scenario: Scenario, outcome: Outcome) -> None:
+def _show(scenario: Scenario, outcome: Outcome, busy: Counter[int]) -> None:
     ms = None if scenario.hr_hz is None else float(1000 / scenario.hr_hz)
     rate = f"at {float(scenario.speed):.6g} cost units a step" if ms is None else f"at {float(1000 / ms):g} Hz"
     unit = "HR periods" if ms is None else "ms"
     print_table(
         f"{scenario.name}: {scenario.steps} steps {rate}, late measurements: {scenario.late}; response times in {unit}",
         [_job_words(kind, figures, ms or 1.0) for kind, figures in outcome.jobs.items()],
-        f"Processor busy {float(outcome.schedule.utilization):.1%} of the time"
-        + ("" if all(figures.decided for figures in outcome.jobs.values()) else "; -: nothing to tell it from"),
+        _note(scenario, outcome, busy),
     )
     if outcome.sensors:
         print_table(
             "Measurements, and the step l = k + ... in which their corrections landed",
             [_sensor_words(name, figures) for name, figures in outcome.sensors.items()],
         )
+
+
+def _note(scenario: Scenario, outcome: Outcome, busy: Counter[int]) -> str:
+    """Below the table: how busy the processors were, what the figures are of, and why deadlines are missed."""
+    from sched_sim.cli.overload import causes
+
+    lines = [f"Processor busy {float(outcome.schedule.utilization):.1%} of the time"]
+    if scenario.cpus > 1:
+        shares = [f"{busy[cpu] / outcome.schedule.horizon:.1%}" for cpu in range(scenario.cpus)]
+        lines = [f"Processors busy {' and '.join(shares)} of the time"]
+    if not all(figures.decided for figures in outcome.jobs.values()):
+        lines[0] += "; -: nothing to tell it from"
+    if any(figures.released > len(figures.responses) for figures in outcome.jobs.values()):
+        lines.append(
+            "Some jobs have not finished: min, mean and max are of those that have; median, p95 and p99 of all, "
+            "- where the unfinished decide"
+        )
+    return "\n".join([*lines, *causes(scenario, outcome)])
 
 
 def _job_words(kind: str, figures: JobFigures, unit: float) -> dict[str, Any]:
@@ -149,11 +177,19 @@ def _job_words(kind: str, figures: JobFigures, unit: float) -> dict[str, Any]:
     return {
         "job": kind,
         "jobs": figures.released,
-        **{word: None if response is None else f"{unit * response[name]:.4g}" for name, word in shown.items()},
+        "finished": len(figures.responses),
+        **{
+            word: _four_digits(None if response is None else _times(unit, response[name]))
+            for name, word in shown.items()
+        },
         "missed": figures.misses,
         "P(miss)": None if figures.miss_probability is None else f"{figures.miss_probability:.3g}",
         "95 % interval": None if interval is None else f"{interval[0]:.2g} to {interval[1]:.2g}",
     }
+
+
+def _four_digits(value: float | None) -> str | None:
+    return None if value is None else f"{value:.4g}"
 
 
 def _sensor_words(name: str, figures: SensorFigures) -> dict[str, Any]:

@@ -2,14 +2,25 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict
+
 import pytest
 
-from sched_sim.distribution import Distribution, wilson
+from sched_sim.distribution import Distribution, finished_or_not, wilson
 
 
 def test_quantiles_are_values_of_the_sample() -> None:
     assert Distribution.of([*range(100, 0, -1)]) == Distribution(1, 50.5, 50, 95, 99, 100)
     assert Distribution.of([0.25]) == Distribution(*[0.25] * 6)
+
+
+def test_a_quantile_that_unknown_values_decide_is_unknown() -> None:
+    known = {"minimum": 1, "mean": 48.0, "median": 50, "p95": 95, "p99": None, "maximum": 95}
+    assert finished_or_not([*range(95, 0, -1)], 5) == known
+    assert finished_or_not([25.9], 39) == known | {"mean": 25.9, "median": None, "p95": None} | dict.fromkeys(
+        ("minimum", "maximum"), 25.9
+    )
+    assert finished_or_not([*range(1, 101)], 0) == asdict(Distribution.of([*range(1, 101)]))
 
 
 @pytest.mark.parametrize(

@@ -136,6 +136,34 @@ def test_pictures_and_traces_are_written(sched_sim: Run, tmp_path: Path) -> None
     )
 
 
+def test_what_unfinished_jobs_hide_is_not_claimed(sched_sim: Run, tmp_path: Path) -> None:
+    """At speed 3, predict fills every step and no correction starts; the deadlines are beyond the end."""
+    slow = SHORT.replace("speed = 10", "speed = 3").replace("priority = 10", "priority = 20\nland_by = 99")
+    write(tmp_path, slow)
+    (job,) = [one for one in json.loads(run_json(sched_sim))["jobs"].values() if not one["finished"]]
+    assert (job["released"], job["response"]) == (4, None)
+    out = sched_sim("simulate --scenario s.toml").out
+    assert "finished" in out
+    assert "corrections of gps never catch up" in out
+    write(tmp_path, SHORT.replace("speed = 10", "speed = 2"))
+    job = json.loads(run_json(sched_sim))["jobs"]["predict"]
+    assert 20 <= job["finished"] < job["released"] == 40
+    assert job["response"]["median"] is not None
+    assert job["response"]["p99"] is None
+    out = sched_sim("simulate --scenario s.toml").out
+    assert "Some jobs have not finished" in out
+    assert "demand is 1" in out
+
+
+def run_json(sched_sim: Run) -> str:
+    return sched_sim("simulate --scenario s.toml --format json").out
+
+
+def test_each_of_two_processors_has_a_busy_share(sched_sim: Run, tmp_path: Path) -> None:
+    write(tmp_path, SHORT.replace("speed = 10", "speed = 10\ncpus = 2"))
+    assert "Processors busy 30.0% and 9.0% of the time" in sched_sim("simulate --scenario s.toml").out
+
+
 @pytest.mark.parametrize(
     ("change", "said"),
     [
