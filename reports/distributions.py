@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from math import ceil
 from typing import NamedTuple
 
 import numpy as np
@@ -14,6 +15,7 @@ from matplotlib.ticker import MaxNLocator
 from reports.lanes import shortened
 from reports.style import (
     FILLS,
+    INK,
     PALE,
     RED,
     SMALL_PT,
@@ -27,34 +29,42 @@ from reports.style import (
     text_width_mm,
 )
 from sched_sim.composed import correct_kind
-from sched_sim.distribution import Distribution
+from sched_sim.distribution import finished_or_not
 from sched_sim.scenario import Scenario, Sensor
 from sched_sim.scenario_run import JobFigures, Outcome, SensorFigures
 
 LEFT_MM, RIGHT_MM, GAP_MM, EDGE_MM = 11.0, 3.0, 15.0, 2.0
-TITLE_MM, NOTE_MM, PLOT_MM, AXIS_MM = 4.6, 4.2, 24.0, 11.0
-ROW_MM = TITLE_MM + NOTE_MM + PLOT_MM + AXIS_MM
+TITLE_MM, NOTE_MM, PLOT_MM, AXIS_MM = 4.6, 3.6, 24.0, 11.0
+BESIDE_MM = 4.0
+"""A note may reach so far into the gap between the plots."""
 BINS = 40
-FARTHEST_LIMIT = 1.6
-"""A deadline is shown if it is no farther than this from the worst, as a factor."""
+NEAR = 1.6
+"""A deadline is near if an axis that shows it is no longer than this factor times one without it."""
 HEADROOM = 1.2
 FEWEST_SHOWN = 7
 """Steps on the axis of achieved l."""
-BETWEEN_MM = 4.0
+EDGE = 0.03
+"""Left free at both ends of that axis."""
+
+
+class Note(NamedTuple):
+    """A piece of a subtitle. missed: something is wrong, so it is red."""
+
+    text: str
+    missed: bool = False
 
 
 class Cell(NamedTuple):
-    """One plot. notes: under the title; missed: in red behind them, "" if nothing is; draw: fills the axes."""
+    """One plot. notes: under the title, in as many lines as they take; draw: fills the axes."""
 
     title: str
-    notes: Sequence[str]
-    missed: str
+    notes: Sequence[Note]
     draw: Callable[[Axes], None]
 
 
 def distributions_figure(scenario: Scenario, outcome: Outcome) -> Figure:
     """A histogram of the response times of each job kind, and bars of the achieved l beside it where it is a
-    correction; a red line is a deadline."""
+    correction; a red line is a deadline. A deadline that is too far off for a line is in the subtitle."""
     plain: list[Cell | None] = [_response("predict", scenario, outcome.jobs["predict"], FILLS["PR"], 1.0)]
     for number, task in enumerate(scenario.tasks):
         fill = TASK_FILLS[number % len(TASK_FILLS)]
@@ -71,35 +81,56 @@ def distributions_figure(scenario: Scenario, outcome: Outcome) -> Figure:
         )
         plain.append(_achieved(sensor, outcome.sensors[sensor.name]))
     width = (WIDTH_MM - LEFT_MM - GAP_MM - RIGHT_MM) / 2
+    rows = [plain[number : number + 2] for number in range(0, len(plain), 2)]
     with drawing():
-        figure = page(EDGE_MM + ROW_MM * len(plain) / 2 + EDGE_MM)
-        for number, cell in enumerate(plain):
-            if cell is None:
-                continue
-            row, column = divmod(number, 2)
-            top = EDGE_MM + row * ROW_MM + TITLE_MM + NOTE_MM
-            axes = axes_at(figure, LEFT_MM + column * (width + GAP_MM), top, width, PLOT_MM)
-            axes.spines[["right", "top"]].set_visible(False)
-            axes.grid(axis="y", color=PALE, lw=0.5)
-            axes.yaxis.set_major_locator(MaxNLocator(nbins=4, min_n_ticks=3))
-            _write_head(axes, cell, width)
-            cell.draw(axes)
-            if column == 0:
-                axes.set_ylabel("share (%)")
-                axes.yaxis.set_label_coords(-8.0 / width, 0.5)
+        heads = [TITLE_MM + NOTE_MM * _most_lines(row, width) for row in rows]
+        figure = page(EDGE_MM + sum(heads) + (PLOT_MM + AXIS_MM) * len(rows) + EDGE_MM)
+        top = EDGE_MM
+        for row, head in zip(rows, heads, strict=True):
+            top += head
+            for column, cell in enumerate(row):
+                if cell is not None:
+                    axes = axes_at(figure, LEFT_MM + column * (width + GAP_MM), top, width, PLOT_MM)
+                    _draw_cell(axes, cell, width)
+                    if column == 0:
+                        axes.set_ylabel("% of the finished")
+                        axes.yaxis.set_label_coords(-8.0 / width, 0.5)
+            top += PLOT_MM + AXIS_MM
         return figure
 
 
-def _write_head(axes: Axes, cell: Cell, width_mm: float) -> None:
-    """Title and notes above the plot."""
+def _most_lines(row: Sequence[Cell | None], width_mm: float) -> int:
+    return max(len(_note_lines(cell.notes, width_mm)) for cell in row if cell is not None)
+
+
+def _draw_cell(axes: Axes, cell: Cell, width_mm: float) -> None:
+    axes.spines[["right", "top"]].set_visible(False)
+    axes.grid(axis="y", color=PALE, lw=0.5)
+    axes.yaxis.set_major_locator(MaxNLocator(nbins=4, min_n_ticks=3))
     within = axes.transAxes
-    head, foot = 1 + (NOTE_MM + 1) / PLOT_MM, 1 + 1.2 / PLOT_MM
-    axes.text(0, head, cell.title, transform=within, size=TITLE_PT, weight="bold", parse_math=False)
-    notes = ", ".join(cell.notes)
-    axes.text(0, foot, notes, transform=within, size=SMALL_PT)
-    if cell.missed:
-        at = (text_width_mm(notes, SMALL_PT) + BETWEEN_MM) / width_mm
-        axes.text(at, foot, cell.missed, transform=within, size=SMALL_PT, color=RED)
+    lines = _note_lines(cell.notes, width_mm)
+    at = 1 + (NOTE_MM * len(lines) + 1.6) / PLOT_MM
+    axes.text(0, at, cell.title, transform=within, size=TITLE_PT, weight="bold", parse_math=False)
+    for number, line in enumerate(reversed(lines)):
+        for x, note in line:
+            at = 1 + (NOTE_MM * number + 1.2) / PLOT_MM
+            axes.text(x / width_mm, at, note.text, transform=within, size=SMALL_PT, color=RED if note.missed else INK)
+    cell.draw(axes)
+
+
+def _note_lines(notes: Sequence[Note], width_mm: float) -> list[list[tuple[float, Note]]]:
+    """The notes with a comma between them, broken into lines, each with its x in mm."""
+    lines: list[list[tuple[float, Note]]] = [[]]
+    x = 0.0
+    for number, note in enumerate(notes):
+        shown = note._replace(text=note.text + ("," if note is not notes[-1] else ""))
+        width = text_width_mm(shown.text, SMALL_PT)
+        if number and x + width > width_mm + BESIDE_MM:
+            lines.append([])
+            x = 0.0
+        lines[-1].append((x, shown))
+        x += width + text_width_mm("n", SMALL_PT) * 0.6
+    return lines
 
 
 def _deadline(axes: Axes, at: float) -> None:
@@ -121,49 +152,86 @@ def _deadline(axes: Axes, at: float) -> None:
     name.set_path_effects([withStroke(linewidth=2.5, foreground="white")])
 
 
+def is_near(limit: float, low: float, high: float) -> bool:
+    """Whether the axis of [low, high] is stretched to show a deadline; the one rule of all plots."""
+    return max(high, limit) - min(low, limit) <= NEAR * (high - low)
+
+
+def _share_axis(axes: Axes, shares: Sequence[float]) -> None:
+    axes.set_ylim(0, min(HEADROOM * max(shares), 100) or 100)
+
+
 def _response(title: str, scenario: Scenario, figures: JobFigures, fill: Fill, deadline: float | None) -> Cell:
     """deadline: in HR periods from the release, None if it differs from job to job."""
     unit, scale = ("HR periods", 1.0) if scenario.hr_hz is None else ("ms", float(1000 / scenario.hr_hz))
     values = [scale * response for response in figures.responses]
+    worst = max(values, default=scale)
     limit = None if deadline is None else scale * deadline
-    notes = ["no job finished"]
-    if values:
-        spread = Distribution.of(values)
-        notes = [f"median {spread.median:.3g}", f"99 % within {spread.p99:.3g} {unit}"]
-    missed = f"{figures.misses} of {figures.decided} missed" if figures.misses else ""
+    near = limit is not None and is_near(limit, 0, worst)
+    notes = _response_notes(values, figures, unit)
+    if limit is not None and not near:
+        notes.append(Note(f"deadline {limit:.3g} {unit}"))
+    if figures.misses:
+        notes.append(Note(f"{figures.misses} of {figures.decided} missed", missed=True))
 
     def draw(axes: Axes) -> None:
         axes.set_xlabel(f"response time ({unit})", labelpad=2)
-        worst = max(values, default=scale)
-        shown = [limit] if limit is not None and limit <= FARTHEST_LIMIT * worst else []
-        end = 1.05 * max(worst, *shown, 1e-9)
+        axes.xaxis.set_major_locator(MaxNLocator(nbins=6))
+        end = 1.05 * max(worst, limit if near and limit is not None else 0, 1e-9)
         counts, edges = np.histogram(values, bins=BINS, range=(0, end))
         shares = 100 * counts / max(len(values), 1)
         axes.bar(edges[:-1], shares, np.diff(edges), align="edge", color=fill.colour, edgecolor=fill.ink, lw=0.3)
-        axes.set(xlim=(0, end), ylim=(0, HEADROOM * max(shares) or 100))
-        for at in shown:
-            _deadline(axes, at)
+        axes.set_xlim(0, end)
+        _share_axis(axes, shares.tolist())
+        if near and limit is not None:
+            _deadline(axes, limit)
 
-    return Cell(title, notes, missed, draw)
+    return Cell(title, notes, draw)
+
+
+def _response_notes(values: Sequence[float], figures: JobFigures, unit: str) -> list[Note]:
+    """What is known of all jobs, finished or not."""
+    if not values:
+        return [Note("no job finished" if figures.released else "no job released")]
+    finished, released = len(values), figures.released
+    spread = finished_or_not(values, released - finished)
+    known = [(words, spread[name]) for name, words in (("median", "median"), ("p99", "99 % within"))]
+    said = [f"{words} {value:.3g}" for words, value in known if value is not None]
+    if said:
+        said[-1] += f" {unit}"
+    if finished < released:
+        said.insert(0, f"{finished} of {released} finished")
+    return [Note(text) for text in said]
 
 
 def _achieved(sensor: Sensor, figures: SensorFigures) -> Cell:
     landed = figures.achieved.total()
-    notes = [f"{landed} of {figures.taken} landed", f"{figures.dropped} dropped"]
-    missed = f"{figures.not_landed} not landed" if figures.not_landed else ""
+    steps = sorted(figures.achieved) or [min(sensor.delays)]
+    first, last = steps[0], steps[-1]
+    shown = max(last, first + FEWEST_SHOWN)
+    limit = sensor.land_by + 0.5  # what lands in step k + land_by has met it
+    near = is_near(limit, first - 1, shown + 1)
+    notes = [Note(f"{landed} of {figures.taken} landed"), Note(f"{figures.dropped} dropped")]
+    if not near:
+        notes.append(Note(f"deadline k + {sensor.land_by}"))
+    if figures.not_landed:
+        notes.append(Note(f"{figures.not_landed} not landed", missed=True))
+    per_bar = ceil((last - first + 1) / BINS)
 
     def draw(axes: Axes) -> None:
-        axes.set_xlabel("$l - k$ (high-rate steps)", labelpad=2)
+        each = f", {per_bar} in each bar" if per_bar > 1 else ""
+        axes.set_xlabel(f"$l - k$ (high-rate steps{each})", labelpad=2)
         axes.xaxis.set_major_locator(MaxNLocator(nbins=8, integer=True))
-        steps = sorted(figures.achieved) or [min(sensor.delays)]
-        shares = [100 * figures.achieved[step] / max(landed, 1) for step in steps]
-        first, last = steps[0], steps[-1]
-        axes.bar(steps, shares, 0.8, color=FILLS["CO"].colour, lw=0)
-        limit = sensor.land_by + 0.5  # what lands in step k + land_by has met it
-        seen = limit <= FARTHEST_LIMIT * last + 1
-        last = max(last, sensor.land_by + 1 if seen else last, first + FEWEST_SHOWN)
-        axes.set(xlim=(first - 1, last + 1), ylim=(0, HEADROOM * max(shares) or 100))
-        if seen:
+        starts = list(range(first, last + 1, per_bar))
+        counts = [sum(figures.achieved[start + more] for more in range(per_bar)) for start in starts]
+        shares = [100 * count / max(landed, 1) for count in counts]
+        middles = [start + (per_bar - 1) / 2 for start in starts]
+        axes.bar(middles, shares, 0.8 * per_bar, color=FILLS["CO"].colour, lw=0)
+        low, high = (min(first, sensor.land_by), max(shown, sensor.land_by + 1)) if near else (first, shown)
+        edge = max(1.0, EDGE * (high - low))
+        axes.set_xlim(low - edge, high + edge)
+        _share_axis(axes, shares)
+        if near:
             _deadline(axes, limit)
 
-    return Cell(f"{shortened(sensor.name)}: achieved l", notes, missed, draw)
+    return Cell(f"{shortened(sensor.name)}: achieved l", notes, draw)

@@ -13,7 +13,7 @@ from matplotlib.patheffects import withStroke
 from reports.callouts import Callout, callouts, label_fits, shown_label
 from reports.intervals import TASK, Bar, JobSpan, Row, bars, jobs, overdue_work, rows, waits
 from reports.scale import Scale
-from reports.style import FILLS, GREY, INK, RED, SMALL_PT, TASK_FILLS, Fill, text_width_mm
+from reports.style import FILLS, FONT_PT, GREY, INK, RED, SMALL_PT, TASK_FILLS, Fill, text_width_mm
 from sched_sim.schedule import Schedule
 
 Fills = Mapping[str, Fill]
@@ -56,11 +56,15 @@ def fills_of(schedules: Iterable[Schedule]) -> Fills:
     return fills
 
 
-def shortened(name: str) -> str:
-    """A row's name, cut where it would push the chart aside."""
-    if text_width_mm(plain(name)) <= LONGEST_NAME_MM:
+def shortened(name: str, width_mm: float = LONGEST_NAME_MM, points: float = FONT_PT, *, bold: bool = False) -> str:
+    """A name, cut where it would be wider; by default a row's, where it would push the chart aside."""
+
+    def fits(text: str) -> bool:
+        return text_width_mm(plain(text), points, bold=bold) <= width_mm
+
+    if fits(name):
         return name
-    while text_width_mm(plain(name) + "…") > LONGEST_NAME_MM:
+    while name and not fits(name + "…"):
         name = name[:-1]
     return name + "…"
 

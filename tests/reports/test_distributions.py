@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
+from typing import Any
 
 import pytest
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
@@ -16,7 +19,8 @@ from reports.intervals import bars, jobs, rows
 from reports.scenario_panel import scenario_panel
 from sched_sim.scenario import Scenario, Sensor
 from sched_sim.scenario_file import read_scenario
-from sched_sim.scenario_run import run_scenario
+from sched_sim.scenario_run import JobFigures, Outcome, SensorFigures, run_scenario
+from sched_sim.tasks import Task
 from tests.reports.layout import flaws, texts
 
 ROCKET = read_scenario(Path(__file__).parents[1] / "sched_sim" / "rocket.toml")
@@ -46,6 +50,97 @@ def bars_of(figure: Figure, title: str) -> dict[float, float]:
         for patch in axes.patches
         if isinstance(patch, Rectangle) and patch.get_height()
     }
+
+
+def words(figure: Figure) -> set[str]:
+    return {text.get_text().removesuffix(",") for text, _ in texts(figure)}
+
+
+def plot(figure: Figure, title: str) -> Axes:
+    (axes,) = [axes for axes in figure.axes if title in {text.get_text() for text in axes.texts}]
+    return axes
+
+
+def slow(name: str, **sensor: Any) -> Scenario:
+    """Predict takes a third of each step; a correction takes little and is replayed."""
+    one = Sensor(name, **({"every": 20, "delays": (0,), "land_by": 12, "priority": 5} | sensor))
+    costs = {"predict": [Fraction(3)], f"correct.{name}": [Fraction(1)]}
+    task = Task("t", Fraction(10), Fraction(1), priority=1)
+    return Scenario("s", steps=60, speed=Fraction(9), sensors=[one], costs=costs, tasks=[task])
+
+
+def test_a_share_ends_at_100() -> None:
+    scenario = slow("s")
+    figure = distributions_figure(scenario, run_scenario(scenario))
+    assert [axes.get_ylim() for axes in figure.axes] == [(0, 100)] * 4
+
+
+LONG = "a name that would not fit if there were three of it " * 3
+
+
+@pytest.mark.parametrize("land_by", [6, 20_000])
+def test_long_names_and_large_numbers_stay_in_their_plots(land_by: int) -> None:
+    late = 5
+    scenario = slow(LONG, every=3, delays=(late,), land_by=land_by, priority=20)
+    scenario = replace(scenario, tasks=[Task(LONG, Fraction("99999.1"), Fraction("0.3"), 4)])
+    jobs = JobFigures(20_000, [12345.678] * 19_000, 19_976, 20_000)
+    sensor = SensorFigures(20_000, 19_000, 18_000, Counter({late: 9_000, late + 900: 3}))
+    outcome = Outcome(
+        dict.fromkeys(("predict", f"correct {LONG}", f"task:{LONG}"), jobs),
+        {LONG: sensor},
+        run_scenario(scenario).schedule,
+        None,
+    )
+    figure = distributions_figure(scenario, outcome)
+    assert {"19976 of 20000 missed", "19000 of 20000 finished"} <= words(figure)
+    assert flaws(figure) == []
+
+
+def achieved(scenario: Scenario, *landed: int) -> Figure:
+    outcome = run_scenario(scenario)
+    sensor = SensorFigures(len(landed), 0, len(landed), Counter(landed))
+    return distributions_figure(scenario, replace(outcome, sensors={"s": sensor}))
+
+
+@pytest.mark.parametrize(
+    ("land_by", "landed", "shown"),
+    [
+        (16, [10, 11, 12, 13], True),
+        (50, [10, 11, 12, 13], False),
+        (3, [15, 40], True),
+        (3, [40, 45], False),
+    ],
+)
+def test_a_deadline_has_a_line_or_is_in_the_subtitle(land_by: int, landed: list[int], shown: bool) -> None:
+    figure = achieved(slow("s", land_by=land_by), *landed)
+    axes = plot(figure, "s: achieved l")
+    lines = [line.get_xdata()[0] for line in axes.lines]  # type: ignore[index]
+    named = [text for text in axes.texts if text.get_text() == "deadline"]
+    assert (lines == [land_by + 0.5]) == (len(named) == 1) == shown
+    assert (f"deadline k + {land_by}" in words(figure)) != shown
+    low, high = axes.get_xlim()
+    assert all(low < line < high for line in lines)
+    assert flaws(figure) == []
+
+
+def test_a_wide_range_of_achieved_l_has_whole_steps_in_each_bar() -> None:
+    figure = achieved(slow("s", land_by=70), *range(10, 110), 10, 11, 12)
+    axes = plot(figure, "s: achieved l")
+    assert "3 in each bar" in axes.get_xlabel()
+    drawn = bars_of(figure, "s: achieved l")
+    assert len(drawn) == 34
+    assert sum(drawn.values()) == pytest.approx(100)
+    assert drawn[min(drawn)] == pytest.approx(100 * 6 / 103)
+
+
+def test_what_unfinished_jobs_hide_is_not_claimed() -> None:
+    scenario = slow("s")
+    outcome = run_scenario(scenario)
+    jobs = outcome.jobs | {"correct s": JobFigures(40, [25.9], 39, 40)}
+    axes = plot(distributions_figure(scenario, replace(outcome, jobs=jobs)), "correct s")
+    said = {text.get_text().removesuffix(",") for text in axes.texts}
+    assert {"1 of 40 finished", "39 of 40 missed"} <= said
+    assert not [text for text in said if "99 %" in text or "median" in text]
 
 
 def test_bars_are_the_shares_of_the_achieved_l() -> None:
@@ -85,9 +180,9 @@ def test_the_deadline_of_l_is_behind_the_last_step_that_meets_it() -> None:
 
 def test_misses_are_told() -> None:
     outcome = run_scenario(OVERLOAD)
-    said = {text.get_text() for text, _ in texts(distributions_figure(OVERLOAD, outcome))}
+    said = words(distributions_figure(OVERLOAD, outcome))
     missed = outcome.jobs["predict"].misses
-    assert {f"{missed} of 400 missed", "no job finished", "deadline"} <= said
+    assert {f"{missed} of 400 missed", "no job released", "deadline"} <= said
     assert f"{outcome.sensors['gps $1$'].not_landed} not landed" in said
 
 
