@@ -33,7 +33,8 @@ from filters.kernels.dense import (
     store,
     store_vector,
 )
-from filters.modular.chain import chain, parts_of
+from filters.kernels.place import IntArray
+from filters.modular.chain import chain
 from filters.modular.composition import ModularFilter
 from filters.modular.correctors import apply
 from filters.modular.estimate import copy_estimate, is_sound
@@ -104,6 +105,7 @@ def filter_all(
     use: Callable[..., None],
     motion: Any,
     parts: Any,
+    places: IntArray,
     of: Space,
     dt: float,
     inputs: FloatArray,
@@ -134,7 +136,7 @@ def filter_all(
         while following < len(arrived.arrives) and arrived.arrives[following] == j:
             s = arrived.sensor[following]
             given = Given(of, flight, late[following], waiting, current, arrived.y[following], scratch)
-            use(s, parts, given)
+            use(places[s, 0], places[s, 1], parts, given)
             if not is_sound(scratch):
                 return s, j
             copy_estimate(scratch, current)
@@ -177,12 +179,14 @@ def run(
     taken_late = np.zeros(steps + 1, dtype=np.bool_)
     taken_late[arrived.taken[late]] = True
     found = new_history(of, steps)
+    chained = chain(correct, composed)
     with running():
         culprit, step = function_for(backend, filter_all)(
             arguments_for(backend, composed.predictor.predict),
-            arguments_for(backend, chain(correct, tuple(sensor.corrector.expect for sensor in composed.sensors))),
+            arguments_for(backend, chained.use),
             arguments_for(backend, composed.predictor.motion),
-            arguments_for(backend, parts_of(composed)),
+            arguments_for(backend, chained.parts),
+            chained.places,
             of,
             composed.dt,
             moves,

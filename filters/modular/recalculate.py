@@ -11,7 +11,7 @@ from filters.arrays import FloatArray
 from filters.kernels.backends import BackendName, arguments_for, function_for
 from filters.kernels.dense import store, store_vector
 from filters.kernels.place import IntArray
-from filters.modular.chain import chain, parts_of
+from filters.modular.chain import chain
 from filters.modular.composition import ModularFilter
 from filters.modular.correction import correct_with
 from filters.modular.estimate import copy_estimate, is_sound
@@ -54,6 +54,7 @@ def filter_all(
     use: Callable[..., None],
     motion: Any,
     parts: Any,
+    places: IntArray,
     of: Space,
     dt: float,
     inputs: FloatArray,
@@ -89,7 +90,7 @@ def filter_all(
             for s in range(sensors):
                 number = memory.known[i % count, s]
                 if number >= 0:
-                    use(s, parts, Given(of, current, arrived.y[number], corrected))
+                    use(places[s, 0], places[s, 1], parts, Given(of, current, arrived.y[number], corrected))
                     if not is_sound(corrected):
                         return s, i
                     copy_estimate(corrected, current)
@@ -127,12 +128,14 @@ def run(
     )
     memory.x[0], memory.P[0] = x, P
     found = new_history(of, steps)
+    chained = chain(correct, composed)
     with running():
         culprit, step = function_for(backend, filter_all)(
             arguments_for(backend, composed.predictor.predict),
-            arguments_for(backend, chain(correct, tuple(sensor.corrector.expect for sensor in composed.sensors))),
+            arguments_for(backend, chained.use),
             arguments_for(backend, composed.predictor.motion),
-            arguments_for(backend, parts_of(composed)),
+            arguments_for(backend, chained.parts),
+            chained.places,
             of,
             composed.dt,
             moves,
