@@ -10,23 +10,30 @@ the step in which it finishes. A less urgent one is preempted by predict jobs (w
 such corrections of one priority run one after another, each from when the one before has landed, and those that wait
 by then go together.
 
-recalculate. A correction is of step k, so it rolls back: its work is the correction, and for each step from k + 1 to
-the one it aims at a predict, and a correction for each other measurement taken in those steps that has landed or lands
-before it. The step it aims at is the one in which it could start. A preempted correction that finishes in a later step
-has to catch up: it goes on with the steps that passed meanwhile and the corrections made meanwhile, from the step of
-the earliest of those measurements if that is before the one it had reached, until it finishes in the step it aims at.
-On a processor without that much time left this never ends.
+recalculate. A correction is of step k, so it rolls back: its work is the correction, the other corrections of step k
+once more, and for each step from k + 1 to the one it aims at a predict, and a correction for each other measurement
+taken in those steps that has landed or lands before it. The step it aims at is the one in which it could start. Late
+measurements of one priority that arrive in the same step go together: one job rolls back once, to the earliest, and
+they land together. This is the work of `filters.modular.recalculate`, and one predict more for each such job: that of
+step m, which the predict job has done and the replay does again. The filter code begins a step when it has all
+measurements that arrive in it; here the predict job of m does not wait for them, as in `methods` and in Table 1 of
+Steffes 2014. Corrections that are more urgent have also been done in step m before, and are done again.
 
-larsen. While a measurement of a delayed sensor is in flight, each predict job also multiplies what has become of an
-error of step k by the transition, and so do the corrections of undelayed sensors with their own part. In flight is from
-when it is taken until it lands; if it never arrives, until the next measurement of its sensor is taken, for the filter
-cannot know. (Each one in flight needs a product of its own; what is charged is one.) The late correction itself needs
-no replay, and lands in the step in which it finishes. A preempted correction of an undelayed sensor that finishes in a
-later step catches up as above.
+A preempted correction that finishes in a later step has to catch up: it goes on with the steps that passed meanwhile
+and the corrections made meanwhile, from the step of the earliest of those measurements if that is before the one it had
+reached, until it finishes in the step it aims at. On a processor without that much time left this never ends.
+
+larsen. One late measurement is in flight at a time (`Scenario` sees to it), from when it is taken until it lands; if it
+never arrives, until the next late one is taken, for the filter cannot know. Meanwhile each predict job also multiplies
+what has become of an error of step k by the transition, and so do the corrections of undelayed sensors with their own
+part. On a slow processor one may land after the next has been taken, and then both are in flight: each needs a product
+of its own, and what is charged is one. The late correction itself needs no replay, and lands in the step in which it
+finishes. A preempted correction of an undelayed sensor that finishes in a later step catches up as above.
 
 In one step and of one priority, late corrections come first, then those of the sensors in their order.
 
-What a job costs is settled when it is released.
+What a job costs is settled when it is released. A correction that catches up is still the same job: no context switch
+is charged if nothing else runs in between.
 """
 
 from __future__ import annotations
@@ -35,10 +42,11 @@ from bisect import bisect_right, insort
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import partial
+from itertools import groupby
 from operator import itemgetter
 from typing import NamedTuple
 
-from sched_sim.draws import fates, stream, total
+from sched_sim.draws import stream, total
 from sched_sim.jobs import Job, Parts, Source
 from sched_sim.methods import Then, step_at
 from sched_sim.scenario import Scenario, Sensor
@@ -70,6 +78,13 @@ class Branch(NamedTuple):
     ahead: frozenset[Measurement]
 
 
+class Awaited(NamedTuple):
+    """A late measurement, not there yet. step: in which it was taken; arrives: None if it never does."""
+
+    step: int
+    arrives: int | None
+
+
 OnLanding = Callable[[Measurement, int], None]
 """Called with a measurement and the time, in ticks, when its correction has landed."""
 
@@ -95,17 +110,15 @@ class ComposedFilter(Source):
         self.pending: dict[Measurement, None] = {}
         self.corrector_cpu = scenario.cpus - 1
         self.larsen = scenario.late == "larsen"
-        self.fates = [
-            fates(sensor.delays, sensor.dropout, _measurements(sensor, scenario.steps), scenario.seed, sensor.name)
-            for sensor in self.sensors
-        ]
+        self.fates = [sensor.fates(scenario.steps, scenario.seed) for sensor in self.sensors]
         self.predict_stream = stream(scenario.seed, "predictor cost")
         self.streams = [stream(scenario.seed, f"{sensor.name} cost") for sensor in self.sensors]
         self.arrivals: defaultdict[int, list[Measurement]] = defaultdict(list)  # by step
         self.waiting: dict[int, list[Measurement]] = {}  # by priority, while one of that priority is under way
         self.landed: list[tuple[int, Measurement]] = []  # the step of the state it was applied to, in order of landing
         self.applied: list[tuple[int, Measurement]] = []  # the same, in order of that step
-        self.flights: dict[tuple[int, int], None] = {}  # (step, sensor) of what is in flight
+        self.awaited: Awaited | None = None  # by Larsen's method, not arrived yet
+        self.carried: dict[Measurement, None] = {}  # by Larsen's method, arrived and not landed
 
     def release(self) -> tuple[Job, ...]:
         step, start = self.step, self.next_release
@@ -114,9 +127,12 @@ class ComposedFilter(Source):
         for number, sensor in enumerate(self.sensors):
             if step >= sensor.offset and (step - sensor.offset) % sensor.every == 0:
                 self._take(number, sensor, step)
-        arrived = self.arrivals.pop(step, [])
-        for measurement in sorted(arrived, key=self._order):
-            jobs += self._arrive(measurement, start)
+        if self.awaited is not None and self.awaited.arrives == step:
+            self.awaited = None
+        arrived = sorted(self.arrivals.pop(step, []), key=self._order)
+        self.carried |= dict.fromkeys(one for one in arrived if self._is_larsens(one))
+        for _, together in groupby(arrived, self._group):
+            jobs += self._arrive(tuple(together), start)
         return tuple(jobs)
 
     def at_horizon(self) -> tuple[Job, ...]:
@@ -125,37 +141,51 @@ class ComposedFilter(Source):
     def _order(self, one: Measurement) -> tuple[int, bool, int, int]:
         """Of corrections that are released at one instant."""
         sensor = self.sensors[one.sensor]
-        return sensor.priority, one.step * self.period == one.arrival, one.sensor, one.step
+        return sensor.priority, not self._is_late(one), one.sensor, one.step
+
+    def _group(self, one: Measurement) -> tuple[int, Measurement | None]:
+        """The same for corrections that arrive in one step and go back together."""
+        goes_back = self._is_late(one) and not self._is_larsens(one)
+        return self.sensors[one.sensor].priority, None if goes_back else one
+
+    def _is_late(self, one: Measurement) -> bool:
+        """Whether it arrived in a later step than that in which it was taken."""
+        return one.step * self.period < one.arrival
 
     def _predict(self, step: int, start: int) -> Job:
-        part = "predict_accumulate" if self.flights else "predict"
+        part = "predict_accumulate" if self.awaited or self.carried else "predict"
         work = total(self.costs[part], self.predict_stream)
         priority = self.scenario.priority
         return Job("predict", step, priority, start, start + self.period, work, (("PR", work),))
 
     def _take(self, number: int, sensor: Sensor, step: int) -> None:
         delay = self.fates[number][self.taken[number]]
-        if self.taken[number] and self.fates[number][self.taken[number] - 1] is None:
-            self.flights.pop((step - sensor.every, number), None)
+        arrives = None if delay is None else step + delay
         self.taken[number] += 1
-        if self.larsen and sensor.delayed:
-            self.flights[step, number] = None
-        if delay is None:
+        if self.larsen and sensor.delayed and arrives != step:
+            self._await(Awaited(step, arrives))
+        if arrives is None:
             self.dropped[number] += 1
             return
-        arrives = step + delay
         due = (step + sensor.land_by + 1) * self.period
         self.arrivals[arrives].append(Measurement(step, number, arrives * self.period, due))
 
-    def _arrive(self, measurement: Measurement, now: int) -> tuple[Job, ...]:
-        self.pending[measurement] = None
-        sensor = self.sensors[measurement.sensor]
+    def _await(self, taken: Awaited) -> None:
+        """One that will never arrive is not waited for while another is in flight."""
+        other = self.awaited
+        if taken.arrives is not None or other is None or other.arrives in (None, taken.step):
+            self.awaited = taken
+
+    def _arrive(self, together: Together, now: int) -> tuple[Job, ...]:
+        for one in together:
+            self.pending[one] = None
+        sensor = self.sensors[together[0].sensor]
         if self.scenario.preempted(sensor):
             if sensor.priority in self.waiting:
-                self.waiting[sensor.priority].append(measurement)
+                self.waiting[sensor.priority] += together
                 return ()
             self.waiting[sensor.priority] = []
-        return (self._correct((measurement,), now),)
+        return (self._correct(together, now),)
 
     def _next(self, priority: int, now: int) -> tuple[Job, ...]:
         """The preempted correction of this priority has landed: what waits for it starts."""
@@ -175,29 +205,30 @@ class ComposedFilter(Source):
         if self._is_larsens(first):
             late = total(self.costs[f"correct_late.{sensor.name}"], draws)
             return self._job(first, (("CO", late),), partial(self._land, together))
-        aim, ahead = now // self.period, self._ahead_of(first)
+        aim, ahead = now // self.period, self._ahead_of(together)
         kind = "correct_accumulate" if self._waits(aim, ahead) else "correct"
         work = sum(total(self.costs[f"{kind}.{self.sensors[one.sensor].name}"], draws) for one in together)
-        after = min(one.step for one in together)
+        back = min(one.step for one in together)
+        after = back - 1 if back < aim else back  # from the prediction of step `back`, or from the state as it is
         again = [one for one in ahead if one.step > after and not self._is_larsens(one)]
-        replay = self._replay(first, aim - after, [*again, *self._applied_after(after)])
+        replay = self._replay(first, aim - back, [*again, *self._applied_after(after)])
         parts = (("CO", work), ("RP", replay)) if replay else (("CO", work),)
         if not self.scenario.preempted(sensor):
             return self._job(first, parts, partial(self._land, together))
         return self._job(first, parts, partial(self._finish, Branch(together, aim, len(self.landed), ahead)))
 
-    def _ahead_of(self, measurement: Measurement) -> frozenset[Measurement]:
-        """Arrived corrections that land before this one does; those that wait for it are not among them."""
-        sensor = self.sensors[measurement.sensor]
+    def _ahead_of(self, together: Together) -> frozenset[Measurement]:
+        """Arrived corrections that land before these do; those that wait for them are not among them."""
+        sensor = self.sensors[together[0].sensor]
         limit = sensor.priority - self.scenario.preempted(sensor)
         return frozenset(
-            one for one in self.pending if self.sensors[one.sensor].priority <= limit and one != measurement
+            one for one in self.pending if self.sensors[one.sensor].priority <= limit and one not in together
         )
 
     def _waits(self, step: int, ahead: frozenset[Measurement]) -> bool:
         """Whether something taken before `step` will still be in flight when these have landed."""
-        landing = {(one.step, one.sensor) for one in ahead}
-        return any(taken < step and (taken, number) not in landing for taken, number in self.flights)
+        awaited = self.awaited is not None and self.awaited.step < step
+        return awaited or any(one.step < step and one not in ahead for one in self.carried)
 
     def _is_larsens(self, one: Measurement) -> bool:
         """Whether it is carried to the step in which it lands, instead of being replayed from its own."""
@@ -223,18 +254,20 @@ class ComposedFilter(Source):
             return self._land(branch.together, job, now)
         first = branch.together[0]
         news = [(step, one) for step, one in self.landed[branch.seen :] if one not in branch.ahead]
-        after = min([branch.aim, *(step for step, _ in news)])
-        again = [*self._applied_after(after), *(one for step, one in news if step == after)]
-        again += [one for one in branch.together if one.step > after]
+        back = min([branch.aim, *(step for step, _ in news)])
+        if back < branch.aim:  # from the prediction of that step
+            again = [*self._applied_after(back - 1), *(one for one in branch.together if one.step >= back)]
+        else:
+            again = [*self._applied_after(back), *(one for step, one in news if step == back)]
         aim = now // self.period
-        work = self._replay(first, aim - after, again)
+        work = self._replay(first, aim - back, again)
         further = branch._replace(aim=aim, seen=len(self.landed))
-        return (self._job(first, (("CU", work),), partial(self._finish, further)),)
+        return (job.go_on((("CU", work),), partial(self._finish, further)),)
 
     def _land(self, together: Together, _job: Job, now: int) -> tuple[Job, ...]:
         for one in together:
             del self.pending[one]
-            self.flights.pop((one.step, one.sensor), None)
+            self.carried.pop(one, None)
             applied_to = step_at(now, self.period) if self._is_larsens(one) else one.step
             self.landed.append((applied_to, one))
             insort(self.applied, (applied_to, one), key=itemgetter(0))
@@ -253,8 +286,3 @@ class ComposedFilter(Source):
 def correct_kind(sensor: Sensor) -> str:
     """What the jobs of a sensor's corrections are filed under."""
     return f"correct {sensor.name}"
-
-
-def _measurements(sensor: Sensor, steps: int) -> int:
-    """How many a sensor takes in so many steps."""
-    return len(range(sensor.offset, steps, sensor.every))

@@ -7,7 +7,9 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Literal
 
+from sched_sim.draws import fates
 from sched_sim.errors import InputError
+from sched_sim.in_flight import Flight, first_overlap
 from sched_sim.jobs import HR, LR
 from sched_sim.tasks import Task
 
@@ -16,6 +18,9 @@ Late = Literal["recalculate", "larsen"]
 
 Samples = Mapping[str, Sequence[Fraction]]
 """Execution times by part of the filter, as in `sample_file.SampledCosts`."""
+
+MOST_STEPS = 10_000_000
+"""HR steps of a scenario, and of a delay: what is above is a slip of the keyboard."""
 
 
 @dataclass(frozen=True)
@@ -51,11 +56,13 @@ class Sensor:
             wrong.append(
                 "delay has nothing to draw from: give a number of steps, a list, or { least = ..., most = ... }"
             )
-        elif min(self.delays) < 0:
-            wrong.append(f"delay {min(self.delays)} must be 0 or more: no measurement arrives before it is taken")
-        elif self.land_by < min(self.delays):
+        elif self.least_delay < 0:
+            wrong.append(f"delay {self.least_delay} must be 0 or more: no measurement arrives before it is taken")
+        elif self.longest_delay > MOST_STEPS:
+            wrong.append(f"delay {self.longest_delay} is above {MOST_STEPS:,} HR steps: give fewer")
+        elif self.land_by < self.least_delay:
             wrong.append(
-                f"land_by {self.land_by} must not be less than the least delay {min(self.delays)}: the correction "
+                f"land_by {self.land_by} must not be less than the least delay {self.least_delay}: the correction "
                 f"may land in the step so many after the measurement's, and none lands before its measurement arrives"
             )
         if wrong:
@@ -64,7 +71,33 @@ class Sensor:
     @property
     def delayed(self) -> bool:
         """Whether any of its measurements is late."""
-        return max(self.delays) > 0
+        return self.longest_delay > 0
+
+    @property
+    def least_delay(self) -> int:
+        return ends(self.delays)[0]
+
+    @property
+    def longest_delay(self) -> int:
+        return ends(self.delays)[1]
+
+    def fates(self, steps: int, seed: int) -> list[int | None]:
+        """The drawn delay of each measurement of a simulation of so many steps; None: it never arrives."""
+        return fates(self.delays, self.dropout, len(self._takes(steps)), seed, self.name)
+
+    def flights(self, steps: int, seed: int) -> list[Flight]:
+        """Those of its measurements that arrive in a later step."""
+        drawn = zip(self._takes(steps), self.fates(steps, seed), strict=True)
+        return [Flight(self.name, step, step + delay) for step, delay in drawn if delay]
+
+    def _takes(self, steps: int) -> range:
+        return range(self.offset, steps, self.every)
+
+
+def ends(delays: Sequence[int]) -> tuple[int, int]:
+    """The least and the greatest, at once of a long range too."""
+    found = (delays[0], delays[-1]) if isinstance(delays, range) else delays
+    return min(found), max(found)
 
 
 @dataclass(frozen=True)
@@ -94,6 +127,8 @@ class Scenario:
         wrong = []
         if self.steps < 1:
             wrong.append(f"steps {self.steps} must be at least 1: it is how many HR steps are simulated")
+        if self.steps > MOST_STEPS:
+            wrong.append(f"steps {self.steps} is above {MOST_STEPS:,}: simulate fewer HR steps")
         if self.speed <= 0:
             wrong.append(f"speed {float(self.speed):g} must be greater than 0 cost units per HR period")
         if self.seed < 0:
@@ -112,8 +147,29 @@ class Scenario:
             if task.cpu > self.cpus
         ]
         wrong += [f"no costs of {part}: {_remedy(part, self.late)}" for part in self._lacking()]
+        if not wrong and self.late == "larsen":
+            wrong = self._in_flight_at_once()
         if wrong:
             raise InputError(f"scenario {self.name!r}: {'; '.join(wrong)}")
+
+    def _in_flight_at_once(self) -> list[str]:
+        """What to say of late measurements that Larsen's method cannot wait for."""
+        delayed = [sensor for sensor in self.sensors if sensor.delayed]
+        if len(delayed) == 1 and delayed[0].longest_delay <= delayed[0].every:
+            return []
+        overlap = first_overlap(flight for sensor in delayed for flight in sensor.flights(self.steps, self.seed))
+        if overlap is None:
+            return []
+        one, other = overlap
+        remedy = (
+            "a delay not longer than `every`"
+            if one.sensor == other.sensor
+            else "delays and offsets with which the second is taken when the first has arrived"
+        )
+        return [
+            f'{one} and {other}: late = "larsen" can wait for one measurement at a time; choose late = "recalculate", '
+            f"or give {remedy}"
+        ]
 
     def _lacking(self) -> list[str]:
         return [part for part in needed_parts(self.sensors, self.late) if not self.costs.get(part)]

@@ -15,7 +15,7 @@ from sched_sim.errors import InputError
 from sched_sim.jobs import HR, LR
 from sched_sim.processor import load_processor, seconds_for, shipped_processors
 from sched_sim.sample_file import SampledCosts, read_sampled_costs
-from sched_sim.scenario import Late, Samples, Scenario, Sensor
+from sched_sim.scenario import Late, Samples, Scenario, Sensor, ends
 from sched_sim.task_file import TaskEntry, named_twice
 from sched_sim.tasks import Task
 from sched_sim.ticks import exact, positive
@@ -114,7 +114,7 @@ class _Sensor(_Entry):
             name=self.name,
             every=self.every,
             delays=self.delay,
-            land_by=max(self.delay) + max(self.every, 1) - 1 if self.land_by is None else self.land_by,
+            land_by=ends(self.delay)[1] + max(self.every, 1) - 1 if self.land_by is None else self.land_by,
             offset=self.offset,
             dropout=float(self.dropout),
             priority=self.priority,

@@ -19,38 +19,10 @@ from sched_sim.costs import JobCosts, LarsenCosts, RecalculateCosts, StandardCos
 from sched_sim.errors import InputError
 from sched_sim.scenario import Late, Scenario, Sensor
 from sched_sim.scenario_run import Outcome, run_scenario
-from sched_sim.schedule import Slice
 from sched_sim.simulate import simulate
 from sched_sim.tasks import Task
 from sched_sim.timing import Timing
-
-HR, LR = 10, 20
-
-Costs = dict[str, tuple[Fraction, ...]]
-
-
-def costs(entries: dict[str, Any]) -> Costs:
-    """A number stands for one sample."""
-    return {
-        part: tuple(Fraction(str(value)) for value in (values if isinstance(values, list) else [values]))
-        for part, values in entries.items()
-    }
-
-
-def sensor(name: str, every: int, delay: int | Sequence[int] = 0, **settings: Any) -> Sensor:
-    delays = (delay,) if isinstance(delay, int) else delay
-    return Sensor(name, every, delays, **({"land_by": max(delays) + every - 1} | settings))
-
-
-def scenario(speed: object, entries: dict[str, Any], *sensors: Sensor, **settings: Any) -> Scenario:
-    return Scenario("test", sensors=sensors, speed=Fraction(str(speed)), costs=costs(entries), **settings)
-
-
-def slices_of(of: Scenario, kind: str) -> list[tuple[int, int]]:
-    """(start, end) of every slice of one kind."""
-    found: list[Slice] = []
-    run_scenario(of, on_slice=found.append)
-    return [(piece.start, piece.end) for piece in found if piece.kind == kind]
+from tests.scenarios import BY_HAND, HR, LR, scenario, sensor, slices_of
 
 
 def near(share: float, probability: float, count: int) -> bool:
@@ -205,9 +177,6 @@ def test_a_correction_has_met_its_deadline_exactly_if_it_lands_in_step_land_by_o
 
 # ------------------------------------------------------------------------------- worked out by hand
 
-BY_HAND = {"predict": 4, "correct.gps": 2, "correct.imu": 1}
-"""In a period of 10."""
-
 
 def test_a_preempted_correction_catches_up_with_the_steps_that_passed() -> None:
     """It arrives at 20, and has the correction and steps 1 and 2 to do: 10. It finishes them in step 3, then step 3
@@ -257,13 +226,52 @@ def test_a_more_urgent_correction_of_the_same_instant_is_replayed_without_catchi
     assert slices_of(of, "correct gps") == [(65, 65 + 2 + 8 + 1)]
 
 
+@pytest.mark.parametrize("priority", [HR, LR])
+def test_late_corrections_of_one_step_and_priority_roll_back_once_and_land_together(priority: int) -> None:
+    """Both arrive at 60, behind the predict: 2 + 1 for both, steps 1 and 2. The imu's is of step 1, due at 60."""
+    gps = sensor("gps", 100, 2, priority=priority)
+    imu = sensor("imu", 100, 1, offset=1, priority=priority, land_by=1)
+    of = scenario(30, BY_HAND, gps, imu, steps=4)
+    assert slices_of(of, "correct gps") == [(64, 64 + 2 + 1 + 8)]
+    assert slices_of(of, "correct imu") == []
+    found = run_scenario(of)
+    assert found.jobs["correct gps"].responses == found.jobs["correct imu"].responses == [15 / 30]
+    assert (found.sensors["gps"].achieved, found.sensors["imu"].achieved) == ({2: 1}, {1: 1})
+    assert found.misses == 0
+
+
+def test_each_of_those_that_land_together_has_its_own_deadline_and_l() -> None:
+    """At 20 there are 3 + 8 to do in 6 a step, until 39; step 3 until 47, step 4 until 55, step 5 until 59."""
+    gps, imu = sensor("gps", 100, 2, land_by=4), sensor("imu", 100, 1, offset=1, land_by=4)
+    found = run_scenario(scenario(10, BY_HAND, gps, imu, steps=8))
+    assert (found.sensors["gps"].achieved, found.sensors["imu"].achieved) == ({5: 1}, {4: 1})
+    assert found.jobs["correct gps"].responses == found.jobs["correct imu"].responses == [3.9]
+    assert (found.jobs["correct gps"].misses, found.jobs["correct imu"].misses) == (1, 0)
+    assert found.first_miss == 5.0
+
+
 def test_corrections_of_one_priority_run_one_after_another_and_wait_from_their_arrival() -> None:
-    """Both arrive at 60; the second, of the later step, replays nothing of the first's."""
-    gps, imu = sensor("gps", 100, 2), sensor("imu", 100, 1, offset=1)
+    """Both arrive at 60; the second is not late and replays nothing."""
+    gps, imu = sensor("gps", 100, 2), sensor("imu", 100, offset=2)
     of = scenario(30, BY_HAND, gps, imu, steps=4)
     assert slices_of(of, "correct gps") == [(64, 74)]
-    assert slices_of(of, "correct imu") == [(74, 79)]
-    assert run_scenario(of).jobs["correct imu"].responses == [19 / 30]
+    assert slices_of(of, "correct imu") == [(74, 75)]
+    assert run_scenario(of).jobs["correct imu"].responses == [15 / 30]
+
+
+def test_going_back_to_a_step_repeats_its_other_corrections() -> None:
+    """The imu's is of step 0 too, and landed there: at 60 it is corrected again, with the gps; then steps 1 and 2."""
+    gps, imu = sensor("gps", 100, 2, priority=HR), sensor("imu", 100, priority=HR)
+    of = scenario(30, BY_HAND, gps, imu, steps=4)
+    assert slices_of(of, "correct gps") == [(64, 64 + 2 + 1 + 8)]
+
+
+def test_catching_up_is_no_context_switch_unless_something_runs_in_between() -> None:
+    """A switch takes 1. From 29, behind the predict, 6 of 10; from 41 the other 4, and at once 2 of step 3 until 48; from
+    53 the other 2, and at once step 4 until it ends."""
+    of = scenario(12, BY_HAND, sensor("gps", 20, 2), steps=8, context_switch=Fraction(1))
+    assert slices_of(of, "correct gps") == [(29, 36), (41, 46), (46, 48), (53, 56), (56, 60)]
+    assert run_scenario(of).sensors["gps"].achieved == {4: 1}
 
 
 def test_corrections_that_waited_go_back_together_and_land_together() -> None:
@@ -325,6 +333,29 @@ def test_larsen_other_sensors_accumulate_while_a_measurement_is_in_flight(priori
     assert slices_of(of, "correct gps") == ([(21, 24)] if priority == HR else [(23, 26)])
 
 
+def test_larsen_a_delay_as_long_as_the_time_between_measurements_is_one_flight_after_another() -> None:
+    entries = {"predict": 3, "predict_accumulate": 4, "correct_late.gps": 1}
+    of = scenario(10, entries, sensor("gps", 2, 2), late="larsen", steps=7)
+    assert [end - start for start, end in slices_of(of, "predict")] == [3, *[4] * 6]
+    assert run_scenario(of).sensors["gps"].achieved == {2: 3}
+
+
+def test_larsen_one_that_lands_after_the_next_was_taken_costs_no_second_product() -> None:
+    """The gps of step 0 arrives at 20 and lands in step 4, when that of step 3 is already on its way."""
+    entries = {"predict": 3, "predict_accumulate": 4, "correct_late.gps": 14}
+    of = scenario(10, entries, sensor("gps", 3, 2), late="larsen", steps=9)
+    assert [end - start for start, end in slices_of(of, "predict")] == [3, *[4] * 8]
+    assert slices_of(of, "correct gps")[:3] == [(24, 30), (34, 40), (44, 46)]
+
+
+def test_larsen_does_not_wait_for_a_lost_measurement_while_another_is_in_flight() -> None:
+    """The gps of step 0 lands in step 4; what the camera took in step 1, and lost, is not waited for then."""
+    entries = {"predict": 3, "predict_accumulate": 4, "correct_late.gps": 1, "correct_late.camera": 1}
+    gps, camera = sensor("gps", 100, 4), sensor("camera", 100, 2, offset=1, dropout=1.0)
+    of = scenario(10, entries, gps, camera, late="larsen", steps=8)
+    assert [end - start for start, end in slices_of(of, "predict")] == [3, 4, 4, 4, 4, 3, 3, 3]
+
+
 def test_on_two_processors_corrections_run_beside_the_predictor() -> None:
     """10 of work from 20 on, whatever the priority: it ends with step 2."""
     of = scenario(10, BY_HAND, sensor("gps", 20, 2, priority=HR), cpus=2, steps=8)
@@ -372,6 +403,16 @@ def test_all_that_is_wrong_is_said_at_once() -> None:
         InputError, match=r"steps 0 must.*speed 0 must.*no costs of correct\.radar: give sensor 'radar' a"
     ):
         replace(fine, steps=0, speed=Fraction(0), sensors=[sensor("radar", 20, 2)])
+
+
+@pytest.mark.parametrize("delays", [range(10**10), [0, 10**30]])
+def test_a_scenario_of_more_steps_than_anyone_waits_for_is_refused_at_once(delays: Sequence[int]) -> None:
+    with pytest.raises(
+        InputError, match=r"sensor 'gps': delay (9999999999|10{30}) is above 10,000,000 HR steps: give fewer"
+    ):
+        Sensor("gps", 10, delays, land_by=10)
+    with pytest.raises(InputError, match="steps 99999999999 is above 10,000,000: simulate fewer HR steps"):
+        scenario(10, BY_HAND, sensor("gps", 20), steps=99999999999)
 
 
 def test_larsen_needs_costs_of_its_own() -> None:

@@ -72,7 +72,7 @@ def test_demand_is_what_the_simulation_was_busy_with(late: str) -> None:
 
 def test_a_correction_catches_up_only_if_a_step_leaves_more_than_it_takes_to_do_again() -> None:
     """More urgent work takes 4 + 1 + 1 of a step; to do a step again takes 5.3."""
-    for speed, lands in ((11, False), (13, True)):
+    for speed, lands in ((11, False), (14, True)):
         asked = scenario(speed)
         found = catching_up(asked, asked.sensors[0])
         assert found is not None

@@ -1,0 +1,25 @@
+"""Late measurements on their way: Larsen's method can wait for one at a time."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from itertools import pairwise
+from typing import NamedTuple
+
+
+class Flight(NamedTuple):
+    """A measurement of the sensor of this name, taken in one step, that arrives in a later one."""
+
+    sensor: str
+    taken: int
+    arrives: int
+
+    def __str__(self) -> str:
+        return f"sensor {self.sensor!r}, steps {self.taken} to {self.arrives}"
+
+
+def first_overlap(flights: Iterable[Flight]) -> tuple[Flight, Flight] | None:
+    """The first two of which one is taken before the other has arrived; one that is taken in the very step in which the
+    other arrives is not."""
+    in_order = sorted(flights, key=lambda flight: (flight.taken, flight.arrives))
+    return next(((one, other) for one, other in pairwise(in_order) if other.taken < one.arrives), None)

@@ -1,0 +1,43 @@
+"""Scenarios, made in a line each."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import Any
+
+from sched_sim.scenario import Scenario, Sensor
+from sched_sim.scenario_run import run_scenario
+from sched_sim.schedule import Slice
+
+HR, LR = 10, 20
+
+Costs = dict[str, tuple[Fraction, ...]]
+
+
+def costs(entries: dict[str, Any]) -> Costs:
+    """A number stands for one sample."""
+    return {
+        part: tuple(Fraction(str(value)) for value in (values if isinstance(values, list) else [values]))
+        for part, values in entries.items()
+    }
+
+
+def sensor(name: str, every: int, delay: int | Sequence[int] = 0, **settings: Any) -> Sensor:
+    delays = (delay,) if isinstance(delay, int) else delay
+    return Sensor(name, every, delays, **({"land_by": max(delays) + every - 1} | settings))
+
+
+def scenario(speed: object, entries: dict[str, Any], *sensors: Sensor, **settings: Any) -> Scenario:
+    return Scenario("test", sensors=sensors, speed=Fraction(str(speed)), costs=costs(entries), **settings)
+
+
+def slices_of(of: Scenario, kind: str) -> list[tuple[int, int]]:
+    """(start, end) of every slice of one kind."""
+    found: list[Slice] = []
+    run_scenario(of, on_slice=found.append)
+    return [(piece.start, piece.end) for piece in found if piece.kind == kind]
+
+
+BY_HAND = {"predict": 4, "correct.gps": 2, "correct.imu": 1}
+"""In a period of 10."""

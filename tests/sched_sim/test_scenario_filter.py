@@ -1,0 +1,190 @@
+"""A scenario beside the filter that it stands for: the same work, and the same measurements refused."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from filters.modular import (
+    Measurement,
+    ModularFilter,
+    extended_corrector,
+    extended_predictor,
+    linear_corrector,
+    linear_predictor,
+    run,
+)
+from filters.modular import Sensor as FilterSensor
+from sched_sim.errors import InputError
+from sched_sim.scenario import Sensor
+from sched_sim.scenario_run import run_scenario
+from tests.scenarios import BY_HAND, HR, LR, scenario, sensor
+
+# ------------------------------------------------------------------------------- the work is that of the filter
+
+
+def fated(sensors: Sequence[Sensor], steps: int, seed: int) -> list[Measurement]:
+    """The measurements of such a simulation that arrive."""
+    found = []
+    for each in sensors:
+        taken = range(each.offset, steps, each.every)
+        drawn = zip(taken, each.fates(steps, seed), strict=True)
+        found += [Measurement(each.name, k, k + delay, np.zeros(1)) for k, delay in drawn if delay is not None]
+    return found
+
+
+class Work(NamedTuple):
+    """Of a whole run: predictions, and corrections by each sensor's name."""
+
+    predicts: int
+    corrections: dict[str, int]
+
+
+def of_the_filter(sensors: Sequence[Sensor], steps: int, seed: int) -> Work:
+    """Calls of f and h, less those with which they are tried before."""
+    calls: Counter[str] = Counter()
+
+    def counted(name: str) -> Any:
+        def function(x: Any, *rest: Any) -> None:
+            calls[name] += 1
+            rest[-1][:] = x
+
+        return function
+
+    def jacobian(_x: Any, *rest: Any) -> None:
+        rest[-1][:] = 1.0
+
+    one = np.eye(1)
+    composed = ModularFilter(
+        extended_predictor(counted("predict"), one, jacobian),
+        [FilterSensor(each.name, extended_corrector(counted(each.name), one, jacobian)) for each in sensors],
+    )
+    longest = max(each.longest_delay for each in sensors)
+
+    def counts(measurements: Sequence[Measurement]) -> Counter[str]:
+        calls.clear()
+        run(composed, np.zeros(1), one, np.zeros((steps - 1, 0)), measurements, history=longest)
+        return calls.copy()
+
+    idle, busy = counts([]), counts(fated(sensors, steps, seed))
+    tried = {name: count - (steps - 1) * (name == "predict") for name, count in idle.items()}
+    return Work(busy["predict"] - tried["predict"], {each.name: busy[each.name] - tried[each.name] for each in sensors})
+
+
+def of_the_scenario(sensors: Sequence[Sensor], steps: int, seed: int) -> Work:
+    """From the busy time: each part takes a power of a thousand."""
+    names = [each.name for each in sensors]
+    entries = {"predict": 1} | {f"correct.{name}": 1000 ** (number + 1) for number, name in enumerate(names)}
+    speed = 1000 ** (len(names) + 2)
+    schedule = run_scenario(scenario(speed, entries, *sensors, steps=steps, seed=seed)).schedule
+    units = schedule.utilization * steps * speed
+    assert units.denominator == 1
+    digits = [units.numerator // 1000**place % 1000 for place in range(len(names) + 1)]
+    return Work(digits[0], dict(zip(names, digits[1:], strict=True)))
+
+
+def roll_backs(sensors: Sequence[Sensor], steps: int, seed: int) -> int:
+    """In how many steps something late arrives."""
+    return len({one.arrives for one in fated(sensors, steps, seed) if one.taken < one.arrives < steps})
+
+
+@given(
+    delays=st.lists(st.lists(st.integers(0, 5), min_size=1, max_size=3), min_size=1, max_size=3),
+    every=st.lists(st.integers(1, 4), min_size=3, max_size=3),
+    offset=st.integers(0, 2),
+    priority=st.sampled_from([HR, LR]),
+    seed=st.integers(0, 9),
+)
+@settings(max_examples=60, deadline=None)
+def test_on_a_fast_processor_the_work_is_the_filters_and_the_prediction_of_each_step_that_is_rolled_back(
+    delays: list[list[int]], every: list[int], offset: int, priority: int, seed: int
+) -> None:
+    """The filter's first step has no prediction, the scenario's has."""
+    steps = 16
+    sensors = [
+        sensor(f"s{number}", every[number], drawn, offset=number * offset, priority=priority, dropout=0.2)
+        for number, drawn in enumerate(delays)
+    ]
+    needed = of_the_filter(sensors, steps, seed)
+    charged = of_the_scenario(sensors, steps, seed)
+    assert charged.predicts == 1 + needed.predicts + roll_backs(sensors, steps, seed)
+    assert charged.corrections == needed.corrections
+
+
+def test_two_late_measurements_of_one_step_replay_once() -> None:
+    """Of steps 0 and 1, arriving in step 3: the filter does steps 1 to 3 once more, with step 3's own prediction."""
+    sensors = [sensor("gps", 100, 3), sensor("camera", 100, 2, offset=1)]
+    assert of_the_filter(sensors, 5, 0) == Work(4 + 2, {"gps": 1, "camera": 1})
+    assert of_the_scenario(sensors, 5, 0) == Work(5 + 3, {"gps": 1, "camera": 1})
+
+
+# ------------------------------------------------------------------------------- one late measurement at a time
+
+
+LARSENS = BY_HAND | {"predict_accumulate": 4, "correct_late.gps": 2, "correct_late.camera": 2}
+
+
+def test_larsen_refuses_a_measurement_that_is_taken_while_another_is_in_flight() -> None:
+    said = (
+        "sensor 'gps', steps 0 to 5 and sensor 'gps', steps 4 to 9: late = \"larsen\" can wait for one measurement at "
+        'a time; choose late = "recalculate", or give a delay not longer than `every`'
+    )
+    with pytest.raises(InputError, match=re.escape(said)):
+        scenario(10, LARSENS, sensor("gps", 4, 5), steps=20, late="larsen")
+
+
+def test_larsen_refuses_two_sensors_measurements_in_flight_at_once() -> None:
+    camera = sensor("camera", 100, 1, offset=3)
+    said = "sensor 'gps', steps 0 to 5 and sensor 'camera', steps 3 to 4: .* taken when the first has arrived"
+    with pytest.raises(InputError, match=said):
+        scenario(10, LARSENS, sensor("gps", 10, 5), camera, steps=20, late="larsen")
+
+
+def test_what_never_arrives_is_in_no_ones_way() -> None:
+    """In the filter's eyes: of two sensors that overlap always, one is always lost."""
+    lost = sensor("camera", 4, 3, dropout=1.0)
+    assert scenario(10, LARSENS, sensor("gps", 4, 4), lost, steps=20, late="larsen").late == "larsen"
+
+
+@given(
+    delays=st.lists(st.integers(0, 6), min_size=1, max_size=3),
+    others=st.lists(st.integers(0, 2), min_size=1, max_size=2),
+    offset=st.integers(0, 8),
+    dropout=st.sampled_from([0.0, 0.5, 0.9]),
+    seed=st.integers(0, 9),
+)
+@settings(max_examples=100, deadline=None)
+def test_larsen_refuses_exactly_what_the_filter_refuses(
+    delays: list[int], others: list[int], offset: int, dropout: float, seed: int
+) -> None:
+    steps = 30
+    gps = sensor("gps", 6, delays, dropout=dropout)
+    camera = sensor("camera", 12, others, offset=offset, dropout=dropout)
+    entries = LARSENS | {"correct.camera": 1, "correct_accumulate.gps": 1, "correct_accumulate.camera": 1}
+    try:
+        scenario(10, entries, gps, camera, steps=steps, seed=seed, late="larsen")
+    except InputError as error:
+        refused: str | None = str(error).removeprefix("scenario 'test': ").partition(":")[0]
+    else:
+        refused = None
+    assert refused == refused_by_the_filter([gps, camera], steps, seed)
+
+
+def refused_by_the_filter(sensors: Sequence[Sensor], steps: int, seed: int) -> str | None:
+    """Which two flights, of all measurements that are taken in so many steps."""
+    one = np.eye(1)
+    composed = ModularFilter(
+        linear_predictor(one, one), [FilterSensor(each.name, linear_corrector(one, one)) for each in sensors]
+    )
+    try:
+        run(composed, np.zeros(1), one, np.zeros((steps + 10, 0)), fated(sensors, steps, seed), late="larsen")
+    except ValueError as error:
+        return str(error).partition(":")[0]
+    return None
