@@ -63,7 +63,7 @@ def gantt(panels: Sequence[Panel], *, width_mm: float = WIDTH_MM) -> Figure:
             frame(axes, scale, body, panel.end, with_axis=panel is panels[-1])
             _write_title(axes, lines, scale, body + MARKS_MM)
             draw_marks(axes, panel.marks, scale, body)
-            draw_lanes(axes, panel.schedule, rows_at, scale, fills)
+            draw_lanes(axes, panel.schedule, rows_at, scale, fills, least_bar_mm=panel.least_bar_mm)
             top += head + body + PANEL_GAP_MM
         draw_legend(figure, legend, left, top - PANEL_GAP_MM + AXIS_MM, across)
         return figure
@@ -86,7 +86,8 @@ def frame(axes: Axes, scale: Scale, height_mm: float, end: int, *, with_axis: bo
 
 def title_lines(panel: Panel, width_mm: float) -> list[list[tuple[str, str]]]:
     """The panel's title, its notes and its misses as lines of (text, role); role: "title", "note" or "miss"."""
-    pieces = [(panel.title, "title"), *((note, "note") for note in panel.notes), _misses(panel)]
+    title = shortened(panel.title, width_mm, TITLE_PT, bold=True)
+    pieces = [(title, "title"), *((note, "note") for note in panel.notes), _misses(panel)]
     lines: list[list[tuple[str, str]]] = [[]]
     used = 0.0
     for text, role in pieces:
@@ -101,6 +102,8 @@ def title_lines(panel: Panel, width_mm: float) -> list[list[tuple[str, str]]]:
 
 def _misses(panel: Panel) -> tuple[str, str]:
     missed = panel.schedule.misses
+    if panel.misses:
+        return panel.misses, "miss"
     if not missed:
         return "no deadline missed", "note"
     ran = len(jobs(panel.schedule)) + (silent := never_ran(panel.schedule))

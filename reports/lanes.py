@@ -19,6 +19,8 @@ from sched_sim.schedule import Schedule
 Fills = Mapping[str, Fill]
 
 BAR_MM, ABOVE_MM, BELOW_MM, CALLOUT_MM, GAP_MM = 4.6, 2.7, 2.4, 3.4, 0.5
+LONGEST_MEANING_MM = 100.0
+"""A task's name in the legend."""
 WAIT_MM = 0.7
 SHORT_MM = 1.0
 JOINT_MM = 3.0
@@ -52,7 +54,9 @@ def fills_of(schedules: Iterable[Schedule]) -> Fills:
     tasks = sorted(style for style in used if style.startswith(TASK))
     fills = {style: fill for style, fill in FILLS.items() if style in used}
     for number, style in enumerate(tasks):
-        fills[style] = TASK_FILLS[number % len(TASK_FILLS)]._replace(meaning=style.removeprefix(TASK))
+        fills[style] = TASK_FILLS[number % len(TASK_FILLS)]._replace(
+            meaning=shortened(style.removeprefix(TASK), LONGEST_MEANING_MM)
+        )
     return fills
 
 
@@ -89,14 +93,24 @@ def lanes(schedule: Schedule, scale: Scale) -> tuple[list[Lane], float]:
 
 
 def draw_lanes(
-    axes: Axes, schedule: Schedule, places: Sequence[Lane], scale: Scale, fills: Fills, *, arrows: bool = True
+    axes: Axes,
+    schedule: Schedule,
+    places: Sequence[Lane],
+    scale: Scale,
+    fills: Fills,
+    *,
+    arrows: bool = True,
+    least_bar_mm: float = 0.0,
 ) -> None:
-    """Draw the schedule into axes whose x is in steps and whose y is in mm. arrows: releases and deadlines too."""
+    """Draw the schedule into axes whose x is in steps and whose y is in mm.
+
+    arrows: releases and deadlines too; least_bar_mm: shorter work is drawn so long, to be seen.
+    """
     lane_of = {lane.row: lane for lane in places}
     all_bars, all_jobs = bars(schedule), jobs(schedule)
     _names(axes, places, schedule.cpus, min(scale.step(schedule.horizon), scale.end))
     _waits(axes, all_jobs, lane_of, schedule.horizon, scale)
-    _bars(axes, all_bars, lane_of, scale, fills)
+    _bars(axes, all_bars, lane_of, scale, fills, least_bar_mm)
     if scale.mm_per_step >= JOINT_MM:
         _joints(axes, all_bars, lane_of, scale)
     _overdue(axes, all_bars, lane_of, scale)
@@ -134,11 +148,15 @@ def _waits(axes: Axes, all_jobs: Sequence[JobSpan], lane_of: Mapping[Row, Lane],
     )
 
 
-def _bars(axes: Axes, all_bars: Sequence[Bar], lane_of: Mapping[Row, Lane], scale: Scale, fills: Fills) -> None:
+def _bars(
+    axes: Axes, all_bars: Sequence[Bar], lane_of: Mapping[Row, Lane], scale: Scale, fills: Fills, least_mm: float
+) -> None:
     by_style: defaultdict[str, list[tuple[float, float, float, float]]] = defaultdict(list)
     for bar in all_bars:
         lane = lane_of[bar.row]
-        by_style[bar.style].append((scale.step(bar.start), scale.step(bar.end), lane.foot, lane.head))
+        start = scale.step(bar.start)
+        end = max(scale.step(bar.end), start + least_mm / scale.mm_per_step)
+        by_style[bar.style].append((start, end, lane.foot, lane.head))
     hatched = len(all_bars) < MANY_BARS
     for style, boxes in sorted(by_style.items()):
         fill = fills[style]

@@ -47,7 +47,9 @@ class Mark(NamedTuple):
 class Panel:
     """One schedule, simulated with keep_slices=True.
 
-    title: in bold; notes: facts behind it, such as the speed; first, last: the steps shown, by default all.
+    title: in bold; notes: facts behind it, such as the speed; first, last: the steps shown, by default all;
+    misses: what is said of missed deadlines, by default how many the schedule has; least_bar_mm: shorter work is drawn
+    so long.
     """
 
     title: str
@@ -56,6 +58,8 @@ class Panel:
     marks: Sequence[Mark] = ()
     first: int = 0
     last: int | None = None
+    misses: str = ""
+    least_bar_mm: float = 0.0
 
     @property
     def end(self) -> int:

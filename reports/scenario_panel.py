@@ -1,36 +1,165 @@
-"""A Gantt panel of a scenario: its first steps, or those before the first missed deadline."""
+"""A Gantt panel of a scenario: the steps about its first missed deadline, or its first late measurement."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from math import ceil
+from typing import NamedTuple
 
-from reports.panels import Panel
-from sched_sim.scenario import Scenario
+from reports.intervals import jobs
+from reports.panels import Mark, Panel
+from sched_sim.composed import correct_kind
+from sched_sim.draws import fates
+from sched_sim.methods import step_at
+from sched_sim.scenario import Scenario, Sensor
 from sched_sim.scenario_run import Outcome, run_scenario
-from sched_sim.schedule import Slice
+from sched_sim.schedule import Schedule, Slice
 
-FEWEST_STEPS, MOST_STEPS = 12, 60
+FEWEST_STEPS, MOST_STEPS = 12, 24
+CYCLES = 2
+"""Of the slowest sensor, as far as they are no more steps than that."""
 AFTER_MISS = 2
 """Steps shown after the deadline."""
+LEAST_BAR_MM = 0.5
+"""A predict job of a fast processor is a bar all the same."""
+BEFORE_ARRIVAL, AFTER_ARRIVAL = 4, 8
+"""Steps shown about a late measurement's arrival, at the least."""
+
+
+class Expected(NamedTuple):
+    """A job by its release, whether it has run or not; times in ticks."""
+
+    kind: str
+    step: int
+    cpu: int
+    release: int
+    deadline: int
+
+
+class Late(NamedTuple):
+    """A measurement taken in step k that arrives in step m."""
+
+    m: int
+    k: int
+    kind: str
 
 
 def scenario_panel(scenario: Scenario, outcome: Outcome) -> Panel:
     """outcome: of this scenario; it says where to look. The steps up to there are simulated again, to the same end."""
-    needed = max((sensor.offset + sensor.land_by + 1 + AFTER_MISS for sensor in scenario.sensors), default=FEWEST_STEPS)
-    width = min(max(needed, FEWEST_STEPS), MOST_STEPS)
-    last = width if outcome.first_miss is None else max(ceil(outcome.first_miss) + AFTER_MISS, width)
-    last = min(last, scenario.steps)
+    late = first_late(scenario)
+    first, last = window(scenario, outcome.first_miss, late)
     slices: list[Slice] = []
     again = run_scenario(replace(scenario, steps=last), on_slice=slices.append)
-    first = max(last - width, 0)
-    alive = {(piece.kind, piece.step) for piece in slices if piece.end > first * piece.period}
-    shown = tuple(piece for piece in slices if (piece.kind, piece.step) in alive)
+    ran = {(piece.kind, piece.step): piece for piece in slices}  # the last of each job
+    silent = list(_silent(scenario, last, again, {*ran}))
+    start = first * again.schedule.period
+    ended = ran | {(piece.kind, piece.step): piece for piece in silent}
+    alive = {job for job, piece in ended.items() if not piece.finished or piece.end > start}
+    shown = tuple(piece for piece in [*slices, *silent] if (piece.kind, piece.step) in alive)
+    schedule = replace(again.schedule, slices=shown)
     ms = None if scenario.hr_hz is None else float(1000 / scenario.hr_hz)
+    pace = f"speed {float(scenario.speed):.4g}" if ms is None else f"HR period {ms:.4g} ms"
     return Panel(
         title=scenario.name,
-        schedule=replace(again.schedule, slices=shown),
-        notes=(f"speed {float(scenario.speed):.4g}" if ms is None else f"HR period {ms:.4g} ms", scenario.late),
+        schedule=schedule,
+        notes=(pace, scenario.late, _steps_shown(first, last, scenario.steps)),
+        marks=_marks(late, schedule) if late else (),
         first=first,
         last=last,
+        misses=_misses(outcome, schedule, first),
+        least_bar_mm=LEAST_BAR_MM,
     )
+
+
+def window(scenario: Scenario, first_miss: float | None, late: Late | None) -> tuple[int, int]:
+    """The first step shown, and the one at whose start the panel ends."""
+    cycles = CYCLES * max((sensor.every for sensor in scenario.sensors), default=0)
+    width = min(max(cycles, FEWEST_STEPS), MOST_STEPS, scenario.steps)
+    if first_miss is not None:
+        first = ceil(first_miss) + AFTER_MISS - width
+    elif late is not None and late.m + AFTER_ARRIVAL > width:
+        first = late.m - BEFORE_ARRIVAL
+    else:
+        first = 0
+    first = max(min(first, scenario.steps - width), 0)
+    return first, first + width
+
+
+def first_late(scenario: Scenario) -> Late | None:
+    """The late measurement that arrives first."""
+    found = [
+        Late(step + delay, step, correct_kind(sensor))
+        for sensor in scenario.sensors
+        for step, delay in _drawn(scenario, sensor, scenario.steps)
+        if delay and step + delay < scenario.steps
+    ]
+    return min(found, default=None)
+
+
+def _drawn(scenario: Scenario, sensor: Sensor, steps: int) -> list[tuple[int, int | None]]:
+    """The step in which each measurement is taken, and its delay."""
+    taken = range(sensor.offset, steps, sensor.every)
+    return list(zip(taken, fates(sensor.delays, sensor.dropout, len(taken), scenario.seed, sensor.name), strict=True))
+
+
+def _silent(scenario: Scenario, steps: int, outcome: Outcome, ran: set[tuple[str, int]]) -> Iterator[Slice]:
+    """For each job without a slice one that lasts no time: it never got the processor, or another did its work too.
+
+    Jobs of one kind finish in the order of their releases.
+    """
+    period = outcome.schedule.period
+    for expected in _expected(scenario, steps, period):
+        responses = outcome.jobs[expected[0].kind].responses if expected else ()
+        for number, job in enumerate(expected):
+            if (job.kind, job.step) in ran:
+                continue
+            finished = number < len(responses)
+            end = job.release + round(responses[number] * period) if finished else job.release
+            yield Slice(job.cpu, end, end, job.kind, job.step, 0, 0, (), finished, job.release, job.deadline, period)
+
+
+def _expected(scenario: Scenario, steps: int, period: int) -> Iterator[list[Expected]]:
+    """The jobs of each kind in the order of their releases."""
+    yield [Expected("predict", step, 0, step * period, (step + 1) * period) for step in range(steps)]
+    for sensor in scenario.sensors:
+        arrivals = sorted(
+            (step + delay, step)
+            for step, delay in _drawn(scenario, sensor, steps)
+            if delay is not None and step + delay < steps
+        )
+        kind, cpu = correct_kind(sensor), scenario.cpus - 1
+        yield [Expected(kind, k, cpu, m * period, (k + sensor.land_by + 1) * period) for m, k in arrivals]
+    for task in scenario.tasks:
+        count = max(ceil((steps - task.offset) / task.period), 0)
+        at = [int((task.offset + number * task.period) * period) for number in range(count + 1)]
+        kind, cpu = f"task:{task.name}", task.cpu - 1
+        yield [Expected(kind, number, cpu, at[number], at[number + 1]) for number in range(count)]
+
+
+def _marks(late: Late, schedule: Schedule) -> Sequence[Mark]:
+    """k, m and l of this measurement."""
+    (finish,) = [job.finish for job in jobs(schedule) if (job.kind, job.step) == (late.kind, late.k)] or [None]
+    found = {late.k: "k", late.m: "m"}
+    if finish is not None:
+        landed = step_at(finish, schedule.period)
+        found[landed] = "m = l" if landed == late.m else "l"
+    return [Mark(step, text, 0, text == "k") for step, text in found.items()]
+
+
+def _steps_shown(first: int, last: int, steps: int) -> str:
+    if first:
+        return f"steps {first} to {last - 1} of {steps}"
+    return f"first {last} of {steps} steps" if last < steps else f"all {steps} steps"
+
+
+def _misses(outcome: Outcome, schedule: Schedule, first: int) -> str:
+    """Of the whole simulation, and of the steps shown."""
+    missed = outcome.misses
+    if not missed:
+        return ""
+    start = first * schedule.period
+    here = sum(job.missed and job.deadline >= start for job in jobs(schedule))
+    released = sum(figures.released for figures in outcome.jobs.values())
+    verb = "misses its" if missed == 1 else "miss their"
+    return f"✗ {missed} of all {released} jobs {verb} deadline, {here} of them shown"

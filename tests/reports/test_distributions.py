@@ -15,7 +15,6 @@ from matplotlib.patches import Rectangle
 
 from reports.distributions import distributions_figure
 from reports.gantt import gantt
-from reports.intervals import bars, jobs, rows
 from reports.scenario_panel import scenario_panel
 from sched_sim.scenario import Scenario, Sensor
 from sched_sim.scenario_file import read_scenario
@@ -184,21 +183,3 @@ def test_misses_are_told() -> None:
     missed = outcome.jobs["predict"].misses
     assert {f"{missed} of 400 missed", "no job released", "deadline"} <= said
     assert f"{outcome.sensors['gps $1$'].not_landed} not landed" in said
-
-
-def test_the_chart_shows_each_sensor_on_a_line_of_its_own_up_to_the_first_miss() -> None:
-    outcome = run_scenario(OVERLOAD)
-    panel = scenario_panel(OVERLOAD, outcome)
-    assert outcome.first_miss is not None
-    assert panel.first < outcome.first_miss <= panel.end
-    assert {row.name for row in rows(panel.schedule)} == {"predict", "gps $1$", "a barometer with a long name"}
-    assert {bar.style for bar in bars(panel.schedule)} <= {"PR", "CO", "RP", "CU"}
-    assert min(job.deadline for job in jobs(panel.schedule) if job.missed) == outcome.first_miss * panel.schedule.period
-
-
-def test_the_chart_without_a_miss_shows_the_first_steps() -> None:
-    outcome = run_scenario(ROCKET)
-    panel = scenario_panel(ROCKET, outcome)
-    assert outcome.first_miss is None
-    assert (panel.first, panel.end) == (0, 60)
-    assert {"PR", "CO", "RP", "CU", "task:control"} == {bar.style for bar in bars(panel.schedule)}
