@@ -116,7 +116,7 @@ def read_cost_table(path: Path, shown: str = "") -> CostTable:
     try:
         checked = _CostFile.model_validate(document)
     except ValidationError as error:
-        raise InputError(f"cost table {shown!r}: {problems(error)}") from None
+        raise InputError(f"cost table {shown!r}: {problems(error, model=_CostFile)}") from None
     costs = {
         method: {kind: Cost(entry.minimum, entry.median, entry.p95) for kind, entry in entries.items()}
         for method, entries in checked.costs.items()

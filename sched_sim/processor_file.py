@@ -119,7 +119,7 @@ def read_processor(path: Path, shown: str = "") -> Processor:
     try:
         checked = _ProcessorFile.model_validate(document)
     except ValidationError as error:
-        raise InputError(f"processor {shown!r}: {problems(error)}") from None
+        raise InputError(f"processor {shown!r}: {problems(error, model=_ProcessorFile)}") from None
     clock_hz = checked.clock_mhz.value * HERTZ_PER_MHZ if checked.clock_mhz else None
     per_second = clock_hz or Fraction(MICROSECONDS_PER_SECOND)
     named = {**checked.figures, "logic_per_arithmetic": checked.logic_per_arithmetic}

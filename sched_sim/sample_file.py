@@ -109,7 +109,7 @@ def read_sampled_costs(path: Path, shown: str = "") -> SampledCosts:
     try:
         checked = _SampleFile.model_validate(document)
     except ValidationError as error:
-        raise InputError(f"costs {shown!r}: {problems(error)}") from None
+        raise InputError(f"costs {shown!r}: {problems(error, model=_SampleFile)}") from None
     samples = {part: tuple(values) for part, values in _flat(checked.samples).items()}
     operations = _flat(checked.operations)
     samples = samples or {part: (Fraction(arithmetic(counts)),) for part, counts in operations.items()}

@@ -19,6 +19,9 @@ Late = Literal["recalculate", "larsen"]
 Samples = Mapping[str, Sequence[Fraction]]
 """Execution times by part of the filter, as in `sample_file.SampledCosts`."""
 
+LARSENS = ("predict_accumulate", "correct_accumulate", "correct_late")
+"""Parts of a filter that run for Larsen's method only."""
+
 MOST_STEPS = 10_000_000
 """HR steps of a scenario, and of a delay: what is above is a slip of the keyboard."""
 
@@ -44,7 +47,7 @@ class Sensor:
 
     def __post_init__(self) -> None:
         wrong = []
-        if not self.name:
+        if not self.name.strip():
             wrong.append("the name is empty: give one, it is how its costs and results are found")
         if self.every < 1:
             wrong.append(f"every {self.every} must be at least 1: it is the number of steps between measurements")
@@ -125,6 +128,8 @@ class Scenario:
 
     def __post_init__(self) -> None:
         wrong = []
+        if not self.name.strip():
+            wrong.append("the name is empty: give one, tables and charts show it")
         if self.steps < 1:
             wrong.append(f"steps {self.steps} must be at least 1: it is how many HR steps are simulated")
         if self.steps > MOST_STEPS:
@@ -146,7 +151,7 @@ class Scenario:
             for task in self.tasks
             if task.cpu > self.cpus
         ]
-        wrong += [f"no costs of {part}: {_remedy(part, self.late)}" for part in self._lacking()]
+        wrong += _lacking(self)
         if not wrong and self.late == "larsen":
             wrong = self._in_flight_at_once()
         if wrong:
@@ -171,9 +176,6 @@ class Scenario:
             f"or give {remedy}"
         ]
 
-    def _lacking(self) -> list[str]:
-        return [part for part in needed_parts(self.sensors, self.late) if not self.costs.get(part)]
-
     def preempted(self, sensor: Sensor) -> bool:
         """Whether predict jobs go on while a correction of `sensor` is under way."""
         return self.cpus == 2 or sensor.priority > self.priority
@@ -188,10 +190,21 @@ def needed_parts(sensors: Sequence[Sensor], late: Late) -> list[str]:
     return ["predict", "predict_accumulate", *of_sensors]
 
 
-def _remedy(part: str, late: Late) -> str:
-    kind, _, sensor = part.partition(".")
-    if part == "predict":
-        return "give [predictor] a cost, or the scenario a costs file with it"
-    if kind == "correct":
-        return f"give sensor {sensor!r} a cost, or the scenario a costs file with it"
-    return f'late = "{late}" needs them: add them to the costs file, or choose late = "recalculate"'
+def _lacking(scenario: Scenario) -> list[str]:
+    """What to say of the costs that are not there."""
+    parts = [part for part in needed_parts(scenario.sensors, scenario.late) if not scenario.costs.get(part)]
+    said = []
+    if "predict" in parts:
+        said.append("no costs of predict: give [predictor] a cost, or the scenario a costs file with it")
+    for part in parts:
+        kind, _, sensor = part.partition(".")
+        if kind == "correct":
+            said.append(f"no costs of {part}: give sensor {sensor!r} a cost, or the scenario a costs file with it")
+    larsens = [part for part in parts if part.startswith(LARSENS)]
+    if larsens:
+        said.append(
+            f'no costs of {", ".join(larsens)}: late = "larsen" needs linear or extended parts, and of a filter with '
+            f'unscented ones `sched-sim measure --filter` writes no such costs; choose late = "recalculate", or give '
+            f"costs of a filter of linear and extended parts"
+        )
+    return said

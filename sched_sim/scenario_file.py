@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from decimal import Decimal
 from fractions import Fraction
 from pathlib import Path
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Any, Literal, Self, get_args
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, ValidationError, model_validator
 
@@ -66,13 +66,25 @@ class _Range(BaseModel):
 def _delays(value: Any) -> Sequence[int]:
     if not isinstance(value, dict):
         return _several(value, "number of steps", _whole)
+    if lacking := [key for key in _Range.model_fields if key not in value]:
+        raise ValueError(f"has no {' and no '.join(lacking)}: give both, as {{ least = 3, most = 5 }}, in whole steps")
     try:
         between = _Range.model_validate(value)
     except ValidationError as error:
-        raise ValueError(f"{{ least = ..., most = ... }} in whole steps: {problems(error)}") from None
+        raise ValueError(f"{{ least = ..., most = ... }} in whole steps: {problems(error, model=_Range)}") from None
     if between.least > between.most:
         raise ValueError(f"least = {between.least} is above most = {between.most}: exchange them")
     return range(between.least, between.most + 1)
+
+
+def _late(value: Any) -> Any:
+    if value == "dual-rate":
+        ways = " or ".join(repr(way) for way in get_args(Late))
+        raise ValueError(
+            f"a scenario cannot do that: choose {ways}; for a filter of one sensor there is "
+            f"`sched-sim simulate --method dual-rate`"
+        )
+    return value
 
 
 _Whole = Annotated[int, BeforeValidator(_whole)]
@@ -125,7 +137,7 @@ class _ScenarioFile(_Entry):
     name: str
     steps: _Whole
     seed: _Whole = 0
-    late: Late = "recalculate"
+    late: Annotated[Late, BeforeValidator(_late)] = "recalculate"
     hr_hz: _Positive | None = None
     speed: _Positive | None = None
     costs: str | None = None
@@ -154,6 +166,18 @@ class _ScenarioFile(_Entry):
             raise ValueError(f"processor {self.processor!r} makes seconds of operations: give hr_hz instead of speed")
         return self
 
+    @model_validator(mode="after")
+    def _something_arrives(self) -> Self:
+        too_late = [
+            f"sensor {sensor.name!r}: the least delay {ends(sensor.delay)[0]} is not less than steps = {self.steps}: "
+            f"none arrives; give more steps, or a shorter delay"
+            for sensor in self.sensor
+            if ends(sensor.delay)[0] >= self.steps > 0
+        ]
+        if too_late:
+            raise ValueError("; ".join(too_late))
+        return self
+
 
 def read_scenario(path: Path) -> Scenario:
     """The scenario in `path`; files that it names are looked for in its folder.
@@ -168,7 +192,7 @@ def read_scenario(path: Path) -> Scenario:
         checked = _ScenarioFile.model_validate(document)
         return _scenario(checked, path.parent)
     except ValidationError as error:
-        raise InputError(f"{what}: {problems(error, document)}") from None
+        raise InputError(f"{what}: {problems(error, document, _ScenarioFile)}") from None
     except InputError as error:
         raise InputError(f"{what}: {error}") from None
 

@@ -51,8 +51,9 @@ def read_tasks(path: Path) -> list[Task]:
     try:
         tasks = [Task(**dict(entry)) for entry in _TaskFile.model_validate(document).task]
     except ValidationError as error:
+        wrong = problems(error, model=_TaskFile)
         raise InputError(
-            f"--tasks {str(path)!r}: {problems(error)}; each [[task]] has name, period and offset in HR periods, cost "
+            f"--tasks {str(path)!r}: {wrong}; each [[task]] has name, period and offset in HR periods, cost "
             f"in the unit of the cost table, and priority (smaller is more urgent; HR jobs 10, LR jobs 20)"
         ) from None
     if twice := named_twice(tasks):

@@ -245,7 +245,7 @@ def test_what_is_wrong_in_a_file_is_named(file: Path, old: str, new: str, said: 
 
 
 def test_a_folder_is_no_processor(tmp_path: Path) -> None:
-    with pytest.raises(InputError, match="not found"):
+    with pytest.raises(InputError, match="is a folder, not a file: give one of"):
         load_processor(tmp_path)
 
 

@@ -267,8 +267,8 @@ def test_going_back_to_a_step_repeats_its_other_corrections() -> None:
 
 
 def test_catching_up_is_no_context_switch_unless_something_runs_in_between() -> None:
-    """A switch takes 1. From 29, behind the predict, 6 of 10; from 41 the other 4, and at once 2 of step 3 until 48; from
-    53 the other 2, and at once step 4 until it ends."""
+    """A switch takes 1. From 29, behind the predict, 6 of 10; from 41 the other 4, and at once 2 of step 3 until 48;
+    from 53 the other 2, and at once step 4 until it ends."""
     of = scenario(12, BY_HAND, sensor("gps", 20, 2), steps=8, context_switch=Fraction(1))
     assert slices_of(of, "correct gps") == [(29, 36), (41, 46), (46, 48), (53, 56), (56, 60)]
     assert run_scenario(of).sensors["gps"].achieved == {4: 1}
@@ -416,5 +416,6 @@ def test_a_scenario_of_more_steps_than_anyone_waits_for_is_refused_at_once(delay
 
 
 def test_larsen_needs_costs_of_its_own() -> None:
-    with pytest.raises(InputError, match=r'predict_accumulate: late = "larsen" needs.*correct_late\.gps: late'):
+    said = r'no costs of predict_accumulate, correct_late\.gps: late = "larsen" needs linear or extended parts'
+    with pytest.raises(InputError, match=said):
         scenario(10, BY_HAND, sensor("gps", 20, 2), steps=8, late="larsen")

@@ -30,6 +30,7 @@ every = 10
 delay = 2
 priority = 10
 """
+REST = SHORT[SHORT.index("costs =") :]
 COSTS = """\
 name = "c"
 unit = "operation"
@@ -175,11 +176,35 @@ def test_each_of_two_processors_has_a_busy_share(sched_sim: Run, tmp_path: Path)
         (("delay = 2", "delay = []"), ["sensor 'gps'.delay", "empty"]),
         (("delay = 2", "delay = [2, true]"), ["sensor 'gps'.delay", "entry 1"]),
         (("delay = 2", "delay = { least = 5, most = 3 }"), ["sensor 'gps'.delay", "least = 5", "most = 3"]),
-        (("delay = 2", "delay = { least = 5 }"), ["sensor 'gps'.delay", "most"]),
+        (("delay = 2", "delay = { least = 5 }"), ["sensor 'gps'.delay: has no most: give both, as { least = 3, most"]),
+        (("delay = 2", "delay = { least = 5, mots = 7 }"), ["sensor 'gps'.delay: has no most"]),
+        (
+            ("delay = 2", "delay = { least = 5, most = 7, step = 2 }"),
+            ["sensor 'gps'.delay", "step: this key is not permitted; the keys here are least, most"],
+        ),
+        (("delay = 2", "delay = { least = 0, most = 10000000000 }"), ["sensor 'gps'", "delay 10000000000 is above"]),
+        (("delay = 2", "delay = [50, 40]"), ["sensor 'gps': the least delay 40", "steps = 40", "none arrives"]),
         (("delay = 2", "delay = 2\nland_by = 1"), ["sensor 'gps'", "land_by 1", "least delay 2"]),
         (("delay = 2", "delay = 2\ncost = 0"), ["sensor 'gps'.cost", "greater than 0"]),
         (("delay = 2", "delay = 2\ncost = [1, -1]"), ["sensor 'gps'.cost", "entry 1", "-1"]),
-        (("delay = 2", "latency = 2"), ["sensor 'gps'.latency", "not permitted"]),
+        (
+            ("delay = 2", "latency = 2"),
+            ["sensor 'gps'.latency: this key is not permitted; the keys here are name, every, delay", "(given: 2)"],
+        ),
+        (("delay = 2", "dealy = 2"), ["sensor 'gps'.dealy", "did you mean delay? the keys here are name, every"]),
+        (("[predictor]", "[predictor]\ncosts = 3"), ["predictor.costs", "did you mean cost?", "are priority, cost"]),
+        (
+            ("steps = 40", "step = 40"),
+            ["step: this key is not permitted; mean steps?", "steps: Field required"],
+        ),
+        (("[[sensor]]", "[sensor]"), ["sensor: this is one table", "write [[sensor]], in two pairs of brackets"]),
+        ((SHORT[SHORT.index("[[sensor]]") :], ""), ["sensor: there is none", "[[sensor]], with name and every"]),
+        ((SHORT[SHORT.index("[[sensor]]") :], "sensor = 3"), ["predictor.sensor: this key is not permitted"]),
+        (("priority = 10\n", "[task]"), ["task: this is one table", "write [[task]], in two pairs of brackets"]),
+        (('name = "short"', 'name = ""'), ["the name is empty"]),
+        (("steps = 40", 'steps = "40"'), ["steps: must be a whole number", '"40", which is text: write 40, without']),
+        (("speed = 10", 'speed = "1.5"'), ['speed: must be a number (given: "1.5", which is text: write 1.5, without']),
+        (("steps = 40", "steps = 99999999999"), ["steps 99999999999 is above 10,000,000"]),
         (('name = "gps"', 'name = ""'), ["sensor", "name is empty"]),
         (('name = "gps"', 'name = "radar"'), ["no costs of correct.radar", "give sensor 'radar' a cost"]),
         (("[[sensor]]", '[[sensor]]\nname = "gps"\nevery = 3\n[[sensor]]'), ["sensor 'gps'", "2 times", "own name"]),
@@ -199,7 +224,16 @@ def test_each_of_two_processors_has_a_busy_share(sched_sim: Run, tmp_path: Path)
         (("steps = 40", "steps = 40\nseed = -1"), ["seed -1", "0 or more"]),
         (("steps = 40", "steps = 40\ncpus = 3"), ["cpus", "1 or 2"]),
         (("steps = 40", "steps = 40\ncontext_switch = -1"), ["context_switch -1", "0 or more"]),
-        (("steps = 40", 'steps = 40\nlate = "dual-rate"'), ["late", "'recalculate' or 'larsen'", "dual-rate"]),
+        (("steps = 40", 'steps = 40\nlate = "newest"'), ["late", "'recalculate' or 'larsen'", "newest"]),
+        (
+            ("steps = 40", 'steps = 40\nlate = "dual-rate"'),
+            ["late: a scenario cannot do that: choose 'recalculate' or 'larsen'", "simulate --method dual-rate`"],
+        ),
+        (
+            (REST, REST.replace("costs =", 'late = "larsen"\ncosts =').replace("delay = 2", "delay = 12")),
+            ["sensor 'gps', steps 0 to 12 and sensor 'gps', steps 10 to 22", "a delay not longer than `every`"],
+        ),
+        (('costs = "costs.toml"', 'costs = ".."'), ["'..' is a folder, not a file: give the path"]),
         (
             ("priority = 10\n", 'priority = 10\n[[task]]\nname = "t"\nperiod = -1\ncost = 1\npriority = 5'),
             ["task 't'.period", "-1"],
@@ -229,6 +263,7 @@ def test_every_wrong_entry_is_listed(sched_sim: Run, tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("line", "said"),
     [
+        ("--scenario .", ["--scenario '.' is a folder, not a file: give the path"]),
         ("--scenario none.toml", ["none.toml", "not found", "[[sensor]]"]),
         ("--scenario s.toml -N 10 -M 4", ["-N, -M", "--scenario s.toml", "leave them out"]),
         ("--scenario s.toml -L 8", ["-L", "leave it out"]),

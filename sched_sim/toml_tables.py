@@ -1,0 +1,67 @@
+"""What a checked TOML table may hold, told from its pydantic model."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from difflib import get_close_matches
+from types import UnionType
+from typing import Annotated, Any, Union, get_args, get_origin
+
+from pydantic import BaseModel
+
+
+def table_at(model: type[BaseModel], path: Sequence[int | str]) -> type[BaseModel] | None:
+    """The model of the table at this place of a document of `model`; None if that is not a table with known keys."""
+    at: Any = model
+    for part in path:
+        if not str(part).startswith("function-"):
+            at = _within(at, part)
+    return _model(at)
+
+
+def keys_of(table: type[BaseModel]) -> list[str]:
+    """As they are written in the file."""
+    return [field.alias or name for name, field in table.model_fields.items()]
+
+
+def required_keys(table: type[BaseModel]) -> list[str]:
+    return [field.alias or name for name, field in table.model_fields.items() if field.is_required()]
+
+
+def no_such_key(key: str, table: type[BaseModel]) -> str:
+    """What to say of a key that the table may not have."""
+    keys = keys_of(table)
+    close = get_close_matches(key, keys, 1)
+    meant = f"did you mean {close[0]}? " if close else ""
+    return f"this key is not permitted; {meant}the keys here are {', '.join(keys)}"
+
+
+def entries_at(model: type[BaseModel], path: Sequence[int | str]) -> type[BaseModel] | None:
+    """The model of each entry where the document has a list of tables, [[key]]; None if it has none there."""
+    return table_at(model, [*path, 0]) if table_at(model, path) is None else None
+
+
+def _within(annotation: Any, part: int | str) -> Any:
+    """The type of what stands at `part` of a value of this type; None if it is not known."""
+    table = _model(annotation)
+    if table is not None:
+        found = [field.annotation for name, field in table.model_fields.items() if part in (name, field.alias)]
+        return found[0] if found else None
+    for choice in _choices(annotation):
+        if get_origin(choice) in (list, dict):
+            return get_args(choice)[-1]
+    return None
+
+
+def _model(annotation: Any) -> type[BaseModel] | None:
+    found = [choice for choice in _choices(annotation) if isinstance(choice, type) and issubclass(choice, BaseModel)]
+    return found[0] if found else None
+
+
+def _choices(annotation: Any) -> list[Any]:
+    """The members of a union, without what annotates them."""
+    if get_origin(annotation) is Annotated:
+        return _choices(get_args(annotation)[0])
+    if get_origin(annotation) in (Union, UnionType):
+        return [choice for each in get_args(annotation) for choice in _choices(each)]
+    return [annotation]
