@@ -151,14 +151,14 @@ def _waits(axes: Axes, all_jobs: Sequence[JobSpan], lane_of: Mapping[Row, Lane],
 def _bars(
     axes: Axes, all_bars: Sequence[Bar], lane_of: Mapping[Row, Lane], scale: Scale, fills: Fills, least_mm: float
 ) -> None:
-    by_style: defaultdict[str, list[tuple[float, float, float, float]]] = defaultdict(list)
+    by_style: defaultdict[tuple[bool, str], list[tuple[float, float, float, float]]] = defaultdict(list)
     for bar in all_bars:
         lane = lane_of[bar.row]
-        start = scale.step(bar.start)
-        end = max(scale.step(bar.end), start + least_mm / scale.mm_per_step)
-        by_style[bar.style].append((start, end, lane.foot, lane.head))
+        start, end = scale.step(bar.start), scale.step(bar.end)
+        seen = start + least_mm / scale.mm_per_step
+        by_style[end < seen, bar.style].append((start, max(end, seen), lane.foot, lane.head))
     hatched = len(all_bars) < MANY_BARS
-    for style, boxes in sorted(by_style.items()):
+    for (widened, style), boxes in sorted(by_style.items()):
         fill = fills[style]
         hatch = fill.hatch if hatched else None
         axes.add_collection(
@@ -168,7 +168,7 @@ def _bars(
                 edgecolor=fill.ink,
                 hatch=hatch or None,
                 linewidth=0,
-                zorder=2,
+                zorder=2.05 if widened else 2,
                 snap=False,
             ),
             autolim=False,
