@@ -195,7 +195,7 @@ def test_each_of_two_processors_has_a_busy_share(sched_sim: Run, tmp_path: Path)
         (("[predictor]", "[predictor]\ncosts = 3"), ["predictor.costs", "did you mean cost?", "are priority, cost"]),
         (
             ("steps = 40", "step = 40"),
-            ["step: this key is not permitted; mean steps?", "steps: Field required"],
+            ["step: this key is not permitted; did you mean steps?", "steps: Field required"],
         ),
         (("[[sensor]]", "[sensor]"), ["sensor: this is one table", "write [[sensor]], in two pairs of brackets"]),
         ((SHORT[SHORT.index("[[sensor]]") :], ""), ["sensor: there is none", "[[sensor]], with name and every"]),
