@@ -221,9 +221,7 @@ class ComposedFilter(Source):
         """Arrived corrections that land before these do; those that wait for them are not among them."""
         sensor = self.sensors[together[0].sensor]
         limit = sensor.priority - self.scenario.preempted(sensor)
-        return frozenset(
-            one for one in self.pending if self.sensors[one.sensor].priority <= limit and one not in together
-        )
+        return frozenset(one for one in self.pending if self.sensors[one.sensor].priority <= limit) - {*together}
 
     def _waits(self, step: int, ahead: frozenset[Measurement]) -> bool:
         """Whether something taken before `step` will still be in flight when these have landed."""
