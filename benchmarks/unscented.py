@@ -31,7 +31,7 @@ from filters.modular import (
 from filters.modular.correctors import Corrector
 from filters.modular.predictors import Predictor
 
-STEPS = 2000
+STEPS = 4000
 ROUNDS = 7
 DT = 0.1
 F = np.kron([[1.0, DT, DT * DT / 2], [0.0, 1.0, DT], [0.0, 0.0, 1.0]], np.eye(3))

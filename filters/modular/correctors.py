@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from filters.arrays import FloatArray
-from filters.kernels.dense import copy, matmul_blocked, matvec, mirror
+from filters.kernels.dense import add_matmul_blocked, copy, matmul_blocked, matvec, mirror
 from filters.kernels.place import clear
 from filters.kernels.solve import cholesky, solve_cholesky
 from filters.modular.check import as_matrix, as_noise
@@ -173,12 +173,10 @@ def apply(observed: Space, of: Space, before: Estimate, y: FloatArray, after: Es
             total += work.gain[r, e] * work.z[r]
         work.n1[e] = total
     plus(of, before.x, work.n1, after.x)
-    copy(before.P, after.P)
-    for r in range(observed.errors):
-        for i in range(of.errors):
-            factor = work.gain[r, i]
-            for j in range(of.errors):
-                after.P[i, j] -= factor * work.cross[r, j]
+    for e in range(of.errors):
+        for r in range(observed.errors):
+            work.K[e, r] = -work.gain[r, e]
+    add_matmul_blocked(before.P, work.K, work.cross, after.P)
     mirror(after.P)
 
 

@@ -16,9 +16,11 @@ def copy_estimate(source: Estimate, out: Estimate) -> None:
 
 def is_sound(estimate: Estimate) -> bool:
     """Whether all numbers of x are finite and no variance is negative or nan."""
-    sound = True
     for value in estimate.x:
-        sound = sound and bool(np.isfinite(value))
+        if not np.isfinite(value):
+            return False
     for i in range(estimate.P.shape[0]):
-        sound = sound and bool(estimate.P[i, i] >= 0.0)
-    return sound
+        variance = estimate.P[i, i]
+        if variance < 0.0 or np.isnan(variance):
+            return False
+    return True

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from operator import attrgetter
 from typing import NamedTuple
 
 import numpy as np
@@ -88,31 +89,25 @@ def arrivals(composed: ModularFilter, measurements: Iterable[Measurement], steps
             sensor's second in one step.
     """
     numbers = {sensor.name: number for number, sensor in enumerate(composed.sensors)}
-    given = list(measurements)
-    for one in given:
-        if not isinstance(one, Measurement):
-            raise ValueError(f"measurements holds {one!r:.60}; give a list of Measurement(sensor, taken, arrives, y)")
-        if not (isinstance(one.taken, int | np.integer) and isinstance(one.arrives, int | np.integer)):
-            raise _unfit(one, "steps must be whole numbers")
-    found = sorted(given, key=lambda one: one.arrives)
-    for name in {one.sensor for one in found} - set(numbers):
+    found = list(measurements)
+    for kind in set(map(type, found)) - {Measurement}:
+        other = next(one for one in found if type(one) is kind)
+        raise ValueError(f"measurements holds {other!r:.60}; give a list of Measurement(sensor, taken, arrives, y)")
+    for kind in {*map(type, map(attrgetter("taken"), found)), *map(type, map(attrgetter("arrives"), found))}:
+        if not issubclass(kind, int | np.integer):
+            raise _unfit(next(one for one in found if kind in map(type, one[1:3])), "steps must be whole numbers")
+    found.sort(key=attrgetter("arrives"))
+    names, taken_in, arrives_in, _ = zip(*found, strict=True) if found else ((),) * 4
+    for name in set(names) - set(numbers):
         raise ValueError(f"sensor {name!r} is none of the filter's: they are {', '.join(numbers) or 'none'}")
-    number = np.array([numbers[one.sensor] for one in found], dtype=np.int64)
-    taken = np.array([one.taken for one in found], dtype=np.int64)
-    arrives = np.array([one.arrives for one in found], dtype=np.int64)
-    _, firsts = np.unique(np.stack([number, taken]), axis=1, return_index=True)
+    number = np.array([numbers[name] for name in names], dtype=np.int64)
+    taken, arrives = np.array(taken_in, dtype=np.int64), np.array(arrives_in, dtype=np.int64)
+    _, firsts = np.unique(taken * len(numbers) + number, return_index=True)
     longest = max((sensor.corrector.observed.numbers for sensor in composed.sensors), default=0)
     y = np.zeros((len(found), longest))
     for each, sensor in enumerate(composed.sensors):
         rows = np.flatnonzero(number == each)
-        needed = sensor.corrector.observed.numbers
-        try:
-            values = np.array([found[row].y for row in rows], dtype=np.float64)
-        except (TypeError, ValueError):
-            values = np.empty(0)
-        if values.shape != (len(rows), needed) and len(rows):
-            raise _misshapen([found[row] for row in rows], needed)
-        y[rows, :needed] = values.reshape(len(rows), needed)
+        y[rows, : sensor.corrector.observed.numbers] = _stacked([found[row] for row in rows], sensor)
     refused = (
         (~np.isfinite(y).all(axis=1), "y holds a value that is not finite; leave lost measurements out"),
         ((taken < 0) | (taken > arrives), "it must be taken in step 0 or later, and before it arrives"),
@@ -124,6 +119,18 @@ def arrivals(composed: ModularFilter, measurements: Iterable[Measurement], steps
             raise _unfit(found[row], what)
     here = arrives <= steps
     return Arrivals(number[here], taken[here], arrives[here], y[here])
+
+
+def _stacked(measurements: list[Measurement], sensor: Sensor) -> FloatArray:
+    """Their y (any, numbers), all of one sensor; raises ValueError, naming the first that is not as many numbers."""
+    needed = sensor.corrector.observed.numbers
+    try:
+        values = np.array([one.y for one in measurements], dtype=np.float64)
+    except (TypeError, ValueError):
+        values = np.empty(0)
+    if values.shape != (len(measurements), needed) and measurements:
+        raise _misshapen(measurements, needed)
+    return values.reshape(len(measurements), needed)
 
 
 def _misshapen(measurements: list[Measurement], needed: int) -> ValueError:

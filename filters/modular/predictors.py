@@ -190,9 +190,9 @@ def predict_unscented(
     draw(of, before.x, before.P, motion.weighing.spread, work.nn1, work.errors, work.points)
     for i in range(len(work.points)):
         motion.f(work.points[i], u, dt, work.moved[i])
-    mean(of, work.moved, motion.weighing, work.errors, work.n1, after.x)
+    mean(of, work.moved, motion.weighing, work.moved_errors, work.n1, after.x)
     copy(motion.Q, after.P)
-    add_covariance(work.errors, work.errors, motion.weighing, after.P)
+    add_covariance(work.moved_errors, work.moved_errors, motion.weighing, after.P)
     mirror(after.P)
 
 

@@ -86,14 +86,17 @@ def filter_all(
                 predict(motion, of, current, inputs[i - 1], dt, at, work)
                 if not is_sound(at):
                     return PREDICTOR, i
-            copy_estimate(at, current)
+            before, corrections = at, 0
             for s in range(sensors):
                 number = memory.known[i % count, s]
                 if number >= 0:
-                    use(places[s, 0], places[s, 1], parts, Given(of, current, arrived.y[number], corrected))
+                    use(places[s, 0], places[s, 1], parts, Given(of, before, arrived.y[number], corrected))
                     if not is_sound(corrected):
                         return s, i
                     copy_estimate(corrected, current)
+                    before, corrections = current, corrections + 1
+            if corrections == 0:
+                copy_estimate(at, current)
         store_vector(current.x, history.x, j)
         store(current.P, history.P, j)
     return SOUND, len(inputs)

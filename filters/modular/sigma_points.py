@@ -8,7 +8,6 @@ import numpy as np
 
 from filters.arrays import FloatArray
 from filters.kernels.dense import copy_vector
-from filters.kernels.place import clear
 from filters.kernels.solve import cholesky
 from filters.modular.space import Space, minus_each, plus, plus_each
 
@@ -81,15 +80,16 @@ def draw(
 ) -> None:
     """points (2 n + 1, numbers) of the mean x (numbers,) and the covariance P (n, n), through its Cholesky factor.
 
-    errors (2 n + 1, n) = points less x. root (n, n): scratch. P that is not positive definite gives nan.
+    errors (2 n + 1, n) = points less x; the zeros among them, before the diagonals, are those that it was made with.
+    root (n, n): scratch. P that is not positive definite gives nan.
     """
     n = of.errors
     cholesky(P, root)
-    clear(errors)
     for e in range(n):
         for i in range(e + 1):
-            errors[1 + i, e] = spread * root[e, i]
-            errors[1 + n + i, e] = -errors[1 + i, e]
+            error = spread * root[e, i]
+            errors[1 + i, e] = error
+            errors[1 + n + i, e] = -error
     plus_each(of, x, errors, points)
 
 
@@ -103,14 +103,15 @@ def mean(
     """
     copy_vector(points[0], out)
     minus_each(of, points, out, errors)
+    plain = len(of.attitudes) + len(of.angles) == 0
     for _ in range(MEAN_STEPS):
         for e in range(of.errors):
             step[e] = weighing.mean_0 * errors[0, e]
-        for i in range(1, points.shape[0]):
+        for i in range(1, points.shape[0], 2):
             for e in range(of.errors):
-                step[e] += weighing.other * errors[i, e]
+                step[e] += weighing.other * errors[i, e] + weighing.other * errors[i + 1, e]
         plus(of, out, step, out)
-        if len(of.attitudes) + len(of.angles) == 0:
+        if plain:
             for i in range(points.shape[0]):
                 for e in range(of.errors):
                     errors[i, e] -= step[e]

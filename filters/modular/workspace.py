@@ -23,6 +23,7 @@ class Workspace(NamedTuple):
     points: FloatArray  # (2 n + 1, numbers of the state)
     moved: FloatArray
     errors: FloatArray  # (2 n + 1, n)
+    moved_errors: FloatArray
     n1: FloatArray
     x1: FloatArray  # (numbers of the state,)
     x2: FloatArray
@@ -31,6 +32,7 @@ class Workspace(NamedTuple):
     S: FloatArray
     cross: FloatArray
     gain: FloatArray
+    K: FloatArray  # (n, p)
     pp1: FloatArray
     expected: FloatArray  # (numbers of the measurement,)
     y1: FloatArray
@@ -49,6 +51,7 @@ def new_workspace(of: Space, observed: Space) -> Workspace:
         points=np.zeros((count, of.numbers)),
         moved=np.zeros((count, of.numbers)),
         errors=np.zeros((count, n)),
+        moved_errors=np.zeros((count, n)),
         n1=np.zeros(n),
         x1=np.zeros(of.numbers),
         x2=np.zeros(of.numbers),
@@ -57,6 +60,7 @@ def new_workspace(of: Space, observed: Space) -> Workspace:
         S=np.zeros((p, p)),
         cross=np.zeros((p, n)),
         gain=np.zeros((p, n)),
+        K=np.zeros((n, p)),
         pp1=np.zeros((p, p)),
         expected=np.zeros(observed.numbers),
         y1=np.zeros(observed.numbers),

@@ -67,7 +67,7 @@ def angle(a: Rotation, b: Rotation) -> float:
 def test_the_mean_of_a_symmetric_set_is_its_centre_and_scipys(seed: int, spread: float) -> None:
     centre = rotations(seed, 1)[0]
     vectors = np.random.default_rng([seed, 1]).normal(0.0, spread, (5, 3))
-    both = centre * Rotation.from_rotvec(np.concatenate([vectors, -vectors]))
+    both = centre * Rotation.from_rotvec(np.concatenate([np.zeros((1, 3)), vectors, -vectors]))
     assert angle(mean_of(both), centre) < 1e-12
     assert angle(mean_of(both), both.mean()) < 1e-7
 
@@ -94,12 +94,13 @@ def test_signs_of_quaternions_do_not_matter(seed: int, spread: float) -> None:
 
 
 def test_averaging_four_numbers_would_be_wrong() -> None:
-    """Turns about z by -30 and 30 degrees, one as -q: the mean is no turn; that of the numbers is half a turn."""
-    attitudes = Rotation.from_rotvec([[0.0, 0.0, -np.pi / 6], [0.0, 0.0, np.pi / 6]])
-    signs = np.array([1.0, -1.0])
+    """Turns about z by -30, 0 and 30 degrees, the last as -q: the mean is no turn; the numbers' turns by 55 degrees."""
+    attitudes = Rotation.from_rotvec([[0.0, 0.0, -np.pi / 6], [0.0, 0.0, 0.0], [0.0, 0.0, np.pi / 6]])
+    signs = np.array([1.0, 1.0, -1.0])
     averaged = np.mean(signs[:, np.newaxis] * numbers(attitudes), axis=0)
-    assert np.linalg.norm(averaged) == pytest.approx(np.sin(np.pi / 12))  # nor has it length 1
-    assert Rotation.from_quat(averaged, scalar_first=True).magnitude() == pytest.approx(np.pi)
+    assert np.linalg.norm(averaged) == pytest.approx(0.375, abs=0.001)  # nor has it length 1
+    turned = Rotation.from_quat(averaged, scalar_first=True).magnitude()
+    assert turned == pytest.approx(2 * np.arctan(2 * np.sin(np.pi / 12)))
     assert mean_of(attitudes, signs).magnitude() < 1e-14
 
 
