@@ -6,9 +6,9 @@ machines, and the report is made from these files.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
-from statistics import fmean, median
+from statistics import median
 from typing import NamedTuple
 
 import numpy as np
@@ -21,7 +21,6 @@ from reports.modular_rocket_rows import rocket_tables
 from reports.modular_schedule import TABLES as SCHEDULE_TABLES
 from reports.modular_schedule import read_samples, sample_files, schedule_tables
 from reports.stored import Rows, Tables, as_stored, columns, digits, read_tables, records, rows_of, table_files
-from sched_sim.sample_file import SampledCosts
 from studies import late_measurements, modular_costs, rocket, rocket_schedule, spring_mass
 from studies.spring_mass_run import OSCILLATOR, SETTLED_PERIODS, step_s
 
@@ -31,10 +30,6 @@ SEED, HALF, SHOWN_PERIODS = 0, 0.5, 2
 """Of the run that is drawn: its seed, its dropout, and how much of it."""
 EVERY = 4
 """Steps between the points of a curve over all runs."""
-TRIALS = 3
-"""Measurements of the rocket's filters, of which the quietest counts: what else runs on a shared machine can slow one
-down two to four times, which it cannot tell by itself."""
-
 OWN_MODEL = "usual, its own model true"
 
 TABLES = (
@@ -70,7 +65,7 @@ def read(folder: Path) -> Results:
 
 def results(thorough: bool = False, progress: Progress = lambda _done, _total, _what: None) -> Results:
     """Runs the studies and times the code: about three minutes, and two more if nothing was compiled before."""
-    costs = quietest([rocket_schedule.measured(thorough=thorough, progress=progress) for _ in range(TRIALS)])
+    costs = rocket_schedule.measured(thorough=thorough, progress=progress)
     tables = as_stored(
         {
             **oscillator_tables(spring_mass.dropout_study(progress)),
@@ -81,15 +76,6 @@ def results(thorough: bool = False, progress: Progress = lambda _done, _total, _
         }
     )
     return Results(tables, costs)
-
-
-def quietest(trials: Sequence[rocket_schedule.Costs]) -> rocket_schedule.Costs:
-    """Of each filter the measurement in which its parts took least, on average and all together."""
-
-    def seconds(costs: SampledCosts) -> float:
-        return sum(fmean(map(float, values)) for values in costs.samples.values())
-
-    return {name: min((trial[name] for trial in trials), key=seconds) for name in trials[0]}
 
 
 # ----------------------------------------------------------------------------------------------------- the oscillator

@@ -8,7 +8,7 @@ from filters.modular.sigma_points import maccormack, merwe, weights
 from filters.systems.rocket import BURN_S, RATE_HZ
 from filters.systems.spring_mass import period_s
 from reports.modular_costs import OPERATIONS, SECONDS
-from reports.modular_results import HALF, OWN_MODEL, SHOWN_PERIODS, TRIALS, Results
+from reports.modular_results import HALF, OWN_MODEL, SHOWN_PERIODS, Results
 from reports.modular_rocket_rows import CASES
 from reports.modular_schedule import miss_rows_of
 from reports.modular_tables import group_of, over, percent_of_amplitude
@@ -168,7 +168,6 @@ def schedule_words(found: Results) -> dict[str, Any]:
     response = "GPS response, median (ms)"
     return {
         "at": at,
-        "trials": TRIALS,
         "rate": RATE_HZ,
         "fix_hz": RATE_HZ // rocket_schedule.GPS_EVERY,
         "delays": [f"{rocket_schedule.PERIOD_MS * delay:g}" for delay in (min(DELAYS), max(DELAYS))],

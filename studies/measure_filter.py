@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from fractions import Fraction
 from typing import Any, Literal, TypeAlias
 
@@ -31,25 +32,43 @@ def measure_filter(
 
     Raises InputError for a part that numba cannot compile.
     """
-    about: dict[str, Any] = {
-        "backend": backend,
-        "predictor": user.composed.predictor.kind,
-        "states": user.composed.predictor.states,
-        "sensors": {sensor.name: sensor.corrector.kind for sensor in user.composed.sensors},
-    }
-    if backend == "counted":
-        operations = {part: count(job.function, *job.arguments(0)) for part, job in user.jobs.items()}
-        about["source"] = "exact operation counts: multiply, add, divide, square root, function count one each"
-        samples = {part: (Fraction(found.total),) for part, found in operations.items()}
-        counts = {part: nonzero(found) for part, found in operations.items()}
-        return SampledCosts(name, "operation", samples, counts, about)
+    if backend == "compiled":
+        return timed_together({name: user}, thorough=thorough, seed=seed, progress=progress)[name]
+    operations = {part: count(job.function, *job.arguments(0)) for part, job in user.jobs.items()}
+    source = "exact operation counts: multiply, add, divide, square root, function count one each"
+    samples = {part: (Fraction(found.total),) for part, found in operations.items()}
+    counts = {part: nonzero(found) for part, found in operations.items()}
+    return SampledCosts(name, "operation", samples, counts, _about(user, backend) | {"source": source})
+
+
+def timed_together(
+    users: Mapping[str, UserFilter], *, thorough: bool = False, seed: int = 0, progress: Progress = silent
+) -> dict[str, SampledCosts]:
+    """Samples of several filters' parts, by name, timed in the same rounds: what disturbs one disturbs all.
+
+    Raises InputError for a part that numba cannot compile.
+    """
     protocol = THOROUGH if thorough else QUICK
-    times = seconds_per_run({(part,): job for part, job in user.jobs.items()}, "compiled", protocol, seed, progress)
-    about |= {
-        "source": f"{protocol.rounds} samples of each part; a sample is the mean of {protocol.repetitions} executions "
-        "in one compiled call, less the least time of an empty loop; other parts run in between; time in which the "
-        "operating system runs something else is not counted",
-        **where_timed(protocol, seed),
+    jobs = {(name, part): job for name, user in users.items() for part, job in user.jobs.items()}
+    times = seconds_per_run(jobs, "compiled", protocol, seed, progress)
+    source = (
+        f"{protocol.rounds} samples of each part; a sample is the mean of {protocol.repetitions} executions in one "
+        "compiled call, less the least time of an empty loop; other parts run in between; time in which the operating "
+        "system runs something else is not counted"
+    )
+    return {
+        name: SampledCosts(
+            name,
+            "second",
+            {part: tuple(Fraction(f"{each:.4g}") for each in times[name, part]) for part in user.jobs},
+            {},
+            _about(user, "compiled") | {"source": source, **where_timed(protocol, seed)},
+        )
+        for name, user in users.items()
     }
-    timed = {part: tuple(Fraction(f"{each:.4g}") for each in seconds) for (part,), seconds in times.items()}
-    return SampledCosts(name, "second", timed, {}, about)
+
+
+def _about(user: UserFilter, backend: Backend) -> dict[str, Any]:
+    predictor = user.composed.predictor
+    kinds = {sensor.name: sensor.corrector.kind for sensor in user.composed.sensors}
+    return {"backend": backend, "predictor": predictor.kind, "states": predictor.states, "sensors": kinds}

@@ -42,7 +42,7 @@ from sched_sim.scenario import Late, Scenario, Sensor
 from sched_sim.scenario_run import Outcome, run_scenario
 from sched_sim.schedule import Slice
 from sched_sim.tasks import Task
-from studies.measure_filter import measure_filter
+from studies.measure_filter import timed_together
 from studies.user_filter import UserFilter
 
 Progress: TypeAlias = Callable[[int, int, str], None]
@@ -154,13 +154,13 @@ def measured(*, thorough: bool = False, progress: Progress = lambda _done, _tota
 ]:  # fmt: skip
     """Both filters, timed on this machine; takes minutes if they were not compiled before."""
     upright = np.eye(16)[12]
-    found: dict[PredictorName, SampledCosts] = {}
+    users = {}
     for predictor in PREDICTORS:
         composed = filter_of(predictor)
-        user = UserFilter(composed, modular_jobs(composed, upright, np.diag(START_SIGMAS**2)))
-        costs = measure_filter(user, name=f"rocket-{predictor}", thorough=thorough, progress=progress)
-        found[predictor] = thinned(costs)
-    return found
+        jobs = modular_jobs(composed, upright, np.diag(START_SIGMAS**2))
+        users[f"rocket-{predictor}"] = UserFilter(composed, jobs)
+    costs = timed_together(users, thorough=thorough, progress=progress)
+    return {predictor: thinned(costs[f"rocket-{predictor}"]) for predictor in PREDICTORS}
 
 
 def thinned(costs: SampledCosts) -> SampledCosts:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
 from functools import cache
 from pathlib import Path
 
@@ -11,8 +10,7 @@ import pytest
 
 from reports.modular import build
 from reports.modular_costs import OPERATIONS
-from reports.modular_results import TABLES, Results, quietest, read
-from sched_sim.sample_file import SampledCosts
+from reports.modular_results import TABLES, Results, read
 from studies import late_measurements, modular_costs
 from tests.command_line import Run
 from tests.reports import published
@@ -60,14 +58,6 @@ def test_what_is_stored_is_read_back() -> None:
     assert set(stored().tables) == set(TABLES)
     for name, content in stored().files().items():
         assert content == (published.FOLDER / "modular" / name).read_bytes()
-
-
-def test_of_each_filter_the_quietest_measurement_counts() -> None:
-    def costs(seconds: int) -> SampledCosts:
-        return SampledCosts(str(seconds), "second", {"predict": (Fraction(seconds), Fraction(9))})
-
-    found = quietest([{"unscented": costs(3), "extended": costs(1)}, {"unscented": costs(2), "extended": costs(4)}])
-    assert {name: of.name for name, of in found.items()} == {"unscented": "2", "extended": "1"}
 
 
 # ---------------------------------------------------------------------------------------------- what the text claims
