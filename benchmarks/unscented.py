@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from filterpy.kalman import ExtendedKalmanFilter, KalmanFilter, MerweScaledSigmaPoints, UnscentedKalmanFilter
 
-from benchmarks.timing import Result, seconds
+from benchmarks.timing import Result, times_faster
 from filters.arrays import FloatArray
 from filters.modular import (
     ModularFilter,
@@ -32,7 +32,6 @@ from filters.modular.correctors import Corrector
 from filters.modular.predictors import Predictor
 
 STEPS = 4000
-ROUNDS = 7
 DT = 0.1
 F = np.kron([[1.0, DT, DT * DT / 2], [0.0, 1.0, DT], [0.0, 0.0, 1.0]], np.eye(3))
 Q = 0.01 * np.eye(9)
@@ -90,11 +89,7 @@ def _result(
         return run(composed, X0, P0, inputs, record, backend="compiled").x[1:]
 
     np.testing.assert_allclose(ours(), theirs(measured), rtol=1e-9, atol=1e-9)
-    least_of_ours = least_of_theirs = math.inf
-    for _ in range(ROUNDS):
-        least_of_theirs = min(least_of_theirs, seconds(lambda: theirs(measured), 1))
-        least_of_ours = min(least_of_ours, seconds(ours, 10))
-    ratio = least_of_theirs / least_of_ours
+    ratio = times_faster(ours, lambda: theirs(measured))
     return Result(f"composed filter: faster than FilterPy's {name}", ratio, target)
 
 
