@@ -70,19 +70,15 @@ def rotate(q: FloatArray, at: int, v: FloatArray, start: int, out: FloatArray) -
 
     out may be v.
     """
-    w, x, y, z = q[at], q[at + 1], q[at + 2], q[at + 3]
-    a, b, c = v[start], v[start + 1], v[start + 2]
-    i = 2.0 * (y * c - z * b)
-    j = 2.0 * (z * a - x * c)
-    k = 2.0 * (x * b - y * a)
-    out[0] = a + w * i + (y * k - z * j)
-    out[1] = b + w * j + (z * i - x * k)
-    out[2] = c + w * k + (x * j - y * i)
+    _rotate_by(q[at], q[at + 1], q[at + 2], q[at + 3], v, start, out)
 
 
 def rotate_back(q: FloatArray, at: int, v: FloatArray, start: int, out: FloatArray) -> None:
     """out (3,) = the vector v[start : start + 3] in the frame of the body: the inverse of `rotate`; out may be v."""
-    w, x, y, z = q[at], -q[at + 1], -q[at + 2], -q[at + 3]
+    _rotate_by(q[at], -q[at + 1], -q[at + 2], -q[at + 3], v, start, out)
+
+
+def _rotate_by(w: float, x: float, y: float, z: float, v: FloatArray, start: int, out: FloatArray) -> None:
     a, b, c = v[start], v[start + 1], v[start + 2]
     i = 2.0 * (y * c - z * b)
     j = 2.0 * (z * a - x * c)

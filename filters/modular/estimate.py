@@ -1,11 +1,17 @@
-"""Estimates are copied, and looked at."""
+"""Estimates are made, copied, and looked at."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from filters.kernels.dense import copy, copy_vector
+from filters.modular.space import Space
 from filters.records import Estimate
+
+
+def empty(of: Space) -> Estimate:
+    """Memory for an estimate of this space."""
+    return Estimate(np.empty(of.numbers), np.empty((of.errors, of.errors)))
 
 
 def copy_estimate(source: Estimate, out: Estimate) -> None:

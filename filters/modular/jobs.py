@@ -11,14 +11,16 @@ from numpy.typing import ArrayLike
 from filters.arrays import FloatArray
 from filters.modular.composition import ModularFilter
 from filters.modular.correction import correct_with
+from filters.modular.estimate import empty
 from filters.modular.larsen_jobs import (
     accumulating,
     arguments_of_correction,
     arguments_of_prediction,
     larsen_correction_by,
 )
+from filters.modular.problem import unscented_parts
 from filters.modular.space import Space, space
-from filters.modular.typical import Moment, empty, near, typical_moment
+from filters.modular.typical import Moment, near, typical_moment
 from filters.modular.workspace import Workspace, new_workspace
 from filters.records import Estimate
 from filters.registry import Job
@@ -51,7 +53,7 @@ def modular_jobs(
     for number, sensor in enumerate(composed.sensors):
         correct = correction_by(sensor.corrector.expect)
         jobs.append(job(f"correct.{sensor.name}", correct, partial(_correct, composed, number)))
-    if is_linearised(composed):
+    if not unscented_parts(composed):
         accumulate = accumulating(predict)
         jobs.append(job("predict_accumulate", accumulate, partial(arguments_of_prediction, composed)))
         for number, sensor in enumerate(composed.sensors):
@@ -75,12 +77,6 @@ def correction_by(expect: Callable[..., None]) -> Callable[..., None]:
         correct_with(expect, view, observed, of, before, y, after, work)
 
     return correct
-
-
-def is_linearised(composed: ModularFilter) -> bool:
-    """Whether no part is unscented."""
-    parts = [composed.predictor.kind, *(sensor.corrector.kind for sensor in composed.sensors)]
-    return "unscented" not in parts
 
 
 def _predict(composed: ModularFilter, at: Moment) -> tuple[Any, ...]:

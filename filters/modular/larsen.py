@@ -25,7 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from filters.arrays import FloatArray
-from filters.kernels.backends import BackendName, arguments_for, function_for
+from filters.kernels.backends import BackendName
 from filters.kernels.dense import (
     copy,
     matmul_blocked,
@@ -34,16 +34,15 @@ from filters.kernels.dense import (
     store_vector,
 )
 from filters.kernels.place import IntArray
-from filters.modular.chain import chain
 from filters.modular.composition import ModularFilter
 from filters.modular.correctors import apply
-from filters.modular.estimate import copy_estimate, is_sound
-from filters.modular.history import PREDICTOR, SOUND, ModularHistory, breakdown, new_history
+from filters.modular.estimate import copy_estimate, empty, is_sound
+from filters.modular.history import PREDICTOR, SOUND, ModularHistory
 from filters.modular.measurements import Arrivals, Measurement, arrivals
 from filters.modular.problem import check_linearised, check_problem
-from filters.modular.running import running
-from filters.modular.space import Space, space
-from filters.modular.workspace import Workspace, new_workspace
+from filters.modular.running import run_kernel
+from filters.modular.space import Space
+from filters.modular.workspace import Workspace
 from filters.records import Estimate
 
 
@@ -110,13 +109,13 @@ def filter_all(
     dt: float,
     inputs: FloatArray,
     arrived: Arrivals,
+    history: ModularHistory,
+    work: Workspace,
     late: NDArray[np.bool_],
     taken_late: NDArray[np.bool_],
-    history: ModularHistory,
     current: Estimate,
     scratch: Estimate,
     flight: Flight,
-    work: Workspace,
 ) -> tuple[int, int]:
     """The whole filter as one kernel; `current` holds the prediction for step 0, history is filled.
 
@@ -172,36 +171,14 @@ def run(
     """
     check_linearised(composed, "larsen")
     x, P, moves = check_problem(composed, x0, P0, inputs)
-    steps, of = len(moves), composed.of
+    steps = len(moves)
     arrived = _in_order_of_use(arrivals(composed, measurements, steps, steps))
     late = arrived.taken < arrived.arrives
     _check_one_in_flight(composed, arrived, late)
     taken_late = np.zeros(steps + 1, dtype=np.bool_)
     taken_late[arrived.taken[late]] = True
-    found = new_history(of, steps)
-    chained = chain(correct, composed)
-    with running():
-        culprit, step = function_for(backend, filter_all)(
-            arguments_for(backend, composed.predictor.predict),
-            arguments_for(backend, chained.use),
-            arguments_for(backend, composed.predictor.motion),
-            arguments_for(backend, chained.parts),
-            chained.places,
-            of,
-            composed.dt,
-            moves,
-            arrived,
-            late,
-            taken_late,
-            found,
-            Estimate(x, P),
-            Estimate(np.empty_like(x), np.empty_like(P)),
-            Flight(Estimate(np.empty_like(x), np.empty_like(P)), np.empty_like(P)),
-            new_workspace(of, space(0)),
-        )
-    if culprit != SOUND:
-        raise breakdown(composed, culprit, step)
-    return found
+    own = late, taken_late, Estimate(x, P), empty(composed.of), Flight(empty(composed.of), np.empty_like(P))
+    return run_kernel(filter_all, correct, composed, moves, arrived, own, backend)
 
 
 def _in_order_of_use(arrived: Arrivals) -> Arrivals:

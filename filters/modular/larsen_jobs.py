@@ -12,9 +12,10 @@ from typing import Any
 from filters.arrays import FloatArray
 from filters.kernels.dense import copy
 from filters.modular.composition import ModularFilter
+from filters.modular.estimate import empty
 from filters.modular.larsen import Flight, Given, accumulate, correct
 from filters.modular.space import Space, space
-from filters.modular.typical import Moment, empty
+from filters.modular.typical import Moment
 from filters.modular.workspace import Workspace, new_workspace
 from filters.records import Estimate
 

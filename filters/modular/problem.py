@@ -33,13 +33,17 @@ def check_problem(
     return x, P, rows
 
 
+def unscented_parts(composed: ModularFilter) -> list[str]:
+    """The parts that leave no F or H, in words."""
+    parts = {"predictor": composed.predictor.kind}
+    parts |= {f"sensor {sensor.name!r}": sensor.corrector.kind for sensor in composed.sensors}
+    return [part for part, kind in parts.items() if kind == "unscented"]
+
+
 def check_linearised(composed: ModularFilter, late: str) -> None:
     """Raises ValueError, naming the part, if one is unscented: `late`, the way to use late measurements, needs F, H."""
-    parts = [("predictor", composed.predictor.kind)]
-    parts += [(f"sensor {sensor.name!r}", sensor.corrector.kind) for sensor in composed.sensors]
-    for part, kind in parts:
-        if kind == "unscented":
-            raise ValueError(
-                f"{part}: late={late!r} needs the matrices of linear and extended parts, and this one is unscented; "
-                f"use late='recalculate', which works with all, or make it extended"
-            )
+    for part in unscented_parts(composed):
+        raise ValueError(
+            f"{part}: late={late!r} needs the matrices of linear and extended parts, and this one is unscented; "
+            f"use late='recalculate', which works with all, or make it extended"
+        )

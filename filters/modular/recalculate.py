@@ -8,19 +8,18 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from filters.arrays import FloatArray
-from filters.kernels.backends import BackendName, arguments_for, function_for
+from filters.kernels.backends import BackendName
 from filters.kernels.dense import store, store_vector
 from filters.kernels.place import IntArray
-from filters.modular.chain import chain
 from filters.modular.composition import ModularFilter
 from filters.modular.correction import correct_with
-from filters.modular.estimate import copy_estimate, is_sound
-from filters.modular.history import PREDICTOR, SOUND, ModularHistory, breakdown, new_history
+from filters.modular.estimate import copy_estimate, empty, is_sound
+from filters.modular.history import PREDICTOR, SOUND, ModularHistory
 from filters.modular.measurements import Arrivals, Measurement, arrivals
 from filters.modular.problem import check_problem
-from filters.modular.running import running
-from filters.modular.space import Space, space
-from filters.modular.workspace import Workspace, new_workspace
+from filters.modular.running import run_kernel
+from filters.modular.space import Space
+from filters.modular.workspace import Workspace
 from filters.records import Estimate
 
 
@@ -59,11 +58,11 @@ def filter_all(
     dt: float,
     inputs: FloatArray,
     arrived: Arrivals,
-    memory: Memory,
     history: ModularHistory,
+    work: Workspace,
+    memory: Memory,
     current: Estimate,
     corrected: Estimate,
-    work: Workspace,
 ) -> tuple[int, int]:
     """The whole filter as one kernel; memory holds the start as the prediction for step 0, history is filled.
 
@@ -118,37 +117,16 @@ def run(
     history: how many steps the filter can go back; if not given, as many as the sensors' longest delay.
     """
     x, P, moves = check_problem(composed, x0, P0, inputs)
-    steps, of = len(moves), composed.of
+    of = composed.of
     depth = max((sensor.delay for sensor in composed.sensors), default=0) if history is None else history
     if not isinstance(depth, int | np.integer) or depth < 0:
         raise ValueError(
             f"history={history!r} must be a whole number, at least 0: how many steps the filter can go back"
         )
-    arrived = arrivals(composed, measurements, steps, depth)
+    arrived = arrivals(composed, measurements, len(moves), depth)
     count, n = depth + 1, of.errors
     memory = Memory(
         np.zeros((count, of.numbers)), np.zeros((count, n, n)), np.full((count, len(composed.sensors)), -1, np.int64)
     )
     memory.x[0], memory.P[0] = x, P
-    found = new_history(of, steps)
-    chained = chain(correct, composed)
-    with running():
-        culprit, step = function_for(backend, filter_all)(
-            arguments_for(backend, composed.predictor.predict),
-            arguments_for(backend, chained.use),
-            arguments_for(backend, composed.predictor.motion),
-            arguments_for(backend, chained.parts),
-            chained.places,
-            of,
-            composed.dt,
-            moves,
-            arrived,
-            memory,
-            found,
-            Estimate(np.empty(of.numbers), np.empty((n, n))),
-            Estimate(np.empty(of.numbers), np.empty((n, n))),
-            new_workspace(of, space(0)),
-        )
-    if culprit != SOUND:
-        raise breakdown(composed, culprit, step)
-    return found
+    return run_kernel(filter_all, correct, composed, moves, arrived, (memory, empty(of), empty(of)), backend)

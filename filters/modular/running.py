@@ -1,13 +1,60 @@
-"""Running kernels that hold the user's functions."""
+"""Running the kernel of a whole filter, which holds the user's functions."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from typing import Any
 
 import numpy as np
 
+from filters.arrays import FloatArray
+from filters.kernels.backends import BackendName, arguments_for, function_for
 from filters.kernels.numba_error import gist, is_numbas
+from filters.modular.chain import chain
+from filters.modular.composition import ModularFilter
+from filters.modular.history import SOUND, ModularHistory, breakdown, new_history
+from filters.modular.measurements import Arrivals
+from filters.modular.space import space
+from filters.modular.workspace import new_workspace
+
+
+def run_kernel(
+    kernel: Callable[..., tuple[int, int]],
+    correct: Callable[..., None],
+    composed: ModularFilter,
+    inputs: FloatArray,
+    arrived: Arrivals,
+    own: tuple[Any, ...],
+    backend: BackendName,
+) -> ModularHistory:
+    """What the kernel of a way to use late measurements leaves.
+
+    kernel(predict, use, motion, parts, places, of, dt, inputs, arrived, history, work, *own) returns which part, and in
+    which step, left an estimate that is none, or SOUND. correct: its job of one correction, see `chain.chain`.
+
+    Raises:
+        ValueError: as `running`, or an estimate breaks down; the part is named.
+    """
+    predictor, chained, found = composed.predictor, chain(correct, composed), new_history(composed.of, len(inputs))
+    with running():
+        culprit, step = function_for(backend, kernel)(
+            arguments_for(backend, predictor.predict),
+            arguments_for(backend, chained.use),
+            arguments_for(backend, predictor.motion),
+            arguments_for(backend, chained.parts),
+            chained.places,
+            composed.of,
+            composed.dt,
+            inputs,
+            arrived,
+            found,
+            new_workspace(composed.of, space(0)),
+            *own,
+        )
+    if culprit != SOUND:
+        raise breakdown(composed, culprit, step)
+    return found
 
 
 @contextmanager

@@ -12,7 +12,7 @@ from filters.kernels.place import IntArray
 from filters.modular.check import check_start
 from filters.modular.composition import ModularFilter, Sensor
 from filters.modular.correction import correct_with
-from filters.modular.estimate import is_sound
+from filters.modular.estimate import empty, is_sound
 from filters.modular.history import PREDICTOR, breakdown
 from filters.modular.measurements import expected_by
 from filters.modular.space import Space, plus, space
@@ -77,11 +77,6 @@ def drawn(of: Space, point: FloatArray, covariance: FloatArray, random: np.rando
     out = np.empty(of.numbers)
     plus(of, point, random.multivariate_normal(np.zeros(of.errors), covariance, method="eigh"), out)
     return out
-
-
-def empty(of: Space) -> Estimate:
-    """Memory for an estimate."""
-    return Estimate(np.empty(of.numbers), np.empty((of.errors, of.errors)))
 
 
 def _warmed_up(composed: ModularFilter, start: Estimate, u: FloatArray, random: np.random.Generator) -> Estimate:

@@ -25,8 +25,6 @@ class Workspace(NamedTuple):
     errors: FloatArray  # (2 n + 1, n)
     moved_errors: FloatArray
     n1: FloatArray
-    x1: FloatArray  # (numbers of the state,)
-    x2: FloatArray
     H: FloatArray
     z: FloatArray
     S: FloatArray
@@ -35,8 +33,6 @@ class Workspace(NamedTuple):
     K: FloatArray  # (n, p)
     pp1: FloatArray
     expected: FloatArray  # (numbers of the measurement,)
-    y1: FloatArray
-    y2: FloatArray
     seen: FloatArray  # (2 n + 1, numbers of the measurement)
     seen_errors: FloatArray  # (2 n + 1, p)
 
@@ -53,8 +49,6 @@ def new_workspace(of: Space, observed: Space) -> Workspace:
         errors=np.zeros((count, n)),
         moved_errors=np.zeros((count, n)),
         n1=np.zeros(n),
-        x1=np.zeros(of.numbers),
-        x2=np.zeros(of.numbers),
         H=np.zeros((p, n)),
         z=np.zeros(p),
         S=np.zeros((p, p)),
@@ -63,8 +57,6 @@ def new_workspace(of: Space, observed: Space) -> Workspace:
         K=np.zeros((n, p)),
         pp1=np.zeros((p, p)),
         expected=np.zeros(observed.numbers),
-        y1=np.zeros(observed.numbers),
-        y2=np.zeros(observed.numbers),
         seen=np.zeros((count, observed.numbers)),
         seen_errors=np.zeros((count, p)),
     )
