@@ -223,17 +223,6 @@ def slowness_of_a_full_processor(costs: SampledCosts) -> float:
     return 1 / (RATE_HZ * step_s(costs, 0.0))
 
 
-def slowness_of_no_return(costs: Costs, predictor: PredictorName) -> float:
-    """How many times slower the processor is on which preempted replays pile up, by average work.
-
-    Where each period leaves time for r steps beside the one that is due, replaying d steps takes T = d / (r - 1)
-    periods, since the T steps that pass meanwhile have to be replayed too. T must be below the time between fixes.
-    """
-    step, control = step_s(costs[predictor], DROPOUT), float(control_task(costs, 1).cost) / CONTROL_EVERY
-    r = 1 + fmean(GPS_DELAYS) * (1 - DROPOUT) / GPS_EVERY
-    return 1 / (RATE_HZ * (step + control + r * step))
-
-
 POINTS, SLOWEST, FASTEST = 14, 1.2, 0.02
 SURE = 0.95
 """A curve ends with the processor on which every job misses so often: on still slower ones no simulation is needed."""

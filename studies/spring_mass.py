@@ -200,11 +200,6 @@ def reach(sigma_m: float = POSITION_SIGMA_M) -> float:
     return float((6 * sigma_m / AMPLITUDES[0]) ** (1 / 3) / (2 * np.pi))
 
 
-def blind_share(rate: int, dropout: float) -> float:
-    """The share of steps in which a sensor's last measurement is older than `reach`; where it is large, errors are."""
-    return float(dropout ** (rate * reach()))
-
-
 def history_at(dropout: float, seed: int, setting: Setting = USUAL, backend: BackendName = "compiled") -> History:
     """One run to be looked at."""
     record = oscillation(setting, seed)

@@ -114,7 +114,7 @@ def achieved(scenario: Scenario, *landed: int) -> Figure:
 def test_a_deadline_has_a_line_or_is_in_the_subtitle(land_by: int, landed: list[int], shown: bool) -> None:
     figure = achieved(slow("s", land_by=land_by), *landed)
     axes = plot(figure, "s: achieved l")
-    lines = [line.get_xdata()[0] for line in axes.lines]  # type: ignore[index]
+    lines = [line.get_xdata()[0] for line in axes.lines]
     named = [text for text in axes.texts if text.get_text() == "deadline"]
     assert (lines == [land_by + 0.5]) == (len(named) == 1) == shown
     assert any(text.get_text().startswith(f"deadline k + {land_by}") for text in axes.texts) != shown

@@ -132,6 +132,6 @@ def test_a_long_name_and_short_work_can_be_seen() -> None:
     axes = figure.axes[0]
     mm = figure.get_size_inches()[0] * 25.4 * axes.get_position().width / (axes.get_xlim()[1] - axes.get_xlim()[0])
     boxes = [path for found in axes.collections if isinstance(found, PolyCollection) for path in found.get_paths()]
-    wide = [mm * (box.vertices[:, 0].max() - box.vertices[:, 0].min()) for box in boxes if len(box.vertices)]  # type: ignore[index]
-    tall = [box.vertices[:, 1].max() - box.vertices[:, 1].min() for box in boxes if len(box.vertices)]  # type: ignore[index]
+    wide = [mm * (box.vertices[:, 0].max() - box.vertices[:, 0].min()) for box in boxes if len(box.vertices)]
+    tall = [box.vertices[:, 1].max() - box.vertices[:, 1].min() for box in boxes if len(box.vertices)]
     assert min(width for width, height in zip(wide, tall, strict=True) if height > 1) == pytest.approx(LEAST_BAR_MM)

@@ -33,7 +33,7 @@ def scenario(speed: int, **more: object) -> Scenario:
         },
         "tasks": [Task("control", Fraction(2), Fraction(2), priority=5)],
     }
-    return Scenario("x", speed=Fraction(speed), **(fields | more))  # type: ignore[arg-type]
+    return Scenario("x", speed=Fraction(speed), **(fields | more))
 
 
 def test_loads_are_mean_costs_over_mean_periods() -> None:
@@ -66,7 +66,7 @@ def test_with_two_processors_each_has_its_own_demand() -> None:
 
 @pytest.mark.parametrize("late", ["recalculate", "larsen"])
 def test_demand_is_what_the_simulation_was_busy_with(late: str) -> None:
-    asked = replace(scenario(40, steps=2000), late=late)  # type: ignore[arg-type]
+    asked = replace(scenario(40, steps=2000), late=late)
     assert demand(asked) == [pytest.approx(float(run_scenario(asked).schedule.utilization), rel=0.03)]
 
 

@@ -5,14 +5,20 @@ from __future__ import annotations
 from collections import Counter
 from fractions import Fraction
 from functools import cache
+from statistics import fmean
 
 import pytest
 
 from filters.modular.problem import unscented_parts
+from filters.systems.rocket import RATE_HZ
 from filters.systems.rocket_filter import ACCELEROMETER, BAROMETER, CAMERA, GPS, GYRO, SENSORS, PredictorName
 from sched_sim.sample_file import SampledCosts
 from sched_sim.scenario_run import run_scenario
 from studies.rocket_schedule import (
+    CONTROL_EVERY,
+    DROPOUT,
+    GPS_DELAYS,
+    GPS_EVERY,
     JOBS,
     LAND_BY,
     PERIOD_MS,
@@ -25,13 +31,14 @@ from studies.rocket_schedule import (
     arrivals,
     chosen,
     compared_at,
+    control_task,
     filter_of,
     miss_curves,
     scenario,
     slowest_that_holds,
     slowness_of_a_full_processor,
-    slowness_of_no_return,
     slownesses,
+    step_s,
     thinned,
 )
 
@@ -116,6 +123,17 @@ def test_lateness_is_that_of_the_replay() -> None:
         if (row.way, row.urgency, row.times_slower, row.job) == (EXTENDED.name, "in the loop", 300, "loop")
     ]
     assert 0.8 * (43 + 2.2) - PERIOD_MS < row.late_ms < 1.1 * (43 + 2.2)
+
+
+def slowness_of_no_return(costs: Costs, predictor: PredictorName) -> float:
+    """How many times slower the processor is on which preempted replays pile up, by average work.
+
+    Where each period leaves time for r steps beside the one that is due, replaying d steps takes T = d / (r - 1)
+    periods, since the T steps that pass meanwhile have to be replayed too. T must be below the time between fixes.
+    """
+    step, control = step_s(costs[predictor], DROPOUT), float(control_task(costs, 1).cost) / CONTROL_EVERY
+    r = 1 + fmean(GPS_DELAYS) * (1 - DROPOUT) / GPS_EVERY
+    return 1 / (RATE_HZ * (step + control + r * step))
 
 
 @pytest.mark.parametrize("way", [UNSCENTED, EXTENDED], ids=lambda way: way.name)

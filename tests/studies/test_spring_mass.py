@@ -168,15 +168,6 @@ def test_reach_is_the_time_in_which_the_motion_leaves_its_prediction_by_a_sigma(
     assert study.reach() == pytest.approx(0.107, abs=0.001)
 
 
-def test_share_of_steps_beyond_the_reach() -> None:
-    lost = np.random.default_rng(0).random(200_000) < 0.8
-    since, ages = 0, []
-    for one in lost:
-        since = since + 1 if one else 0
-        ages.append(since)
-    assert study.blind_share(100, 0.8) == pytest.approx(np.mean(np.array(ages) >= 100 * study.reach()), rel=0.1)
-
-
 def test_each_sensor_bears_its_own_loss_of_another_quantity() -> None:
     """With 90 % of the positions lost, the acceleration stays as it was; with 90 % of those lost, position loses less
     than with both."""
