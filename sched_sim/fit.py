@@ -8,10 +8,10 @@ from fractions import Fraction
 
 from sched_sim.costs import JobCosts
 from sched_sim.least_speed import LeastSpeed, achieved_l, least_speed
-from sched_sim.load import load
+from sched_sim.load import loads
 from sched_sim.options import Options
-from sched_sim.search import cycles_to_simulate
-from sched_sim.simulate import simulate
+from sched_sim.search import OnProgress
+from sched_sim.steady import run_until_steady
 from sched_sim.tasks import Task
 from sched_sim.timing import Timing
 
@@ -22,8 +22,8 @@ class Fit:
 
     least: the least speed, in seconds of work per HR period, and what fixes it.
     needed: the share of the processor's speed at which every deadline holds; above 1 it is too slow.
-    load: the share of its time that it works at its own speed, mean of the processors where there are two; with other
-        tasks or context switches that of the simulated time, where it is at most 1.
+    load: the share of its time that it works at its own speed, mean of the processors where there are two; with context
+        switches that of the simulated time, where it is at most 1 and which ends at a miss.
     fits: whether every deadline holds at its own speed. landed: the L at which corrections land then, None if not.
     """
 
@@ -40,20 +40,26 @@ class Fit:
 
 
 def fit(
-    costs: JobCosts, timing: Timing, hr_hz: Fraction, options: Options = Options(), tasks: Sequence[Task] = ()
+    costs: JobCosts,
+    timing: Timing,
+    hr_hz: Fraction,
+    options: Options = Options(),
+    tasks: Sequence[Task] = (),
+    on_progress: OnProgress = lambda _runs: None,
 ) -> Fit:
     """costs: in seconds, as `processor.on_processor` makes them; hr_hz: rate of the HR loop.
 
     Raises InputError as `least_speed` does.
     """
     pace = 1 / hr_hz
-    least = least_speed(costs, timing, options, tasks)
+    least = least_speed(costs, timing, options, tasks, on_progress)
+    busy = sum(loads(costs, timing, pace, options, tasks), Fraction(0)) / options.cpus
     if tasks or options.context_switch:
-        schedule = simulate(costs, timing, pace, cycles_to_simulate(timing, tasks), options, tasks)
-        fits, landed = schedule.misses == 0, max(schedule.achieved, default=None)
-        busy = schedule.utilization
+        steady = run_until_steady(costs, timing, pace, options, tasks)
+        fits, landed = steady.repeats, max(steady.schedule.achieved, default=None)
+        if options.context_switch:
+            busy = steady.schedule.utilization
     else:
         landed = achieved_l(costs, timing, pace, options)
         fits = least.speed <= pace and landed is not None and landed <= timing.L
-        busy = load(costs, timing, pace) / options.cpus
     return Fit(least, least.speed / pace, busy, fits, landed if fits else None)

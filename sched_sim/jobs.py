@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Hashable
 from typing import Protocol, TypeAlias
 
 Parts: TypeAlias = tuple[tuple[str, int], ...]
@@ -61,6 +61,10 @@ class Job:
         self.remaining, self.overhead = sum(work for _, work in parts), 0
         return self
 
+    def state(self, now: int, left: int, overhead: int) -> Hashable:
+        """What tells it from others of its source, whenever `now` is; left, overhead: work not yet done."""
+        return self.kind, self.release - now, self.deadline - now, left, overhead
+
 
 class Source(Protocol):
     """Releases jobs by the clock: the HR loop of a filter, or a user's periodic task."""
@@ -73,3 +77,10 @@ class Source(Protocol):
     def at_horizon(self) -> tuple[Job, ...]:
         """Called once, when the simulated time is over: the jobs whose release has come but which wait for another job
         to finish first."""
+
+
+class RecurringSource(Source, Protocol):
+    """A source whose releases to come depend on its state alone, and not on chance."""
+
+    def state(self, now: int) -> Hashable:
+        """The same at two instants, if what is released from there on is the same."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import astuple, replace
 from fractions import Fraction
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -16,9 +16,13 @@ from sched_sim.tasks import Task
 from sched_sim.ticks import positive, ticks_per_unit, to_ticks
 from sched_sim.timing import Timing, check_dual_rate, check_two_rate, latest_feedback_step
 
+if TYPE_CHECKING:
+    from sched_sim.search import OnProgress
+
 
 class LeastSpeed(NamedTuple):
-    """speed: the least, in cost units per HR period; binding: the name of an `analysis.Binding`, or "task:NAME"."""
+    """speed: the least, in cost units per HR period; binding: the name of an `analysis.Binding`, "task:NAME" or
+    "load", where nothing is missed soon and work piles up."""
 
     speed: Fraction
     binding: str
@@ -34,13 +38,18 @@ class Stair(NamedTuple):
 
 
 def least_speed(
-    costs: JobCosts, timing: Timing, options: Options = Options(), tasks: Sequence[Task] = ()
+    costs: JobCosts,
+    timing: Timing,
+    options: Options = Options(),
+    tasks: Sequence[Task] = (),
+    on_progress: OnProgress = lambda _runs: None,
 ) -> LeastSpeed:
     """The least speed at which every deadline holds (Steffes 2014, Sec. III.C: needed processing power).
 
     In closed form and exact; with context-switch costs or other tasks by bisection on the simulation, which is
-    exact to one tick (see `search.least_speed_by_simulation`). Every faster processor does too, except where landing
-    earlier costs more: the HR job of step k+1 is the longest of all, or same-step feedback spills into the next step.
+    exact to one tick and calls `on_progress` (see `search.least_speed_by_simulation`). Every faster processor does too,
+    except where landing earlier costs more: the HR job of step k+1 is the longest of all, or same-step feedback spills
+    into the next step.
     Raises InputError for an L that the method cannot have.
     """
     if isinstance(costs, DualRateCosts):
@@ -51,7 +60,7 @@ def least_speed(
         from sched_sim.search import least_speed_by_simulation
 
         alone = least_speed(costs, timing, replace(options, context_switch=Fraction(0))).speed
-        return LeastSpeed(*least_speed_by_simulation(costs, timing, options, tasks, at_least=alone))
+        return LeastSpeed(*least_speed_by_simulation(costs, timing, options, tasks, alone, on_progress))
     resolution, in_ticks = _in_ticks(costs)
     N, M, L = (np.array([value], dtype=object) for value in (timing.N, timing.M, timing.L))
     least = analysis.least_period(in_ticks, N, M, L, options)

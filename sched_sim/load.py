@@ -1,7 +1,8 @@
-"""The share of its time that the processor works: exact, from the work of one measurement cycle."""
+"""The share of their time that the processors work: exact, from the work of one measurement cycle."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from fractions import Fraction
 
 from sched_sim.costs import (
@@ -13,15 +14,40 @@ from sched_sim.costs import (
     RobustCosts,
     StandardCosts,
 )
+from sched_sim.options import Options
+from sched_sim.tasks import Task
 from sched_sim.timing import Timing
 
 
 def load(costs: JobCosts, timing: Timing, speed: Fraction) -> Fraction:
-    """Work per time, of one processor: 1 is all of it; without context switches. speed: cost units per HR period.
+    """Work of one filter per time: 1 is all of a processor; without context switches. speed: cost units per HR period.
 
     That it is below 1 is needed, and does not suffice: a deadline may need more for a while (`least_speed`).
     """
     return Fraction(work_of_cycle(costs, timing)) / (timing.N * speed)
+
+
+def loads(
+    costs: JobCosts, timing: Timing, speed: Fraction, options: Options = Options(), tasks: Sequence[Task] = ()
+) -> tuple[Fraction, ...]:
+    """As `load`, of each processor, the user's tasks included. At a share above 1 work piles up without end."""
+    low = low_rate_work_of_cycle(costs)
+    work = [(work_of_cycle(costs, timing) - low) / timing.N, *[Fraction(0)] * (options.cpus - 1)]
+    work[-1] += low / timing.N
+    for task in tasks:
+        work[task.cpu - 1] += task.cost / task.period
+    return tuple(share / speed for share in work)
+
+
+def low_rate_work_of_cycle(costs: JobCosts) -> Fraction:
+    """What is done in N steps below the HR jobs, on a processor of its own if there are two."""
+    match costs:
+        case DualRateCosts():
+            return Fraction(costs.lr_propagate + costs.lr_gain + costs.lr_update)
+        case MultirateCosts(_, low) | RobustCosts(_, low):
+            return Fraction(low)
+        case _:
+            return Fraction(0)
 
 
 def work_of_cycle(costs: JobCosts, timing: Timing) -> Fraction:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Hashable
 from dataclasses import replace
 
 from sched_sim.costs import (
@@ -15,7 +15,7 @@ from sched_sim.costs import (
     RobustCosts,
     StandardCosts,
 )
-from sched_sim.jobs import HR, LR, Job, Parts, Source
+from sched_sim.jobs import HR, LR, Job, Parts, RecurringSource
 from sched_sim.options import Options
 from sched_sim.timing import Timing, check_dual_rate, check_two_rate
 
@@ -55,7 +55,7 @@ def step_at(finish: int, period: int) -> int:
     return -(-finish // period) - 1
 
 
-class HrSource(Source):
+class HrSource(RecurringSource):
     """The clock of the HR loop: step j starts at j periods."""
 
     def __init__(self, timing: Timing, period: int, on_landing: OnLanding) -> None:
@@ -68,6 +68,9 @@ class HrSource(Source):
 
     def at_horizon(self) -> tuple[Job, ...]:
         return ()
+
+    def state(self, now: int) -> Hashable:
+        return self.next_release - now, self.step % self.N
 
 
 class Serial(HrSource):
@@ -95,6 +98,9 @@ class Serial(HrSource):
             parts, then = self.accumulate if 2 <= since_k < self.M else self.plain, None
             work = parts[0][1]
         return (Job("hr", step, HR, start, self.next_release, work, parts, then),)
+
+    def state(self, now: int) -> Hashable:
+        return super().state(now), self.M < self.N or self.step >= self.N
 
     def _landed(self, job: Job, now: int) -> tuple[Job, ...]:
         k = job.step - self.M
@@ -147,6 +153,16 @@ class DualRate(HrSource):
         """The horizon is the start of a step: what has finished by then lands in it."""
         self._apply(self.step)
         return (*self.lr_queue, *self.arrived)
+
+    def state(self, now: int) -> Hashable:
+        this = self.step // self.N
+        return (
+            super().state(now),
+            tuple(cycle - this for cycle in self.to_apply),
+            tuple(job.state(now, job.remaining, 0) for job in (*self.lr_queue, *self.arrived)),
+            self.propagates_released - this,
+            self.lr_busy,
+        )
 
     def _apply(self, step: int) -> int:
         """The corrections that reach the state in the HR job of `step`; how many they are."""
@@ -252,6 +268,9 @@ class TwoRate(HrSource):
     def at_horizon(self) -> tuple[Job, ...]:
         self._use(self.step)
         return ()
+
+    def state(self, now: int) -> Hashable:
+        return super().state(now), tuple(k - self.step for k in self.ready)
 
     def _use(self, step: int) -> None:
         for k in self.ready:

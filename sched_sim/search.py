@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import astuple
 from fractions import Fraction
-from math import ceil, gcd, lcm
+from itertools import count
+from math import ceil
 
 from sched_sim.costs import DualRateCosts, JobCosts
-from sched_sim.errors import InputError
+from sched_sim.load import loads
 from sched_sim.options import Options
 from sched_sim.schedule import Schedule
-from sched_sim.simulate import simulate
+from sched_sim.steady import Steady, longest_run, run_until_steady
 from sched_sim.tasks import Task
 from sched_sim.ticks import ticks_per_unit
 from sched_sim.timing import Timing
@@ -19,43 +20,70 @@ from sched_sim.timing import Timing
 TICKS_PER_LOOP = 1_000_000
 """The least speed is found to this many ticks in the filter's largest job, or finer."""
 
-LONGEST_SEARCH = 400_000
-"""HR periods that one simulation of the search may take."""
+FIRST_LOOK = 256
+"""HR periods of the first simulations; most speeds that are too slow miss something in so many."""
+
+OnProgress = Callable[[int], None]
+"""Called with how many simulations have been run."""
 
 
 def least_speed_by_simulation(
-    costs: JobCosts, timing: Timing, options: Options, tasks: Sequence[Task], at_least: Fraction
+    costs: JobCosts,
+    timing: Timing,
+    options: Options,
+    tasks: Sequence[Task],
+    at_least: Fraction,
+    on_progress: OnProgress = lambda _runs: None,
 ) -> tuple[Fraction, str]:
-    """(least speed, binding): no deadline is missed there, and one is at one tick of period less.
+    """(least speed, binding): there no deadline is ever missed, since all that can come has been seen
+    (`run_until_steady`); one tick of period less is too slow: a deadline is missed, or work piles up without end.
 
     at_least: a speed below which it cannot be: that of the same filter alone on the processor.
     Where a slower processor may be lucky and do again (with context-switch costs, it may switch less often), there are
     several such speeds, and this is one of them.
     Raises InputError if the tasks repeat with the measurements only after a very long time.
     """
-    cycles = cycles_to_simulate(timing, tasks)
-    if tasks and cycles * timing.N > LONGEST_SEARCH:
-        raise InputError(
-            f"the tasks repeat together with the measurements only after {cycles * timing.N / 2:.3g} HR periods: round "
-            f"their periods ({', '.join(f'{task.name} {float(task.period):g}' for task in tasks)}) to a common grid"
-        )
+    longest = longest_run(timing, tasks)
     resolution = search_resolution(costs, options, tasks)
+    floor = max(at_least, *loads(costs, timing, Fraction(1), options, tasks))
+    runs = count(1)
 
-    def run(period: int) -> Schedule:
-        return simulate(costs, timing, Fraction(period, resolution), cycles, options, tasks)
+    def run(period: int, steps: int) -> Steady:
+        on_progress(next(runs))
+        speed = Fraction(period, resolution)
+        return run_until_steady(costs, timing, speed, options, tasks, steps)
 
-    too_slow = max(ceil(at_least * resolution) - 1, 0)
-    enough = too_slow + 1
-    while run(enough).misses:
-        too_slow, enough = enough, 2 * enough
+    too_slow = max(ceil(floor * resolution) - 1, 0)
+    enough, steps = too_slow + 1, min(FIRST_LOOK, longest)
+    found = run(enough, steps)
+    while not found.repeats:
+        if found.schedule.misses or steps == longest:
+            steps = found.steps
+            too_slow, enough, found = _bisect(run, enough, steps, longest)
+        else:
+            steps = min(4 * steps, longest)
+            found = run(enough, steps)
+    binding = _binding(run(too_slow, steps).schedule, costs, timing, options) if too_slow else "load"
+    return Fraction(enough, resolution), binding
+
+
+def _bisect(run: Callable[[int, int], Steady], too_slow: int, steps: int, longest: int) -> tuple[int, int, Steady]:
+    """In so many steps: (a period that is too slow, the next, which is not, what was seen there)."""
+
+    def fails(outcome: Steady) -> bool:
+        return outcome.schedule.misses > 0 or (steps == longest and not outcome.repeats)
+
+    ahead = 1
+    while fails(found := run(too_slow + ahead, steps)):
+        too_slow, ahead = too_slow + ahead, 2 * ahead
+    enough = too_slow + ahead
     while enough - too_slow > 1:
         middle = (too_slow + enough) // 2
-        if run(middle).misses:
+        if fails(outcome := run(middle, steps)):
             too_slow = middle
         else:
-            enough = middle
-    binding = _binding(run(too_slow), costs, timing, options) if too_slow else "hr"
-    return Fraction(enough, resolution), binding
+            enough, found = middle, outcome
+    return too_slow, enough, found
 
 
 def search_resolution(costs: JobCosts, options: Options, tasks: Sequence[Task]) -> int:
@@ -68,20 +96,10 @@ def search_resolution(costs: JobCosts, options: Options, tasks: Sequence[Task]) 
     return resolution
 
 
-def cycles_to_simulate(timing: Timing, tasks: Sequence[Task]) -> int:
-    """Measurement cycles until the schedule repeats: the latest offset and two hyperperiods, at least four cycles."""
-    hyperperiod = Fraction(timing.N)
-    for task in tasks:
-        hyperperiod = Fraction(
-            lcm(hyperperiod.numerator, task.period.numerator), gcd(hyperperiod.denominator, task.period.denominator)
-        )
-    latest_offset = max((task.offset for task in tasks), default=Fraction(0))
-    return max(4, ceil((latest_offset + 2 * hyperperiod) / timing.N))
-
-
 def _binding(schedule: Schedule, costs: JobCosts, timing: Timing, options: Options) -> str:
-    """The demand that the first missed job of a slightly too slow processor belongs to."""
-    assert schedule.first_miss is not None
+    """The demand of the first job missed on a slightly too slow processor; "load" if work only piles up."""
+    if schedule.first_miss is None:
+        return "load"
     kind, held = schedule.first_miss
     if kind == "hr" or kind.startswith("task:") or not isinstance(costs, DualRateCosts):
         return kind

@@ -8,16 +8,18 @@ because SimPy's `PreemptiveResource` lets a release preempt a job that finishes 
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Callable, Generator, Sequence
+from collections.abc import Callable, Generator, Hashable, Sequence
 from dataclasses import astuple, replace
 from fractions import Fraction
 from heapq import heapify, heappop, heappush, heapreplace
+from itertools import chain
+from typing import NamedTuple
 
 import simpy
 
 from sched_sim.costs import JobCosts, LarsenCosts, RecalculateCosts
 from sched_sim.errors import InputError
-from sched_sim.jobs import Job, Source
+from sched_sim.jobs import Job, RecurringSource, Source
 from sched_sim.methods import OnLanding, method_source
 from sched_sim.options import Options
 from sched_sim.schedule import Response, Schedule, Slice
@@ -48,6 +50,48 @@ def simulate(
     (cycle, achieved L).
     Raises InputError for a speed that is not positive, an L the method cannot have, and a task on a missing CPU.
     """
+    achieved: Counter[int] = Counter()
+
+    def landed(cycle: int, L: int) -> None:
+        if cycle < cycles:
+            achieved[L] += 1
+            if on_landing is not None:
+                on_landing(cycle, L)
+
+    workload = workload_in_ticks(costs, timing, speed, options, tasks, landed)
+    arrives_a_step_later = isinstance(costs, RecalculateCosts | LarsenCosts) and timing.M == timing.N
+    steps = cycles * timing.N + arrives_a_step_later
+    slices: list[Slice] = []
+
+    def keep(piece: Slice) -> None:
+        slices.append(piece)
+        if on_slice is not None:
+            on_slice(piece)
+
+    processor = Processor(
+        workload.sources,
+        workload.period,
+        steps * workload.period,
+        options.cpus,
+        workload.context_switch,
+        keep if keep_slices else on_slice,
+    )
+    processor.run()
+    return replace(processor.schedule(), achieved=achieved, slices=tuple(slices))
+
+
+class Workload(NamedTuple):
+    """What a processor has to do, in ticks: the filter first, then the user's tasks. period: of the HR loop."""
+
+    sources: tuple[RecurringSource, ...]
+    period: int
+    context_switch: int
+
+
+def workload_in_ticks(
+    costs: JobCosts, timing: Timing, speed: Fraction, options: Options, tasks: Sequence[Task], on_landing: OnLanding
+) -> Workload:
+    """The fewest ticks per cost unit in which all is whole. Raises InputError as `simulate` does."""
     positive(speed, "speed")
     for task in tasks:
         if task.cpu > options.cpus:
@@ -57,17 +101,7 @@ def simulate(
     resolution = ticks_per_unit([speed, options.context_switch, *work, *times, *(task.cost for task in tasks)])
     period = to_ticks(speed, resolution)
     tick_costs = type(costs)(*(to_ticks(value, resolution) for value in work))
-
-    achieved: Counter[int] = Counter()
-
-    def landed(cycle: int, L: int) -> None:
-        if cycle < cycles:
-            achieved[L] += 1
-            if on_landing is not None:
-                on_landing(cycle, L)
-
-    source = method_source(tick_costs, timing, options, period, landed)
-    task_sources = [
+    task_sources = (
         TaskSource(
             task,
             period=to_ticks(task.period * speed, resolution),
@@ -75,26 +109,9 @@ def simulate(
             cost=to_ticks(task.cost, resolution),
         )
         for task in tasks
-    ]
-    arrives_a_step_later = isinstance(costs, RecalculateCosts | LarsenCosts) and timing.M == timing.N
-    horizon = (cycles * timing.N + arrives_a_step_later) * period
-    slices: list[Slice] = []
-
-    def keep(piece: Slice) -> None:
-        slices.append(piece)
-        if on_slice is not None:
-            on_slice(piece)
-
-    processor = Processor(
-        [source, *task_sources],
-        period,
-        horizon,
-        options.cpus,
-        to_ticks(options.context_switch, resolution),
-        keep if keep_slices else on_slice,
     )
-    processor.run()
-    return replace(processor.schedule(), achieved=achieved, slices=tuple(slices))
+    source = method_source(tick_costs, timing, options, period, on_landing)
+    return Workload((source, *task_sources), period, to_ticks(options.context_switch, resolution))
 
 
 class Cpu:
@@ -152,8 +169,32 @@ class Processor:
 
     def run(self) -> None:
         environment = simpy.Environment()
+        self._ended = environment.event()
         environment.process(self._timeline(environment))
-        environment.run()
+        environment.run(until=self._ended)
+
+    def end(self, now: int) -> None:
+        """Makes this instant the last: what is released and dispatched in it does not run."""
+        self.horizon = now
+        self._ended.succeed()
+
+    def state(self, now: int) -> Hashable:
+        """The unfinished jobs, in the order in which they will go on: all that the schedule from `now` on depends on,
+        beside the sources. To be asked before the releases of an instant."""
+        return tuple(
+            (
+                cpu.running
+                and cpu.running.state(now, cpu.finish - now, max(cpu.running.overhead - now + cpu.since, 0)),
+                tuple(job.state(now, job.remaining, job.overhead) for _, _, job in sorted(cpu.ready)),
+            )
+            for cpu in self.cpus
+        )
+
+    def overdue(self, now: int) -> bool:
+        """Whether a job has missed its deadline, finished or not."""
+        waiting = (job for cpu in self.cpus for _, _, job in cpu.ready)
+        running = (cpu.running for cpu in self.cpus if cpu.running is not None)
+        return self.first_miss is not None or any(job.deadline <= now for job in chain(waiting, running))
 
     def _timeline(self, environment: simpy.Environment) -> Generator[simpy.Event, None, None]:
         """Waits from one instant at which something happens to the next.
@@ -189,6 +230,7 @@ class Processor:
                             order_of_release += 1
                             heappush(cpus[new.cpu].ready, (new.priority, order_of_release, new))
             if now == horizon:
+                self._ended.succeed()
                 break
             until, order, source = releases[0]
             while until == now:  # 2. releases

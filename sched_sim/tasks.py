@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Hashable
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -55,3 +56,6 @@ class TaskSource:
 
     def at_horizon(self) -> tuple[Job, ...]:
         return ()
+
+    def state(self, now: int) -> Hashable:
+        return self.next_release - now

@@ -117,7 +117,8 @@ def _lowest_terms(periods: Quotient, resolution: int) -> Iterator[Least]:
 
 
 def _by_simulation(chunk: Chunk) -> Analysis:
-    """A point is feasible if the simulation has no miss at its speed; it lands at the latest L of all cycles."""
+    """A point is feasible if the simulation never has a miss at its speed; it lands at the latest L of all cycles, of
+    the first ones where something is missed."""
     costs, options = chunk.block.costs, chunk.block.options
     timings = [Timing(*design) for design in zip(*(axis.tolist() for axis in chunk.designs), strict=True)]
     found = [least_speed(costs, timing, options) for timing in timings]
@@ -130,12 +131,18 @@ def _by_simulation(chunk: Chunk) -> Analysis:
     return result
 
 
-def _simulated(costs: JobCosts, timing: Timing, speed: Fraction, options: Options) -> Outcome:
-    from sched_sim.search import cycles_to_simulate
-    from sched_sim.simulate import simulate
+FIRST_CYCLES = 4
+"""That are simulated to see where corrections land if deadlines are missed."""
 
-    cycles = cycles_to_simulate(timing, ())
-    schedule = simulate(costs, timing, speed, cycles, options)
+
+def _simulated(costs: JobCosts, timing: Timing, speed: Fraction, options: Options) -> Outcome:
+    from sched_sim.simulate import simulate
+    from sched_sim.steady import run_until_steady
+
+    steady = run_until_steady(costs, timing, speed, options)
+    if steady.repeats:
+        return Outcome(True, max(steady.schedule.achieved))
+    schedule = simulate(costs, timing, speed, FIRST_CYCLES, options)
     overrun = schedule.responses["hr"].misses > 0
-    landed = None if overrun or schedule.achieved.total() < cycles else max(schedule.achieved)
-    return Outcome(schedule.misses == 0, landed)
+    lands = not overrun and schedule.achieved.total() == FIRST_CYCLES
+    return Outcome(False, max(schedule.achieved) if lands else None)

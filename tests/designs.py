@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from typing import NamedTuple
 
 from hypothesis import strategies as st
@@ -16,6 +17,7 @@ from sched_sim.costs import (
     StandardCosts,
 )
 from sched_sim.options import Options
+from sched_sim.tasks import Task
 from sched_sim.timing import Timing
 
 ticks = st.integers(1, 5) | st.integers(1, 100)
@@ -67,3 +69,16 @@ def two_rate_designs(draw: st.DrawFn) -> Design:
 
 
 designs = serial_designs() | dual_rate_designs() | two_rate_designs()
+
+
+@st.composite
+def tasks_beside(draw: st.DrawFn, design: Design) -> list[Task]:
+    """One to three tasks whose periods divide ten cycles at most, of the filter's priorities too, with any offsets."""
+    N, cpus = design.timing.N, design.options.cpus
+    periods = st.sampled_from([Fraction(N), Fraction(2 * N), Fraction(1), Fraction(N, 2), Fraction(5 * N, 2)])
+    offsets = st.just(Fraction(0)) | st.fractions(0, 30, max_denominator=4)
+    return [
+        Task(name, draw(periods), Fraction(draw(ticks)), draw(st.sampled_from([5, 10, 15, 20, 30])), draw(offsets), cpu)
+        for name in draw(st.sampled_from(["a", "ab", "abc"]))
+        for cpu in [draw(st.integers(1, cpus))]
+    ]

@@ -10,6 +10,7 @@ import typer
 
 from sched_sim.cli import options as opt
 from sched_sim.cli.output import print_csv, print_json, print_table, units
+from sched_sim.cli.progress import simulations
 
 if TYPE_CHECKING:
     from sched_sim.costs import JobCosts
@@ -67,8 +68,9 @@ def minimum(
             typer.echo(f"Note: no {name}: {reason}", err=True)
             continue
         work = select(table, name, options, statistic)
-        found = None if part is None or rate is None else fit(work, timing, rate, options, others)
-        least = least_speed(work, timing, options, others) if found is None else found.least
+        with simulations(name) as on_progress:
+            found = None if part is None or rate is None else fit(work, timing, rate, options, others, on_progress)
+            least = least_speed(work, timing, options, others, on_progress) if found is None else found.least
         row = {
             "method": name,
             "N": N,
@@ -106,12 +108,11 @@ def minimum(
 def _landing(costs: JobCosts, timing: Timing, speed: Fraction, options: Options, tasks: Sequence[Task]) -> int:
     """The latest L at which a correction lands at the least speed."""
     from sched_sim.least_speed import achieved_l
-    from sched_sim.search import cycles_to_simulate
-    from sched_sim.simulate import simulate
 
     if tasks or options.context_switch:
-        cycles = cycles_to_simulate(timing, tasks)
-        return max(simulate(costs, timing, speed, cycles, options, tasks).achieved)
+        from sched_sim.steady import run_until_steady
+
+        return max(run_until_steady(costs, timing, speed, options, tasks).schedule.achieved)
     landed = achieved_l(costs, timing, speed, options)
     assert landed is not None
     return landed

@@ -11,8 +11,8 @@ from contextlib import contextmanager
 
 
 @contextmanager
-def progress_bar(title: str) -> Iterator[Callable[[int, int, str], None]]:
-    """A function to be called with (done, total, what is being done)."""
+def progress_bar(title: str) -> Iterator[Callable[[int, int | None, str], None]]:
+    """A function to be called with (done, total, what is being done); total: None where nobody knows it."""
     if not sys.stderr.isatty():
         yield lambda _done, _total, _what: None
         return
@@ -23,7 +23,14 @@ def progress_bar(title: str) -> Iterator[Callable[[int, int, str], None]]:
     with Progress(*columns, console=Console(stderr=True), transient=True, auto_refresh=False) as bar:
         task = bar.add_task(title)
 
-        def show(done: int, total: int, what: str) -> None:
+        def show(done: int, total: int | None, what: str) -> None:
             bar.update(task, completed=done, total=total, description=f"{title}: {what}", refresh=True)
 
         yield show
+
+
+@contextmanager
+def simulations(method: str) -> Iterator[Callable[[int], None]]:
+    """A function to be called with how many simulations the search for the least speed of `method` has run."""
+    with progress_bar("Simulating") as show:
+        yield lambda runs: show(runs, None, method)

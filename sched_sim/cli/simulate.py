@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from fractions import Fraction
+from math import ceil
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -13,7 +15,11 @@ from sched_sim.cli.output import print_csv, print_json, print_table
 from sched_sim.errors import InputError
 
 if TYPE_CHECKING:
+    from sched_sim.costs import JobCosts
+    from sched_sim.options import Options
     from sched_sim.schedule import Response, Slice
+    from sched_sim.tasks import Task
+    from sched_sim.timing import Timing
 
 GanttFile = Annotated[
     Path | None,
@@ -100,7 +106,6 @@ def simulate(
 
     from sched_sim.costs import MULTIRATE_METHODS, select
     from sched_sim.least_speed import least_speed
-    from sched_sim.search import cycles_to_simulate
     from sched_sim.simulate import simulate as run
     from sched_sim.trace import open_trace
 
@@ -142,10 +147,8 @@ def simulate(
         from reports.gantt import method_panel, save
 
         save(draw([method_panel(table, method, timing, pace, cycles, options, others, statistic=statistic)]), gantt)
-    if others and cycles < (whole := cycles_to_simulate(timing, others)):
-        typer.echo(
-            f"Note: {cycles} cycles are shown; with these tasks all is seen after {whole}: --cycles {whole}", err=True
-        )
+    if not schedule.misses and (note := unseen(work, timing, pace, cycles, options, others)):
+        typer.echo(f"Note: {note}", err=True)
     response = {kind: _response(figures, schedule.period) for kind, figures in schedule.responses.items()}
     document = {
         "achieved_l": achieved,
@@ -167,6 +170,38 @@ def simulate(
         if part is not None and rate is None:
             where += f", as fast as it can: HR period {1e6 * float(pace):.6g} us"
         _show(f"{method}, N={N}{delay} L={timing.L}, {where}", document, rate, method in MULTIRATE_METHODS)
+
+
+def unseen(
+    costs: JobCosts, timing: Timing, speed: Fraction, cycles: int, options: Options, tasks: Sequence[Task]
+) -> str | None:
+    """What is still to come after so many measurement cycles without a miss, in words; None if nothing new."""
+    from sched_sim.load import loads
+
+    shown = f"{cycles} {'cycle is' if cycles == 1 else 'cycles are'} shown"
+    if (most := max(loads(costs, timing, speed, options, tasks))) > 1:
+        return f"{shown}; the work is {_above(most)} of what the processor can do, and piles up without end"
+    if not tasks and not options.context_switch:
+        return None
+    from sched_sim.steady import run_until_steady
+
+    try:
+        steady = run_until_steady(costs, timing, speed, options, tasks)
+    except InputError as error:
+        return f"{shown}; not all is seen: {error}"
+    needed = ceil(Fraction(steady.steps, timing.N))
+    if needed <= cycles:
+        return None
+    if steady.repeats:
+        return f"{shown}; with these tasks all is seen after {needed}: --cycles {needed}"
+    if steady.schedule.misses:
+        return f"{shown}; a deadline is missed within {needed}: --cycles {needed}"
+    return f"{shown}; work piles up slowly: after {needed} cycles it had not come to rest, and nothing was missed yet"
+
+
+def _above(share: Fraction) -> str:
+    """A share above 1 in percent, which never reads as 100 %."""
+    return f"{float(100 * share):.4g} %" if share > Fraction(1001, 1000) else "a little more than 100 %"
 
 
 def _refuse_beside_scenario(context: typer.Context, scenario: Path) -> None:

@@ -105,20 +105,24 @@ def test_user_tasks_take_part(sched_sim: Run, tmp_path: Path) -> None:
 def test_with_tasks_the_landing_is_the_simulated_one_and_too_few_cycles_are_told(
     sched_sim: Run, tmp_path: Path
 ) -> None:
-    """Two tasks that meet the measurements only after 91 cycles: three cycles do not show it all."""
+    """Two tasks that meet the measurements only after 91 cycles: three cycles do not show it all, of misses either."""
     task = '[[task]]\nname = "{}"\nperiod = {}\ncost = 0.1\npriority = {}\n'
     (tmp_path / "tasks.toml").write_text(task.format("a", 7, 5) + task.format("b", 13, 15))
     line = "-N 10 -M 4 --method larsen --tasks tasks.toml --format json"
     assert json.loads(sched_sim(f"minimum {line} --hr-hz 400").out)[0]["correction_ms"] == 10.0
-    result = sched_sim(f"simulate {line} --speed 1.56")
-    assert result.code == 0
-    assert "after 182: --cycles 182" in result.err
+    assert "all is seen after 91: --cycles 91" in sched_sim(f"simulate {line} --speed 1.8").err
+    (tmp_path / "tasks.toml").write_text(task.format("c", 11, 5))  # first released with the update of m in step 44
+    later = sched_sim(f"simulate {line} --speed 1.56")
+    assert json.loads(later.out)["misses"] == 0
+    assert "a deadline is missed within 7: --cycles 7" in later.err
 
 
 def test_tasks_whose_periods_hardly_ever_meet_the_measurements_can_be_simulated(sched_sim: Run, tmp_path: Path) -> None:
     """Only the search for the least speed needs the schedule to repeat."""
     (tmp_path / "odd.toml").write_text('[[task]]\nname = "odd"\nperiod = 3.141592653\ncost = 0.1\npriority = 30\n')
-    assert sched_sim("simulate -N 10 -M 4 --speed 0.9 --tasks odd.toml").code == 0
+    simulated = sched_sim("simulate -N 10 -M 4 --speed 0.9 --tasks odd.toml")
+    assert simulated.code == 0
+    assert "not all is seen" in simulated.err
     refused = sched_sim("minimum -N 10 -M 4 --tasks odd.toml")
     assert refused.code == 2
     assert "odd 3.14159" in refused.err

@@ -9,12 +9,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from sched_sim.costs import DualRateCosts, StandardCosts, load, select
-from sched_sim.errors import InputError
+from sched_sim.costs import StandardCosts, load, select
 from sched_sim.least_speed import least_speed
 from sched_sim.options import Options
-from sched_sim.search import cycles_to_simulate, least_speed_by_simulation, search_resolution
+from sched_sim.search import least_speed_by_simulation, search_resolution
 from sched_sim.simulate import simulate
+from sched_sim.steady import run_until_steady
 from sched_sim.tasks import Task
 from sched_sim.timing import Timing
 from tests.designs import Design, designs
@@ -35,10 +35,9 @@ def test_with_context_switches_it_is_exact_to_one_tick(design: Design, context_s
     costs, timing, options = design
     options = replace(options, context_switch=context_switch)
     speed = least_speed(costs, timing, options).speed
-    cycles = cycles_to_simulate(timing, ())
-    assert simulate(costs, timing, speed, cycles, options).misses == 0
+    assert simulate(costs, timing, speed, 80, options).misses == 0
     slower = speed - Fraction(1, search_resolution(costs, options, ()))
-    assert simulate(costs, timing, slower, cycles, options).misses > 0
+    assert not run_until_steady(costs, timing, slower, options).repeats
 
 
 @pytest.mark.parametrize(
@@ -64,26 +63,3 @@ def test_rate_monotonic_tasks_need_what_liu_and_layland_say() -> None:
     least = least_speed(step, Timing(1, 0, 1), tasks=[slow])
     assert least.speed == 5  # one HR period is 5 units long: T1 = 5, C1 = 2, T2 = 7, C2 = 3
     assert least.binding == "task:slow"
-
-
-def test_at_the_least_speed_with_tasks_nothing_is_missed_and_below_it_something_is() -> None:
-    tasks = [
-        Task("control", Fraction(2), Fraction("0.1"), priority=5),
-        Task("telemetry", Fraction(5), Fraction("0.3"), priority=30, offset=Fraction(1, 2)),
-    ]
-    least = least_speed(PAPER, FIGURE_3, tasks=tasks)
-    cycles = cycles_to_simulate(FIGURE_3, tasks)
-    assert simulate(PAPER, FIGURE_3, least.speed, cycles, tasks=tasks).misses == 0
-    slower = least.speed - Fraction(1, search_resolution(PAPER, Options(), tasks))
-    assert simulate(PAPER, FIGURE_3, slower, cycles, tasks=tasks).misses > 0
-
-
-def test_it_simulates_offset_and_two_hyperperiods() -> None:
-    tasks = [Task("a", Fraction(3, 2), Fraction(1), 30), Task("b", Fraction(4), Fraction(1), 30, offset=Fraction(50))]
-    assert cycles_to_simulate(Timing(10, 4, 8), tasks) == (50 + 2 * 60) // 10
-
-
-def test_periods_that_hardly_ever_meet_are_refused_by_name() -> None:
-    odd = Task("odd", Fraction("3.141592653"), Fraction(1), 30)
-    with pytest.raises(InputError, match=r"round their periods \(odd 3\.14159\)"):
-        least_speed(DualRateCosts(6, 1, 2, 3, 0, 5), FIGURE_3, tasks=[odd])

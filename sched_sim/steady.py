@@ -1,0 +1,148 @@
+"""Runs a schedule until it is known that no deadline is ever missed: until what is left to do at the start of a
+hyperperiod returns.
+
+Costs are constant and releases periodic, so the schedule is a function of its state; once a state returns, all that
+comes has been seen (J. Y.-T. Leung and M. L. Merrill, A note on preemptive scheduling of periodic, real-time tasks,
+1980, for tasks alone; here jobs also release one another, and a fixed number of hyperperiods would prove nothing).
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Hashable, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from math import ceil, gcd, lcm
+
+from sched_sim.costs import JobCosts
+from sched_sim.errors import InputError
+from sched_sim.jobs import Job, RecurringSource, Source
+from sched_sim.options import Options
+from sched_sim.schedule import Schedule
+from sched_sim.simulate import Processor, workload_in_ticks
+from sched_sim.tasks import Task
+from sched_sim.timing import Timing
+
+LONGEST = 200_000
+"""HR periods until the last task has started, and from there until all repeats, that are simulated at the most."""
+
+FEWEST = 20_000
+"""HR periods that are simulated at the least before a schedule is said not to repeat."""
+
+LOOK = 64
+"""HR periods from one look for a miss to the next."""
+
+
+@dataclass(frozen=True, slots=True)
+class Steady:
+    """A schedule from its start until it repeats, a deadline is missed, or it was given up.
+
+    steps: HR periods that were simulated. repeats: no deadline is missed, however long it runs: what is left to do has
+    returned, so that all has been seen. Where it does not and nothing was missed, work piles up slowly.
+    """
+
+    schedule: Schedule
+    steps: int
+    repeats: bool
+
+
+def run_until_steady(
+    costs: JobCosts,
+    timing: Timing,
+    speed: Fraction,
+    options: Options = Options(),
+    tasks: Sequence[Task] = (),
+    at_most: int | None = None,
+) -> Steady:
+    """The schedule that `simulate` runs, for as many HR periods as it takes, but not more than `at_most`, by default
+    `longest_run`; a miss may be seen LOOK periods late.
+
+    costs, speed: as for `simulate`. Raises InputError as `simulate` and `longest_run` do.
+    """
+    longest = longest_run(timing, tasks)
+    achieved: Counter[int] = Counter()
+    workload = workload_in_ticks(costs, timing, speed, options, tasks, lambda _cycle, L: achieved.update((L,)))
+    period = workload.period
+    hyperperiod = hyperperiod_steps(timing, tasks) * period
+    watch = Watch(workload.sources, period, hyperperiod)
+    horizon = min(at_most or longest, longest) * period
+    processor = Processor([watch, *workload.sources], period, horizon, options.cpus, workload.context_switch, None)
+    watch.processor = processor
+    processor.run()
+    schedule = replace(processor.schedule(), achieved=achieved)
+    return Steady(schedule, processor.horizon // period, watch.repeats)
+
+
+def hyperperiod_steps(timing: Timing, tasks: Sequence[Task]) -> int:
+    """HR periods after which measurements and tasks are released together again as they were."""
+    hyperperiod = Fraction(timing.N)
+    for task in tasks:
+        hyperperiod = Fraction(
+            lcm(hyperperiod.numerator, task.period.numerator), gcd(hyperperiod.denominator, task.period.denominator)
+        )
+    return hyperperiod.numerator
+
+
+def longest_run(timing: Timing, tasks: Sequence[Task]) -> int:
+    """HR periods to simulate before a schedule is said not to repeat: until the last task has started, and six
+    hyperperiods. Raises InputError where one of the two is longer than LONGEST."""
+    hyperperiod, started = hyperperiod_steps(timing, tasks), max((ceil(task.offset) for task in tasks), default=0)
+    if started > LONGEST:
+        last = max(tasks, key=lambda task: task.offset)
+        raise InputError(
+            f"task {last.name!r}: offset {float(last.offset):g} is more than the {LONGEST} HR periods that are "
+            f"simulated: give one below its period, {float(last.period):g}"
+        )
+    if hyperperiod > LONGEST and not tasks:
+        raise InputError(
+            f"N={timing.N} is more than the {LONGEST} HR periods that are simulated to find what context switches "
+            f"cost: give a smaller N, or no --context-switch"
+        )
+    if hyperperiod > LONGEST:
+        raise InputError(
+            f"the tasks repeat together with the measurements only after {hyperperiod:.3g} HR periods: round their "
+            f"periods ({', '.join(f'{task.name} {float(task.period):g}' for task in tasks)}) to a common grid with "
+            f"N={timing.N}"
+        )
+    return started + max(6 * hyperperiod, FEWEST)
+
+
+class Watch(Source):
+    """Releases nothing: looks at the processor before others release, and ends the run when all has been seen.
+
+    States are compared by R. P. Brent's rule (An improved Monte Carlo factorization algorithm, 1980): each with the
+    last one whose number, counted from one, is a power of two.
+    """
+
+    def __init__(self, sources: Sequence[RecurringSource], period: int, hyperperiod: int) -> None:
+        self.sources = sources
+        self.processor: Processor
+        self.look = LOOK * period
+        self.hyperperiod = hyperperiod
+        self.next_release = self.boundary = 0
+        self.repeats = False
+        self.states = 0
+        self.kept: Hashable = None
+
+    def release(self) -> tuple[Job, ...]:
+        now, processor = self.next_release, self.processor
+        missed = processor.overdue(now)
+        if now == self.boundary and not missed:
+            self.boundary += self.hyperperiod
+            self.repeats = self._returned(now)
+        if self.repeats or missed:
+            processor.end(now)
+        self.next_release = min(now + self.look, self.boundary)
+        return ()
+
+    def at_horizon(self) -> tuple[Job, ...]:
+        return ()
+
+    def _returned(self, now: int) -> bool:
+        state = self.processor.state(now), tuple(source.state(now) for source in self.sources)
+        if state == self.kept:
+            return True
+        self.states += 1
+        if self.states.bit_count() == 1:
+            self.kept = state
+        return False
