@@ -25,7 +25,7 @@ LOCK_ENV = env -u VIRTUAL_ENV -u UV_INDEX -u UV_DEFAULT_INDEX -u UV_INDEX_URL -u
 LOCK_UV  = $(or $(UV),build/uv/bin/uv)
 
 .DEFAULT_GOAL := help
-.PHONY: help run test lint types imports unit bench install lock clean
+.PHONY: help run test lint types imports unit exhaust bench install lock clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z]*\):.*## /\1|/p' Makefile | while IFS='|' read -r name what; do \
@@ -48,6 +48,9 @@ imports: $(STAMP) ## import-linter: who may import whom
 
 unit: $(STAMP) ## pytest, the slow tests too
 	$(BIN)/python -m pytest -n 2 --dist worksteal
+
+exhaust: $(STAMP) ## what takes too long for `make test`, with its figures (EXHAUST_SHARE=0.01: a hundredth of it)
+	$(BIN)/python -m pytest -n 2 --dist worksteal -m exhaust
 
 bench: $(STAMP) ## the benchmarks (installs the extra `bench`)
 	@if [ -n "$(UV)" ]; then $(UV_SYNC) --extra bench; else \

@@ -11,6 +11,7 @@ from hypothesis import HealthCheck, settings
 
 from sched_sim.cli import main
 from tests.command_line import Result, Run
+from tests.exhaust import figures
 
 os.environ["MPLBACKEND"] = "Agg"  # in the environment, so that child processes inherit it
 
@@ -23,6 +24,23 @@ settings.register_profile(
     suppress_health_check=[HealthCheck.too_slow],
 )
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "ci"))
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Leaves out the tests marked `exhaust`, unless `-m` names them."""
+    if "exhaust" not in config.option.markexpr:
+        left_out = [item for item in items if item.get_closest_marker("exhaust")]
+        if left_out:
+            config.hook.pytest_deselected(items=left_out)
+            items[:] = [item for item in items if item not in left_out]
+
+
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter, config: pytest.Config) -> None:
+    if "exhaust" in config.option.markexpr:
+        ran = [report for name in ("passed", "failed") for report in terminalreporter.stats.get(name, [])]
+        terminalreporter.section("figures")
+        for line in figures(report for report in ran if report.when == "call"):
+            terminalreporter.write_line(line)
 
 
 @pytest.fixture
