@@ -11,97 +11,67 @@ Most of the time to compile goes into parts that nobody calls, at every level of
 from compiled code only, and is not optimised before it is inlined, save for the kernels: LLVM vectorises their loops
 only while they stand alone, without which the dense inverse takes half as long again.
 
-Machine code is kept in the user's cache folder. numba's own cache looks only at the file of the outermost function
-and so goes stale when a callee in another file changes; here the folder's name carries a hash of the sources of all
-functions involved. Functions passed as arguments (those of a system model) are part of a signature, and numba finds
-them again in another process by an identity that is derived from the same hash.
+Machine code is kept in the user's cache folder (`disk_cache`) under the digest of all that it depends on. Functions
+passed as arguments (those of a system model) are part of a signature, and known in another process by their digests.
 """
 
 from __future__ import annotations
 
-import hashlib
-import inspect
-import os
-import uuid
 from importlib import import_module
-from pathlib import Path
 from types import FunctionType
 from typing import Any
+from uuid import NAMESPACE_URL, uuid5
 
-import numpy as np
-
-from filters.kernels.disk_cache import keep_on_disk
-from filters.kernels.rebind import callees, named_values, rebind
+from filters.kernels.dependencies import Dependencies
+from filters.kernels.disk_cache import DiskCache
+from filters.kernels.rebind import Versions
 
 # Functions in these modules neither allocate nor return arrays. numba need not count references in them, which it would
 # do for every array taken out of a record, and LLVM would not remove all of it: half the time of a short update.
 _PARTS = ("kernels", "covariance_forms", "factored", "robust", "modular")
 _ALLOCATION_FREE = tuple(f"filters.{part}." for part in _PARTS)
 
-_COMPILED: dict[FunctionType, Any] = {}
-_INLINED: dict[FunctionType, Any] = {}
-
 
 def compiled(function: FunctionType) -> Any:
     """The numba version of a plain function for callers in Python; compiled when called with arguments of new types.
 
-    Functions in its arguments must be the `inlined` versions. Same function in, same object out, so that nothing is
-    compiled twice. Floating-point operations are neither reordered nor fused, so that results agree with the plain
-    function to the last bits; division by zero gives inf.
+    Functions in its arguments must be the `inlined` versions. As long as nothing changes that the function depends on,
+    the same object comes out, so that nothing is compiled twice. Floating-point operations are neither reordered nor
+    fused, so that results agree with the plain function to the last bits; division by zero gives inf.
     """
-    if function not in _COMPILED:
-        parts = {callee: inlined(callee) for callee in callees(function).values() if callee is not function}
-        _COMPILED[function] = rebind(function, _kept_on_disk, parts)
-    return _COMPILED[function]
+    return _COMPILED.of(function)
 
 
 def inlined(function: FunctionType) -> Any:
     """The numba version of a plain function for callers in compiled code, such as a job given to a timing loop."""
-    return rebind(function, _inlined, _INLINED)
+    return _INLINED.of(function)
 
 
-def source_hash(function: FunctionType) -> str:
-    """A hash of the source of a function and of all that it calls, in whatever file, and of the constants they name.
-
-    numba writes constants of a module or a closure, arrays too, into the machine code.
-    """
-    digest = hashlib.sha256(Path(__file__).read_bytes())  # the way of compiling counts too
-    for item in _with_callees(function, {}):
-        digest.update(f"{item.__module__}.{item.__qualname__}\n{_source(item)}\n".encode())
-        for name, value in named_values(item).items():
-            if isinstance(value, np.ndarray):
-                digest.update(f"{name} {value.dtype} {value.shape}".encode() + value.tobytes())
-            elif isinstance(value, int | float | complex | str | tuple):
-                digest.update(f"{name} {value!r}".encode())
-    return digest.hexdigest()[:24]
+def _kept_on_disk(clone: FunctionType, _original: FunctionType, known: Dependencies) -> Any:
+    version = _jit(clone)
+    if not known.opaque:
+        version._cache = DiskCache(clone.__name__, known.digest)
+    return version
 
 
-def cache_folder(function: FunctionType) -> Path:
-    """Where the machine code of a function is kept: $XDG_CACHE_HOME/sched_sim/numba/NAME-HASH."""
-    home = os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
-    return Path(home) / "sched_sim" / "numba" / f"{function.__name__}-{source_hash(function)}"
-
-
-def _kept_on_disk(clone: FunctionType, original: FunctionType) -> Any:
-    dispatcher = _jit(clone)
-    keep_on_disk(dispatcher, cache_folder(original))
-    return dispatcher
-
-
-def _inlined(clone: FunctionType, original: FunctionType) -> Any:
-    module = original.__module__
-    options = {} if module.startswith("filters.kernels.") else {"pipeline_class": _compiler_without_optimiser}
-    dispatcher = _jit(
+def _inlined(clone: FunctionType, _original: FunctionType, known: Dependencies) -> Any:
+    options = {} if clone.__module__.startswith("filters.kernels.") else {"pipeline_class": _compiler_without_optimiser}
+    version = _jit(
         clone,
         forceinline=True,
         no_cpython_wrapper=True,
         no_cfunc_wrapper=True,
-        _nrt=not module.startswith(_ALLOCATION_FREE),
+        _nrt=not clone.__module__.startswith(_ALLOCATION_FREE),
         **options,
     )
-    identity = uuid.uuid5(uuid.NAMESPACE_URL, f"sched_sim:{original.__qualname__}:{source_hash(original)}")
-    dispatcher._set_uuid(str(identity))
-    return dispatcher
+    if not (known.opaque or isinstance(version, FunctionType)):  # with NUMBA_DISABLE_JIT, numba gives a plain function
+        version.digest = known.digest
+        version._set_uuid(str(uuid5(NAMESPACE_URL, f"sched_sim:{known.digest}")))
+    return version
+
+
+_INLINED = Versions(_inlined)
+_COMPILED = Versions(_kept_on_disk, parts=_INLINED)
 
 
 def _compiler_without_optimiser(typing: Any, target: Any, _library: None, *rest: Any) -> Any:
@@ -113,19 +83,3 @@ def _compiler_without_optimiser(typing: Any, target: Any, _library: None, *rest:
 def _jit(clone: FunctionType, **options: Any) -> Any:
     njit: Any = import_module("numba").njit
     return njit(error_model="numpy", **options)(clone)
-
-
-def _with_callees(function: FunctionType, found: dict[FunctionType, None]) -> dict[FunctionType, None]:
-    if function not in found:
-        found[function] = None
-        for callee in callees(function).values():
-            _with_callees(callee, found)
-    return found
-
-
-def _source(function: FunctionType) -> str:
-    """The function's source, or its byte code where it was made without a file."""
-    try:
-        return inspect.getsource(function)
-    except OSError:
-        return f"{function.__code__.co_code.hex()} {function.__code__.co_consts!r}"

@@ -1,70 +1,99 @@
 """Clone a function with everything that it calls replaced: one source, several ways to run it.
 
-    def update(...): gain(...)          rebind(update, jit)  ->  jit(update'), in which `gain` is jit(gain')
+    def update(...): gain(...)          Versions(jit).of(update)  ->  jit(update'), in which `gain` is jit(gain')
 
 The source stays undecorated, so that the same lines can be read, run, counted on special scalars and compiled.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from types import CellType, CodeType, FunctionType
+from collections.abc import Callable, Mapping
+from types import CellType, FunctionType, ModuleType
 from typing import Any
 
-Wrap = Callable[[FunctionType, FunctionType], Any]
+import numpy as np
+
+from filters.kernels.bind import like
+from filters.kernels.dependencies import Dependencies, dependencies, is_of_library, named_attributes, named_values
+
+Wrap = Callable[[FunctionType, FunctionType, Dependencies], Any]
 
 
-def named_values(function: FunctionType) -> dict[str, Any]:
-    """What the names in `function` stand for that come from its module's globals or from its closure."""
-    names = _names(function.__code__)
-    return {
-        **{name: function.__globals__[name] for name in names if name in function.__globals__},
-        **dict(_closure(function)),
-    }
+class Versions:
+    """The version of each function, made once for as long as what the function depends on stays as it is.
 
-
-def callees(function: FunctionType) -> dict[str, FunctionType]:
-    """The plain functions among its `named_values`."""
-    return {name: value for name, value in named_values(function).items() if isinstance(value, FunctionType)}
-
-
-def rebind(function: FunctionType, wrap: Wrap, versions: dict[FunctionType, Any]) -> Any:
-    """A clone of `function` that calls clones of what it called, and so on down; recursive functions are handled.
-
-    wrap(clone, original) gives the version that callers get to see.
-    versions: those known before, used as they are; the new ones are added, so that a function is cloned once.
-    The originals and their modules are not touched.
+    wrap(clone, original, dependencies) gives the version that callers get to see.
+    given: versions that are used as they are.
+    parts: where the versions of callees come from, if not from here.
     """
-    if function in versions:
-        return versions[function]
 
-    names = dict(function.__globals__)
-    cells = {name: CellType(value) for name, value in _closure(function)}
-    closure = tuple(cells[name] for name in function.__code__.co_freevars)
-    clone = FunctionType(function.__code__, names, function.__name__, function.__defaults__, closure)
-    clone.__kwdefaults__ = function.__kwdefaults__
-    clone.__qualname__ = function.__qualname__
-    clone.__module__ = function.__module__
-    clone.__doc__ = function.__doc__
-    versions[function] = version = wrap(clone, function)  # known before descending: a function may call itself
+    def __init__(
+        self, wrap: Wrap, given: Mapping[FunctionType, Any] | None = None, parts: Versions | None = None
+    ) -> None:
+        self._wrap = wrap
+        self._given = given or {}
+        self._parts = parts or self
+        self._made: dict[str, tuple[Any, Dependencies]] = {}  # opaque values are kept alive: they are known by address
 
-    for name, callee in callees(function).items():
-        bound = rebind(callee, wrap, versions)
-        if name in cells:
-            cells[name].cell_contents = bound
-        else:
-            names[name] = bound
-    return version
+    def of(self, function: FunctionType) -> Any:
+        """A clone of `function` that calls clones of what it called, and so on down; recursive functions are handled.
+
+        The originals and their modules are not touched. A clone keeps the constants as they are now: modules that it
+        names are copied, arrays too.
+        """
+        if function in self._given:
+            return self._given[function]
+        known = dependencies(function)
+        if known.digest in self._made:
+            return self._made[known.digest][0]
+
+        names = dict(function.__globals__)
+        cells = {name: CellType() for name in function.__code__.co_freevars}
+        clone = FunctionType(function.__code__, names, function.__name__, closure=tuple(cells.values()))
+        clone.__qualname__ = function.__qualname__
+        clone.__module__ = function.__module__
+        clone.__doc__ = function.__doc__
+        snapshot = _Snapshot(function, self._parts.of)
+        clone.__defaults__ = snapshot.of(function.__defaults__)
+        clone.__kwdefaults__ = {name: snapshot.of(value) for name, value in (function.__kwdefaults__ or {}).items()}
+
+        version = self._wrap(clone, function, known)
+        self._made[known.digest] = version, known  # before descending: a function may call itself
+        for name, value in named_values(function).items():
+            bound = version if value is function else snapshot.of(value)
+            if name in cells:
+                cells[name].cell_contents = bound
+            else:
+                names[name] = bound
+        return version
 
 
-def _closure(function: FunctionType) -> Iterator[tuple[str, Any]]:
-    for name, cell in zip(function.__code__.co_freevars, function.__closure__ or (), strict=True):
-        yield name, cell.cell_contents
+class _Snapshot:
+    """Values that a function names, as nobody changes them any more, with version(f) for each plain function f."""
 
+    def __init__(self, function: FunctionType, version: Callable[[FunctionType], Any]) -> None:
+        self._function = function
+        self._version = version
+        self._modules: dict[ModuleType, ModuleType] = {}  # modules may name each other
 
-def _names(code: CodeType) -> Iterator[str]:
-    """The global names in a code object and in those nested in it (comprehensions, lambdas)."""
-    yield from code.co_names
-    for constant in code.co_consts:
-        if isinstance(constant, CodeType):
-            yield from _names(constant)
+    def of(self, value: Any) -> Any:
+        if is_of_library(value):
+            return value
+        if isinstance(value, FunctionType):
+            return self._version(value)
+        if type(value) is tuple or (isinstance(value, tuple) and hasattr(value, "_fields")):
+            return like(value, [self.of(item) for item in value])
+        if type(value) is np.ndarray:
+            copy = value.copy(order="K")
+            copy.flags.writeable = value.flags.writeable
+            return copy
+        if isinstance(value, ModuleType):
+            return self._module(value)
+        return value
+
+    def _module(self, module: ModuleType) -> ModuleType:
+        if module not in self._modules:
+            self._modules[module] = copy = ModuleType(module.__name__)
+            for name, value in named_attributes(module, self._function).items():
+                setattr(copy, name, self.of(value))
+        return self._modules[module]

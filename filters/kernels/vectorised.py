@@ -9,14 +9,14 @@ import numpy as np
 
 from filters.arrays import FloatArray
 from filters.kernels import dense, solve
-from filters.kernels.rebind import rebind
+from filters.kernels.rebind import Versions
 from filters.kernels.vectorised_blocks import BLOCK_VERSIONS
 from filters.kernels.vectorised_factors import FACTOR_VERSIONS
 
 
 def vectorised(function: FunctionType) -> Any:
     """A clone of a plain function that calls NumPy where the original calls a kernel that fills arrays."""
-    return rebind(function, lambda clone, _original: clone, _VERSIONS)
+    return _VECTORISED.of(function)
 
 
 def _matmul(A: FloatArray, B: FloatArray, out: FloatArray) -> None:
@@ -91,3 +91,5 @@ _VERSIONS: dict[FunctionType, Any] = {
         *BLOCK_VERSIONS,
     )
 }
+
+_VECTORISED = Versions(lambda clone, _original, _known: clone, given=_VERSIONS)
