@@ -1,8 +1,10 @@
 """Worker processes that die: nothing is lost, and the guilty point is named."""
 
+import errno
 import operator
 import os
 from functools import partial
+from multiprocessing import synchronize
 
 import pytest
 
@@ -53,3 +55,12 @@ def test_an_error_in_the_work_is_raised():
 def test_once_stopped_no_more_is_begun():
     found = list(compute(operator.call, spans(3), lambda span: partial(list, span), 2, lambda: True))
     assert found == []
+
+
+def test_where_no_worker_can_be_started_the_work_is_done_here(monkeypatch):
+    def read_only(*_, **__):
+        raise OSError(errno.EROFS, "Read-only file system")
+
+    monkeypatch.setattr(synchronize.SemLock, "__init__", read_only)  # as with a read-only /dev/shm
+    found = compute(operator.call, spans(3), lambda span: partial(lambda: (os.getpid(), *span)), 2, lambda: False)
+    assert list(found) == [(os.getpid(), *span) for span in spans(3)]
