@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import astuple, replace
+from dataclasses import astuple
 from fractions import Fraction
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -59,8 +59,7 @@ def least_speed(
     if tasks or options.context_switch:
         from sched_sim.search import least_speed_by_simulation
 
-        alone = least_speed(costs, timing, replace(options, context_switch=Fraction(0))).speed
-        return LeastSpeed(*least_speed_by_simulation(costs, timing, options, tasks, alone, on_progress))
+        return LeastSpeed(*least_speed_by_simulation(costs, timing, options, tasks, on_progress))
     resolution, in_ticks = _in_ticks(costs)
     N, M, L = (np.array([value], dtype=object) for value in (timing.N, timing.M, timing.L))
     least = analysis.least_period(in_ticks, N, M, L, options)

@@ -32,20 +32,18 @@ def least_speed_by_simulation(
     timing: Timing,
     options: Options,
     tasks: Sequence[Task],
-    at_least: Fraction,
     on_progress: OnProgress = lambda _runs: None,
 ) -> tuple[Fraction, str]:
     """(least speed, binding): there no deadline is ever missed, since all that can come has been seen
     (`run_until_steady`); one tick of period less is too slow: a deadline is missed, or work piles up without end.
 
-    at_least: a speed below which it cannot be: that of the same filter alone on the processor.
-    Where a slower processor may be lucky and do again (with context-switch costs, it may switch less often), there are
-    several such speeds, and this is one of them.
+    Where a slower processor may be lucky and do again (it may switch less often, or land in a shorter HR job), there
+    are several such speeds, and this is one of them.
     Raises InputError if the tasks repeat with the measurements only after a very long time.
     """
     longest = longest_run(timing, tasks)
     resolution = search_resolution(costs, options, tasks)
-    floor = max(at_least, *loads(costs, timing, Fraction(1), options, tasks))
+    floor = max(loads(costs, timing, Fraction(1), options, tasks))
     runs = count(1)
 
     def run(period: int, steps: int) -> Steady:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 from typing import NamedTuple
 
@@ -72,13 +73,19 @@ designs = serial_designs() | dual_rate_designs() | two_rate_designs()
 
 
 @st.composite
-def tasks_beside(draw: st.DrawFn, design: Design) -> list[Task]:
-    """One to three tasks whose periods divide ten cycles at most, of the filter's priorities too, with any offsets."""
+def loaded_designs(draw: st.DrawFn) -> tuple[Design, list[Task]]:
+    """Context switches that cost something, and one to three tasks whose periods meet the measurements within ten
+    cycles, of the filter's priorities too, with any offsets; of the two at least one."""
+    design = draw(designs)
     N, cpus = design.timing.N, design.options.cpus
+    names = draw(st.sampled_from(["", "a", "ab", "abc"]))
+    switch = draw(st.just(Fraction(0)) | st.fractions(Fraction(1, 10), 3, max_denominator=10))
+    options = replace(design.options, context_switch=switch if names else switch or Fraction(1, 10))
     periods = st.sampled_from([Fraction(N), Fraction(2 * N), Fraction(1), Fraction(N, 2), Fraction(5 * N, 2)])
     offsets = st.just(Fraction(0)) | st.fractions(0, 30, max_denominator=4)
-    return [
-        Task(name, draw(periods), Fraction(draw(ticks)), draw(st.sampled_from([5, 10, 15, 20, 30])), draw(offsets), cpu)
-        for name in draw(st.sampled_from(["a", "ab", "abc"]))
-        for cpu in [draw(st.integers(1, cpus))]
+    priorities = st.sampled_from([5, 10, 15, 20, 30])
+    tasks = [
+        Task(name, draw(periods), Fraction(draw(ticks)), draw(priorities), draw(offsets), draw(st.integers(1, cpus)))
+        for name in names
     ]
+    return design._replace(options=options), tasks
