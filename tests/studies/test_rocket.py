@@ -144,7 +144,7 @@ def test_right_after_ignition_it_knows_where_it_is() -> None:
 # ------------------------------------------------------------------------------------------------------- the claims
 
 
-@pytest.mark.slow
+@pytest.mark.exhaust
 def test_the_claim_holds_of_position_as_a_share_of_distance() -> None:
     """Within a second of ignition, up to 80 % of all measurements lost, and without any one of the sensors."""
     for case in (*DROPOUT_CASES[:3], *BLIND_CASES):
@@ -155,14 +155,14 @@ def test_the_claim_holds_of_position_as_a_share_of_distance() -> None:
     assert residual("position / distance from the pad").mean < 0.2
 
 
-@pytest.mark.slow
+@pytest.mark.exhaust
 def test_the_claim_does_not_hold_of_each_axis() -> None:
     """Where a coordinate is small, no error is a small share of it."""
     assert residual("worst axis / its coordinate").worst > 100
     assert residual("horizontal / horizontal distance", DROPOUT_CASES[2]).runs_hold < 80
 
 
-@pytest.mark.slow
+@pytest.mark.exhaust
 def test_the_claim_holds_of_orientation_as_a_share_of_all_that_was_turned() -> None:
     """A little more than a second after ignition, for a share of nothing is not small; and as quaternions, always."""
     row = residual("orientation / all turned")
@@ -173,13 +173,13 @@ def test_the_claim_holds_of_orientation_as_a_share_of_all_that_was_turned() -> N
     assert residual("difference of quaternions").worst < 1
 
 
-@pytest.mark.slow
+@pytest.mark.exhaust
 def test_the_claim_does_not_hold_of_orientation_if_most_is_lost() -> None:
     assert residual("orientation / all turned", DROPOUT_CASES[-1]).runs_hold < 50
     assert residual("nose / turn of the nose", DROPOUT_CASES[-1]).within < 85
 
 
-@pytest.mark.slow
+@pytest.mark.exhaust
 def test_errors_grow_with_dropout() -> None:
     rows = {row.case: row for row in results().errors}
     means = np.array([rows[case].mean for case in DROPOUT_CASES])
@@ -189,7 +189,7 @@ def test_errors_grow_with_dropout() -> None:
     assert (means[3] > 6 * means[0]).all()
 
 
-@pytest.mark.slow
+@pytest.mark.exhaust
 def test_each_sensor_is_for_something() -> None:
     """Without GPS: position. Without the accelerometer: velocity and acceleration. Without a camera: orientation."""
     rows = {row.case: row.mean for row in results().errors}
@@ -202,7 +202,7 @@ def test_each_sensor_is_for_something() -> None:
         assert (ratio > 0.9).all()
 
 
-@pytest.mark.slow
+@pytest.mark.exhaust
 def test_the_filter_is_as_accurate_as_it_says_but_for_thrust_onset() -> None:
     """NEES of the 15 errors in each phase; that of acceleration rises when thrust sets in within 50 ms."""
     rows = {(row.phase, row.of): row for row in results().nees if row.case == BASE}
@@ -216,7 +216,7 @@ def test_the_filter_is_as_accurate_as_it_says_but_for_thrust_onset() -> None:
     assert series.nees[0, first].max() > 1.5 * series.bounds.high
 
 
-@pytest.mark.slow
+@pytest.mark.exhaust
 def test_the_filter_is_too_sure_of_itself_if_most_is_lost() -> None:
     """95 %: it takes thrust onset and roll for white noise, and has seen too little of them."""
     rows = {(row.phase, row.of): row for row in results().nees if row.case == DROPOUT_CASES[-1]}
@@ -224,7 +224,7 @@ def test_the_filter_is_too_sure_of_itself_if_most_is_lost() -> None:
         assert rows[phase, "all"].mean > 1.2 * rows[phase, "all"].bounds.high
 
 
-@pytest.mark.slow
+@pytest.mark.exhaust
 def test_results_are_of_all_cases_and_readings() -> None:
     found = results()
     assert found.apogee_m.shape == (COUNT,)
@@ -237,7 +237,7 @@ def test_results_are_of_all_cases_and_readings() -> None:
         assert (series.median <= series.high).all()
 
 
-@pytest.mark.slow
+@pytest.mark.exhaust
 def test_progress_is_told_and_side_cases_fly_with_few_seeds() -> None:
     told = []
     found = study.rocket_study(

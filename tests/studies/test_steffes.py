@@ -31,7 +31,7 @@ def test_the_shipped_counts_are_those_of_the_code() -> None:
     assert counted.provenance == shipped.provenance
 
 
-@pytest.mark.slow
+@pytest.mark.exhaust
 def test_compiled_costs_come_within_0_05_of_tables_1_to_3() -> None:
     """In one of six quick measurements, usually the first: other work on the machine can only disturb them."""
     system = example_system(9, 3, 3)
