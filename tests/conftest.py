@@ -5,6 +5,8 @@ from __future__ import annotations
 import os
 import sys
 from pathlib import Path
+from random import Random
+from typing import Any
 
 import pytest
 from hypothesis import HealthCheck, settings
@@ -15,19 +17,20 @@ from tests.exhaust import figures
 
 os.environ["MPLBACKEND"] = "Agg"  # in the environment, so that child processes inherit it
 
-settings.register_profile("ci", derandomize=True, deadline=None, print_blob=True)
-settings.register_profile(
-    "thorough",
-    max_examples=2000,
-    deadline=None,
-    print_blob=True,
-    suppress_health_check=[HealthCheck.too_slow],
-)
+ANY_TIME: dict[str, Any] = {"deadline": None, "suppress_health_check": [HealthCheck.too_slow]}  # of a busy machine
+settings.register_profile("ci", derandomize=True, print_blob=True, **ANY_TIME)
+settings.register_profile("thorough", max_examples=2000, print_blob=True, **ANY_TIME)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "ci"))
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addoption("--shuffle", type=int, metavar="SEED", help="run the tests in a random order")
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
     """Leaves out the tests marked `exhaust`, unless `-m` names them."""
+    if config.option.shuffle is not None:
+        Random(config.option.shuffle).shuffle(items)
     if "exhaust" not in config.option.markexpr:
         left_out = [item for item in items if item.get_closest_marker("exhaust")]
         if left_out:

@@ -103,7 +103,7 @@ def test_lu_without_pivoting_fails_where_mu_is_infinite(case: str) -> None:
     close(finite.P, step(model, before, y, c, mu=1e5).P, 1e-6)
 
 
-@pytest.mark.slow
+@pytest.mark.exhaust
 @pytest.mark.parametrize("case", [*VECTOR_CASES, *REAL_CASES])
 def test_all_ways_agree_over_2000_steps(case: str) -> None:
     """To 1e-10, relative: P, each singular value of it, and x; and P stays positive definite."""
@@ -122,7 +122,7 @@ def test_all_ways_agree_over_2000_steps(case: str) -> None:
         np.testing.assert_allclose(np.linalg.svd(found.P, compute_uv=False), singular_values, rtol=1e-10)
 
 
-@pytest.mark.slow
+@pytest.mark.exhaust
 @pytest.mark.parametrize("mu", [np.inf, 1e5])
 def test_exact_measurements_cost_digits(mu: float) -> None:
     """With E_D = D / 2 the yaw's noise cancels in the limit, and its P falls by six digits in the first step."""
