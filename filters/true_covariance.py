@@ -41,13 +41,18 @@ def true_covariance(system: System, P0: FloatArray, gains: FloatArray) -> TrueCo
             before[..., 0, :, :] = P0
         else:
             Phi = system.F(j - 1, x, u, system.parameters)
-            before[..., j, :, :] = Phi @ after[..., j - 1, :, :] @ Phi.T + system.Q(j - 1, system.parameters)
+            Q = system.Q(j - 1, system.parameters)
+            before[..., j, :, :] = _symmetric(Phi @ after[..., j - 1, :, :] @ Phi.T + Q)
         H, R = system.H(j, x, system.parameters), system.R(j, system.parameters)
         K = gains[..., j, :, :]
         A = np.eye(n) - K @ H
-        after[..., j, :, :] = A @ before[..., j, :, :] @ _transposed(A) + K @ R @ _transposed(K)
+        after[..., j, :, :] = _symmetric(A @ before[..., j, :, :] @ _transposed(A) + K @ R @ _transposed(K))
     return TrueCovariance(before, after)
 
 
 def _transposed(matrices: FloatArray) -> FloatArray:
     return np.swapaxes(matrices, -1, -2)
+
+
+def _symmetric(matrices: FloatArray) -> FloatArray:
+    return 0.5 * (matrices + _transposed(matrices))

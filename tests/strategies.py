@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from filters.arrays import FloatArray
 from filters.simulation import simulate_truth
 from filters.systems.example import example_system
+from filters.systems.linear import linear_system
 from filters.systems.system import System
 
 Landing = Literal["at-arrival", "next-step", "same-step"]
@@ -65,3 +66,13 @@ def problem(system: System, N: int, M: int, L: int, steps: int, seed: int) -> Pr
 
 def _edges_or_between(first: int, last: int) -> st.SearchStrategy[int]:
     return st.sampled_from([first, last]) | st.integers(first, last)
+
+
+def unstable_system(seed: int) -> System:
+    """A random constant linear system of 4 states, 1 input and 2 measurements, with eigenvalues beyond 1."""
+    random = np.random.default_rng(seed)
+    Phi = random.normal(size=(4, 4))
+    Phi *= random.uniform(1.02, 1.3) / np.abs(np.linalg.eigvals(Phi)).max()
+    roots = random.normal(size=(4, 4)), random.normal(size=(2, 2))
+    Q, R = (root @ root.T / len(root) + 0.1 * np.eye(len(root)) for root in roots)
+    return linear_system(Phi, random.normal(size=(4, 1)), random.normal(size=(2, 4)), Q, R)

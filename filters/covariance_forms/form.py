@@ -20,6 +20,9 @@ DelayedCovariance: TypeAlias = Callable[
 class CovarianceForm(NamedTuple):
     """The places in which forms differ: everything that takes a product of matrices.
 
+    Covariances come out exactly symmetric: the lower triangle is mirrored, at no operation. What is antisymmetric in P
+    never gets smaller in P - (H P)^T S^-1 (H P) and grows with Phi of an unstable plant.
+
     product(A, B, out): writes A B, all (n, n), Eq. (16).
     propagation(Phi, P, Q, out, work): writes Phi P Phi^T + Q, all (n, n), Eqs. (8), (14) and (18); P may be work.nn3.
 

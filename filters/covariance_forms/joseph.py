@@ -5,7 +5,7 @@ from __future__ import annotations
 from filters.arrays import FloatArray
 from filters.covariance_forms.form import CovarianceForm
 from filters.covariance_forms.textbook import gain, propagation
-from filters.kernels.dense import add, matmul, matmul_narrow, matmul_transposed, subtract
+from filters.kernels.dense import add, matmul, matmul_narrow, matmul_transposed, mirror, subtract
 from filters.records import Workspace
 
 
@@ -18,6 +18,7 @@ def covariance(P: FloatArray, H: FloatArray, R: FloatArray, K: FloatArray, out: 
     matmul_narrow(K, R, work.np1)
     matmul_transposed(work.np1, K, work.nn2, work.pn1)
     add(out, work.nn2, out)
+    mirror(out)
 
 
 def delayed_covariance(
@@ -36,6 +37,7 @@ def delayed_covariance(
     matmul(Phi, work.nn1, work.nn2)
     matmul_transposed(work.nn2, Phi, work.nn1, work.nn3)
     subtract(P_m, work.nn1, out)
+    mirror(out)
 
 
 FORM = CovarianceForm(matmul, propagation, gain, covariance, delayed_covariance)

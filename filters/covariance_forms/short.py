@@ -14,6 +14,7 @@ from filters.kernels.dense import (
     matmul_blocked,
     matmul_narrow,
     matmul_transposed_narrow,
+    mirror,
     negate,
     transpose,
 )
@@ -26,6 +27,7 @@ def propagation(Phi: FloatArray, P: FloatArray, Q: FloatArray, out: FloatArray, 
     matmul_blocked(Phi, P, work.nn1)
     transpose(Phi, work.nn2)
     add_matmul_blocked(Q, work.nn1, work.nn2, out)
+    mirror(out)
 
 
 def gain(P: FloatArray, H: FloatArray, R: FloatArray, K: FloatArray, work: Workspace) -> None:
@@ -42,6 +44,7 @@ def covariance(P: FloatArray, _H: FloatArray, _R: FloatArray, K: FloatArray, out
     """P_{k^+} = P - K (H P), equal to Eq. (11)."""
     negate(K, work.np1)
     add_matmul_blocked(P, work.np1, work.HP, out)
+    mirror(out)
 
 
 def delayed_covariance(
@@ -60,6 +63,7 @@ def delayed_covariance(
     transpose(Phi, work.nn1)
     matmul_blocked(work.HP, work.nn1, work.pn1)
     add_matmul_blocked(P_m, work.np1, work.pn1, out)
+    mirror(out)
 
 
 FORM = CovarianceForm(matmul_blocked, propagation, gain, covariance, delayed_covariance)

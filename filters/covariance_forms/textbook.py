@@ -10,6 +10,7 @@ from filters.kernels.dense import (
     matmul_narrow,
     matmul_transposed,
     matmul_transposed_narrow,
+    mirror,
     subtract,
 )
 from filters.kernels.solve import inverse
@@ -21,6 +22,7 @@ def propagation(Phi: FloatArray, P: FloatArray, Q: FloatArray, out: FloatArray, 
     matmul(Phi, P, work.nn1)
     matmul_transposed(work.nn1, Phi, out, work.nn2)
     add(out, Q, out)
+    mirror(out)
 
 
 def gain(P: FloatArray, H: FloatArray, R: FloatArray, K: FloatArray, work: Workspace) -> None:
@@ -38,6 +40,7 @@ def covariance(P: FloatArray, H: FloatArray, _R: FloatArray, K: FloatArray, out:
     matmul(K, H, work.nn1)
     subtract(work.I, work.nn1, work.nn1)
     matmul(work.nn1, P, out)
+    mirror(out)
 
 
 def delayed_covariance(
@@ -56,6 +59,7 @@ def delayed_covariance(
     matmul(work.nn1, P, work.nn2)
     matmul_transposed(work.nn2, Phi, work.nn1, work.nn3)
     subtract(P_m, work.nn1, out)
+    mirror(out)
 
 
 FORM = CovarianceForm(matmul, propagation, gain, covariance, delayed_covariance)

@@ -55,6 +55,10 @@ def _transpose(A: FloatArray, out: FloatArray) -> None:
     out[:] = A.T
 
 
+def _mirror(P: FloatArray) -> None:
+    np.copyto(P, P.T, where=~np.tri(len(P), dtype=bool))
+
+
 def _inverse(S: FloatArray, out: FloatArray, _scratch: FloatArray) -> None:
     out[:] = np.linalg.inv(S)
 
@@ -84,6 +88,7 @@ _VERSIONS: dict[FunctionType, Any] = {
         (dense.add_matmul_blocked, _add_matmul),
         (dense.negate, _negate),
         (dense.transpose, _transpose),
+        (dense.mirror, _mirror),
         (solve.inverse, _inverse),
         (solve.cholesky, _cholesky),
         (solve.solve_cholesky, _solve_cholesky),
