@@ -24,7 +24,6 @@ from filters.modular.measurements import Arrivals, Measurement, arrivals
 from filters.modular.problem import check_linearised, check_problem
 from filters.modular.running import running
 from filters.records import Correction, Estimate
-from filters.systems.composed import composed_system
 
 
 def run(
@@ -47,6 +46,8 @@ def run(
             fit the sensor; a measurement is taken between the sensor's steps or arrives too late for L; and as
             `late.run`.
     """
+    from filters.systems.composed import composed_system  # which is made of parts of this package
+
     check_linearised(composed, "dual-rate")
     sensor = _only_sensor(composed)
     N, lands = sensor.every, sensor.every if L is None else L

@@ -1,0 +1,38 @@
+"""Each module of the four packages can be imported first, before any other of them."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+exhaust = pytest.mark.exhaust
+
+IMPORT_EACH = """
+import os, sys, traceback
+import jinja2, matplotlib.pyplot, numpy, pydantic, rich, simpy, typer  # once for all, for they do not know the packages
+
+for name in sys.argv[1:]:
+    child = os.fork()
+    if child == 0:
+        try:
+            __import__(name)
+        except BaseException as error:
+            print(f"{name}: {error!r}", flush=True)
+        os._exit(0)
+    os.waitpid(child, 0)
+"""
+
+
+@pytest.mark.parametrize(
+    "package",
+    ["filters", *(pytest.param(name, marks=exhaust) for name in ("reports", "sched_sim", "studies"))],
+)
+def test_each_module_alone(package: str) -> None:
+    files = [file.relative_to(ROOT).with_suffix("") for file in (ROOT / package).rglob("*.py")]
+    names = sorted(".".join(file.parts).removesuffix(".__init__") for file in files if file.name != "__main__")
+    run = subprocess.run(
+        [sys.executable, "-W", "ignore", "-c", IMPORT_EACH, *names], capture_output=True, text=True, check=True
+    )
+    assert run.stdout.splitlines() == []
