@@ -11,6 +11,7 @@ from typing import Any, Literal, NamedTuple, TypeAlias
 import numpy as np
 
 from filters.arrays import FloatArray
+from filters.breakdown import check_history, sturdier
 from filters.covariance_forms import CovarianceFormName, covariance_form
 from filters.covariance_forms.form import CovarianceForm
 from filters.high_rate import hr_restart, hr_update
@@ -18,6 +19,7 @@ from filters.history import History, HistoryRecorder
 from filters.kernels.backends import BackendName, arguments_for, function_for
 from filters.low_rate import lr_correct, lr_gain, lr_update
 from filters.low_rate_noise import NOISE_METHODS, LowRateNoise, NoiseMethod
+from filters.measured import Measurements
 from filters.problem import check_choice, check_problem
 from filters.records import Correction, Estimate, new_correction, new_workspace
 from filters.systems.system import System
@@ -131,6 +133,7 @@ class LowRateTask:
         return self._correction
 
 
+@np.errstate(all="ignore")
 def run(
     system: System,
     N: int,
@@ -139,7 +142,7 @@ def run(
     x0: FloatArray,
     P0: FloatArray,
     inputs: FloatArray,
-    measurements: FloatArray,
+    measurements: Measurements,
     *,
     update: CovarianceFormName = "textbook",
     low_rate_noise: LowRateNoise = "exact",
@@ -155,34 +158,35 @@ def run(
     feedback: "next-step" corrects at the start of step l, M < L <= N, where l = k + N comes before the next x_{k^-} is
         taken; "same-step" corrects at the end of step l, M <= L < N.
     """
-    check_problem(system, N, M, L, x0, P0, inputs, measurements)
+    given = check_problem(system, N, M, L, x0, P0, inputs, measurements)
+    moves, y = given.inputs, given.measured.y
     check_choice("low_rate_noise", low_rate_noise, ("exact", "sum", "euler"))
     check_choice("gain", gain, ("at-update", "precomputed"))
     check_choice("feedback", feedback, ("next-step", "same-step"))
     _check_feedback_step(N, M, L, feedback)
     noise, form = NOISE_METHODS[low_rate_noise], covariance_form(update)
-    high_rate = HighRateTask(system, N, x0, noise, form, backend)
-    low_rate = LowRateTask(system, P0, noise, form, gain, backend)
+    high_rate = HighRateTask(given.system, N, given.start.x, noise, form, backend)
+    low_rate = LowRateTask(given.system, given.start.P, noise, form, gain, backend)
     recorder = HistoryRecorder(system)
 
     correction: Correction | None = None
-    for j in range(len(inputs) + 1):
+    for j in range(len(moves) + 1):
         if j > 0:
-            high_rate.step(j - 1, inputs[j - 1])
+            high_rate.step(j - 1, moves[j - 1])
         if feedback == "next-step" and correction is not None and j % N == L % N:
             high_rate.correct(L, correction.delta_x)
             correction = None
         if j % N == 0:
-            measured = j // N < len(measurements)
+            measured = j // N < len(y)
             recorder.reference(low_rate.propagate(high_rate.message(j), measured=measured))
-        if j % N == M and j // N < len(measurements):  # m < k + N, so the cycle is still that of k
-            correction = low_rate.update(measurements[j // N])
+        if j % N == M and j // N < len(y):  # m < k + N, so the cycle is still that of k
+            correction = low_rate.update(y[j // N])
             recorder.correction(correction)
         if feedback == "same-step" and correction is not None and j % N == L:
             high_rate.correct(L, correction.delta_x)
             correction = None
         recorder.state(high_rate.x)
-    return recorder.history()
+    return check_history(recorder.history(), given, N, sturdier(update), backend)
 
 
 def _check_feedback_step(N: int, M: int, L: int, feedback: Feedback) -> None:

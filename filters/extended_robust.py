@@ -12,14 +12,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from filters.arrays import FloatArray
+from filters.breakdown import breakdown, first_broken
 from filters.kernels.backends import BackendName, arguments_for, function_for
 from filters.kernels.dense import store_vector
 from filters.problem import check_choice
 from filters.robust.check import check_start
-from filters.robust.model import RobustModel, Weights, prepared, weights
+from filters.robust.model import RobustModel, Weights, prepared, weights, without_measurement
 from filters.robust.records import Predicted
-from filters.robust.step import JOBS, STUDIED, StepJob
-from filters.systems.uncertain import Scaling, UncertainSystem, Uncertainty, linearised, without_measurement
+from filters.robust.step import JOBS, REMEDY, STUDIED, StepJob
+from filters.systems.uncertain import Scaling, UncertainSystem, Uncertainty, linearised
 
 
 class ExtendedHistory(NamedTuple):
@@ -132,6 +133,7 @@ def filter_all(
         store_vector(work.next_x, history.x, i + 1)
 
 
+@np.errstate(all="ignore")
 def run(
     system: UncertainSystem,
     scaling: Scaling,
@@ -148,16 +150,18 @@ def run(
     way: str = "closed",
     backend: BackendName = "compiled",
 ) -> ExtendedHistory:
-    """Filter a record of data. Where a step breaks down, as LU without pivoting may, the rest of the history is nan.
+    """Filter a record of data.
 
     x0 (n,), in the units of the system, P0 (n, n), scaled: the prediction for step 0.
     inputs (steps, any): row i takes the state from i to i + 1.
     measurements (cycles, p): row c is taken in step cN and used in it. available (cycles,): false where it is missing.
     mu, xi: as in `filters.robust.step.step`. way: of `filters.robust.step`, one of JOBS or STUDIED.
+        Where one of STUDIED breaks down, as LU without pivoting may, the rest of the history is nan.
 
     Raises:
         ValueError: N or the number of measurements is wrong, the model fails the checks of `prepared`, x0 and P0 those
-            of `step`, the system cannot be at a state (such as a pitch of 90 degrees), or a name is unknown.
+            of `step`, an input or a measurement that is not missing is not finite, the system cannot be at a state
+            (such as a pitch of 90 degrees), a name is unknown, or P ceases to be a covariance: the step is named.
     """
     jobs: dict[str, StepJob] = dict([*JOBS.items(), *STUDIED.items()])
     check_choice("way", way, tuple(jobs))
@@ -168,6 +172,9 @@ def run(
             f"N={N} must be at least 1, and {len(inputs)} steps need {cycles} rows of measurements and availability; "
             f"there are {len(measurements)} and {len(given)}"
         )
+    for name, values in (("inputs", inputs), ("measurements", measurements[:cycles][given[:cycles]])):
+        if not np.isfinite(values).all():
+            raise ValueError(f"{name} holds a value that is not finite; say with `available` which measurements came")
     n, steps = len(x0), len(inputs)
     model = linearised(system, scaling, uncertainty, x0, inputs[0])
     job = jobs[way]
@@ -190,6 +197,9 @@ def run(
         history,
         work,
     )
+    broken = None if way in STUDIED else first_broken(history.x, history.P, 1, backend)
+    if broken is not None:
+        raise breakdown(broken - 1, REMEDY)
     return history
 
 

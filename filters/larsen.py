@@ -5,11 +5,13 @@ from __future__ import annotations
 import numpy as np
 
 from filters.arrays import FloatArray
+from filters.breakdown import check_history, sturdier
 from filters.covariance_forms import CovarianceFormName, covariance_form
 from filters.covariance_forms.form import CovarianceForm
 from filters.history import History, HistoryRecorder
 from filters.kernels.backends import BackendName, arguments_for, function_for
 from filters.kernels.dense import add_vectors, matvec
+from filters.measured import Measurements
 from filters.problem import check_problem
 from filters.records import Correction, Estimate, Workspace, new_correction, new_estimate, new_workspace
 from filters.standard import propagate
@@ -59,6 +61,7 @@ def extrapolated_update(
     form.delayed_covariance(Phi_from_k, reference.P, H, R, correction.K, before.P, after.P, work)
 
 
+@np.errstate(all="ignore")
 def run(
     system: System,
     N: int,
@@ -67,7 +70,7 @@ def run(
     x0: FloatArray,
     P0: FloatArray,
     inputs: FloatArray,
-    measurements: FloatArray,
+    measurements: Measurements,
     *,
     update: CovarianceFormName = "textbook",
     backend: BackendName = "reference",
@@ -76,46 +79,44 @@ def run(
 
     Arguments, results and errors as in `standard.run`. The correction is in the state of step m, whatever L is.
     """
-    check_problem(system, N, M, L, x0, P0, inputs, measurements)
+    given = check_problem(system, N, M, L, x0, P0, inputs, measurements)
+    moves, y = given.inputs, given.measured.y
     run_propagate = function_for(backend, propagate)
     run_propagate_accumulate = function_for(backend, propagate_accumulate)
     run_update_at_once = function_for(backend, update_at_once)
     run_update = function_for(backend, extrapolated_update)
-    form, model = arguments_for(backend, covariance_form(update)), arguments_for(backend, system)
+    form, model = arguments_for(backend, covariance_form(update)), arguments_for(backend, given.system)
     work = new_workspace(system)
     recorder = HistoryRecorder(system)
 
-    estimate = reference = Estimate(np.array(x0, dtype=np.float64), np.array(P0, dtype=np.float64))
+    estimate = reference = given.start
     Phi_from_k = np.eye(system.states)
-    for j in range(len(inputs) + 1):
+    for j in range(len(moves) + 1):
         if j > 0:
             i, before, estimate = j - 1, estimate, new_estimate(system)
             if i % N == 0:
-                Phi_from_k = run_propagate(
-                    model, form, i, before, inputs[i], estimate, work
-                )  # the product so far, (15)
+                Phi_from_k = run_propagate(model, form, i, before, moves[i], estimate, work)  # the product so far, (15)
             elif i % N < M:
                 Phi_before, Phi_from_k = Phi_from_k, np.empty_like(Phi_from_k)
-                run_propagate_accumulate(model, form, i, before, Phi_before, inputs[i], estimate, Phi_from_k, work)
+                run_propagate_accumulate(model, form, i, before, Phi_before, moves[i], estimate, Phi_from_k, work)
             else:
-                run_propagate(model, form, i, before, inputs[i], estimate, work)
+                run_propagate(model, form, i, before, moves[i], estimate, work)
 
         if j % N == 0 and M < N:
             reference = estimate
             recorder.reference(reference.P)
 
         k = j - M
-        if k >= 0 and k % N == 0 and k // N < len(measurements):
-            y = measurements[k // N]
+        if k >= 0 and k % N == 0 and k // N < len(y):
             before, estimate, correction = estimate, new_estimate(system), new_correction(system)
             if M == 0:
-                run_update_at_once(model, form, k, y, before, estimate, correction, work)
+                run_update_at_once(model, form, k, y[k // N], before, estimate, correction, work)
             else:
-                run_update(model, form, k, y, reference, Phi_from_k, before, estimate, correction, work)
+                run_update(model, form, k, y[k // N], reference, Phi_from_k, before, estimate, correction, work)
             recorder.correction(correction)
 
         if j % N == 0 and M == N:  # the measurement that has just arrived belonged to the reference before this one
             reference = estimate
             recorder.reference(reference.P)
         recorder.state(estimate.x)
-    return recorder.history()
+    return check_history(recorder.history(), given, N, sturdier(update), backend)

@@ -9,6 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from filters.arrays import FloatArray
+from filters.breakdown import check_history, sturdier
 from filters.covariance_forms import CovarianceFormName
 from filters.factored import FactoredFormName, factored_form
 from filters.factored.form import FactoredForm
@@ -16,9 +17,11 @@ from filters.factored.workspace import FactoredWorkspace, new_factored_workspace
 from filters.history import History, HistoryRecorder
 from filters.kernels.backends import BackendName, arguments_for, function_for
 from filters.kernels.dense import add_vectors
+from filters.measured import Measurements
 from filters.problem import check_measurement_noise, check_multirate_problem
 from filters.records import Correction, new_correction
 from filters.systems.coarse import over
+from filters.systems.lossy import lossy
 from filters.systems.system import System
 from filters.update import update_error
 
@@ -93,13 +96,14 @@ def cycle_in_use(j: int, n: int, L: int) -> int:
     return max(j - L, 0) // n
 
 
+@np.errstate(all="ignore")
 def run(
     system: System,
     n: int,
     x0: FloatArray,
     P0: FloatArray,
     inputs: FloatArray,
-    measurements: FloatArray,
+    measurements: Measurements,
     *,
     coarse: System | None = None,
     form: FactoredFormName = "conventional",
@@ -112,7 +116,9 @@ def run(
     n: steps between gains. L: the gain of k is in use from step k + L on, 0 <= L <= n; before step L, that of k = 0.
     x0 (states,), P0 (states, states): estimate and covariance at step 0, before its measurement.
     inputs (steps, inputs): row j takes the state from j to j + 1.
-    measurements (steps + 1, measurements): row j is used in step j.
+    measurements (steps + 1, measurements): row j is used in step j. None in place of a row, or of a number in it, says
+        that it was lost: it corrects nothing. A gain is computed with the numbers of which at least one came in its n
+        steps, k to k + n - 1; for n = 1 that is the standard filter.
     coarse: the system over n steps, `over(system, n)` if not given; its functions get the steps of `system`, and the
         estimate and input at the start of an interval.
     form: how the covariance is kept. update: the covariance form by which the conventional one multiplies.
@@ -121,17 +127,19 @@ def run(
     row per step, and gains are those used: K(t, n dT) / n.
 
     Raises:
-        ValueError: n, L or a shape is wrong, a name is unknown, R of some k is not positive definite, or coarse is not
-            given and `over` refuses to make it.
+        ValueError: n, L or a shape is wrong, a name is unknown, R of some k is not positive definite, a number is not
+            finite, or coarse is not given and `over` refuses to make it; and as `standard.run`.
     """
-    check_multirate_problem(system, n, L, x0, P0, inputs, measurements)
+    given = check_multirate_problem(system, n, L, x0, P0, inputs, measurements)
+    moves, (y, present) = given.inputs, given.measured
     coarse = over(system, n) if coarse is None else coarse
     if coarse[:3] != system[:3]:
         raise ValueError(
             f"coarse has {coarse.states} states, {coarse.inputs} inputs and {coarse.measurements} measurements, the "
             f"system {system.states}, {system.inputs} and {system.measurements}; they must be the same"
         )
-    for k in range(0, len(inputs) + 1, n):
+    coarse = lossy(coarse, n, np.logical_or.reduceat(present, range(0, len(y), n)))
+    for k in range(0, len(y), n):
         check_measurement_noise(coarse.R(k, coarse.parameters), k)
     kept = factored_form(form, update)
     run_predict = function_for(backend, state_predict)
@@ -142,30 +150,30 @@ def run(
     work = new_factored_workspace(system)
     recorder = HistoryRecorder(system)
 
-    x = x_last = np.array(x0, dtype=np.float64)
+    x = x_last = given.start.x
     factors = np.empty((system.states, system.states))
     gains: list[FloatArray] = []
-    for j in range(len(inputs) + 1):
+    for j in range(len(y)):
         x_before, x = x, x.copy()
         if j > 0:
-            run_predict(model, j, x_before, inputs[j - 1], x)
+            run_predict(model, j, x_before, moves[j - 1], x)
         if j % n == 0:
             predicted, posterior, P = np.empty_like(factors), np.empty_like(factors), np.empty_like(factors)
             K = np.empty((system.states, system.measurements))
             if j == 0:
-                kept.factor(np.array(P0, dtype=np.float64), predicted)
+                kept.factor(given.start.P, predicted)
                 run_divided_gain(coarse_model, bound, j, n, x, predicted, K, posterior, work)
             else:
-                u = inputs[j - n]
+                u = moves[j - n]
                 run_covariance_gain(coarse_model, bound, j, n, x_last, u, x, factors, predicted, K, posterior, work)
             kept.covariance(predicted, P)
             recorder.reference(P)
             factors = posterior
             gains.append(K)
-        correction = new_correction(system)._replace(K=gains[cycle_in_use(j, n, L)])
-        run_correct(model, j, measurements[j], correction, x)
+        correction = new_correction(system)._replace(K=np.where(present[j], gains[cycle_in_use(j, n, L)], 0.0))
+        run_correct(model, j, y[j], correction, x)
         if j % n == 0:
             x_last = x
         recorder.correction(correction)
         recorder.state(x)
-    return recorder.history()
+    return check_history(recorder.history(), given, n, sturdier(update, form), backend, coarse)

@@ -2,10 +2,29 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
+from numpy.typing import ArrayLike
 
 from filters.arrays import FloatArray
+from filters.measured import Measured, Measurements, measured
+from filters.records import Estimate
+from filters.systems.lossy import lossy
 from filters.systems.system import System
+
+
+class Problem(NamedTuple):
+    """What a run is given, once it is checked: as arrays of floats, P0 exactly symmetric.
+
+    system: that of the run; where measurements were lost, `lossy`. start: x0 and P0.
+    inputs (steps, m); measured: rows (any, p).
+    """
+
+    system: System
+    start: Estimate
+    inputs: FloatArray
+    measured: Measured
 
 
 def check_problem(
@@ -13,30 +32,38 @@ def check_problem(
     N: int,
     M: int,
     L: int,
-    x0: FloatArray,
-    P0: FloatArray,
-    inputs: FloatArray,
-    measurements: FloatArray,
-) -> None:
-    """Raises ValueError, naming the argument, unless 0 <= M <= L <= N, N >= 1, and all shapes fit the system."""
+    x0: ArrayLike,
+    P0: ArrayLike,
+    inputs: ArrayLike,
+    measurements: Measurements,
+) -> Problem:
+    """Raises ValueError, naming the argument, unless 0 <= M <= L <= N, N >= 1, all shapes fit and all is finite."""
+    for name, value in (("N", N), ("M", M), ("L", L)):
+        if not isinstance(value, int | np.integer):
+            raise ValueError(f"{name}={value!r} must be a whole number of steps")
     if N < 1:
         raise ValueError(f"N={N} must be at least 1: it is the number of steps between measurements")
     if not 0 <= M <= L <= N:
         raise ValueError(f"M={M}, L={L}, N={N} must satisfy 0 <= M <= L <= N")
-    _check_start_and_inputs(system, x0, P0, inputs)
-    _check_shape("measurements", measurements, (len(measurements), system.measurements))
+    start, moves = _start_and_inputs(system, x0, P0, inputs)
+    found = measured(system.measurements, N, measurements)
+    return Problem(lossy(system, N, found.present), start, moves, found)
 
 
 def check_multirate_problem(
-    system: System, n: int, L: int, x0: FloatArray, P0: FloatArray, inputs: FloatArray, measurements: FloatArray
-) -> None:
-    """Raises ValueError, naming the argument, unless 0 <= L <= n, n >= 1, and all shapes fit: a measurement a step."""
+    system: System, n: int, L: int, x0: ArrayLike, P0: ArrayLike, inputs: ArrayLike, measurements: Measurements
+) -> Problem:
+    """As `check_problem` for a measurement in every step. Raises ValueError unless 0 <= L <= n, n >= 1, and so on."""
     if not isinstance(n, int | np.integer) or n < 1:
         raise ValueError(f"n={n!r} must be a whole number, at least 1: it is the number of steps between gains")
     if not isinstance(L, int | np.integer) or not 0 <= L <= n:
         raise ValueError(f"L={L}, n={n} must satisfy 0 <= L <= n: a gain is in use before the next one is computed")
-    _check_start_and_inputs(system, x0, P0, inputs)
-    _check_shape("measurements", measurements, (len(inputs) + 1, system.measurements))
+    start, moves = _start_and_inputs(system, x0, P0, inputs)
+    found = measured(system.measurements, 1, measurements)
+    if len(found.y) != len(moves) + 1:
+        needed = len(moves) + 1, system.measurements
+        raise ValueError(f"measurements has shape {found.y.shape}, the system needs {needed}")
+    return Problem(system, start, moves, found)
 
 
 def check_covariance(name: str, P: FloatArray) -> None:
@@ -66,17 +93,28 @@ def check_measurement_noise(R: FloatArray, k: int) -> None:
         )
 
 
-def _check_start_and_inputs(system: System, x0: FloatArray, P0: FloatArray, inputs: FloatArray) -> None:
-    n, m = system.states, system.inputs
-    _check_shape("x0", x0, (n,))
-    _check_shape("P0", P0, (n, n))
-    check_covariance("P0", P0)
-    _check_shape("inputs", inputs, (len(inputs), m))
+def _start_and_inputs(system: System, x0: ArrayLike, P0: ArrayLike, inputs: ArrayLike) -> tuple[Estimate, FloatArray]:
+    n = system.states
+    x, P = _numbers("x0", x0, (n,)), _numbers("P0", P0, (n, n))
+    check_covariance("P0", P)
+    steps = np.shape(inputs)[0] if np.ndim(inputs) else 0
+    return Estimate(x, 0.5 * (P + P.T)), _numbers("inputs", inputs, (steps, system.inputs))
 
 
-def _check_shape(name: str, array: FloatArray, needed: tuple[int, ...]) -> None:
-    if np.shape(array) != needed:
-        raise ValueError(f"{name} has shape {np.shape(array)}, the system needs {needed}")
+def _numbers(name: str, value: ArrayLike, needed: tuple[int, ...]) -> FloatArray:
+    """A contiguous copy of finite numbers."""
+    try:
+        if np.iscomplexobj(value):
+            raise TypeError("it is complex")
+        array = np.array(value, dtype=np.float64, order="C")
+    except (TypeError, ValueError) as error:
+        raise ValueError(f"{name} is no array of numbers: {error}") from error
+    if array.shape != needed:
+        raise ValueError(f"{name} has shape {array.shape}, the system needs {needed}")
+    if not np.isfinite(array).all():
+        at = ", ".join(map(str, np.argwhere(~np.isfinite(array))[0]))
+        raise ValueError(f"{name} holds a value that is not finite, at [{at}]; give numbers")
+    return array
 
 
 def check_choice(name: str, value: str, choices: tuple[str, ...]) -> None:

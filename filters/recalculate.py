@@ -10,14 +10,17 @@ import numpy as np
 
 from filters import standard
 from filters.arrays import FloatArray
+from filters.breakdown import check_history, sturdier
 from filters.covariance_forms import CovarianceFormName, covariance_form
 from filters.history import History, HistoryRecorder
 from filters.kernels.backends import BackendName, arguments_for, function_for
+from filters.measured import Measurements
 from filters.problem import check_problem
 from filters.records import Estimate, new_correction, new_estimate, new_workspace
 from filters.systems.system import System
 
 
+@np.errstate(all="ignore")
 def run(
     system: System,
     N: int,
@@ -26,7 +29,7 @@ def run(
     x0: FloatArray,
     P0: FloatArray,
     inputs: FloatArray,
-    measurements: FloatArray,
+    measurements: Measurements,
     *,
     update: CovarianceFormName = "textbook",
     backend: BackendName = "reference",
@@ -35,20 +38,21 @@ def run(
 
     Arguments, results and errors as in `standard.run`. The correction is in the state of step m, whatever L is.
     """
-    check_problem(system, N, M, L, x0, P0, inputs, measurements)
+    given = check_problem(system, N, M, L, x0, P0, inputs, measurements)
+    moves, y = given.inputs, given.measured.y
     propagate = function_for(backend, standard.propagate)
     update_at_k = function_for(backend, standard.update)
-    form, model = arguments_for(backend, covariance_form(update)), arguments_for(backend, system)
+    form, model = arguments_for(backend, covariance_form(update)), arguments_for(backend, given.system)
     work = new_workspace(system)
     recorder = HistoryRecorder(system)
 
     def propagated(j: int, before: Estimate) -> Estimate:
         after = new_estimate(system)
-        propagate(model, form, j, before, inputs[j], after, work)
+        propagate(model, form, j, before, moves[j], after, work)
         return after
 
-    estimate = reference = Estimate(np.array(x0, dtype=np.float64), np.array(P0, dtype=np.float64))
-    for j in range(len(inputs) + 1):
+    estimate = reference = given.start
+    for j in range(len(moves) + 1):
         if j > 0:
             estimate = propagated(j - 1, estimate)
         if j % N == 0 and M < N:
@@ -56,10 +60,10 @@ def run(
             recorder.reference(reference.P)
 
         k = j - M
-        if k >= 0 and k % N == 0 and k // N < len(measurements):
+        if k >= 0 and k % N == 0 and k // N < len(y):
             correction = new_correction(system)
             estimate = new_estimate(system)
-            update_at_k(model, form, k, measurements[k // N], reference, estimate, correction, work)
+            update_at_k(model, form, k, y[k // N], reference, estimate, correction, work)
             for i in range(k, j):
                 estimate = propagated(i, estimate)
             recorder.correction(correction)
@@ -68,4 +72,4 @@ def run(
             reference = estimate
             recorder.reference(reference.P)
         recorder.state(estimate.x)
-    return recorder.history()
+    return check_history(recorder.history(), given, N, sturdier(update), backend)

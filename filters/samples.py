@@ -59,7 +59,7 @@ def sample(system: System, seed: int, index: int, x0: FloatArray | None = None) 
     inputs = random.normal(size=(m + 1, system.inputs))
     truth = simulate_truth(system, 1, start, P0, inputs, int(random.integers(2**31)))
     used = truth.measurements[:k]
-    before = standard.run(system, 1, 0, 0, start, P0, inputs[:k], used, backend="numpy")
+    before = standard.run(system, 1, 0, 0, start, P0, inputs[:k], used, update="joseph", backend="numpy")
     reference = Estimate(before.x[k], before.P_reference[k])
 
     work = new_workspace(system)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from filters.arrays import FloatArray
+from filters.breakdown import check_history, sturdier
 from filters.covariance_forms import CovarianceFormName, covariance_form
 from filters.covariance_forms.form import CovarianceForm
 from filters.history import History
@@ -16,6 +17,7 @@ from filters.kernels.dense import (
     store,
     store_vector,
 )
+from filters.measured import Measurements
 from filters.problem import check_problem
 from filters.records import (
     Correction,
@@ -93,6 +95,7 @@ def filter_all(
         store_vector(corrected.x, history.x, j)
 
 
+@np.errstate(all="ignore")
 def run(
     system: System,
     N: int,
@@ -101,7 +104,7 @@ def run(
     x0: FloatArray,
     P0: FloatArray,
     inputs: FloatArray,
-    measurements: FloatArray,
+    measurements: Measurements,
     *,
     update: CovarianceFormName = "textbook",
     backend: BackendName = "reference",
@@ -112,28 +115,33 @@ def run(
     x0 (n,), P0 (n, n): estimate and covariance at step 0, before its measurement.
     inputs (steps, m): row j takes the state from j to j + 1.
     measurements (cycles, p): row c is taken at k = cN; where there are fewer than steps // N + 1, the last are missing.
+        None in place of a row, or of a number in it, says that it was lost: the filter uses the rest, as if H and R had
+        no other rows. Of what was lost the innovation is nan and the gain zero.
+    update: the covariance form. With textbook and short, P may cease to be a covariance where R is near 1e-16 H P H^T,
+        the rounding of what it is taken from; joseph bears more, and most do the factors of P that
+        `multirate_gain.run` can keep, for n = 1 the same filter.
 
     Raises:
-        ValueError: N, M, L or a shape is wrong, or a name is unknown.
+        ValueError: N, M, L or a shape is wrong, a name is unknown, or a number is not finite; the system gives one that
+            is not; or a covariance is no longer one, see `breakdown`. The step is named, and what to do.
     """
-    check_problem(system, N, M, L, x0, P0, inputs, measurements)
-    steps, cycles = len(inputs), len(inputs) // N + 1
-    updates = min(cycles, len(measurements))
+    given = check_problem(system, N, M, L, x0, P0, inputs, measurements)
+    steps, cycles = len(given.inputs), len(given.inputs) // N + 1
+    updates = min(cycles, len(given.measured.y))
     n, p = system.states, system.measurements
     history = History(
         np.empty((steps + 1, n)), np.empty((cycles, n, n)), np.empty((updates, p)), np.empty((updates, n, p))
     )
-    start = Estimate(np.array(x0, dtype=np.float64), np.array(P0, dtype=np.float64))
     function_for(backend, filter_all)(
-        arguments_for(backend, system),
+        arguments_for(backend, given.system),
         arguments_for(backend, covariance_form(update)),
         N,
-        start,
-        inputs,
-        measurements,
+        given.start,
+        given.inputs,
+        given.measured.y,
         history,
         new_estimate(system),
         new_correction(system),
         new_workspace(system),
     )
-    return history
+    return check_history(history, given, N, sturdier(update), backend)

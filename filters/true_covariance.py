@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from filters.arrays import FloatArray
+from filters.problem import check_covariance
 from filters.systems.system import System
 
 
@@ -26,7 +27,7 @@ def true_covariance(system: System, P0: FloatArray, gains: FloatArray) -> TrueCo
     Joseph's form, P+ = (I - K H) P- (I - K H)^T + K R K^T, holds for any K; Gelb, Applied Optimal Estimation, 1974.
 
     Raises:
-        ValueError: a shape is wrong.
+        ValueError: a shape is wrong, or P0, the gains or what the system gives are not finite, or P0 is no covariance.
     """
     n, m, p = system.states, system.inputs, system.measurements
     if np.shape(P0) != (n, n) or gains.ndim < 3 or gains.shape[-2:] != (n, p):
@@ -34,6 +35,9 @@ def true_covariance(system: System, P0: FloatArray, gains: FloatArray) -> TrueCo
             f"true_covariance: P0 has shape {np.shape(P0)}, needed is ({n}, {n}); "
             f"gains {gains.shape}, needed is (..., steps + 1, {n}, {p})"
         )
+    check_covariance("true_covariance: P0", P0)
+    if not np.isfinite(gains).all():
+        raise ValueError("true_covariance: gains holds a value that is not finite")
     x, u = np.zeros(n), np.zeros(m)
     before, after = np.empty((*gains.shape[:-1], n)), np.empty((*gains.shape[:-1], n))
     for j in range(gains.shape[-3]):
@@ -47,6 +51,11 @@ def true_covariance(system: System, P0: FloatArray, gains: FloatArray) -> TrueCo
         K = gains[..., j, :, :]
         A = np.eye(n) - K @ H
         after[..., j, :, :] = _symmetric(A @ before[..., j, :, :] @ _transposed(A) + K @ R @ _transposed(K))
+        if not np.isfinite(after[..., j, :, :]).all():
+            raise ValueError(
+                f"true_covariance, step {j}: the covariance is no longer finite; look at F, Q, H, R of the system at "
+                f"the state zero, and whether these gains hold the error of an unstable system"
+            )
     return TrueCovariance(before, after)
 
 

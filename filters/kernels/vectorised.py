@@ -10,7 +10,7 @@ import numpy as np
 from filters.arrays import FloatArray
 from filters.kernels import dense, solve
 from filters.kernels.rebind import Versions
-from filters.kernels.vectorised_blocks import BLOCK_VERSIONS
+from filters.kernels.vectorised_blocks import BLOCK_VERSIONS, or_nan
 from filters.kernels.vectorised_factors import FACTOR_VERSIONS
 
 
@@ -60,15 +60,15 @@ def _mirror(P: FloatArray) -> None:
 
 
 def _inverse(S: FloatArray, out: FloatArray, _scratch: FloatArray) -> None:
-    out[:] = np.linalg.inv(S)
+    out[:] = or_nan(np.linalg.inv, S)
 
 
 def _cholesky(S: FloatArray, out: FloatArray) -> None:
-    out[:] = np.linalg.cholesky(S)
+    out[:] = or_nan(np.linalg.cholesky, S)
 
 
 def _solve_cholesky(C: FloatArray, B: FloatArray, out: FloatArray) -> None:
-    out[:] = np.linalg.solve(np.tril(C) @ np.tril(C).T, B)
+    out[:] = or_nan(np.linalg.solve, np.tril(C) @ np.tril(C).T, B)
 
 
 _VERSIONS: dict[FunctionType, Any] = {

@@ -12,6 +12,14 @@ from filters.kernels import elimination, givens, inversion, place, schur
 from filters.kernels.place import IntArray
 
 
+def or_nan(function: Callable[..., FloatArray], *matrices: FloatArray) -> FloatArray | float:
+    """What the function of NumPy's gives, or nan where it finds a matrix singular or not positive definite."""
+    try:
+        return function(*matrices)
+    except np.linalg.LinAlgError:
+        return np.nan
+
+
 def _clear(T: FloatArray) -> None:
     T[:] = 0.0
 
@@ -31,7 +39,7 @@ def _triangularise(T: FloatArray) -> None:
 
 def _back_substitute(T: FloatArray, out: FloatArray) -> None:
     first, N = len(T) - len(out), len(T)
-    out[:] = np.linalg.solve(np.triu(T[first:, first:N]), T[first:, N:])
+    out[:] = or_nan(np.linalg.solve, np.triu(T[first:, first:N]), T[first:, N:])
 
 
 def _subtract(T: FloatArray, k: int) -> None:
@@ -53,12 +61,12 @@ def _eliminate_unpivoted(T: FloatArray) -> None:
 
 
 def _invert(A: FloatArray, _swaps: IntArray) -> None:
-    A[:] = np.linalg.inv(A)
+    A[:] = or_nan(np.linalg.inv, A)
 
 
 def _invert_by_columns(A: FloatArray, _T: FloatArray, _column: FloatArray, out: FloatArray) -> None:
     for j, unit in enumerate(np.eye(len(A))):
-        out[:, j] = np.linalg.solve(A, unit)
+        out[:, j] = or_nan(np.linalg.solve, A, unit)
 
 
 def _add_outer(A: FloatArray, S: FloatArray, start: int, J: FloatArray, _AS: FloatArray) -> None:

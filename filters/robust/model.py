@@ -90,6 +90,19 @@ def prepared(model: RobustModel, mu: float = np.inf, xi: float = 0.1) -> RobustM
     return ready
 
 
+def without_measurement(model: RobustModel) -> RobustModel:
+    """The model of a step in which nothing is measured: p = q = t2 = 0."""
+    n = len(model.F)
+    return model._replace(
+        H=np.zeros((0, n)),
+        D=np.zeros((0, 0)),
+        R=np.zeros((0, 0)),
+        E_H=np.zeros((0, n)),
+        E_D=np.zeros((0, 0)),
+        M2=np.zeros((0, 0)),
+    )
+
+
 def _squared_norm(M: FloatArray) -> float:
     """|M^T M|_2; 0 for a matrix without columns."""
     return float(np.linalg.norm(M, 2) ** 2) if M.size else 0.0

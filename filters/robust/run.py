@@ -9,12 +9,14 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from filters.arrays import FloatArray
+from filters.breakdown import breakdown, first_broken
 from filters.kernels.backends import BackendName, arguments_for, function_for
+from filters.measured import Measured, Measurements, measured
 from filters.problem import check_choice
 from filters.robust.check import check_inputs, check_start
-from filters.robust.model import RobustModel, Weights, prepared, weights
+from filters.robust.model import RobustModel, Weights, prepared, weights, without_measurement
 from filters.robust.records import Predicted
-from filters.robust.step import JOBS, WAYS, WayName
+from filters.robust.step import JOBS, REMEDY, WAYS, WayName, step
 
 
 class RobustHistory(NamedTuple):
@@ -70,7 +72,7 @@ def run(
     models: RobustModel | Sequence[RobustModel],
     x0: ArrayLike,
     P0: ArrayLike,
-    measurements: ArrayLike,
+    measurements: Measurements,
     c: ArrayLike | None = None,
     *,
     mu: float = np.inf,
@@ -81,14 +83,18 @@ def run(
     """Filter a record of data; otherwise as `step`.
 
     models: one for all steps, or one per step. x0 (n,), P0 (n, n): the prediction for step 0.
-    measurements (steps, p): row i is used in step i. c (steps, n): row i is added in step i; zero if not given.
+    measurements (steps, p): row i is used in step i. None in place of a row, or of a number in it, says that it was
+        lost: the step is that of the model without its rows of H, D and M2, or of the one in which nothing is measured.
+    c (steps, n): row i is added in step i; zero if not given.
 
     Raises:
-        ValueError: as `step`; or models are not as many as measurements, or leave different numbers of E rows.
+        ValueError: as `step`; models are not as many as measurements, or leave different numbers of E rows; or P ceases
+            to be a covariance, and the step is named.
     """
     check_choice("way", way, WAYS)
     ready = [prepared(model, mu, xi) for model in ([models] if isinstance(models, RobustModel) else models)]
-    taken = np.array(measurements, dtype=np.float64)
+    found = measured(len(ready[0].H), 1, measurements)
+    taken = found.y
     added = np.zeros((len(taken), len(ready[0].F))) if c is None else np.array(c, dtype=np.float64)
     if len(ready) not in (1, len(taken)) or len(added) != len(taken):
         raise ValueError(f"there are {len(taken)} measurements, but {len(ready)} models and {len(added)} rows of c")
@@ -102,6 +108,26 @@ def run(
     check_start(ready[0], start.x, start.P)
     check_inputs(ready[0], taken, added)
     history.x[0], history.P[0] = start
+    if not found.present.all():
+        _step_by_step(ready, found, added, history, mu, xi, way, backend)
+    else:
+        _step_at_once(ready, taken, added, history, mu, xi, way, backend)
+    broken = first_broken(history.x, history.P, 1, backend)
+    if broken is not None:
+        raise breakdown(broken - 1, REMEDY)
+    return history
+
+
+def _step_at_once(
+    ready: Sequence[RobustModel],
+    taken: FloatArray,
+    added: FloatArray,
+    history: RobustHistory,
+    mu: float,
+    xi: float,
+    way: WayName,
+    backend: BackendName,
+) -> None:
     job = JOBS[way]
     function_for(backend, step_all)(
         arguments_for(backend, job.function),
@@ -112,4 +138,24 @@ def run(
         history,
         job.workspace(ready[0]),
     )
-    return history
+
+
+def _step_by_step(
+    ready: Sequence[RobustModel],
+    found: Measured,
+    added: FloatArray,
+    history: RobustHistory,
+    mu: float,
+    xi: float,
+    way: WayName,
+    backend: BackendName,
+) -> None:
+    for i, present in enumerate(found.present):
+        model = ready[i % len(ready)]
+        if present.any():
+            model = model._replace(H=model.H[present], D=model.D[present], M2=model.M2[present])
+        else:
+            model = without_measurement(model)
+        before = Predicted(history.x[i], history.P[i])
+        after = step(model, before, found.y[i, present], added[i], mu=mu, xi=xi, way=way, backend=backend)
+        history.x[i + 1], history.P[i + 1] = after

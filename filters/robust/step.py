@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from filters.kernels.backends import BackendName, function_for
+from filters.kernels.definite import is_semidefinite
 from filters.problem import check_choice
 from filters.robust.block_step import BlockWorkspace, block_step, new_block_workspace
 from filters.robust.blocks import NATURAL, RECOMMENDED
@@ -28,7 +29,7 @@ from filters.robust.solvers import (
     by_unpivoted_lu,
 )
 
-__all__ = ["JOBS", "STUDIED", "WAYS", "Predicted", "StepJob", "WayName", "step"]
+__all__ = ["JOBS", "REMEDY", "STUDIED", "WAYS", "Predicted", "StepJob", "WayName", "step"]
 
 WayName: TypeAlias = Literal["inverse", "givens", "lu", "closed"]
 
@@ -63,6 +64,14 @@ STUDIED: dict[str, StepJob] = {
 }
 """Further ways, to be compared with those above; not all of them work."""
 
+REMEDY = "give states in units in which their errors are of one size, way='closed', or mu=inf"
+"""What to do about rounding."""
+
+
+def is_sound(after: Predicted) -> bool:
+    """Whether a step has left finite numbers and a covariance, up to rounding."""
+    return bool(np.isfinite(after.x).all()) and is_semidefinite(after.P, np.empty_like(after.P))
+
 
 def step(
     model: RobustModel,
@@ -84,7 +93,7 @@ def step(
 
     Raises:
         ValueError: a shape does not fit, P, Q or R is not positive definite, mu or xi is not positive, mu is infinite
-            and the step has no solution, or a name is unknown.
+            and the step has no solution, a name is unknown, or the step leaves no finite numbers or no covariance.
     """
     check_choice("way", way, WAYS)
     ready = prepared(model, mu, xi)
@@ -94,7 +103,10 @@ def step(
     check_inputs(ready, measured, added)
     after = Predicted(np.empty_like(start.x), np.empty_like(start.P))
     job = JOBS[way]
-    function_for(backend, job.function)(
-        ready, weights(ready, mu, xi), start, measured, added, after, job.workspace(ready)
-    )
+    with np.errstate(all="ignore"):
+        function_for(backend, job.function)(
+            ready, weights(ready, mu, xi), start, measured, added, after, job.workspace(ready)
+        )
+    if not is_sound(after):
+        raise ValueError(f"the step leaves a P that is no covariance, or a value that is not finite; {REMEDY}")
     return after

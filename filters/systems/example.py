@@ -18,11 +18,12 @@ def example_system(states: int = 9, inputs: int = 3, measurements: int = 3, seed
     and all noise covariances have eigenvalues of about one tenth to one.
 
     Raises:
-        ValueError: a size is less than 1.
+        ValueError: states or measurements are less than 1, or inputs less than 0.
     """
-    if min(states, inputs, measurements) < 1:
+    if min(states, inputs + 1, measurements) < 1:
         raise ValueError(
-            f"example_system: states={states}, inputs={inputs}, measurements={measurements} must all be at least 1"
+            f"example_system: states={states}, inputs={inputs}, measurements={measurements}: there must be at least "
+            f"one state and one measurement; of inputs there may be none"
         )
     random = np.random.default_rng(seed)
     return linear_system(

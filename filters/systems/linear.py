@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from filters.arrays import FloatArray
 from filters.kernels.dense import add_matvec, matvec
+from filters.problem import check_covariance
 from filters.systems.system import System
 
 
@@ -26,10 +27,12 @@ def linear_system(Phi: ArrayLike, B: ArrayLike, H: ArrayLike, Q: ArrayLike, R: A
     """x_{j+1} = Phi_j x_j + B_j u_j + w_j, y_k = H_k x_k + nu_k (Eqs. 1, 2).
 
     Each matrix is constant (2-D) or one per step (3-D, first index the step; step j uses matrix j modulo their
-    number): Phi (n, n), B (n, m), H (p, n), Q (n, n), R (p, p). n comes from Phi, m from B, p from H.
+    number): Phi (n, n), B (n, m), H (p, n), Q (n, n), R (p, p). n comes from Phi, m from B, p from H. A system without
+    inputs has a B of no columns, (n, 0).
 
     Raises:
-        ValueError: a matrix is neither 2-D nor 3-D, has the wrong shape, or holds a number that is not finite.
+        ValueError: a matrix is neither 2-D nor 3-D, has the wrong shape, or holds a number that is not finite; or a Q
+            or R is no covariance.
     """
     matrices = LinearParameters(
         *(_by_step(name, value) for name, value in zip(LinearParameters._fields, (Phi, B, H, Q, R), strict=True))
@@ -40,6 +43,9 @@ def linear_system(Phi: ArrayLike, B: ArrayLike, H: ArrayLike, Q: ArrayLike, R: A
     _check_shape("H", matrices.H, (p, n))
     _check_shape("Q", matrices.Q, (n, n))
     _check_shape("R", matrices.R, (p, p))
+    for name in ("Q", "R"):
+        for matrix in getattr(matrices, name):
+            check_covariance(f"linear_system: {name}", matrix)
     return System(n, m, p, _f, _F, _Q, _h, _H, _R, matrices)
 
 
@@ -82,7 +88,7 @@ def _by_step(name: str, value: ArrayLike) -> FloatArray:
     matrix = np.array(value, dtype=np.float64, order="C")
     if matrix.ndim == 2:
         matrix = matrix[np.newaxis]
-    if matrix.ndim != 3 or matrix.size == 0:
+    if matrix.ndim != 3 or 0 in (matrix.shape if name != "B" else matrix.shape[:2]):
         raise ValueError(
             f"linear_system: {name} has shape {np.shape(value)}; needed is a matrix (2-D), or one per step (3-D)"
         )

@@ -80,19 +80,6 @@ def linearised(
     )
 
 
-def without_measurement(model: RobustModel) -> RobustModel:
-    """The model of a step in which nothing is measured: p = q = t2 = 0."""
-    n = len(model.F)
-    return model._replace(
-        H=np.zeros((0, n)),
-        D=np.zeros((0, 0)),
-        R=np.zeros((0, 0)),
-        E_H=np.zeros((0, n)),
-        E_D=np.zeros((0, 0)),
-        M2=np.zeros((0, 0)),
-    )
-
-
 def no_uncertainty(states: int, noises: int, measurements: int) -> Uncertainty:
     """Matrices without rows: the filter is then the extended Kalman filter, when mu is infinite."""
     return Uncertainty(

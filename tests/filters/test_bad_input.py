@@ -28,6 +28,8 @@ MATRICES: dict[str, Any] = {
         ("R", np.eye(2), r"R has shape \(2, 2\), needed is \(1, 1\)"),
         ("R", np.ones(1), r"R has shape \(1,\); needed is a matrix \(2-D\), or one per step \(3-D\)"),
         ("Q", np.full((3, 3), np.nan), "Q holds a value that is not finite"),
+        ("Q", np.diag([1.0, 1.0, -1.0]), "Q is no covariance: its smallest eigenvalue is -1"),
+        ("R", [[-1.0]], "R is no covariance: its smallest eigenvalue is -1"),
     ],
 )
 def test_matrices_of_a_linear_system(name: str, value: Any, message: str) -> None:
@@ -49,7 +51,9 @@ def test_a_linear_system_does_not_share_its_matrices() -> None:
 
 
 def test_sizes_of_the_example_system() -> None:
-    with pytest.raises(ValueError, match="states=0, inputs=3, measurements=3 must all be at least 1"):
+    with pytest.raises(
+        ValueError, match="states=0, inputs=3, measurements=3: there must be at least one state and one measurement"
+    ):
         example_system(0)
 
 

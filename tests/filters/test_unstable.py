@@ -110,6 +110,14 @@ def test_an_inverted_pendulum_of_half_a_minute(case: Case, form: str) -> None:
     check_steady(run(PENDULUM, 10, M, L, *data, **case.options, update=form, backend="numpy"), PENDULUM, 10)
 
 
+def test_a_covariance_that_is_symmetric_up_to_rounding_starts_symmetric() -> None:
+    system = unstable_system(0)
+    x0, P0, inputs, measurements = without_data(system, 1, 3)
+    P0[0, 1] += 1e-12
+    P = standard.run(system, 1, 0, 0, x0, P0, inputs, measurements).P_reference
+    np.testing.assert_array_equal(P, P.transpose(0, 2, 1))
+
+
 @each_seed
 def test_the_true_covariance_of_given_gains(seed: int) -> None:
     system = unstable_system(seed)

@@ -95,5 +95,5 @@ def test_runs() -> None:
         run([MODEL, MODEL], np.zeros(3), np.eye(3), np.zeros((5, 2)))
     with pytest.raises(ValueError, match="models differ in shape"):
         run([MODEL, random_model(0, 3, 2, 2, 0, 1)], np.zeros(3), np.eye(3), np.zeros((2, 2)))
-    with pytest.raises(ValueError, match=r"y has shape \(5, 3\), the model needs \(5, 2\)"):
+    with pytest.raises(ValueError, match=r"measurements has shape \(5, 3\), the system needs \(5, 2\)"):
         run(MODEL, np.zeros(3), np.eye(3), np.zeros((5, 3)))

@@ -1,0 +1,58 @@
+"""The record of measurements that a filter is given, and what of it was lost."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from filters.arrays import FloatArray
+
+Measurements: TypeAlias = FloatArray | Sequence[Any]
+"""One row (p,) a measurement, as an array or a sequence; None in place of a row, or of a number, that was lost.
+
+A masked array of NumPy's says the same by its mask.
+"""
+
+
+class Measured(NamedTuple):
+    """y (rows, p): the numbers, 0 where one was lost. present (rows, p): where none was."""
+
+    y: FloatArray
+    present: NDArray[np.bool_]
+
+
+def measured(p: int, every: int, measurements: Measurements) -> Measured:
+    """The record as arrays, p numbers a row; row c is of step c `every`.
+
+    Raises:
+        ValueError: a row has the wrong length, or a value is no finite number.
+    """
+    if isinstance(measurements, np.ndarray) and measurements.shape != (len(measurements), p):
+        raise ValueError(f"measurements has shape {measurements.shape}, the system needs {(len(measurements), p)}")
+    rows = measurements.tolist() if isinstance(measurements, np.ma.MaskedArray) else measurements
+    if not isinstance(rows, np.ndarray):
+        rows = np.array([_row(row, p, c * every) for c, row in enumerate(rows)], dtype=object).reshape(-1, p)
+    present = np.not_equal(rows, None).astype(np.bool_)  # type: ignore[call-overload]  # entry by entry
+    try:
+        y = np.where(present, rows, 0.0).astype(np.float64)
+    except (TypeError, ValueError) as error:
+        raise ValueError(f"measurements holds a value that is no number: {error}") from error
+    wrong = ~np.isfinite(y).all(axis=1)
+    if wrong.any():
+        c = int(wrong.argmax())
+        raise ValueError(
+            f"the measurement of step {c * every} is {y[c]}, which is not finite; give None in place of a measurement, "
+            f"or of a number in it, that was lost"
+        )
+    return Measured(y, present)
+
+
+def _row(row: Any, p: int, k: int) -> list[Any]:
+    if row is None:
+        return [None] * p
+    if np.shape(row) != (p,):
+        raise ValueError(f"the measurement of step {k} has shape {np.shape(row)}, the system needs {(p,)}")
+    return list(row)
