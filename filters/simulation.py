@@ -17,10 +17,14 @@ class Truth(NamedTuple):
     measurements: FloatArray
 
 
+@np.errstate(all="ignore")
 def simulate_truth(system: System, N: int, x0: FloatArray, P0: FloatArray, inputs: FloatArray, seed: int) -> Truth:
     """Draw an initial state from N(x0, P0), then process and measurement noise as the model has them.
 
     inputs (steps, m): the noise-free inputs that the filter will be given too.
+
+    Raises:
+        ValueError: f or h of the system gives a value that is not finite; the step is named.
     """
     random = np.random.default_rng(seed)
     steps = len(inputs)
@@ -29,11 +33,21 @@ def simulate_truth(system: System, N: int, x0: FloatArray, P0: FloatArray, input
     for j in range(steps):
         system.f(j, x[j], inputs[j], system.parameters, x[j + 1])
         x[j + 1] += _draw(random, system.Q(j, system.parameters))
+        _check_finite("f", j, x[j], x[j + 1])
     measurements = np.empty((steps // N + 1, system.measurements))
     for cycle, y in enumerate(measurements):
         system.h(cycle * N, x[cycle * N], system.parameters, y)
         y += _draw(random, system.R(cycle * N, system.parameters))
+        _check_finite("h", cycle * N, x[cycle * N], y)
     return Truth(x, measurements)
+
+
+def _check_finite(function: str, j: int, x: FloatArray, value: FloatArray) -> None:
+    if not np.isfinite(value).all():
+        raise ValueError(
+            f"step {j}: {function} of the system gives a value that is not finite at the simulated state x = {x}; mend "
+            f"the model there, or start elsewhere"
+        )
 
 
 def _draw(random: np.random.Generator, covariance: FloatArray) -> FloatArray:

@@ -19,6 +19,7 @@ from filters.kernels.counted import Operations, count
 from filters.registry import ALL_METHODS, Job
 from filters.systems.system import System
 from sched_sim.costs import Cost, CostTable
+from sched_sim.errors import InputError
 from studies.job_times import ARGUMENT_SETS, Progress, Protocol, seconds_per_run, silent
 
 BackendName = Literal["compiled", "counted", "numpy"]
@@ -46,6 +47,8 @@ def measure(
     unit: "operation" (each multiply, add, divide, square root counts one) for counted, else "second".
     update: the covariance form, of no use to methods that keep factors of the covariance.
     x0 (n,): a typical state of the system, zero if not given.
+
+    Raises InputError if the standard filter, with which typical arguments are made, cannot be run from there.
     """
     jobs = {
         (method, kind): job
@@ -58,7 +61,12 @@ def measure(
         "inputs": system.inputs,
         "measurements": system.measurements,
     }
-    return cost_table(jobs, backend, about, name=name, thorough=thorough, seed=seed, progress=progress)
+    try:
+        return cost_table(jobs, backend, about, name=name, thorough=thorough, seed=seed, progress=progress)
+    except InputError:
+        raise
+    except ValueError as error:
+        raise InputError(f"the system cannot be filtered from its typical state: {error}") from error
 
 
 def cost_table(

@@ -30,10 +30,10 @@ def load_system(name: str) -> tuple[System, FloatArray]:
     system, x0 = returned if type(returned) is tuple and len(returned) == 2 else (returned, None)
     if not isinstance(system, System):
         raise InputError(f"--system {name!r}: {function_name}() returned a {type(system).__name__}; {HOW}")
-    if min(system.states, system.inputs, system.measurements) < 1:
+    if min(system.states, system.inputs + 1, system.measurements) < 1:
         raise InputError(
-            f"--system {name!r}: states={system.states}, inputs={system.inputs}, measurements={system.measurements} "
-            f"must all be at least 1"
+            f"--system {name!r}: states={system.states}, inputs={system.inputs}, measurements={system.measurements}: "
+            f"there must be at least one state and one measurement; of inputs there may be none"
         )
     state = np.zeros(system.states) if x0 is None else np.array(x0, dtype=np.float64)
     _try_model(name, system, state)

@@ -34,6 +34,15 @@ Size = Annotated[
     int,
     typer.Option(help="Size of the example system.", parser=opt.at_least_one, metavar="COUNT", rich_help_panel=SYSTEM),
 ]
+Inputs = Annotated[
+    int,
+    typer.Option(
+        help="Size of the example system; 0: it has none.",
+        parser=opt.none_or_more,
+        metavar="COUNT",
+        rich_help_panel=SYSTEM,
+    ),
+]
 Wanted = Annotated[
     list[str] | None,
     typer.Option(
@@ -88,7 +97,7 @@ Parallel = Annotated[
 def measure(
     context: typer.Context,
     states: Size = 9,
-    inputs: Size = 3,
+    inputs: Inputs = 3,
     measurements: Size = 3,
     system: OwnSystem = None,
     own_filter: OwnFilter = None,

@@ -43,6 +43,13 @@ def at_least_one(text: str) -> int:
     return number
 
 
+def none_or_more(text: str) -> int:
+    number = whole(text)
+    if number < 0:
+        raise typer.BadParameter(f"{number} is too small: give at least 0.")
+    return number
+
+
 def one_or_two(text: str) -> int:
     number = whole(text)
     if number not in (1, 2):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import pytest
@@ -43,6 +44,15 @@ def failing():
 
 def wrong():
     return linear_system(Phi=[[1.0, 0.1]], B=[[0.005], [0.1]], H=[[1.0, 0.0]], Q=np.eye(2), R=[[1.0]])
+
+def free():
+    return linear_system(Phi=np.eye(2), B=np.zeros((2, 0)), H=[[1.0, 0.0]], Q=0.01 * np.eye(2), R=[[1.0]])
+
+def breaking():
+    return car()._replace(F=lambda j, x, u, p: p.Phi[0] * (np.nan if j == 7 else 1.0))
+
+def bursting():
+    return car()._replace(f=lambda j, x, u, p, out: out.fill(1e200 + 1e200 * x[0] ** 2))
 
 def number():
     return 9
@@ -137,3 +147,28 @@ def test_a_users_system_without_measurement_noise_ends_with_code_2(sched_sim: Ru
     result = sched_sim("measure --system own_system:noiseless --backend counted")
     assert result.code == 2
     assert "R of step 0 is not positive definite" in " ".join(result.err.split())
+
+
+def test_a_system_without_inputs_is_measured(sched_sim: Run, tmp_path: Path) -> None:
+    (tmp_path / "own_free.py").write_text(OWN_SYSTEM, encoding="utf-8")
+    for line in ("--system own_free:free", "--states 2 --inputs 0 --measurements 1"):
+        result = sched_sim(f"measure {line} --backend counted --format json")
+        assert result.code == 0, result.err
+        costs = {(row["method"], row["job"]): row["minimum"] for row in json.loads(result.out)}
+        assert costs["dual-rate", "hr_restart"] == 6  # two rows of two products and one sum
+
+
+@pytest.mark.parametrize(
+    ("function", "message"),
+    [
+        ("breaking", "step 7: F of the system gives a value that is not finite"),
+        ("bursting", "step 1: f of the system gives a value that is not finite at the simulated state"),
+    ],
+)
+def test_a_system_that_breaks_down_later_ends_with_code_2(
+    sched_sim: Run, tmp_path: Path, function: str, message: str
+) -> None:
+    (tmp_path / "own_broken.py").write_text(OWN_SYSTEM, encoding="utf-8")
+    result = sched_sim(f"measure --system own_broken:{function} --backend counted")
+    assert result.code == 2
+    assert message in result.err.replace("\n", " ")
