@@ -114,6 +114,12 @@ class CostTable:
         """Name and path, for messages."""
         return f"{self.name} ({self.path})" if self.path else self.name
 
+    @property
+    def update_form(self) -> str | None:
+        """The form of the covariance update that was costed, such as "textbook"; None if the file does not say."""
+        form = self.provenance.get("update_form")
+        return None if form is None else str(form)
+
     def _remedy(self, method: str, kind: str) -> str:
         if {self.name, self.path} & set(shipped_names()):
             others = [name for name in shipped_names() if kind in load(name).costs.get(method, {})]

@@ -79,7 +79,7 @@ def minimum(
             "min_speed": float(least.speed),
             "min_speed_exact": str(least.speed),
             "binding": least.binding,
-        }
+        } | ({} if table.update_form is None else {"update_form": table.update_form})
         person: dict[str, Any] = {"method": "standard (no delay)" if name == "standard" else name}
         fixed_by = BINDING_WORDS.get(least.binding, least.binding)
         if found is not None and part is not None and rate is not None:
@@ -98,11 +98,12 @@ def minimum(
     elif format == "csv":
         print_csv(rows)
     elif part is not None and rate is not None:
-        title = f"{part.title}, HR loop at {float(rate):g} Hz, {design} (operations: {costs or opt.COUNTED})"
+        counts = opt.with_form(costs or opt.COUNTED, table)
+        title = f"{part.title}, HR loop at {float(rate):g} Hz, {design} (operations: {counts})"
         print_table(title, shown, MEANING)
     else:
         unit = f"{units(table.unit)} per HR period" if part is None else f"an HR period, on {part.title}"
-        print_table(f"Least speed, {design}, in {unit} (costs: {table.name})", shown)
+        print_table(f"Least speed, {design}, in {unit} (costs: {opt.with_form(table.name, table)})", shown)
 
 
 def _landing(costs: JobCosts, timing: Timing, speed: Fraction, options: Options, tasks: Sequence[Task]) -> int:

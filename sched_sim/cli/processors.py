@@ -52,6 +52,7 @@ def processors(
     sched-sim processors
     sched-sim processors -N 40 -M 20 --hr-hz 400 --method dual-rate
     """
+    from sched_sim.costs import load
     from sched_sim.errors import InputError
     from sched_sim.processor import load_processor, shipped_processors
 
@@ -67,7 +68,8 @@ def processors(
         wanted = method or "dual-rate"
         rows, shown, reasons = _verdicts(parts, N, M, L, hr_hz, wanted, costs)
         design = f"N={N} M={'none' if M is None else M} L={'latest' if L is None else L}"
-        title = f"{wanted}, HR loop at {hr_hz} Hz, {design} (operations: {costs or opt.COUNTED})"
+        counts = opt.with_form(costs or opt.COUNTED, load(costs or opt.COUNTED))
+        title = f"{wanted}, HR loop at {hr_hz} Hz, {design} (operations: {counts})"
         note = "\n".join([MEANING, *reasons])
     if format == "json":
         print_json(rows)
