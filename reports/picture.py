@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from reports.style import drawing
 from sched_sim.errors import InputError
-from sched_sim.files import check_writable
+from sched_sim.files import check_writable, write
 
 METADATA: dict[str, dict[str, str | None]] = {
     "svg": {"Date": None, "Creator": None},
@@ -42,15 +42,7 @@ def check_picture(path: Path) -> str:
 def save(figure: Figure, path: str | Path) -> None:
     """Write the figure to `path`, in the format that its suffix names.
 
-    Raises InputError for another suffix and for a path that cannot be written; a file that is there already is
-    replaced only once the picture is complete.
+    Raises InputError for another suffix and for a path that cannot be written.
     """
     path = Path(path)
-    content = image(figure, check_picture(path))
-    try:
-        path.write_bytes(content)
-    except OSError as error:
-        raise InputError(
-            f"picture {str(path)!r} cannot be written ({error.strerror}): name a file in a folder that exists and "
-            f"that you may write to"
-        ) from None
+    write(path, image(figure, check_picture(path)), "picture")

@@ -18,6 +18,7 @@ from markupsafe import Markup
 
 from reports.data_uri import data_uri
 from sched_sim.errors import InputError
+from sched_sim.files import check_writable, write
 
 Row = Sequence[Any]
 
@@ -63,19 +64,13 @@ def make_folder(folder: Path) -> None:
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise _unwritable(folder, error) from None
+        raise InputError(
+            f"--output: {str(folder)!r} cannot be written ({error.strerror}); give a folder that is yours to write"
+        ) from None
+    check_writable(folder / "index.html", "--output")
 
 
 def write_report(files: Mapping[str, bytes], folder: Path) -> None:
-    """Raises InputError if the folder cannot be written."""
-    try:
-        for name, content in files.items():
-            (folder / name).write_bytes(content)
-    except OSError as error:
-        raise _unwritable(folder, error) from None
-
-
-def _unwritable(folder: Path, error: OSError) -> InputError:
-    return InputError(
-        f"--output: {str(folder)!r} cannot be written ({error.strerror}); give a folder that is yours to write"
-    )
+    """Raises InputError if one of the files cannot be written."""
+    for name, content in files.items():
+        write(folder / name, content, "--output")

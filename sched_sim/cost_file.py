@@ -20,6 +20,7 @@ from sched_sim.costs import (
     shipped_names,
 )
 from sched_sim.errors import InputError
+from sched_sim.files import write
 from sched_sim.toml_file import problems, read_toml
 from sched_sim.toml_text import toml_number, toml_tables, toml_value
 
@@ -145,10 +146,7 @@ def cost_table_text(table: CostTable) -> str:
 
 def write_cost_table(table: CostTable, path: Path) -> None:
     """Raises InputError if the path cannot be written."""
-    try:
-        path.write_text(cost_table_text(table), encoding="utf-8")
-    except OSError as error:
-        raise InputError(f"cost table {str(path)!r} cannot be written ({error.strerror}): give another path") from None
+    write(path, cost_table_text(table).encode(), "cost table")
 
 
 def _toml_cost(cost: Cost) -> str:

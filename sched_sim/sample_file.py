@@ -14,6 +14,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_valida
 from sched_sim.cost_file import CountsOfJob, Number
 from sched_sim.costs import Counts, arithmetic
 from sched_sim.errors import InputError
+from sched_sim.files import write
 from sched_sim.toml_file import problems, read_toml
 from sched_sim.toml_text import toml_key, toml_number, toml_tables, toml_value
 
@@ -132,10 +133,7 @@ def sampled_costs_text(costs: SampledCosts) -> str:
 
 def write_sampled_costs(costs: SampledCosts, path: Path) -> None:
     """Raises InputError if the path cannot be written."""
-    try:
-        path.write_text(sampled_costs_text(costs), encoding="utf-8")
-    except OSError as error:
-        raise InputError(f"costs {str(path)!r} cannot be written ({error.strerror}): give another path") from None
+    write(path, sampled_costs_text(costs).encode(), "costs")
 
 
 def _flat(tables: _SampleTables | _OperationTables) -> dict[str, Any]:

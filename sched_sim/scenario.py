@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from pathlib import Path
 from typing import Literal
 
 from sched_sim.draws import fates
@@ -110,6 +111,7 @@ class Scenario:
     speed: cost units that the processor does per HR period; hr_hz: the HR rate where the unit is a second, else None.
     costs: from `sample_file`, all parts that `needed_parts` names. priority: of the predict jobs.
     cpus: with 2, corrections run on the second. context_switch: in cost units, as in `options.Options`.
+    files: those that its own file names, from which costs were read.
     Raises InputError that lists all that is wrong.
     """
 
@@ -125,6 +127,7 @@ class Scenario:
     tasks: Sequence[Task] = ()
     context_switch: Fraction = Fraction(0)
     cpus: Literal[1, 2] = 1
+    files: Sequence[Path] = ()
 
     def __post_init__(self) -> None:
         wrong = []

@@ -222,6 +222,7 @@ def _scenario(checked: _ScenarioFile, folder: Path) -> Scenario:
         tasks=tasks,
         context_switch=checked.context_switch,
         cpus=checked.cpus,
+        files=[folder / name for name in (checked.costs, checked.processor) if name is not None],
     )
 
 

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import csv
 import json
+from codecs import StreamWriter, getwriter
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TextIO
 
 from sched_sim.errors import InputError
+from sched_sim.files import check_writable, writing
 from sched_sim.schedule import Slice
 
 Write = Callable[[Slice], None]
@@ -23,21 +24,25 @@ def open_trace(path: Path, microseconds_per_period: float = 1000.0) -> Iterator[
 
     CSV: a row for each piece of a slice, times in HR periods. JSON: one complete event for each piece, one HR period
     lasting `microseconds_per_period`; each CPU is a process, each job kind a thread.
-    Raises InputError for another suffix and for a path that cannot be written.
+    The file is there once all is written. Raises InputError for another suffix and for a path that cannot be written.
     """
-    writers = {".csv": _csv, ".json": _chrome}
-    if path.suffix not in writers:
-        raise InputError(f"--trace {str(path)!r}: the name must end in {' or '.join(sorted(writers))}")
-    try:
-        file = path.open("w", encoding="utf-8", newline="")
-    except OSError as error:
-        raise InputError(f"--trace {str(path)!r} cannot be written: {error.strerror}; give another path") from None
-    with file, writers[path.suffix](file, microseconds_per_period) as write:
+    check_trace(path)
+    with (
+        writing(path, "--trace") as file,
+        WRITERS[path.suffix](getwriter("utf-8")(file), microseconds_per_period) as write,
+    ):
         yield write
 
 
+def check_trace(path: Path) -> None:
+    """Raises InputError as `open_trace` does: to be called before the work whose trace it is."""
+    if path.suffix not in WRITERS:
+        raise InputError(f"--trace {str(path)!r}: the name must end in {' or '.join(sorted(WRITERS))}")
+    check_writable(path, "--trace")
+
+
 @contextmanager
-def _csv(file: TextIO, _scale: float) -> Iterator[Write]:
+def _csv(file: StreamWriter, _scale: float) -> Iterator[Write]:
     writer = csv.writer(file, lineterminator="\n")
     writer.writerow(COLUMNS)
 
@@ -63,7 +68,7 @@ def _csv(file: TextIO, _scale: float) -> Iterator[Write]:
 
 
 @contextmanager
-def _chrome(file: TextIO, scale: float) -> Iterator[Write]:
+def _chrome(file: StreamWriter, scale: float) -> Iterator[Write]:
     threads: dict[tuple[int, str], int] = {}
     separator = "\n"
 
@@ -100,3 +105,6 @@ def _chrome(file: TextIO, scale: float) -> Iterator[Write]:
     file.write('{"displayTimeUnit": "ms", "traceEvents": [')
     yield write
     file.write("\n]}\n")
+
+
+WRITERS = {".csv": _csv, ".json": _chrome}

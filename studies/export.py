@@ -1,15 +1,14 @@
-"""A sweep's results as CSV or Parquet: written under another name, then given their own, so never half there."""
+"""A sweep's results as CSV or Parquet."""
 
 from __future__ import annotations
 
 import csv
-import os
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import IO, Any
 
 from sched_sim.errors import InputError
+from sched_sim.files import check_writable, writing
 from studies.rows import Row
 from studies.store import Store
 
@@ -21,16 +20,12 @@ def check_export(path: Path) -> None:
     """Raises InputError if `path` has no known suffix or cannot be written; look before hours of work, not after."""
     if path.suffix not in WRITERS:
         raise InputError(f"--export {path}: the name must end in {' or '.join(WRITERS)}")
-    if path.is_dir() or not path.parent.is_dir():
-        what = "is a folder" if path.is_dir() else f"lies in {path.parent}, which is no folder"
-        raise InputError(f"--export {path} {what}: give a file in a folder that exists")
-    if not os.access(path.parent, os.W_OK):
-        raise InputError(f"--export {path} cannot be written: {path.parent} is read-only; give another folder")
+    check_writable(path, "--export")
 
 
 def export(store: Store, path: Path) -> None:
     """All rows of the view `results` in order of their design index, by the suffix of `path`; memory stays flat."""
-    with _replacing(path) as file:
+    with writing(path, "--export") as file:
         WRITERS[path.suffix](store, file)
 
 
@@ -72,20 +67,3 @@ def write_parquet(store: Store, file: IO[bytes]) -> None:
 
 
 WRITERS: dict[str, Callable[[Store, IO[bytes]], None]] = {".csv": write_csv, ".parquet": write_parquet}
-
-
-@contextmanager
-def _replacing(path: Path) -> Iterator[IO[bytes]]:
-    """A file that becomes `path` once it is complete; if it fails, what was there before stays."""
-    new = path.with_name(f".{path.name}.{os.getpid()}-new")
-    try:
-        try:
-            with new.open("wb") as file:
-                yield file
-                file.flush()
-                os.fsync(file.fileno())
-            new.replace(path)
-        finally:
-            new.unlink(missing_ok=True)
-    except OSError as error:
-        raise InputError(f"--export {path} cannot be written: {error.strerror}; give another file") from error

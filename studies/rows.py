@@ -11,6 +11,8 @@ from studies.grid import Chunk
 from studies.least import analyse
 
 Cell: TypeAlias = int | float | str | None
+"""As SQLite gives it back: true and false are 1 and 0."""
+
 Row: TypeAlias = tuple[Cell, ...]
 
 
@@ -65,10 +67,10 @@ def rows_of(chunk: Chunk, cycles: int | None) -> list[Row]:
     given = [float(speed) for speed in chunk.speeds]
     per_design = max(len(given), 1)
     rows: list[Row] = []
-    for point, position, outcome in zip(chunk.points, chunk.positions, found.outcomes, strict=True):
+    for point, position, (feasible, achieved) in zip(chunk.points, chunk.positions, found.outcomes, strict=True):
         design, at = divmod(position, per_design)
         speed = given[at] if given else least[design][0]
-        rows.append((point, block.number, *designs[design], speed, *least[design], *outcome))
+        rows.append((point, block.number, *designs[design], speed, *least[design], int(feasible), achieved))
     if cycles is None:
         return rows
     return [

@@ -13,7 +13,8 @@ from sched_sim.errors import InputError
 from studies.grid import Chunk, Grid
 from studies.rows import Column, Row, columns, rows_of
 from studies.stopping import stop_signals
-from studies.store import Store, digest
+from studies.store import Store
+from studies.store_layout import Layout, digest
 from studies.workers import WorkerDeathError, compute
 
 ANALYSED = 20_000
@@ -45,7 +46,7 @@ class Sweep:
         """All that the rows depend on, for the results file: equal for two sweeps only if all their rows are."""
         grid = self.grid
         return {
-            "format": 1,
+            "format": 2,
             "N": list(grid.N),
             "M": "all legal" if grid.M is None else list(grid.M),
             "L": "all legal" if grid.L is None else list(grid.L),
@@ -64,7 +65,7 @@ class Sweep:
 
     def open(self, path: Path) -> Store:
         """The results file: made if it is not there; one of another sweep is refused with InputError."""
-        return Store(path, self.description(), self.grid.blocks, self.columns)
+        return Store(path, Layout(self.description(), self.grid.blocks, self.columns))
 
 
 class Outcome(NamedTuple):

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from studies.store import BLOCK_COLUMNS, Store
+from studies.store import Store
+from studies.store_layout import BLOCK_COLUMNS
 
 BEST = ("costs", "N", "M", "method", "L", "min_speed", "min_speed_exact", "binding")
 

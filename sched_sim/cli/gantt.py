@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from sched_sim.cli import options as opt
+from sched_sim.cli.outputs import refuse_one_file_for_two
 
 if TYPE_CHECKING:
     from sched_sim.costs import CostTable
@@ -53,6 +54,8 @@ def gantt(
     from sched_sim.least_speed import least_speed
 
     check_picture(output)
+    inputs = [("--costs", costs), ("--processor", processor), ("--tasks", tasks)]
+    refuse_one_file_for_two([("--output", output)], inputs)
     options = opt.make_options(lr_propagate_by, feedback, gain, low_rate_noise, cpus, context_switch)
     part = opt.make_processor(processor)
     table, others, rate = opt.load_costs(costs, part), opt.make_tasks(tasks), opt.hr_rate(hr_hz)

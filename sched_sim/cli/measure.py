@@ -11,6 +11,7 @@ import typer
 from sched_sim.cli import options as opt
 from sched_sim.cli.measure_filter import measure_own_filter, refuse_with_filter
 from sched_sim.cli.output import print_csv, print_json, print_table, units
+from sched_sim.cli.outputs import module_files, refuse_one_file_for_two
 from sched_sim.costs import SYSTEM_METHODS
 from sched_sim.errors import InputError
 
@@ -146,6 +147,7 @@ def measure(
                 name = f"{backend}-{states}-{inputs}-{measurements}"
             else:
                 model, x0 = load_system(system)
+                refuse_one_file_for_two([("--output", output)], [("--system", file) for file in module_files()])
                 name = f"{backend}-{system.replace(':', '.')}"
             table = run(model, backend, update, name=name, thorough=thorough, x0=x0, progress=progress, methods=methods)
     unit = table.normalised() if "standard" in table.costs else None

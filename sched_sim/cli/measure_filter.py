@@ -12,6 +12,7 @@ import typer
 
 from sched_sim.cli.options import given_options
 from sched_sim.cli.output import Format, print_csv, print_json, print_table
+from sched_sim.cli.outputs import module_files, refuse_one_file_for_two
 from sched_sim.cli.progress import progress_bar
 from sched_sim.errors import InputError
 from sched_sim.sample_file import SampledCosts, write_sampled_costs
@@ -47,6 +48,7 @@ def measure_own_filter(
         raise InputError(f"--backend numpy does not go with --filter {name}: give --backend compiled or counted")
     with progress_bar("Measuring") as progress:
         user = load_filter(name)
+        refuse_one_file_for_two([("--output", output)], [("--filter", file) for file in module_files()])
         table = f"{backend}-{name.replace(':', '.')}"
         costs = measure_filter(user, backend, name=table, thorough=thorough, progress=progress)
     rows = [_row(costs, part) for part in costs.samples]

@@ -203,21 +203,6 @@ def given_options(context: typer.Context, wanted: Callable[[str], bool]) -> list
     ]
 
 
-def refuse_one_file_for_two(files: Sequence[tuple[str, Path | None]]) -> None:
-    """Raises InputError where two of the options (name, file to be written) name one file."""
-    seen: dict[Path, str] = {}
-    for option, path in files:
-        if path is None:
-            continue
-        where = path.resolve()
-        if where in seen:
-            raise InputError(
-                f"{seen[where]} and {option} {path} are one file, and only the last to be written would be left: give "
-                f"each a file of its own"
-            )
-        seen[where] = f"{option} {path}"
-
-
 def make_options(
     lr_propagate_by: Literal["m", "l"],
     feedback: Feedback,

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from sched_sim.cli.output import Format, print_csv, print_json, print_table
+from sched_sim.cli.outputs import Named, refuse_one_file_for_two
 from sched_sim.cli.progress import progress_bar
 
 if TYPE_CHECKING:
@@ -18,12 +19,13 @@ if TYPE_CHECKING:
 
 
 def simulate_scenario(
-    path: Path, gantt: Path | None, traces: Sequence[Path], histogram: Path | None, format: Format
+    path: Path, gantt: Path | None, traces: Sequence[Path], histogram: Path | None, outputs: Named, format: Format
 ) -> None:
-    """Raises InputError for a scenario that cannot be run, and for a file that cannot be written."""
+    """outputs: the three, by their options. Raises InputError for a scenario that cannot be run, and for a file that
+    cannot be written or is one that is read."""
     from sched_sim.scenario_file import read_scenario
     from sched_sim.scenario_run import run_scenario
-    from sched_sim.trace import open_trace
+    from sched_sim.trace import check_trace, open_trace
 
     pictures = [picture for picture in (gantt, histogram) if picture is not None]
     if pictures:
@@ -31,7 +33,10 @@ def simulate_scenario(
 
         for picture in pictures:
             check_picture(picture)
+    for trace in traces:
+        check_trace(trace)
     scenario = read_scenario(path)
+    refuse_one_file_for_two(outputs, [("--scenario", file) for file in scenario.files])
     with ExitStack() as files:
         scale = 1000.0 if scenario.hr_hz is None else float(1e6 / scenario.hr_hz)
         writers = [files.enter_context(open_trace(trace, scale)) for trace in traces]

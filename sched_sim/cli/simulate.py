@@ -12,6 +12,7 @@ import typer
 
 from sched_sim.cli import options as opt
 from sched_sim.cli.output import print_csv, print_json, print_table
+from sched_sim.cli.outputs import refuse_one_file_for_two
 from sched_sim.errors import InputError
 
 if TYPE_CHECKING:
@@ -89,12 +90,13 @@ def simulate(
     sched-sim simulate --scenario rocket.toml --histogram rocket.svg
     """
     outputs = [("--histogram", histogram), ("--gantt", gantt), *(("--trace", path) for path in trace or ())]
-    opt.refuse_one_file_for_two(outputs)
+    inputs = [("--scenario", scenario), ("--costs", costs), ("--processor", processor), ("--tasks", tasks)]
+    refuse_one_file_for_two(outputs, inputs)
     if scenario is not None:
         from sched_sim.cli.scenario import simulate_scenario
 
         _refuse_beside_scenario(context, scenario)
-        simulate_scenario(scenario, gantt, trace or (), histogram, format)
+        simulate_scenario(scenario, gantt, trace or (), histogram, outputs, format)
         return
     if histogram is not None:
         raise InputError(f"--histogram {histogram} is for random times: give --scenario FILE.toml too")
@@ -107,12 +109,14 @@ def simulate(
     from sched_sim.costs import MULTIRATE_METHODS, select
     from sched_sim.least_speed import least_speed
     from sched_sim.simulate import simulate as run
-    from sched_sim.trace import open_trace
+    from sched_sim.trace import check_trace, open_trace
 
     if gantt is not None:
         from reports.picture import check_picture
 
         check_picture(gantt)
+    for path in trace or ():
+        check_trace(path)
     options = opt.make_options(lr_propagate_by, feedback, gain, low_rate_noise, cpus, context_switch)
     timing = opt.make_timing(N, M, L, method, options)
     part = opt.make_processor(processor)

@@ -14,8 +14,8 @@ import typer
 
 from sched_sim.cli import options as opt
 from sched_sim.cli.output import print_csv, print_json, print_table
+from sched_sim.cli.outputs import refuse_one_file_for_two
 from sched_sim.costs import Statistic
-from sched_sim.errors import InputError
 
 if TYPE_CHECKING:
     from studies.store import Store
@@ -136,13 +136,16 @@ def sweep(
         "simulate": simulate,
         "cycles": cycles,
     }
-    asked = settings(flags, grid).sweep()
+    wanted = settings(flags, grid)
+    asked = wanted.sweep()
     path = results or Path(f"{grid.stem if grid else 'sweep'}-{asked.digest[:8]}.sqlite")
     exports = export or []
     for file in exports:
         check_export(file)
-        if file.resolve() == path.resolve():
-            raise InputError(f"--export {file} is the results file too: give another name to one of them")
+    refuse_one_file_for_two(
+        [("--results", path), *(("--export", file) for file in exports)],
+        [("GRID", grid), *(("--costs", name) for name in wanted.costs)],
+    )
     with asked.open(path) as store:
         try:
             with _progress(asked.grid.size) as show:

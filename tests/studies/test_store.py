@@ -180,5 +180,8 @@ def test_a_damaged_file_is_an_error_that_names_it(tmp_path):
     content = bytearray(path.read_bytes())
     content[-4096:] = b"\xff" * 4096
     path.write_bytes(content)
-    with SWEEP.open(path) as store, pytest.raises(InputError, match=r"r\.sqlite cannot be read or written"):
+    with (
+        SWEEP.open(path) as store,
+        pytest.raises(InputError, match=r"r\.sqlite is damaged: from its first row: .*another --results"),
+    ):
         list(store.results(100))
