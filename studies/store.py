@@ -109,7 +109,7 @@ class Store:
         checksum = self.layout.checksum
         rows, damaged, last = [], [], -1
         with (
-            self._explained(lambda: f"after point {last}: " if last >= 0 else "from its first row: "),
+            self._explained(lambda: "no row can be read" if last < 0 else f"rows after point {last} cannot be read"),
             closing(self._connection.cursor()) as cursor,
         ):
             for *cells, written in cursor.execute("SELECT * FROM rows ORDER BY point"):
@@ -147,15 +147,16 @@ class Store:
         )
 
     @contextmanager
-    def _explained(self, where: Callable[[], str] = lambda: "") -> Iterator[None]:
-        """Turns the errors of SQLite into one that names the file, and where in it."""
+    def _explained(self, damage: Callable[[], str] = lambda: "SQLite cannot read it") -> Iterator[None]:
+        """Turns the errors of SQLite into one that names the file. damage: what to say where the file is damaged, where
+        texts from it are too."""
         try:
             yield
-        except sqlite3.Error as error:
+        except (sqlite3.Error, UnicodeDecodeError) as error:
             name = getattr(error, "sqlite_errorname", "")
             remedy = next((REMEDIES[kind] for kind in REMEDIES if name.startswith(kind)), None)
             if remedy is None:
-                raise self._damaged(f"{where()}{error}") from error
+                raise self._damaged(damage()) from error
             raise InputError(f"results file {self.path} cannot be read or written: {error}; {remedy}") from error
 
 
