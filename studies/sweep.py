@@ -112,6 +112,8 @@ def _computed(sweep: Sweep, missing: list[range], workers: int, stopped: Callabl
             yield rows_of(chunk, None)
         else:
             simulated.append(span)
+    if not simulated:  # nor processes started
+        return
 
     def size(first: Chunk) -> int:
         search = LEAST_SPEED_CYCLES if first.block.options.context_switch else 0
