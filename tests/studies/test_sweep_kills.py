@@ -6,10 +6,14 @@ import sqlite3
 import subprocess
 import sys
 import time
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import closing, contextmanager, suppress
 from pathlib import Path
 
 import pytest
+
+from tests.deaths import call_alone, traceable
+from tests.studies.random_kills import PATIENCE_S
 
 pytestmark = [
     pytest.mark.slow,
@@ -77,9 +81,9 @@ def rows_in(folder):
         return connection.execute("SELECT COUNT(*) FROM rows").fetchone()[0]
 
 
-def wait_for(condition, seconds=20.0):
+def wait_for(condition):
     """What the condition came to, once it is true."""
-    end = time.monotonic() + seconds
+    end = time.monotonic() + PATIENCE_S
     while not (found := condition()):
         assert time.monotonic() < end, "waited in vain"
         time.sleep(0.02)
@@ -99,8 +103,8 @@ def test_kill_9_of_the_parent(tmp_path, uninterrupted):
     with begun(tmp_path) as process:
         acknowledged = wait_for(lambda: rows_in(tmp_path))
         process.kill()
-        process.communicate(timeout=5)
-        wait_for(lambda: not processes_of(process.pid), seconds=5)
+        process.communicate(timeout=PATIENCE_S)
+        wait_for(lambda: not processes_of(process.pid))
     kept = rows_in(tmp_path)
     assert acknowledged <= kept < uninterrupted.count(b"\n") - 1
     assert not (tmp_path / "r.csv").exists()
@@ -111,9 +115,9 @@ def test_kill_9_of_a_worker(tmp_path, uninterrupted):
     with begun(tmp_path) as process:
         wait_for(lambda: rows_in(tmp_path))
         os.kill(workers_of(process.pid)[0], signal.SIGKILL)
-        _out, errors = process.communicate(timeout=15)
+        _out, errors = process.communicate(timeout=PATIENCE_S)
         assert (process.returncode, errors) == (0, "")
-        wait_for(lambda: not processes_of(process.pid), seconds=5)
+        wait_for(lambda: not processes_of(process.pid))
     assert (tmp_path / "r.csv").read_bytes() == uninterrupted
 
 
@@ -127,9 +131,9 @@ def test_signals(tmp_path, uninterrupted, number, to_all):
     with begun(tmp_path) as process:
         acknowledged = wait_for(lambda: rows_in(tmp_path))
         (os.killpg if to_all else os.kill)(process.pid, number)
-        out, errors = process.communicate(timeout=10)
+        out, errors = process.communicate(timeout=PATIENCE_S)
         assert process.returncode == 128 + number
-        wait_for(lambda: not processes_of(process.pid), seconds=5)
+        wait_for(lambda: not processes_of(process.pid))
     kept = rows_in(tmp_path)
     size = uninterrupted.count(b"\n") - 1
     assert acknowledged <= kept < size
@@ -145,8 +149,24 @@ def test_ctrl_c_while_the_workers_start(tmp_path):
     with begun(tmp_path) as process:
         wait_for(lambda: workers_of(process.pid))
         os.killpg(process.pid, signal.SIGINT)
-        _out, errors = process.communicate(timeout=10)
+        _out, errors = process.communicate(timeout=PATIENCE_S)
         assert process.returncode == 130
         assert errors.startswith("Stopped by SIGINT: ")
         assert errors.count("\n") == 1
-        wait_for(lambda: not processes_of(process.pid), seconds=5)
+        wait_for(lambda: not processes_of(process.pid))
+
+
+@pytest.mark.skipif(not traceable(), reason="no process can be traced here")
+@pytest.mark.parametrize(
+    "number",
+    [30, pytest.param(int(os.environ.get("SCHED_SIM_KILLS", "1000")), marks=pytest.mark.exhaust, id="many")],
+)
+def test_random_kills_lose_nothing(number):
+    """Of the parent, of a worker, at a system call; half of them at a time."""
+    with ThreadPoolExecutor() as halves:
+        module, function = "tests.studies.random_kills", "kill_many"
+        begun = [halves.submit(call_alone, module, function, 10**6 * half, number // 2) for half in (0, 1)]
+    for half in begun:
+        done = half.result()
+        print(done.stdout)
+        assert done.returncode == 0, done.stderr
