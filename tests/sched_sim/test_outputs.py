@@ -66,6 +66,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     (tmp_path / "a.json").write_text("earlier")
     (tmp_path / "b.json").symlink_to("./a.json")
     (tmp_path / "folder").mkdir()
+    monkeypatch.setattr(sys, "path", list(sys.path))
     for module in ("model_of_mine", "constants"):
         monkeypatch.delitem(sys.modules, module, raising=False)
     return tmp_path

@@ -6,13 +6,13 @@ import sqlite3
 import subprocess
 import sys
 import time
-from concurrent.futures import ThreadPoolExecutor
 from contextlib import closing, contextmanager, suppress
 from pathlib import Path
 
 import pytest
 
 from tests.deaths import call_alone, traceable
+from tests.exhaust import share_of
 from tests.studies.random_kills import PATIENCE_S
 
 pytestmark = [
@@ -156,17 +156,20 @@ def test_ctrl_c_while_the_workers_start(tmp_path):
         wait_for(lambda: not processes_of(process.pid))
 
 
+def kill_many(part, number):
+    done = call_alone("tests.studies.random_kills", "kill_many", 10_000 * part, number)
+    assert done.returncode == 0, done.stderr
+
+
 @pytest.mark.skipif(not traceable(), reason="no process can be traced here")
-@pytest.mark.parametrize(
-    "number",
-    [30, pytest.param(int(os.environ.get("SCHED_SIM_KILLS", "1000")), marks=pytest.mark.exhaust, id="many")],
-)
-def test_random_kills_lose_nothing(number):
-    """Of the parent, of a worker, at a system call; half of them at a time."""
-    with ThreadPoolExecutor() as halves:
-        module, function = "tests.studies.random_kills", "kill_many"
-        begun = [halves.submit(call_alone, module, function, 10**6 * half, number // 2) for half in (0, 1)]
-    for half in begun:
-        done = half.result()
-        print(done.stdout)
-        assert done.returncode == 0, done.stderr
+def test_random_kills_lose_nothing():
+    kill_many(0, 12)
+
+
+@pytest.mark.exhaust
+@pytest.mark.parametrize("part", range(1, 26))
+def test_a_thousand_random_kills_lose_nothing(part, record_property):
+    """Of the parent, of a worker, at a system call."""
+    number = share_of(40)
+    kill_many(part, number)
+    record_property("kills", number)
