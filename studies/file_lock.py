@@ -41,9 +41,13 @@ class FileLock:
     def _take(self, path: Path) -> None:
         try:
             fcntl.flock(self._descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except OSError:
+        except BlockingIOError:
             raise InputError(
                 f"results file {path} is being written by another sweep: wait for it, or give another --results"
+            ) from None
+        except OSError as error:
+            raise InputError(
+                f"results file {path} cannot be locked: {error.strerror}; give another --results"
             ) from None
         if os.fstat(self._descriptor).st_size:
             raise InputError(

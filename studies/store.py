@@ -44,13 +44,12 @@ class Store:
         self.path = path
         self.layout = layout
         self.columns = layout.result_columns
-        _check_names(path)
-        where = Path(os.path.realpath(path))
-        if where.exists():
+        where = _file_meant(path)
+        if os.path.exists(where):
             check_owner(path, layout)
         self._lock = FileLock(where)
         try:
-            if where.exists():
+            if os.path.exists(where):
                 check_owner(path, layout)
             else:
                 _refuse_remains(where)
@@ -173,19 +172,19 @@ def _which(path: Path, points: Sequence[int]) -> tuple[str, str]:
     return f"{len(points)} {plural} {named}", remedy
 
 
-def _check_names(path: Path) -> None:
-    """Raises InputError for a file of several names: its log stands by one of them only."""
+def _file_meant(path: Path) -> Path:
+    """Links followed. Raises InputError for a file of several names: its log stands by one of them only."""
     try:
-        names = path.stat().st_nlink
-    except FileNotFoundError:
-        return
+        where = Path(os.path.realpath(path))
+        names = where.stat().st_nlink if os.path.lexists(where) and not where.is_dir() else 1
     except OSError as error:
         raise InputError(f"results file {path} cannot be read: {error.strerror}; give another --results") from None
-    if path.is_file() and names > 1:
+    if names > 1:
         raise InputError(
             f"results file {path} has {names} names (hard links), and its write-ahead log would stand by one of them "
             f"only: give a copy of it as --results, or another; it is left as it was"
         )
+    return where
 
 
 def _refuse_remains(path: Path) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Iterable
+from contextlib import suppress
 from pathlib import Path
 from types import ModuleType
 from typing import TypeAlias
@@ -48,7 +49,10 @@ def _files(named: Named) -> list[tuple[str, Path]]:
 
 def _same(path: Path, other: Path) -> bool:
     """Under other spellings, through links of either kind."""
-    try:
-        return os.path.samefile(path, other)
-    except OSError:  # one of them is not there
+    if path == other:
+        return True
+    with suppress(OSError):  # the current folder may be gone
+        if os.path.exists(path) and os.path.exists(other):
+            return os.path.samefile(path, other)
         return os.path.realpath(path) == os.path.realpath(other)
+    return False

@@ -12,6 +12,7 @@ from threading import Thread
 
 import pytest
 
+from sched_sim.cli.outputs import refuse_one_file_for_two
 from sched_sim.errors import InputError
 from sched_sim.files import check_writable, write, writing
 from tests.deaths import call_alone, killed_at_call, traceable
@@ -68,6 +69,16 @@ def test_a_link_that_leads_nowhere_is_refused_beforehand(tmp_path: Path, target:
     (tmp_path / "loop.csv").symlink_to(target)
     with pytest.raises(InputError, match=r"--trace '.*loop\.csv' cannot be written: .*give"):
         check_writable(tmp_path / "loop.csv", "--trace")
+
+
+def test_a_current_folder_that_is_gone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "gone").mkdir()
+    os.chdir("gone")
+    (tmp_path / "gone").rmdir()
+    with pytest.raises(InputError, match=r"--trace 'a\.csv' cannot be written: No such file"):
+        check_writable(Path("a.csv"), "--trace")
+    refuse_one_file_for_two([("--trace", Path("a.csv")), ("--trace", Path("b.csv"))])
 
 
 def test_devices_and_pipes_are_written_to(tmp_path: Path) -> None:

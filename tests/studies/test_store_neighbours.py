@@ -92,3 +92,12 @@ def test_a_file_without_checksums_is_told_what_to_do(tmp_path):
     ):
         resumed(path)
     assert contents(tmp_path) == before
+
+
+@pytest.mark.parametrize("name", ["n" * 300, "n" * 250, "loop", "s.sqlite/r.sqlite", "gone/r.sqlite", "."])
+def test_a_name_that_cannot_be_used(tmp_path, name):
+    (tmp_path / "loop").symlink_to("loop")
+    (tmp_path / "s.sqlite").touch()
+    with pytest.raises(InputError, match="another --results"):
+        SWEEP.open(tmp_path / name)
+    assert sorted(os.listdir(tmp_path)) == ["loop", "s.sqlite"]
