@@ -4,13 +4,14 @@ Everything is exact: costs and HR periods are whole ticks, a least speed is a qu
 deadline is a demand over a window, the least speed the largest of them (Steffes 2014, Sec. III.C). Nothing is
 simulated here: `sched_sim.simulate` is the oracle of this module, and this module of that.
 
-Arrays may hold any integers; with dtype=object nothing can overflow.
+Any integers will do: the arrays are computed as int64 where nothing can overflow, else as Python's integers.
 """
 
 from __future__ import annotations
 
 from dataclasses import astuple
 from enum import IntEnum
+from operator import index
 
 import numpy as np
 
@@ -23,7 +24,7 @@ from sched_sim.costs import (
     StandardCosts,
     TwoRateCosts,
 )
-from sched_sim.demand import DualRateDemand, Ints, Quotient, choose, largest, quotient, smaller
+from sched_sim.demand import DualRateDemand, Ints, Quotient, choose, largest, quotient, smaller, whole_numbers
 from sched_sim.options import Options
 
 
@@ -62,7 +63,15 @@ def least_period(costs: JobCosts, N: Ints, M: Ints, L: Ints, options: Options) -
 
     costs in ticks; N, M, L: integer arrays of one shape, legal for the method. `options.context_switch` is not
     looked at: see `sched_sim.search`.
+    Raises TypeError for what is no whole number.
     """
+    costs = _counted(costs)
+    shape = np.shape(N)
+    N, M, L = _arrays(costs, N, M, L)
+    return Quotient(*(part.reshape(shape) for part in _least_period(costs, N, M, L, options)))
+
+
+def _least_period(costs: JobCosts, N: Ints, M: Ints, L: Ints, options: Options) -> Quotient:
     if isinstance(costs, TwoRateCosts):
         least = _next_step(_two_rate_demand(costs, N, options), L, by_m=False)
         low = Binding.lr_gain if isinstance(costs, MultirateCosts) else Binding.lr_step
@@ -75,7 +84,17 @@ def least_period(costs: JobCosts, N: Ints, M: Ints, L: Ints, options: Options) -
 
 
 def achieved_l(costs: JobCosts, N: Ints, M: Ints, period: Ints, options: Options) -> Ints:
-    """The L at which corrections land (or gains are in use) at an HR period of `period` ticks, or NOT_LANDED."""
+    """The L at which corrections land (or gains are in use) at an HR period of `period` ticks, or NOT_LANDED.
+
+    As `least_period`; `period` is an array of the same shape.
+    """
+    costs = _counted(costs)
+    shape = np.shape(N)
+    N, M, period = _arrays(costs, N, M, period)
+    return _achieved_l(costs, N, M, period, options).reshape(shape)
+
+
+def _achieved_l(costs: JobCosts, N: Ints, M: Ints, period: Ints, options: Options) -> Ints:
     if isinstance(costs, TwoRateCosts):
         demand = _two_rate_demand(costs, N, options)
         return np.where(period >= demand.longest_hr_job(), _landing_next_step(demand, period), NOT_LANDED)
@@ -85,6 +104,21 @@ def achieved_l(costs: JobCosts, N: Ints, M: Ints, period: Ints, options: Options
     demand = DualRateDemand(costs, N, M, separate=options.cpus == 2)
     landing = _landing_next_step if options.feedback == "next-step" else _landing_same_step
     return np.where(period >= demand.longest_hr_job(), landing(demand, period), NOT_LANDED)
+
+
+def _counted(costs: JobCosts) -> JobCosts:
+    """With Python's integers, whatever whole numbers they were."""
+    return type(costs)(*map(index, astuple(costs)))
+
+
+def _arrays(costs: JobCosts, N: Ints, *others: Ints) -> list[Ints]:
+    """Flat, and of a type in which nothing overflows: the analysis multiplies the work of a cycle, or a period, by at
+    most two numbers of steps."""
+    found = [whole_numbers(array).ravel() for array in (N, *others)]
+    steps = int(found[0].max(initial=0)) + 3
+    largest = max(int(array.max(initial=0)) for array in found)
+    fits = 8 * steps * max(steps * sum(astuple(costs)), largest) <= np.iinfo(np.int64).max
+    return [array.astype(np.int64 if fits else object) for array in found]
 
 
 def _longest_serial_job(costs: StandardCosts | RecalculateCosts | LarsenCosts, N: Ints, M: Ints) -> Ints:
@@ -117,7 +151,7 @@ def _next_step(demand: DualRateDemand, L: Ints, by_m: bool) -> Quotient:
     def least(end: Ints, landing_job: Ints, delay: Ints | int) -> Quotient:
         hr = quotient(np.maximum(longest, landing_job + hr_update), 1, Binding.hr)
         propagate = demand.propagate_window(Binding.lr_propagate, delay) if by_m else idle
-        update = demand.update_window(end, Binding.lr_update, np.where(M == 0, delay, 0))
+        update = demand.update_window(end, Binding.lr_update, np.where(M == 0, 0 * N + delay, 0))
         return largest(hr, propagate, update, demand.total_window(end, Binding.lr_total, delay))
 
     at_next_k = least(N, demand.hr_job(0), hr_update)
@@ -136,7 +170,7 @@ def _landing_next_step(demand: DualRateDemand, period: Ints) -> Ints:
     N, M, hr_update = demand.N, demand.M, demand.costs.hr_update
     end = demand.first_end(period)
     before_next_k = (end < N) & (period >= demand.hr_job(end) + hr_update)
-    update = demand.update_window(N, Binding.lr_update, np.where(M == 0, hr_update, 0))
+    update = demand.update_window(N, Binding.lr_update, np.where(M == 0, 0 * N + hr_update, 0))
     total = demand.total_window(N, Binding.lr_total, hr_update)
     fits = (period >= demand.hr_job(0) + hr_update) & ~_exceed(update, period) & ~_exceed(total, period)
     return np.where(before_next_k | ((end == N) & fits), end, NOT_LANDED)

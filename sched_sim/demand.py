@@ -6,6 +6,7 @@ HR period (in ticks) that it takes at least.
 
 from __future__ import annotations
 
+from operator import index
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
@@ -27,9 +28,17 @@ class Quotient(NamedTuple):
         return self.numerator * other.denominator > other.numerator * self.denominator
 
 
-def quotient(numerator: Any, denominator: Any, code: int) -> Quotient:
-    numerator, denominator = np.broadcast_arrays(numerator, denominator)
-    return Quotient(numerator, denominator, np.full(numerator.shape, code))
+def quotient(numerator: Ints, denominator: Ints | int, code: int) -> Quotient:
+    """Of an array and an array or a number."""
+    return Quotient(numerator, 0 * numerator + denominator, np.full(numerator.shape, code))
+
+
+def whole_numbers(values: Any) -> Ints:
+    """An array of some integer type, or of Python's integers. Raises TypeError for what is no whole number."""
+    array = np.asarray(values)
+    if array.dtype.kind not in "iu":
+        array = np.asarray(np.frompyfunc(index, 1, 1)(array), dtype=object)
+    return array
 
 
 def choose(condition: Ints, yes: Quotient, no: Quotient) -> Quotient:
@@ -96,7 +105,7 @@ class DualRateDemand(NamedTuple):
 
     def update_window(self, end: Ints, code: int, more: Any = 0) -> Quotient:
         """The LR update, and `more`, between m and the start of step `end`."""
-        hr = 0 if self.separate else self.hr_work(self.M, end)
+        hr = self._zero if self.separate else self.hr_work(self.M, end)
         return quotient(hr + self.costs.lr_update + more, end - self.M, code)
 
     def total_window(self, end: Ints, code: int, more: Any = 0) -> Quotient:
@@ -116,19 +125,16 @@ class DualRateDemand(NamedTuple):
         update, total = c.lr_update * scale, (self.lr_early + c.lr_update) * scale
         if self.separate:
             first = self.hr_job(0) * scale
-            return np.maximum(M + _steps(update, period), _steps(first + total, period))
+            return np.maximum(M + self._steps(update, period), self._steps(first + total, period))
         slack = period - c.hr * scale
         saved = (c.hr_restart - c.hr) * scale
-        by_update = M + _steps(update + saved * (self._zero + (M <= 1)), slack)
-        end = np.maximum(np.maximum(by_update, _steps(total + saved, slack)), 2)
+        by_update = M + self._steps(update + saved * (self._zero + (M <= 1)), slack)
+        end = np.maximum(np.maximum(by_update, self._steps(total + saved, slack)), 2)
         within_first = (M == 0) & (period - self.hr_job(0) * scale >= total)
         return np.where(within_first, 1, end)
 
-
-BEYOND = 1 << 40
-
-
-def _steps(work: Ints, slack: Ints) -> Ints:
-    """How many steps it takes to do `work` when each leaves `slack`: at least one."""
-    ceiling = -(-work // np.maximum(slack, 1))
-    return np.where(slack > 0, np.maximum(ceiling, 1), np.where(work <= 0, 1, BEYOND))
+    def _steps(self, work: Ints | int, slack: Ints) -> Ints:
+        """How many steps it takes to do `work` when each leaves `slack`: at least one; more than N if it never ends."""
+        ceiling = -(-work // np.maximum(slack, 1))
+        never = self.N + 1
+        return np.where(slack > 0, np.maximum(ceiling, 1), np.where(np.less_equal(work, 0), 1, never))

@@ -18,7 +18,7 @@ from sched_sim.options import Options
 from sched_sim.ticks import ticks_per_unit, to_ticks
 from sched_sim.timing import Timing
 from studies.grid import Chunk
-from studies.legal import Designs, Ints
+from studies.legal import Ints
 
 
 class Least(NamedTuple):
@@ -61,17 +61,15 @@ def _in_closed_form(chunk: Chunk) -> Analysis:
     ticks = [to_ticks(value, resolution) for value in work]
     costs = type(chunk.block.costs)(*ticks)
     periods = [to_ticks(speed, resolution) for speed in speeds]
-    dtype = _dtype(sum(ticks), max(periods, default=0), int(chunk.designs.N.max()))
-    designs = Designs(*(axis.astype(dtype) for axis in chunk.designs))
-    least = analysis.least_period(costs, *designs, options)
+    least = analysis.least_period(costs, *chunk.designs, options)
 
     positions = np.array(chunk.positions)
     design = positions // max(len(speeds), 1)
-    N, M, L = designs.N[design], designs.M[design], designs.L[design]
+    N, M, L = (axis[design] for axis in chunk.designs)
     at_least = Fractions(least.numerator[design], least.denominator[design])
-    at = Fractions(np.array(periods, dtype)[positions % len(speeds)], np.ones_like(N)) if speeds else at_least
+    at = Fractions(np.array(periods, dtype=object)[positions % len(speeds)], np.ones_like(N)) if speeds else at_least
     landed = _landing(costs, N, M, at, options)
-    enough = at.numerator * at_least.denominator >= at_least.numerator * at.denominator
+    enough = at.reaches(at_least)
     feasible = enough & (landed != analysis.NOT_LANDED) & (landed <= L)
     return Analysis(
         least=list(_lowest_terms(least, resolution)),
@@ -88,12 +86,9 @@ class Fractions(NamedTuple):
     numerator: Ints
     denominator: Ints
 
-
-def _dtype(work: int, period: int, N: int) -> type:
-    """int64, or object (any integer) where the analysis could overflow: it multiplies a cycle's work, or a period, by
-    at most two numbers of steps."""
-    largest = 8 * max(work * (N + 3), period) * (N + 3) ** 2
-    return np.int64 if largest < 1 << 62 else object
+    def reaches(self, other: Fractions) -> Ints:
+        """In Python's integers: the products may be too large for others."""
+        return self.numerator.astype(object) * other.denominator >= other.numerator.astype(object) * self.denominator
 
 
 def _landing(costs: JobCosts, N: Ints, M: Ints, period: Fractions, options: Options) -> Ints:

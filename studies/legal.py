@@ -3,18 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import prod
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
 from sched_sim.costs import TWO_RATE_METHODS
+from sched_sim.errors import InputError
 from sched_sim.timing import Feedback
 
 Ints: TypeAlias = npt.NDArray[Any]
 
 SLAB = 256
 """So many values of N are expanded at a time."""
+
+LONGEST_OPEN = 1_000_000
+"""The largest N of which every M is looked at."""
+
+MOST_DESIGNS = 1 << 61
+"""What is counted, and what is counted with, stays below: no int64 overflows."""
 
 
 class Law(NamedTuple):
@@ -62,9 +70,11 @@ class Legal:
 
     The axes are sorted; None instead of M or L stands for every legal value.
     size: how many there are. left_out: how many combinations of the given values have none.
+    Raises InputError for what has too many.
     """
 
     def __init__(self, law: Law, N: Sequence[int], M: Sequence[int] | None, L: Sequence[int] | None) -> None:
+        _check_size(N, M, L)
         self.law = law
         self.N = np.array(N, dtype=np.int64)
         wanted_M = _undelayed(M) if law.undelayed else M
@@ -126,6 +136,17 @@ class Legal:
             return int(np.count_nonzero(pairs.per_n))
         below = np.searchsorted(self.L, N - self.law.before, "right")
         return int(np.maximum(below - np.searchsorted(self.L, self.law.after, "left"), 0).sum())
+
+
+def _check_size(N: Sequence[int], M: Sequence[int] | None, L: Sequence[int] | None) -> None:
+    if M is None and N[-1] > LONGEST_OPEN:
+        raise InputError(f"N={N[-1]} with every M from 0 to N is too many: give -M, or N up to {LONGEST_OPEN:,}")
+    largest = max(N[-1], *(axis[-1] for axis in (M, L) if axis is not None), 0)
+    if largest >= MOST_DESIGNS:
+        raise InputError(f"{largest} steps are too many in a grid: give N, M and L below {MOST_DESIGNS:.2g}")
+    designs = len(N) * prod(N[-1] + 1 if axis is None else len(axis) for axis in (M, L))
+    if designs >= MOST_DESIGNS:
+        raise InputError(f"a grid of up to {designs:.2g} designs is too large: give fewer values of N, -M and -L")
 
 
 def _undelayed(M: Sequence[int] | None) -> Sequence[int]:

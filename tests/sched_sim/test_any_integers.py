@@ -1,0 +1,143 @@
+"""The closed form on any integers: as large as they come, in arrays of any shape, never overflowing silently."""
+
+from __future__ import annotations
+
+from dataclasses import astuple
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from sched_sim.analysis import NOT_LANDED, achieved_l, least_period
+from sched_sim.costs import DualRateCosts, JobCosts, LarsenCosts, RecalculateCosts, StandardCosts
+from sched_sim.errors import InputError
+from sched_sim.options import Options
+from studies.legal import Legal, law_of
+from tests.command_line import Run
+from tests.designs import Design, designs
+
+COSTS = DualRateCosts(hr=60, hr_restart=10, hr_update=5, lr_propagate=30, lr_gain=0, lr_update=50)
+
+factors = st.integers(1, 60).map(lambda digits: 10**digits) | st.integers(40, 70).map(lambda bits: 2**bits)
+
+
+def times(costs: JobCosts, factor: int) -> JobCosts:
+    return type(costs)(*(factor * cost for cost in astuple(costs)))
+
+
+@given(designs, factors, st.sampled_from([np.int32, np.int64, np.uint64, object]))
+def test_costs_times_a_factor_need_that_much_longer_periods_and_land_where_they_did(
+    design: Design, factor: int, dtype: Any
+) -> None:
+    N, M, L = (np.array([step], dtype) for step in (design.timing.N, design.timing.M, design.timing.L))
+    small, large = (least_period(times(design.costs, by), N, M, L, design.options) for by in (1, factor))
+    (numerator,), (denominator,), (code,) = (part.tolist() for part in large)
+    assert Fraction(numerator, denominator) == factor * Fraction(small.numerator.item(), small.denominator.item())
+    assert code == small.code.item()
+    period = -(-small.numerator // small.denominator)
+    landed = achieved_l(design.costs, N, M, period, design.options)
+    assert achieved_l(times(design.costs, factor), N, M, factor * period.astype(object), design.options) == landed
+
+
+@pytest.mark.parametrize("largest", [2**31 - 1, 2**62, 2**63 - 1, 10**30])
+def test_steps_near_the_limits_of_an_integer_type(largest: int) -> None:
+    """By hand: LR propagate by m takes the HR work of steps k .. m-1 and itself, in M steps."""
+    N, M = np.array([largest] * 2), np.array([largest // 2, 1])
+    least = least_period(COSTS, N, M, N, Options())
+    many = Fraction(COSTS.hr * (largest // 2 - 1) + COSTS.hr_restart + COSTS.lr_propagate, largest // 2)
+    assert [*map(Fraction, least.numerator.tolist(), least.denominator.tolist())] == [
+        max(Fraction(COSTS.hr + COSTS.hr_update), many),
+        Fraction(COSTS.hr + COSTS.lr_propagate),
+    ]
+    assert least_period(LarsenCosts(3, 4, 5), N, M, N, Options()).numerator.tolist() == [9, 8]
+    replayed = least_period(RecalculateCosts(3, 5, 2), N, M, N, Options())
+    assert replayed.numerator.tolist() == [8 + 2 * m for m in M.tolist()]
+
+
+@pytest.mark.parametrize("N", [100, 2**41, 2**62])
+def test_hr_jobs_that_leave_nothing_never_land_however_long_the_cycle(N: int) -> None:
+    (steps,) = np.array([[N]])
+    assert achieved_l(COSTS, steps, 4 + 0 * steps, COSTS.hr + 0 * steps, Options()).item() == NOT_LANDED
+    same_step = Options(feedback="same-step")
+    assert achieved_l(COSTS, steps, 4 + 0 * steps, COSTS.hr + 0 * steps, same_step).item() == NOT_LANDED
+
+
+@pytest.mark.parametrize("feedback", ["next-step", "same-step"])
+@pytest.mark.parametrize("cpus", [1, 2])
+def test_arrays_keep_their_shape(feedback: Any, cpus: Any) -> None:
+    N = np.array([[10, 10, 100], [8, 9, 12]])
+    M, L = N // 3, N // 2
+    options = Options(feedback=feedback, cpus=cpus)
+    whole, flat = (least_period(COSTS, *axes, options) for axes in ((N, M, L), (N.ravel(), M.ravel(), L.ravel())))
+    assert whole.numerator.shape == whole.denominator.shape == whole.code.shape == N.shape
+    assert all((part.ravel() == other).all() for part, other in zip(whole, flat, strict=True))
+    landed = achieved_l(COSTS, N, M, 90 + 0 * N, options)
+    assert landed.shape == N.shape
+    assert (landed.ravel() == achieved_l(COSTS, N.ravel(), M.ravel(), 90 + 0 * N.ravel(), options)).all()
+
+
+def test_no_point_is_no_point() -> None:
+    none = np.array([], dtype=np.int64)
+    assert least_period(COSTS, none, none, none, Options(feedback="same-step")).numerator.size == 0
+
+
+@pytest.mark.parametrize(
+    ("costs", "N"),
+    [
+        (COSTS, np.array([10.0])),
+        (COSTS, np.array([Fraction(21, 2)], dtype=object)),
+        (StandardCosts(Fraction(1, 2), 1), np.array([10])),
+    ],
+)
+def test_what_is_no_whole_number_is_refused(costs: JobCosts, N: Any) -> None:
+    with pytest.raises(TypeError, match="integer"):
+        least_period(costs, N, np.array([4]), np.array([8]), Options())
+
+
+@pytest.mark.parametrize(
+    ("N", "M", "L", "said"),
+    [
+        ([10**10], None, None, "N=10000000000 with every M from 0 to N is too many"),
+        ([10**18, 10**18 + 1, 10**18 + 2], [4], None, r"up to 3e\+18 designs is too large"),
+        ([9 * 10**18], [4], [8], "9000000000000000000 steps are too many"),
+        ([10], [99 * 10**18], [8], "99000000000000000000 steps are too many"),
+    ],
+)
+def test_a_grid_of_more_designs_than_can_be_counted_is_refused(
+    N: list[int], M: list[int] | None, L: list[int] | None, said: str
+) -> None:
+    with pytest.raises(InputError, match=said):
+        Legal(law_of("dual-rate", "next-step"), N, M, L)
+
+
+TABLE = """
+name = "measured"
+unit = "us"
+
+[costs.dual-rate]
+hr_propagate = 45.123456789012345
+hr_restart = 0.0021234567890123457
+hr_update = 12.397596782782849
+lr_propagate = 30.123456789012345
+lr_update = 40.123456789012345
+"""
+"""With all 17 digits of a float: in whole ticks, they need more than 64 bits."""
+
+
+@pytest.mark.parametrize(
+    "line", ["minimum -N 10 -M 4 -L 8", "simulate -N 10 -M 4 -L 8", "gantt -N 10 -M 4 -o x.svg", "sweep -N 4:6"]
+)
+def test_a_cost_of_17_digits_goes_through_every_command(sched_sim: Run, tmp_path: Path, line: str) -> None:
+    (tmp_path / "mine.toml").write_text(TABLE)
+    assert sched_sim(f"{line} --method dual-rate --costs mine.toml").code == 0
+
+
+def test_its_least_speed_is_exact_to_the_last_digit(sched_sim: Run, tmp_path: Path) -> None:
+    (tmp_path / "mine.toml").write_text(TABLE)
+    shown = sched_sim("minimum -N 10 -M 4 -L 8 --method dual-rate --costs mine.toml --format json").out
+    one_hr_job = Fraction("45.123456789012345") + Fraction("12.397596782782849")
+    assert f'"{one_hr_job}"' in shown
