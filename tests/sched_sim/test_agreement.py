@@ -1,0 +1,110 @@
+"""Analysis and simulation agree on every design of a grid, and on very many random ones."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import fields
+from fractions import Fraction
+from itertools import product
+from random import Random
+
+import pytest
+
+from sched_sim.costs import (
+    DualRateCosts,
+    JobCosts,
+    LarsenCosts,
+    MultirateCosts,
+    RecalculateCosts,
+    RobustCosts,
+    StandardCosts,
+)
+from sched_sim.options import Options
+from sched_sim.timing import Timing
+from tests.agreement import assert_agreement, legal_timings
+from tests.exhaust import share_of
+
+SHARES = [Fraction(2, 3), Fraction(1), Fraction(5, 4), Fraction(3)]
+
+DUAL_RATE = [
+    DualRateCosts(3, 4, 11, 6, 0, 4),  # the restart is the longest HR job, the HR update longer still
+    DualRateCosts(60, 10, 5, 30, 0, 50),  # near those of Steffes 2014, Table 3
+    DualRateCosts(2, 5, 1, 1, 0, 1),  # restart long, all else short: lands at once
+    DualRateCosts(1, 1, 1, 1, 0, 1),  # everything ties
+    DualRateCosts(1, 1, 9, 20, 0, 20),  # HR jobs hardly count
+    DualRateCosts(40, 40, 30, 5, 0, 20),  # same-step feedback spills into the next step
+    DualRateCosts(7, 2, 4, 3, 6, 1),  # precomputed gains from here on
+    DualRateCosts(3, 4, 11, 6, 5, 4),
+]
+SERIAL = [
+    StandardCosts(3, 2),
+    RecalculateCosts(2, 3, 2),
+    LarsenCosts(3, 4, 5),
+    LarsenCosts(9, 1, 2),  # an ordinary step is the longest
+    LarsenCosts(9, 4, 5),  # one that ties
+    LarsenCosts(4, 9, 1),
+]
+TWO_RATE = [MultirateCosts(3, 7), RobustCosts(5, 1), MultirateCosts(1, 1), RobustCosts(2, 40)]
+
+
+def every_option(costs: JobCosts) -> list[Options]:
+    """All that make a difference to such costs."""
+    if isinstance(costs, DualRateCosts):
+        gain = "precomputed" if costs.lr_gain else "at-update"
+        return [
+            Options(feedback=feedback, lr_propagate_by=by, gain=gain, cpus=cpus)
+            for feedback, by, cpus in product(("next-step", "same-step"), ("m", "l"), (1, 2))
+        ]
+    return [Options(), Options(cpus=2)] if isinstance(costs, MultirateCosts | RobustCosts) else [Options()]
+
+
+def all_timings(costs: JobCosts, N: int, options: Options) -> list[Timing]:
+    if isinstance(costs, MultirateCosts | RobustCosts):
+        return [Timing(N, 0, L) for L in range(1, N + 1)]
+    return legal_timings(costs, N, options)
+
+
+@pytest.mark.parametrize("costs", [*DUAL_RATE, *SERIAL, *TWO_RATE], ids=str)
+def test_they_agree_on_every_design_of_up_to_six_steps(costs: JobCosts) -> None:
+    for options in every_option(costs):
+        timings = [timing for N in range(1, 7) for timing in all_timings(costs, N, options)]
+        assert_agreement(costs, options, timings, SHARES)
+
+
+# ------------------------------------------------------------------------------------------------------- exhaust
+
+
+BATCH = 50
+
+
+def random_costs(random: Random) -> JobCosts:
+    """In ticks: small ones, which tie, and larger ones."""
+    kinds = [DualRateCosts] * 5 + [StandardCosts, RecalculateCosts, LarsenCosts, MultirateCosts, RobustCosts]
+    kind, most = random.choice(kinds), random.choice([2, 5, 12, 100, 1000])
+    pieces = [random.randint(1, random.choice([2, most])) for _ in fields(kind)]
+    if kind is DualRateCosts and random.random() < 0.7:
+        pieces[4] = 0  # no precomputed gain
+    return kind(*pieces)
+
+
+@pytest.mark.exhaust
+@pytest.mark.parametrize("seed", range(100))
+def test_they_agree_on_a_million_random_designs(seed: int, record_property: Callable[[str, object], None]) -> None:
+    random = Random(seed)
+    batches = -(-share_of(10_000) // BATCH)
+    for _ in range(batches):
+        costs = random_costs(random)
+        options = random.choice(every_option(costs))
+        longest = random.choice([6, 12, 12, 30])
+        timings = [random.choice(all_timings(costs, random.randint(1, longest), options)) for _ in range(BATCH)]
+        share = Fraction(random.randint(1, 60), random.randint(15, 30))
+        assert_agreement(costs, options, timings, [share])
+    record_property("designs", batches * BATCH)
+
+
+@pytest.mark.exhaust
+@pytest.mark.parametrize("costs", [*DUAL_RATE, *SERIAL, *TWO_RATE], ids=str)
+@pytest.mark.parametrize("N", [7, 8])
+def test_they_agree_on_every_design_of_seven_and_eight_steps(costs: JobCosts, N: int) -> None:
+    for options in every_option(costs):
+        assert_agreement(costs, options, all_timings(costs, N, options), [*SHARES, Fraction(9, 10), Fraction(11, 10)])
