@@ -106,10 +106,10 @@ def _misses(panel: Panel) -> tuple[str, str]:
         return panel.misses, "miss"
     if not missed:
         return "no deadline missed", "note"
-    ran = len(jobs(panel.schedule)) + (silent := never_ran(panel.schedule))
+    silent = never_ran(panel.schedule)
     waiting = f", {silent} never got the processor" if silent else ""
     verb = "misses its" if missed == 1 else "miss their"
-    return f"✗ {missed} of {ran} jobs {verb} deadline{waiting}", "miss"
+    return f"✗ {missed} of {len(jobs(panel.schedule))} jobs {verb} deadline{waiting}", "miss"
 
 
 def _width(text: str, role: str) -> float:

@@ -14,7 +14,7 @@ CORRECT = "correct "
 
 
 class Row(NamedTuple):
-    """A line of the chart: one class of jobs. cpu: from 0; None if nothing of it ever ran."""
+    """A line of the chart: one class of jobs. cpu: from 0; None if there is no job of it."""
 
     name: str
     cpu: int | None
@@ -90,27 +90,24 @@ def bars(schedule: Schedule) -> list[Bar]:
 
 
 def jobs(schedule: Schedule) -> list[JobSpan]:
-    """Every job that ever ran, by release. A job that never got the processor has no slice, so it is not here:
-    see `never_ran`."""
+    """Every job, by release."""
     slices_of: dict[tuple[str, int], list[Slice]] = {}
     for piece in schedule.slices:
         slices_of.setdefault((piece.kind, piece.step), []).append(piece)
-    spans = [_span(slices, schedule.horizon) for slices in slices_of.values()]
-    return sorted(spans, key=lambda job: (job.release, job.row.name))
+    return sorted(map(_span, slices_of.values()), key=lambda job: (job.release, job.row.name))
 
 
-def _span(slices: Sequence[Slice], horizon: int) -> JobSpan:
+def _span(slices: Sequence[Slice]) -> JobSpan:
     last = slices[-1]
     finish = last.end if last.finished else None
-    missed = last.deadline <= horizon if finish is None else finish > last.deadline
-    runs = tuple((piece.start, piece.end) for piece in slices)
+    runs = tuple((piece.start, piece.end) for piece in slices if piece.start < piece.end)
     row = row_of(last.kind, last.cpu)
-    return JobSpan(row, last.kind, last.step, last.release, last.deadline, finish, missed, runs)
+    return JobSpan(row, last.kind, last.step, last.release, last.deadline, finish, last.missed, runs)
 
 
 def never_ran(schedule: Schedule) -> int:
     """How many of the missed jobs had not got the processor by the horizon."""
-    return schedule.misses - sum(job.missed for job in jobs(schedule))
+    return sum(job.missed and not job.runs for job in jobs(schedule))
 
 
 def waits(job: JobSpan, horizon: int) -> list[tuple[int, int]]:

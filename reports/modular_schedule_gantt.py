@@ -59,7 +59,7 @@ def _merged(piece: Slice) -> Slice:
 def _response(merged: Sequence[Slice], of_last: Response) -> Response:
     """of_last: of the last of them in each step, so that times from release to finish are its own."""
     steps = {piece.step for piece in merged if piece.kind == ON_TIME}
-    missed = {piece.step for piece in merged if piece.kind == ON_TIME and piece.end > piece.deadline}
+    missed = {piece.step for piece in merged if piece.kind == ON_TIME and piece.missed}
     return replace(of_last, releases=len(steps), finished=len(steps), misses=len(missed))
 
 

@@ -104,7 +104,7 @@ def _drawn(scenario: Scenario, sensor: Sensor, steps: int) -> list[tuple[int, in
 
 
 def _silent(scenario: Scenario, steps: int, outcome: Outcome, ran: set[tuple[str, int]]) -> Iterator[Slice]:
-    """For each job without a slice one that lasts no time: it never got the processor, or another did its work too.
+    """For each job without a slice one that lasts no time: another does its work too.
 
     Jobs of one kind finish in the order of their releases.
     """
@@ -115,7 +115,7 @@ def _silent(scenario: Scenario, steps: int, outcome: Outcome, ran: set[tuple[str
             if (job.kind, job.step) in ran:
                 continue
             finished = number < len(responses)
-            end = job.release + round(responses[number] * period) if finished else job.release
+            end = job.release + round(responses[number] * period) if finished else outcome.schedule.horizon
             yield Slice(job.cpu, end, end, job.kind, job.step, 0, 0, (), finished, job.release, job.deadline, period)
 
 

@@ -12,7 +12,7 @@ from sched_sim.jobs import Parts
 
 
 class Slice(NamedTuple):
-    """A stretch of uninterrupted execution, [start, end) in ticks.
+    """A stretch of uninterrupted execution, [start, end) in ticks; of no length for a job unfinished at the horizon.
 
     cpu: from 0; kind, step: of the job; begin: work of the job done before this slice, without overhead;
     overhead: ticks at the start of the slice that went into the context switch; parts: of the whole job;
@@ -31,6 +31,11 @@ class Slice(NamedTuple):
     release: int
     deadline: int
     period: int
+
+    @property
+    def missed(self) -> bool:
+        """Whether the deadline was missed by the end of the slice."""
+        return self.end > self.deadline or (self.end == self.deadline and not self.finished)
 
     def pieces(self) -> list[tuple[str, int, int]]:
         """(label, start, end) of what was done in this slice: "switch", then "HRP", "HRU", ..."""

@@ -224,7 +224,7 @@ class Processor:
                     if now > job.deadline:
                         self._missed(job, now)
                     if on_slice is not None:
-                        on_slice(self._slice(cpu, job, now, finished=True))
+                        on_slice(self._slice(job, cpu.since, now, finished=True))
                     if job.then is not None:
                         for new in job.then(job, now):
                             order_of_release += 1
@@ -250,7 +250,7 @@ class Processor:
                     else:
                         ran = now - cpu.since
                         if on_slice is not None:
-                            on_slice(self._slice(cpu, running, now, finished=False))
+                            on_slice(self._slice(running, cpu.since, now, finished=False))
                         if running.overhead:
                             overhead = min(ran, running.overhead)
                             running.overhead -= overhead
@@ -280,16 +280,21 @@ class Processor:
             self.first_miss = (job.deadline, job.kind, job.held)
 
     def schedule(self) -> Schedule:
-        """The outcome, once `run` has reached the horizon; unfinished jobs are counted as they stand."""
+        """The outcome, once `run` has reached the horizon; unfinished jobs are counted as they stand, and each has
+        a last slice, of no length, there."""
         unfinished = [job for cpu in self.cpus for _, _, job in cpu.ready]
+        unfinished += [job for source in self.sources for job in source.at_horizon()]
         for cpu in self.cpus:
             if cpu.running is not None:
-                unfinished.append(cpu.running)
                 cpu.busy += self.horizon - cpu.since
+                piece = self._slice(cpu.running, cpu.since, self.horizon, finished=False)
+                cpu.running.remaining -= piece.end - piece.start - piece.overhead
                 if self.on_slice is not None:
-                    self.on_slice(self._slice(cpu, cpu.running, self.horizon, finished=False))
-        unfinished += [job for source in self.sources for job in source.at_horizon()]
+                    self.on_slice(piece)
+                unfinished.append(cpu.running)
         for job in unfinished:
+            if self.on_slice is not None:
+                self.on_slice(self._slice(job, self.horizon, self.horizon, finished=False))
             self.tallies[job.kind].releases += 1
             if job.deadline <= self.horizon:
                 self._missed(job, self.horizon)
@@ -305,16 +310,16 @@ class Processor:
             instants=self.instants,
         )
 
-    def _slice(self, cpu: Cpu, job: Job, now: int, *, finished: bool) -> Slice:
-        """What `job` did on `cpu` from its dispatch until now; called before the work is booked."""
+    def _slice(self, job: Job, start: int, end: int, *, finished: bool) -> Slice:
+        """What `job` did on its processor from its dispatch until now; called before the work is booked."""
         return Slice(
-            cpu=cpu.number,
-            start=cpu.since,
-            end=now,
+            cpu=job.cpu,
+            start=start,
+            end=end,
             kind=job.kind,
             step=job.step,
             begin=sum(work for _, work in job.parts) - job.remaining,
-            overhead=min(job.overhead, now - cpu.since),
+            overhead=min(job.overhead, end - start),
             parts=job.parts,
             finished=finished,
             release=job.release,

@@ -17,13 +17,17 @@ Write = Callable[[Slice], None]
 
 COLUMNS = ("cpu", "kind", "piece", "step", "start", "end", "release", "deadline", "finished", "missed")
 
+UNFINISHED = "unfinished"
+"""Instead of a piece: how a job stands at the end of the simulated time, whether it has run before or not."""
+
 
 @contextmanager
 def open_trace(path: Path, microseconds_per_period: float = 1000.0) -> Iterator[Write]:
     """A function that writes one slice to `path`, in the format of its suffix.
 
     CSV: a row for each piece of a slice, times in HR periods. JSON: one complete event for each piece, one HR period
-    lasting `microseconds_per_period`; each CPU is a process, each job kind a thread.
+    lasting `microseconds_per_period`; each CPU is a process, each job kind a thread. A job that is unfinished at
+    the end has a row of no length, or an instant event.
     The file is there once all is written. Raises InputError for another suffix and for a path that cannot be written.
     """
     check_trace(path)
@@ -48,7 +52,7 @@ def _csv(file: StreamWriter, _scale: float) -> Iterator[Write]:
 
     def write(piece: Slice) -> None:
         period = piece.period
-        for label, start, end in piece.pieces():
+        for label, start, end in piece.pieces() or [(UNFINISHED, piece.start, piece.end)]:
             writer.writerow(
                 (
                     piece.cpu + 1,
@@ -60,7 +64,7 @@ def _csv(file: StreamWriter, _scale: float) -> Iterator[Write]:
                     piece.release / period,
                     piece.deadline / period,
                     int(piece.finished and end == piece.end),
-                    int(piece.end > piece.deadline),
+                    int(piece.missed),
                 )
             )
 
@@ -99,8 +103,10 @@ def _chrome(file: StreamWriter, scale: float) -> Iterator[Write]:
                 dur=(end - start) * scale / period,
                 args=about,
             )
-        if piece.finished and piece.end > piece.deadline:
-            event(name="missed", ph="i", s="t", pid=cpu, tid=tid, ts=piece.end * scale / period, args=about)
+        unfinished = piece.start == piece.end
+        if unfinished or (piece.finished and piece.missed):
+            name = "missed" if piece.missed else UNFINISHED
+            event(name=name, ph="i", s="t", pid=cpu, tid=tid, ts=piece.end * scale / period, args=about)
 
     file.write('{"displayTimeUnit": "ms", "traceEvents": [')
     yield write

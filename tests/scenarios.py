@@ -33,10 +33,10 @@ def scenario(speed: object, entries: dict[str, Any], *sensors: Sensor, **setting
 
 
 def slices_of(of: Scenario, kind: str) -> list[tuple[int, int]]:
-    """(start, end) of every slice of one kind."""
+    """(start, end) of all that ran of one kind."""
     found: list[Slice] = []
     run_scenario(of, on_slice=found.append)
-    return [(piece.start, piece.end) for piece in found if piece.kind == kind]
+    return [(piece.start, piece.end) for piece in found if piece.kind == kind and piece.start < piece.end]
 
 
 BY_HAND = {"predict": 4, "correct.gps": 2, "correct.imu": 1}

@@ -109,6 +109,19 @@ def test_each_missed_deadline_has_a_red_cross_and_the_title_counts_them() -> Non
         assert said.startswith(f"✗ {shown.schedule.misses} of ")
 
 
+def test_a_job_that_never_ran_has_its_release_and_its_missed_deadline() -> None:
+    """At speed 0.5 the HR jobs, 0.63 each, leave LR propagate the rest of step 1 only: the LR update waits from m = 4
+    on and is due at l = 8, and so does the HR job of step 9."""
+    axes = gantt([panel("dual-rate", 10, 4, 8, "0.5")]).axes[0]
+    found = [(line.get_marker(), line.get_color() == RED, [*map(float, line.get_xdata())]) for line in axes.lines]
+    hr_releases, lr_releases = (steps for marker, red, steps in found if (marker, red) == ("^", False))
+    hr_crosses, lr_crosses = (steps for marker, red, steps in found if (marker, red) == ("x", True))
+    assert (hr_releases, lr_releases) == ([*range(10)], [1.26, 4])
+    assert (hr_crosses, lr_crosses) == ([1, *range(3, 11)], [4, 8])
+    (said,) = [text.get_text() for text in axes.texts if "deadline" in text.get_text()]
+    assert said == "✗ 11 of 12 jobs miss their deadline, 2 never got the processor"
+
+
 def test_no_miss_no_red() -> None:
     figure = gantt(figure_3())
     assert not [text for text, _ in texts(figure) if text.get_color() == RED]

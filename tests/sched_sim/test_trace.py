@@ -47,12 +47,28 @@ def test_chrome_trace_has_complete_events_in_microseconds_and_named_threads(tmp_
     assert not [event for event in events if event["ph"] == "i"]
 
 
-def test_misses_are_marked(tmp_path: Path) -> None:
+def test_misses_are_marked_those_of_unfinished_jobs_too(tmp_path: Path) -> None:
     schedule = traced(tmp_path / "late.json", speed="0.7")
     events = json.loads((tmp_path / "late.json").read_text())["traceEvents"]
     late = [event for event in events if event["ph"] == "i" and event["name"] == "missed"]
-    assert len(late) == 2
-    assert schedule.misses == 3  # the third had not finished at the horizon
+    assert len(late) == schedule.misses == 3
+    assert [event["ts"] for event in late if event["args"]["step"] == 20] == [30 * 1000]  # unfinished there
+
+
+def test_a_job_that_never_ran_is_in_both_traces(tmp_path: Path) -> None:
+    """At half the load all three LR updates, due at 8, 18 and 28, wait for LR propagate, which waits for HR jobs."""
+    traced(tmp_path / "slices.csv", speed="0.5")
+    with (tmp_path / "slices.csv").open() as file:
+        rows = [row for row in csv.DictReader(file) if row["kind"] == "lr_update"]
+    shown = [
+        [row[name] for name in ("piece", "step", "start", "end", "deadline", "finished", "missed")] for row in rows
+    ]
+    assert shown == [["unfinished", str(k), "30.0", "30.0", f"{k + 8}.0", "0", "1"] for k in (0, 10, 20)]
+    traced(tmp_path / "slices.json", speed="0.5")
+    events = json.loads((tmp_path / "slices.json").read_text())["traceEvents"]
+    (thread,) = [event["tid"] for event in events if event["args"].get("name") == "lr_update"]
+    missed = [event for event in events if event["name"] == "missed" and event["tid"] == thread]
+    assert [(event["ts"], event["args"]["step"]) for event in missed] == [(30_000, k) for k in (0, 10, 20)]
 
 
 @pytest.mark.parametrize(("name", "said"), [("trace.txt", r"must end in \.csv or \.json"), ("no/t.csv", "cannot be")])
