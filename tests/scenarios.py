@@ -28,8 +28,8 @@ def sensor(name: str, every: int, delay: int | Sequence[int] = 0, **settings: An
     return Sensor(name, every, delays, **({"land_by": max(delays) + every - 1} | settings))
 
 
-def scenario(speed: object, entries: dict[str, Any], *sensors: Sensor, **settings: Any) -> Scenario:
-    return Scenario("test", sensors=sensors, speed=Fraction(str(speed)), costs=costs(entries), **settings)
+def scenario(speed: object, entries: dict[str, Any], *sensors: Sensor, steps: int = 400, **settings: Any) -> Scenario:
+    return Scenario("test", sensors=sensors, speed=Fraction(str(speed)), costs=costs(entries), steps=steps, **settings)
 
 
 def slices_of(of: Scenario, kind: str) -> list[tuple[int, int]]:

@@ -17,15 +17,18 @@ def causes(scenario: Scenario, outcome: Outcome) -> list[str]:
 
 
 def _demand(scenario: Scenario) -> list[str]:
-    from sched_sim.scenario_load import demand, loads
+    from sched_sim.scenario_load import ROUNDING, demand, loads
 
     parts = loads(scenario)
     lines = []
     for cpu, share in enumerate(demand(scenario)):
-        if share > 1:
-            shares = ", ".join(f"{load.name} {load.share:.0%}" for load in parts if load.cpu == cpu)
+        here = [load for load in parts if load.cpu == cpu]
+        if share > 1 + ROUNDING:
+            shares = ", ".join(f"{load.name} {load.share:.0%}" for load in here)
             which = f"processor {cpu + 1}" if scenario.cpus > 1 else "the processor"
-            lines.append(f"demand is {share:.1%} of {which}, so that work piles up: {shares}")
+            piles_up = sum(load.share for load in here if not load.gives_way) > 1 + ROUNDING
+            follows = "work piles up" if piles_up else "corrections wait for one another and go back together"
+            lines.append(f"demand is {share:.1%} of {which}, so that {follows}: {shares}")
     return lines
 
 

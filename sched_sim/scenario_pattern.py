@@ -1,0 +1,142 @@
+"""How a scenario's measurements meet: which arrive together, what a late one finds corrected already, how often one is
+in flight. On average over one whole pattern of the sensors; of a very long pattern, over its beginning."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import lcm
+from typing import NamedTuple, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from sched_sim.scenario import Sensor
+
+Floats: TypeAlias = npt.NDArray[np.float64]
+Ints: TypeAlias = npt.NDArray[np.int64]
+
+MOST_DELAYS = 100_000
+"""So many of a sensor's delays are looked at; of more, every second, third, ..."""
+MOST_CASES = 200_000
+"""So many pairs of a measurement and its delay are looked at."""
+RAREST = 1 << 40
+"""HR steps between measurements; what is rarer meets nothing."""
+
+
+class GoingBack(NamedTuple):
+    """What a sensor's corrections do in an HR step, on average; those that go together count for the first of them.
+
+    jobs: how many start; steps: how many they predict again; corrections: how many of each sensor they make again.
+    """
+
+    jobs: float
+    steps: float
+    corrections: list[float]
+
+
+class Arrivals:
+    """Of one sensor. at: the probability that a measurement arrives so many steps late, by lag; before: that it has
+    arrived earlier than that."""
+
+    def __init__(self, sensor: Sensor, longest: int) -> None:
+        delays = np.asarray(sensor.delays[:: 1 + len(sensor.delays) // MOST_DELAYS])
+        self.sensor = sensor
+        self.priority = sensor.priority
+        self.every = min(sensor.every, RAREST)
+        self.offset = sensor.offset % self.every
+        self.at: Floats = (1 - sensor.dropout) * np.bincount(delays, minlength=longest + 1) / delays.size
+        self.before: Floats = np.cumsum(self.at) - self.at
+
+    def steps(self, others: Sequence[Arrivals], most: int) -> Ints:
+        """In which measurements are taken, until the pattern of all sensors repeats."""
+        return _steps(self.every, self.offset, others, most)
+
+    def sums(self, values: Floats, steps: Ints, last: Ints) -> Floats:
+        """Of values by lag, over its measurements that are at most `last` older than each of the steps."""
+        lag = last - (last - (steps - self.offset)) % self.every
+        sums = _rows(values, self.every, 0).cumsum(axis=0).ravel()
+        return np.where(lag >= 0, sums[np.maximum(lag, 0)], 0.0)
+
+    def products(self, values: Floats, steps: Ints, first: Ints) -> Floats:
+        """The same as a product, over those that are at least `first` older."""
+        lag = first + ((steps - self.offset) - first) % self.every
+        products = _rows(values, self.every, 1)[::-1].cumprod(axis=0)[::-1].ravel()
+        return np.where(lag < values.size, products[np.minimum(lag, values.size - 1)], 1.0)
+
+
+def _rows(values: Floats, width: int, fill: float) -> Floats:
+    """Values `width` lags apart below one another."""
+    width = min(width, values.size)
+    return np.append(values, np.full(-values.size % width, fill)).reshape(-1, width)
+
+
+def _steps(every: int, offset: int, others: Sequence[Arrivals], most: int) -> Ints:
+    pattern = lcm(every, *(other.every for other in others)) // every
+    return offset + every * np.arange(max(min(pattern, most), 1))
+
+
+def _arrivals(sensors: Sequence[Sensor]) -> list[Arrivals]:
+    longest = max((sensor.longest_delay for sensor in sensors), default=0)
+    return [Arrivals(sensor, longest) for sensor in sensors]
+
+
+def going_back(sensors: Sequence[Sensor]) -> list[GoingBack]:
+    """Of each sensor, if late measurements are replayed and every correction lands in the step in which it arrives.
+
+    A late one that arrives in step m finds the corrections of its own step and of later ones that have arrived before,
+    or arrive in m too and are more urgent. Late ones of its own priority that arrive in m go back with it, to the
+    earliest of them.
+    """
+    arrivals = _arrivals(sensors)
+    return [_going_back(number, arrivals) for number in range(len(arrivals))]
+
+
+def _going_back(number: int, arrivals: Sequence[Arrivals]) -> GoingBack:
+    own = arrivals[number]
+    delays = np.flatnonzero(own.at)
+    taken = own.steps(arrivals, MOST_CASES // max(delays.size, 1))[:, np.newaxis]
+    now = taken + delays
+    earliest = np.broadcast_to(own.at[delays], now.shape)  # it arrives then, and none before it in the row does
+    for other, one in enumerate(arrivals):
+        if one.priority == own.priority:
+            earliest = earliest * one.products(1 - one.at, now, delays + (other >= number))
+    goes_back = earliest * (delays > 0)
+    corrections = []
+    for other, one in enumerate(arrivals):
+        there = one.before + one.at if one.priority < own.priority else one.before
+        found = one.sums(there, now, delays - (other == number))
+        if other < number and one.priority == own.priority:  # of the same step, and known not to arrive now
+            at, before = one.at[delays], one.before[delays]
+            of_step = (taken - one.offset) % one.every == 0
+            found = found + of_step * before * at / np.where(at < 1, 1 - at, np.inf)
+        corrections.append(float((goes_back * found).sum()) / taken.size / own.every)
+    jobs, steps = (float(each.sum()) / taken.size / own.every for each in (earliest, goes_back * delays))
+    return GoingBack(jobs, steps, corrections)
+
+
+def in_flight(sensors: Sequence[Sensor], of: Sensor | None = None) -> float:
+    """The share of steps at whose start Larsen's method has a measurement in flight; or, of the steps in which `of`
+    takes its undelayed measurements, that in which one still is when their corrections have landed.
+
+    A lost one is waited for until the next late one is taken. At most: one that is lost while another is in flight
+    counts too.
+    """
+    late = [one for one in _arrivals(sensors) if one.sensor.delayed]
+    every, offset = (1, 0) if of is None else (min(of.every, RAREST), of.offset)
+    steps = _steps(every, offset % every, late, MOST_CASES)
+    lags = [1 + (steps - 1 - one.offset) % one.every for one in late]
+    surely = [(one, lag) for one, lag in zip(late, lags, strict=True) if one.sensor.least_delay > 0]
+    newest = np.min([lag for _, lag in surely], axis=0, initial=RAREST) if surely else np.full(steps.size, RAREST)
+    waits = np.ones(steps.size, bool)
+    for one, lag in surely:
+        if of is not None:
+            waits &= lag < one.every
+    flying = np.zeros(steps.size)
+    for one, lag in zip(late, lags, strict=True):
+        arrives = 1 - one.sensor.dropout
+        landed = of is not None and one.priority <= of.priority
+        there = arrives - one.before - (one.at if landed else 0)
+        there[0] = 0
+        flying += one.sums(there, steps, np.full(steps.size, there.size - 1))
+        flying += one.sensor.dropout / (1 - one.at[0]) * (waits & (lag <= newest)) if one.sensor.dropout else 0
+    return float(np.minimum(flying, 1).mean())
