@@ -9,7 +9,7 @@ from typing import NamedTuple
 from reports.intervals import TASK, Bar
 from reports.placing import spread, worst_shift
 from reports.scale import Scale
-from reports.style import SMALL_PT, text_width_mm
+from reports.style import SMALL_PT, drawable, text_width_mm
 
 PADDING_MM = 0.5
 GAP_MM = 1.0
@@ -30,7 +30,7 @@ class Callout(NamedTuple):
 
 def shown_label(bar: Bar) -> str:
     """What a bar is labelled with: nothing for context switches."""
-    return "" if bar.style == "switch" else bar.style.removeprefix(TASK)
+    return "" if bar.style == "switch" else drawable(bar.style.removeprefix(TASK))
 
 
 def label_fits(bar: Bar, scale: Scale) -> bool:

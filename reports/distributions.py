@@ -110,7 +110,7 @@ def _draw_cell(axes: Axes, cell: Cell, width_mm: float) -> None:
     within = axes.transAxes
     lines = _note_lines(cell.notes, width_mm)
     at = 1 + (NOTE_MM * len(lines) + 1.6) / PLOT_MM
-    axes.text(0, at, cell.title, transform=within, size=TITLE_PT, weight="bold", parse_math=False)
+    axes.text(0, at, cell.title, transform=within, size=TITLE_PT, weight="bold")
     for number, line in enumerate(reversed(lines)):
         for x, note in line:
             at = 1 + (NOTE_MM * number + 1.2) / PLOT_MM

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from reports.intervals import jobs, never_ran, rows
-from reports.lanes import draw_lanes, fills_of, lanes, plain, shortened
+from reports.lanes import draw_lanes, fills_of, lanes, shortened
 from reports.legend import draw_legend, fill_entries, legend_height, sign_entries
 from reports.marks import draw_marks
 from reports.panels import Panel, method_panel
@@ -43,7 +43,7 @@ def gantt(panels: Sequence[Panel], *, width_mm: float = WIDTH_MM) -> Figure:
     """
     with drawing():
         names = [shortened(row.name) for panel in panels for row in rows(panel.schedule)]
-        left = EDGE_MM + max(8.0, *(text_width_mm(plain(name)) for name in names)) + 2.0
+        left = EDGE_MM + max(8.0, *(text_width_mm(name) for name in names)) + 2.0
         across = width_mm - left - RIGHT_MM
         first, end = min(panel.first for panel in panels), max(panel.end for panel in panels)
         scales = [Scale(panel.schedule.period, first, end, across) for panel in panels]
@@ -113,8 +113,7 @@ def _misses(panel: Panel) -> tuple[str, str]:
 
 
 def _width(text: str, role: str) -> float:
-    measured = text if role == "note" else plain(text)
-    return text_width_mm(measured, TITLE_PT if role == "title" else FONT_PT, bold=role != "note")
+    return text_width_mm(text, TITLE_PT if role == "title" else FONT_PT, bold=role != "note")
 
 
 def _write_title(axes: Axes, lines: Sequence[Sequence[tuple[str, str]]], scale: Scale, foot_mm: float) -> None:
@@ -131,6 +130,5 @@ def _write_title(axes: Axes, lines: Sequence[Sequence[tuple[str, str]]], scale: 
                 size=TITLE_PT if role == "title" else FONT_PT,
                 weight="normal" if role == "note" else "bold",
                 color=RED if role == "miss" else INK,
-                parse_math=role == "note",
             )
             x += _width(text, role)

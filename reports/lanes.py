@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections import defaultdict
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
@@ -13,7 +14,7 @@ from matplotlib.patheffects import withStroke
 from reports.callouts import Callout, callouts, label_fits, shown_label
 from reports.intervals import TASK, Bar, JobSpan, Row, bars, jobs, overdue_work, rows, waits
 from reports.scale import Scale
-from reports.style import FILLS, FONT_PT, GREY, INK, RED, SMALL_PT, TASK_FILLS, Fill, text_width_mm
+from reports.style import FILLS, FONT_PT, GREY, INK, RED, SMALL_PT, TASK_FILLS, Fill, drawable, text_width_mm
 from sched_sim.schedule import Schedule
 
 Fills = Mapping[str, Fill]
@@ -61,21 +62,16 @@ def fills_of(schedules: Iterable[Schedule]) -> Fills:
 
 
 def shortened(name: str, width_mm: float = LONGEST_NAME_MM, points: float = FONT_PT, *, bold: bool = False) -> str:
-    """A name, cut where it would be wider; by default a row's, where it would push the chart aside."""
+    """A name of the user's as a picture shows it, cut where it would be wider; by default a row's, where it would push
+    the chart aside."""
 
-    def fits(text: str) -> bool:
-        return text_width_mm(plain(text), points, bold=bold) <= width_mm
+    def too_wide(letters: int) -> bool:
+        return text_width_mm(drawable(name[:letters] + "…"), points, bold=bold) > width_mm
 
-    if fits(name):
-        return name
-    while name and not fits(name + "…"):
-        name = name[:-1]
-    return name + "…"
-
-
-def plain(name: str) -> str:
-    """A text as wide as `name` that is not taken for mathtext."""
-    return name.replace("$", "S")
+    whole = drawable(name)
+    if text_width_mm(whole, points, bold=bold) <= width_mm:
+        return whole
+    return drawable(name[: bisect_left(range(1, len(name)), True, key=too_wide)] + "…")
 
 
 def lanes(schedule: Schedule, scale: Scale) -> tuple[list[Lane], float]:
@@ -128,7 +124,7 @@ def _names(axes: Axes, places: Sequence[Lane], cpus: int, end: float) -> None:
         label = f"CPU {lane.row.cpu + 1}" if cpus > 1 and lane.row.cpu is not None else ""
         at: dict[str, Any] = {"transform": beside, "ha": "right", "va": "center"}
         shift = 1.5 if label else 0.0
-        axes.text(-0.012, lane.middle + shift, shortened(lane.row.name), parse_math=False, **at)
+        axes.text(-0.012, lane.middle + shift, shortened(lane.row.name), **at)
         axes.text(-0.012, lane.middle - shift, label, size=SMALL_PT, color=GREY, **at)
 
 
@@ -213,7 +209,6 @@ def _labels(axes: Axes, all_bars: Sequence[Bar], lane_of: Mapping[Row, Lane], sc
             va="center_baseline",
             size=SMALL_PT,
             color=ink,
-            parse_math=False,
             zorder=3,
         )
         if fill.hatch or bar.overdue is not None:

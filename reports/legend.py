@@ -58,7 +58,7 @@ def draw_legend(figure: Figure, found: Sequence[Entry], left: float, top: float,
         y = height - LINE_MM * (number + 0.5)
         for x, entry in line:
             entry.draw(axes, x, y)
-            axes.text(x + entry.width + BESIDE_MM, y, entry.text, va="center_baseline", size=SMALL_PT, parse_math=False)
+            axes.text(x + entry.width + BESIDE_MM, y, entry.text, va="center_baseline", size=SMALL_PT)
 
 
 def _words(style: str, fill: Fill) -> str:
@@ -80,7 +80,7 @@ def _broken(found: Sequence[Entry], width_mm: float) -> list[list[tuple[float, E
     lines: list[list[tuple[float, Entry]]] = [[]]
     x = 0.0
     for entry in found:
-        width = entry.width + BESIDE_MM + text_width_mm(entry.text.replace("$", "S"), SMALL_PT)
+        width = entry.width + BESIDE_MM + text_width_mm(entry.text, SMALL_PT)
         if lines[-1] and x + width > width_mm:
             lines.append([])
             x = 0.0

@@ -9,9 +9,12 @@ from typing import NamedTuple
 
 import matplotlib.style
 from matplotlib.axes import Axes
+from matplotlib.cbook import is_math_text
 from matplotlib.figure import Figure
-from matplotlib.font_manager import FontProperties
+from matplotlib.font_manager import FontProperties, findfont, get_font
 from matplotlib.textpath import text_to_path
+
+from sched_sim.text import visible
 
 WIDTH_MM = 170.0
 """Text width of a two-column journal page."""
@@ -48,6 +51,10 @@ SETTINGS = {
     "pdf.fonttype": 42,  # embedded TrueType: text that can be searched and copied
     "savefig.dpi": 300,
 }
+
+
+MOST_LETTERS = 500
+"""Of a name: more are never set, however narrow."""
 
 
 class Fill(NamedTuple):
@@ -133,9 +140,27 @@ def axes_at(figure: Figure, left: float, top: float, width: float, height: float
 
 
 @cache
+def drawable(text: str) -> str:
+    """Text of the user's as matplotlib takes it: `visible`, a dollar sign begins no formula, and what the font has no
+    glyph for is an escape. No more than MOST_LETTERS of it."""
+    seen = visible(text if len(text) <= MOST_LETTERS else text[:MOST_LETTERS] + "…")
+    return "".join(letter if _has_glyph(letter) else ascii(letter)[1:-1] for letter in seen).replace("$", r"\$")
+
+
+@cache
+def _has_glyph(letter: str) -> bool:
+    return all(
+        get_font(findfont(FontProperties(family=FAMILY, weight=weight))).get_char_index(ord(letter))
+        for weight in ("normal", "bold")
+    )
+
+
+@cache
 def text_width_mm(text: str, points: float = FONT_PT, *, bold: bool = False) -> float:
     """The printed width of `text`, which may hold mathtext between dollar signs."""
     font = FontProperties(family=FAMILY, size=points, weight="bold" if bold else "normal")
+    formula = is_math_text(text)
+    shown = text if formula else text.replace(r"\$", "$")
     with drawing():
-        width, _, _ = text_to_path.get_text_width_height_descent(text, font, ismath="$" in text)
+        width, _, _ = text_to_path.get_text_width_height_descent(shown, font, ismath=formula)
     return width / 72 * 25.4

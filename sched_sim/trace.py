@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-import json
 from codecs import StreamWriter, getwriter
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -12,6 +11,7 @@ from pathlib import Path
 from sched_sim.errors import InputError
 from sched_sim.files import check_writable, writing
 from sched_sim.schedule import Slice
+from sched_sim.text import csv_cell, json_text
 
 Write = Callable[[Slice], None]
 
@@ -56,8 +56,8 @@ def _csv(file: StreamWriter, _scale: float) -> Iterator[Write]:
             writer.writerow(
                 (
                     piece.cpu + 1,
-                    piece.kind,
-                    label,
+                    csv_cell(piece.kind),
+                    csv_cell(label),
                     piece.step,
                     start / period,
                     end / period,
@@ -78,7 +78,7 @@ def _chrome(file: StreamWriter, scale: float) -> Iterator[Write]:
 
     def event(**fields: object) -> None:
         nonlocal separator
-        file.write(separator + json.dumps(fields))
+        file.write(separator + json_text(fields))
         separator = ",\n"
 
     def thread(cpu: int, kind: str) -> int:

@@ -9,6 +9,7 @@ from typing import IO, Any
 
 from sched_sim.errors import InputError
 from sched_sim.files import check_writable, writing
+from sched_sim.text import csv_cell
 from studies.rows import Row
 from studies.store import Store
 
@@ -43,7 +44,7 @@ def write_csv(store: Store, file: IO[bytes]) -> None:
 
 
 def _spelled(row: Row, flags: Sequence[int]) -> list[Any]:
-    cells: list[Any] = list(row)
+    cells: list[Any] = [csv_cell(cell) for cell in row]
     for number in flags:
         cells[number] = "true" if row[number] else "false"
     return cells

@@ -2,14 +2,43 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from importlib.metadata import version
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
+from typer.core import TyperGroup
 
 from sched_sim.cli import gantt, measure, minimum, processors, report, simulate, sweep
+from sched_sim.text import visible_lines
+
+
+@contextmanager
+def _shown_safely() -> Iterator[None]:
+    """What typer says of wrong arguments repeats them: as `visible` text."""
+    try:
+        yield
+    except Exception as error:
+        if hasattr(error, "format_message"):  # its usage errors
+            error.message = visible_lines(error.message)
+        raise
+
+
+class Commands(TyperGroup):
+    """The commands, and what is said of wrong arguments."""
+
+    def make_context(self, *args: Any, **settings: Any) -> Any:
+        with _shown_safely():
+            return super().make_context(*args, **settings)
+
+    def invoke(self, *args: Any) -> Any:
+        with _shown_safely():
+            return super().invoke(*args)
+
 
 app = typer.Typer(
+    cls=Commands,
     no_args_is_help=True,
     rich_markup_mode="rich",
     pretty_exceptions_enable=False,

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from sched_sim.cli import options as opt
+from sched_sim.cli.output import say
 from sched_sim.cli.outputs import refuse_one_file_for_two
 
 if TYPE_CHECKING:
@@ -66,7 +67,7 @@ def gantt(
         pace = opt.pace(speed, rate, part, partial(least_speed, work, timing, options, others))
         panels.append(method_panel(table, name, timing, pace, cycles, options, others, statistic=statistic))
     save(draw(panels), output)
-    typer.echo(f"Wrote {output}", err=True)
+    say(f"Wrote {output}")
 
 
 def _usual(table: CostTable) -> list[str]:

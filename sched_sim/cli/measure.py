@@ -10,7 +10,7 @@ import typer
 
 from sched_sim.cli import options as opt
 from sched_sim.cli.measure_filter import measure_own_filter, refuse_with_filter
-from sched_sim.cli.output import print_csv, print_json, print_table, units
+from sched_sim.cli.output import print_csv, print_json, print_table, say, units
 from sched_sim.cli.outputs import module_files, refuse_one_file_for_two
 from sched_sim.costs import SYSTEM_METHODS
 from sched_sim.errors import InputError
@@ -177,7 +177,7 @@ def measure(
         )
     if output is not None:
         write_cost_table(table, output)
-        typer.echo(f"Wrote {output}; use it with --costs {output}", err=True)
+        say(f"Wrote {output}; use it with --costs {output}")
 
 
 def _show(title: str, rows: list[dict[str, Any]], timed: bool) -> None:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import typer
 
 from sched_sim.cli.options import given_options
-from sched_sim.cli.output import Format, print_csv, print_json, print_table
+from sched_sim.cli.output import Format, print_csv, print_json, print_table, say
 from sched_sim.cli.outputs import module_files, refuse_one_file_for_two
 from sched_sim.cli.progress import progress_bar
 from sched_sim.errors import InputError
@@ -62,7 +62,7 @@ def measure_own_filter(
         print_table(f"{table}, in {'ns' if timed else 'operations'}", shown, _note(costs) if timed else "")
     if output is not None:
         write_sampled_costs(costs, output)
-        typer.echo(f"Wrote {output}; name it as `costs` in a scenario: sched-sim simulate --scenario FILE", err=True)
+        say(f"Wrote {output}; name it as `costs` in a scenario: sched-sim simulate --scenario FILE")
 
 
 KINDS = ("multiply", "add", "divide", "sqrt", "function")

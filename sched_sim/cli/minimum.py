@@ -6,10 +6,8 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-import typer
-
 from sched_sim.cli import options as opt
-from sched_sim.cli.output import print_csv, print_json, print_table, units
+from sched_sim.cli.output import print_csv, print_json, print_table, say, units
 from sched_sim.cli.progress import simulations
 
 if TYPE_CHECKING:
@@ -65,7 +63,7 @@ def minimum(
     for name in opt.wanted_methods(method, table):
         timing = opt.make_timing(N, M, L, name, options)
         if not method and (reason := impossible(name, timing)):
-            typer.echo(f"Note: no {name}: {reason}", err=True)
+            say(f"Note: no {name}: {reason}")
             continue
         work = select(table, name, options, statistic)
         with simulations(name) as on_progress:

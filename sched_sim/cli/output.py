@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import csv
-import json
 import sys
 from collections.abc import Mapping, Sequence
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
+
+from sched_sim.text import csv_cell, json_text, visible, visible_lines
+
+if TYPE_CHECKING:
+    from rich.text import Text
 
 Row = Mapping[str, Any]
 Format = Literal["table", "json", "csv"]
@@ -19,14 +23,19 @@ def units(unit: str) -> str:
     return PLURALS.get(unit, unit)
 
 
+def say(message: str) -> None:
+    """A message to the person who is at it, on standard error."""
+    print(visible_lines(message), file=sys.stderr)
+
+
 def print_json(document: Any) -> None:
-    print(json.dumps(document, indent=2))
+    print(json_text(document, indent=2))
 
 
 def print_csv(rows: Sequence[Row]) -> None:
     writer = csv.DictWriter(sys.stdout, fieldnames=list(rows[0]), lineterminator="\n")
     writer.writeheader()
-    writer.writerows(rows)
+    writer.writerows({key: csv_cell(value) for key, value in row.items()} for row in rows)
 
 
 def print_table(title: str, rows: Sequence[Row], note: str = "") -> None:
@@ -39,15 +48,23 @@ def print_table(title: str, rows: Sequence[Row], note: str = "") -> None:
     console = Console()
     if not console.is_terminal:
         console.width = 1000
-    console.print(title, style="bold", highlight=False, markup=False)
+    console.print(_text(visible(title), "bold"))
     table = Table(box=SIMPLE_HEAD, pad_edge=False)
     for key, value in rows[0].items():
         table.add_column(key, justify="left" if _is_text(value) else "right", overflow="fold")
     for row in rows:
-        table.add_row(*("-" if value is None else str(value) for value in row.values()))
+        table.add_row(*(_text("-" if value is None else visible(str(value))) for value in row.values()))
     console.print(table)
     if note:
-        console.print(note, highlight=False, markup=False)
+        console.print(_text("\n".join(map(visible, note.split("\n")))))
+
+
+def _text(text: str, style: str = "") -> Text:
+    """Not taken for markup; what standard output cannot encode is an escape before the columns are laid out."""
+    from rich.text import Text
+
+    encoding = sys.stdout.encoding or "utf-8"
+    return Text(text.encode(encoding, "backslashreplace").decode(encoding), style)
 
 
 def _is_text(value: Any) -> bool:

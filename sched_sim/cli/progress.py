@@ -9,6 +9,8 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
+from sched_sim.text import visible
+
 
 @contextmanager
 def progress_bar(title: str) -> Iterator[Callable[[int, int | None, str], None]]:
@@ -19,12 +21,12 @@ def progress_bar(title: str) -> Iterator[Callable[[int, int | None, str], None]]
     from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
-    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    columns = (TextColumn("{task.description}", markup=False), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
     with Progress(*columns, console=Console(stderr=True), transient=True, auto_refresh=False) as bar:
         task = bar.add_task(title)
 
         def show(done: int, total: int | None, what: str) -> None:
-            bar.update(task, completed=done, total=total, description=f"{title}: {what}", refresh=True)
+            bar.update(task, completed=done, total=total, description=visible(f"{title}: {what}"), refresh=True)
 
         yield show
 

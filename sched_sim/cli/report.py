@@ -8,6 +8,8 @@ from typing import Annotated, Literal
 
 import typer
 
+from sched_sim.cli.output import say
+
 Name = Annotated[Literal["steffes2014", "patent-multirate", "erkf", "modular"], typer.Argument(help="Which report.")]
 Folder = Annotated[Path, typer.Option("--output", "-o", help="Folder in which the report's own folder is written.")]
 Thorough = Annotated[
@@ -28,7 +30,7 @@ def report(name: Name = "steffes2014", thorough: Thorough = False, output: Folde
     folder = output / name
     make_folder(folder)
     write_report(REPORTS[name](thorough), folder)
-    typer.echo(f"Wrote {folder / 'index.html'}, the same as index.md, its figures and tables", err=True)
+    say(f"Wrote {folder / 'index.html'}, the same as index.md, its figures and tables")
 
 
 def _steffes(thorough: bool) -> dict[str, bytes]:

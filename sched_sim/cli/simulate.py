@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from sched_sim.cli import options as opt
-from sched_sim.cli.output import print_csv, print_json, print_table
+from sched_sim.cli.output import print_csv, print_json, print_table, say
 from sched_sim.cli.outputs import refuse_one_file_for_two
 from sched_sim.errors import InputError
 
@@ -152,7 +152,7 @@ def simulate(
 
         save(draw([method_panel(table, method, timing, pace, cycles, options, others, statistic=statistic)]), gantt)
     if not schedule.misses and (note := unseen(work, timing, pace, cycles, options, others)):
-        typer.echo(f"Note: {note}", err=True)
+        say(f"Note: {note}")
     response = {kind: _response(figures, schedule.period) for kind, figures in schedule.responses.items()}
     document = {
         "achieved_l": achieved,

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from sched_sim.cli import options as opt
-from sched_sim.cli.output import print_csv, print_json, print_table
+from sched_sim.cli.output import print_csv, print_json, print_table, say
 from sched_sim.cli.outputs import refuse_one_file_for_two
 from sched_sim.costs import Statistic
 
@@ -159,10 +159,9 @@ def sweep(
         if outcome.stopped is not None:
             kept = outcome.before + outcome.computed
             name = signal.Signals(outcome.stopped).name
-            print(
+            say(
                 f"Stopped by {name}: {kept} of {asked.grid.size} points are kept in {path}; "
-                f"the same command again goes on from there.",
-                file=sys.stderr,
+                f"the same command again goes on from there."
             )
             raise typer.Exit(128 + outcome.stopped)
 
