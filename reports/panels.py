@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import NamedTuple
 
+from sched_sim.bounds import check_simulation
 from sched_sim.costs import MULTIRATE_METHODS, TWO_RATE_METHODS, CostTable, Statistic, select
 from sched_sim.errors import InputError
 from sched_sim.options import Options
@@ -30,7 +31,8 @@ METHOD_NAMES = {
 }
 
 
-MOST_STEPS = 20_000
+MOST_STEPS, MOST_JOBS = 20_000, 100_000
+"""Of a picture."""
 
 
 class Mark(NamedTuple):
@@ -126,6 +128,7 @@ def method_panel(
     speed: cost units per HR period; cycles: how many measurement cycles are shown.
     Raises InputError as `costs.select` and `simulate` do, and for more steps than a chart can show.
     """
+    check_simulation(cycles * timing.N, tasks, f"{cycles} cycles of N={timing.N}", MOST_JOBS)
     if cycles * timing.N > MOST_STEPS:
         raise InputError(
             f"a Gantt chart of {cycles} cycles with N={timing.N} has {cycles * timing.N} steps; at most {MOST_STEPS} "

@@ -8,6 +8,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Literal
 
+from sched_sim.bounds import MOST_STEPS, short
 from sched_sim.draws import fates
 from sched_sim.errors import InputError
 from sched_sim.in_flight import Flight, first_overlap
@@ -22,9 +23,6 @@ Samples = Mapping[str, Sequence[Fraction]]
 
 LARSENS = ("predict_accumulate", "correct_accumulate", "correct_late")
 """Parts of a filter that run for Larsen's method only."""
-
-MOST_STEPS = 10_000_000
-"""HR steps of a scenario, and of a delay: what is above is a slip of the keyboard."""
 
 
 @dataclass(frozen=True)
@@ -63,7 +61,7 @@ class Sensor:
         elif self.least_delay < 0:
             wrong.append(f"delay {self.least_delay} must be 0 or more: no measurement arrives before it is taken")
         elif self.longest_delay > MOST_STEPS:
-            wrong.append(f"delay {self.longest_delay} is above {MOST_STEPS:,} HR steps: give fewer")
+            wrong.append(f"delay {short(self.longest_delay)} is above {MOST_STEPS:,} HR steps: give fewer")
         elif self.land_by < self.least_delay:
             wrong.append(
                 f"land_by {self.land_by} must not be less than the least delay {self.least_delay}: the correction "
@@ -136,7 +134,7 @@ class Scenario:
         if self.steps < 1:
             wrong.append(f"steps {self.steps} must be at least 1: it is how many HR steps are simulated")
         if self.steps > MOST_STEPS:
-            wrong.append(f"steps {self.steps} is above {MOST_STEPS:,}: simulate fewer HR steps")
+            wrong.append(f"steps {short(self.steps)} is above {MOST_STEPS:,}: simulate fewer HR steps")
         if self.speed <= 0:
             wrong.append(f"speed {float(self.speed):g} must be greater than 0 cost units per HR period")
         if self.seed < 0:

@@ -3,24 +3,20 @@
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
+from sched_sim.bounds import check_simulation
+from sched_sim.clock import Clock, OnProgress
 from sched_sim.composed import ComposedFilter, Measurement, correct_kind
 from sched_sim.distribution import wilson
-from sched_sim.jobs import Job, Source
+from sched_sim.jobs import Source
 from sched_sim.methods import step_at
 from sched_sim.scenario import Scenario, needed_parts
 from sched_sim.schedule import Response, Schedule, Slice
 from sched_sim.simulate import OnSlice, Processor
 from sched_sim.tasks import TaskSource
 from sched_sim.ticks import ticks_per_unit, to_ticks
-
-OnProgress = Callable[[int, int, str], None]
-"""Called with (steps done, steps in all, what they are)."""
-
-REPORTS = 100
-"""How often progress is told."""
 
 
 @dataclass(frozen=True)
@@ -98,6 +94,7 @@ def run_scenario(
     on_slice: called as slices end, `finished` only where a correction has landed; those that go together have the
     slices of the first. on_progress: called about a hundred times.
     """
+    check_simulation(scenario.steps, scenario.tasks, f"scenario {scenario.name!r}: steps")
     parts = needed_parts(scenario.sensors, scenario.late)
     speed, tasks = scenario.speed, scenario.tasks
     resolution = ticks_per_unit(
@@ -215,24 +212,3 @@ def _figures(finished: Sequence[Slice], filed: Response | None, period: int) -> 
     unfinished_misses = filed.misses - sum(job.end > job.deadline for job in finished)
     responses = [(job.end - job.release) / period for job in finished]
     return JobFigures(filed.releases, responses, filed.misses, len(finished) + unfinished_misses)
-
-
-class Clock:
-    """A source of no jobs, that tells how far the simulated time is. period: in ticks."""
-
-    def __init__(self, period: int, steps: int, on_progress: OnProgress) -> None:
-        self.stride = max(steps // REPORTS, 1)
-        self.period = period
-        self.steps = steps
-        self.on_progress = on_progress
-        self.step = 0
-        self.next_release = 0
-
-    def release(self) -> tuple[Job, ...]:
-        self.on_progress(self.step, self.steps, "HR steps")
-        self.step += self.stride
-        self.next_release = self.step * self.period
-        return ()
-
-    def at_horizon(self) -> tuple[Job, ...]:
-        return ()

@@ -17,6 +17,8 @@ from typing import NamedTuple
 
 import simpy
 
+from sched_sim.bounds import check_simulation, short
+from sched_sim.clock import Clock, OnProgress
 from sched_sim.costs import JobCosts, LarsenCosts, RecalculateCosts
 from sched_sim.errors import InputError
 from sched_sim.jobs import Job, RecurringSource, Source
@@ -41,15 +43,18 @@ def simulate(
     keep_slices: bool = False,
     on_slice: OnSlice | None = None,
     on_landing: OnLanding | None = None,
+    on_progress: OnProgress | None = None,
 ) -> Schedule:
     """Run one filter, and the user's tasks beside it, for `cycles` measurement cycles.
 
     costs: from `costs.select`; speed: cost units the processor does per HR period.
     keep_slices: return every `Slice`; without it memory does not grow with `cycles`.
     on_slice, on_landing: called as slices end and as corrections land, with a `Slice` and with
-    (cycle, achieved L).
-    Raises InputError for a speed that is not positive, an L the method cannot have, and a task on a missing CPU.
+    (cycle, achieved L). on_progress: called about a hundred times.
+    Raises InputError for a speed that is not positive, an L the method cannot have, a task on a missing CPU, and more
+    than can be simulated (`sched_sim.bounds`).
     """
+    check_simulation(cycles * timing.N, tasks, f"{short(cycles)} cycles of N={timing.N}")
     achieved: Counter[int] = Counter()
 
     def landed(cycle: int, L: int) -> None:
@@ -61,6 +66,7 @@ def simulate(
     workload = workload_in_ticks(costs, timing, speed, options, tasks, landed)
     arrives_a_step_later = isinstance(costs, RecalculateCosts | LarsenCosts) and timing.M == timing.N
     steps = cycles * timing.N + arrives_a_step_later
+    clock = [] if on_progress is None else [Clock(workload.period, steps, on_progress)]
     slices: list[Slice] = []
 
     def keep(piece: Slice) -> None:
@@ -69,7 +75,7 @@ def simulate(
             on_slice(piece)
 
     processor = Processor(
-        workload.sources,
+        [*workload.sources, *clock],
         workload.period,
         steps * workload.period,
         options.cpus,

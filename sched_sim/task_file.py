@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from fractions import Fraction
 from pathlib import Path
@@ -63,9 +64,5 @@ def read_tasks(path: Path) -> list[Task]:
 
 def named_twice(tasks: Sequence[Task]) -> list[str]:
     """What to say of the names that several tasks have."""
-    names = [task.name for task in tasks]
-    return [
-        f"task name {name!r} is used twice; give each task its own"
-        for name in dict.fromkeys(names)
-        if names.count(name) > 1
-    ]
+    count = Counter(task.name for task in tasks)
+    return [f"task name {name!r} is used twice; give each task its own" for name, times in count.items() if times > 1]

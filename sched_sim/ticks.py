@@ -6,34 +6,46 @@ One tick of work takes one tick of time, so a faster processor is a longer high-
 from __future__ import annotations
 
 from collections.abc import Iterable
-from decimal import Decimal, InvalidOperation
+from decimal import Decimal
 from fractions import Fraction
 from math import lcm
 
+from sched_sim.bounds import check_digits, check_size, short
 from sched_sim.errors import InputError
-
-LARGEST_EXPONENT = 18
-"""Costs and speeds of any unit lie well within; what does not is a slip of the keyboard."""
 
 
 def exact(value: int | str | float | Decimal | Fraction, what: str) -> Fraction:
     """The exact fraction that `value` writes: "0.78" is 78/100, "77/100" too; a float stands for its
     shortest decimal.
 
-    Raises InputError, naming `what`, for text that is no number, for NaN and for infinities.
+    Raises InputError, naming `what`, for text that is no number, for NaN and infinities, and for a number that is out
+    of bounds (`sched_sim.bounds`).
     """
-    if isinstance(value, Fraction | int):
-        return Fraction(value)
-    text = str(value).strip()
+    if isinstance(value, Fraction):
+        return value
     try:
-        number = Decimal(1) if "/" in text else Decimal(text)
-        if number and not -LARGEST_EXPONENT <= number.adjusted() <= LARGEST_EXPONENT:
-            raise InputError(f"{what} is {text}: give a number between 1e-{LARGEST_EXPONENT} and 1e{LARGEST_EXPONENT}")
-        return Fraction(text) if "/" in text else Fraction(number)
+        number = Fraction(_written(value, what))
     except InputError:
         raise
-    except (InvalidOperation, ValueError, OverflowError, ZeroDivisionError):
-        raise InputError(f"{what} is {text!r}: give a finite number such as 0.78 or 77/100") from None
+    except (ArithmeticError, ValueError):
+        raise InputError(f"{what} is {short(value)!r}: give a finite number such as 0.78 or 77/100") from None
+    check_size(number, what)
+    return number
+
+
+def _written(value: int | str | float | Decimal, what: str) -> int | str | Decimal:
+    """`value` as `Fraction` reads it exactly; raises InputError where that would take long."""
+    if isinstance(value, int):
+        check_digits(value, what)
+        return value
+    text = str(value).strip()
+    for part in text.split("/"):
+        check_digits(part, what)
+    if "/" in text:
+        return text
+    number = Decimal(text)
+    check_size(number, what)
+    return number
 
 
 def positive(value: int | str | float | Decimal | Fraction, what: str) -> Fraction:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+from sched_sim.bounds import check_whole
 from sched_sim.errors import InputError
 
 Feedback = Literal["next-step", "same-step"]
@@ -24,6 +25,7 @@ class Timing:
     L: int
 
     def __post_init__(self) -> None:
+        check_whole(self.N, "N")
         if self.N < 1:
             raise InputError(f"N={self.N} must be at least 1: it is the number of HR steps between measurements")
         if self.M < 0:

@@ -7,6 +7,7 @@ from decimal import Decimal
 from fractions import Fraction
 from typing import TypeVar
 
+from sched_sim.bounds import check_whole, short
 from sched_sim.errors import InputError
 from sched_sim.ticks import exact
 
@@ -25,7 +26,8 @@ def whole_numbers(given: Scalar | Sequence[Scalar], what: str, at_least: int) ->
     def whole(text: str) -> int:
         number = exact(text, what)
         if number.denominator != 1 or number < at_least:
-            raise InputError(f"{what} {text!r} must be a whole number, at least {at_least}")
+            raise InputError(f"{what} {short(text)!r} must be a whole number, at least {at_least}")
+        check_whole(number.numerator, what)
         return number.numerator
 
     return _values(given, what, whole)
@@ -41,21 +43,23 @@ def numbers(given: Scalar | Sequence[Scalar], what: str, *, zero: bool = False) 
     def number(text: str) -> Fraction:
         value = exact(text, what)
         if value < 0 or (value == 0 and not zero):
-            raise InputError(f"{what} {text!r} must be {'0 or more' if zero else 'greater than 0'}")
+            raise InputError(f"{what} {short(text)!r} must be {'0 or more' if zero else 'greater than 0'}")
         return value
 
     return _values(given, what, number)
 
 
-def words(given: str | Sequence[str], what: str, known: Sequence[str]) -> tuple[str, ...]:
+def words(given: Scalar | Sequence[Scalar], what: str, known: Sequence[str]) -> tuple[str, ...]:
     """The values of an axis of names, in the order of `known`, each once; commas separate.
 
-    Raises InputError for a name that is not `known`.
+    Raises InputError for a name that is not `known`, and where there is none.
     """
-    given = [given] if isinstance(given, str) else given
-    found = {part.strip() for text in given for part in str(text).split(",")}
+    items = given if isinstance(given, list | tuple) else [given]
+    found = {part.strip() for item in items for part in str(item).split(",")}
+    if not found:
+        raise InputError(f"{what} is empty: give at least one of {', '.join(known)}")
     for word in sorted(found.difference(known)):
-        raise InputError(f"{what} {word!r} is unknown: choose from {', '.join(known)}")
+        raise InputError(f"{what} {short(word)!r} is unknown: choose from {', '.join(known)}")
     return tuple(word for word in known if word in found)
 
 
@@ -67,6 +71,8 @@ def _values(given: Scalar | Sequence[Scalar], what: str, value: Callable[[str], 
             raise InputError(f"{what} {item!r}: give numbers, such as 5, 1,2,5 or 10:100:10")
         for part in str(item).split(","):
             found.update(_range(part.strip(), what, value))
+            if len(found) > LONGEST_RANGE:
+                raise InputError(f"{what} holds more than {LONGEST_RANGE:,} values: give fewer")
     if not found:
         raise InputError(f"{what} is empty: give at least one value, such as 5, 1,2,5 or 10:100:10")
     return tuple(sorted(found))
@@ -78,14 +84,16 @@ def _range(text: str, what: str, value: Callable[[str], Value]) -> list[Value]:
     if len(ends) == 1:
         return [value(text)]
     if len(ends) > 3:
-        raise InputError(f"{what} {text!r} is no range: give first:last or first:last:step")
+        raise InputError(f"{what} {short(text)!r} is no range: give first:last or first:last:step")
     first, last = value(ends[0]), value(ends[1])
     step = value(ends[2]) if len(ends) == 3 else value("1")
     if step <= 0:
-        raise InputError(f"{what} {text!r}: the step must be greater than 0")
+        raise InputError(f"{what} {short(text)!r}: the step must be greater than 0")
     if last < first:
-        raise InputError(f"{what} {text!r} is an empty range: its end is below its start")
+        raise InputError(f"{what} {short(text)!r} is an empty range: its end is below its start")
     count = (last - first) // step + 1
     if count > LONGEST_RANGE:
-        raise InputError(f"{what} {text!r} holds {count} values: at most {LONGEST_RANGE}; give a larger step")
+        raise InputError(
+            f"{what} {short(text)!r} holds {short(count)} values: at most {LONGEST_RANGE:,}; give a larger step"
+        )
     return [first + i * step for i in range(count)]

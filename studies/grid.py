@@ -13,6 +13,9 @@ from sched_sim.errors import InputError
 from sched_sim.options import Options
 from studies.legal import Designs, Legal, law_of
 
+MOST_PAIRS = 10_000_000
+"""Of N and M, which are looked through for those that are legal."""
+
 
 @dataclass(frozen=True, slots=True)
 class Block:
@@ -78,6 +81,9 @@ class Grid:
         for name in names:
             if names.count(name) > 1:
                 raise InputError(f"two cost tables are named {name!r}: give each file a `name` of its own")
+        pairs = sum(N + 1 for N in self.N) if self.M is None else len(self.N) * len(self.M)
+        if pairs > MOST_PAIRS:
+            raise InputError(f"the grid has {pairs:,} pairs of N and M: at most {MOST_PAIRS:,}; give fewer -N or -M")
         if not self.size:
             given = f"N={_extent(self.N)}, M={_extent(self.M)}, L={_extent(self.L)}"
             raise InputError(

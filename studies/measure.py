@@ -82,7 +82,7 @@ def cost_table(
     """The cost table of these jobs, by method and kind; about: what else is to be said of them."""
     about = {"backend": backend, **about}
     if backend == "counted":
-        operations = {key: count(job.function, *job.arguments(0)) for key, job in jobs.items()}
+        operations = counted(jobs, progress)
         about["source"] = "exact operation counts: multiply, add, divide and square root count one each"
         costs = {key: Cost.of(Fraction(found.total)) for key, found in operations.items()}
         counts = {key: nonzero(found) for key, found in operations.items()}
@@ -94,6 +94,18 @@ def cost_table(
         **where_timed(protocol, seed),
     }
     return CostTable(name, "second", _by_method({key: _cost(found) for key, found in times.items()}), about)
+
+
+Key = TypeVar("Key")
+
+
+def counted(jobs: Mapping[Key, Job], progress: Progress = silent) -> dict[Key, Operations]:
+    """The exact operations of each job."""
+    found = {}
+    for number, (key, job) in enumerate(jobs.items()):
+        progress(number, len(jobs), "jobs")
+        found[key] = count(job.function, *job.arguments(0))
+    return found
 
 
 def where_timed(protocol: Protocol, seed: int) -> dict[str, Any]:

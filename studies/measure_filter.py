@@ -6,10 +6,9 @@ from collections.abc import Mapping
 from fractions import Fraction
 from typing import Any, Literal, TypeAlias
 
-from filters.kernels.counted import count
 from sched_sim.sample_file import SampledCosts
 from studies.job_times import Progress, Protocol, seconds_per_run, silent
-from studies.measure import nonzero, where_timed
+from studies.measure import counted, nonzero, where_timed
 from studies.user_filter import UserFilter
 
 Backend: TypeAlias = Literal["compiled", "counted"]
@@ -34,7 +33,7 @@ def measure_filter(
     """
     if backend == "compiled":
         return timed_together({name: user}, thorough=thorough, seed=seed, progress=progress)[name]
-    operations = {part: count(job.function, *job.arguments(0)) for part, job in user.jobs.items()}
+    operations = counted(user.jobs, progress)
     source = "exact operation counts: multiply, add, divide, square root, function count one each"
     samples = {part: (Fraction(found.total),) for part, found in operations.items()}
     counts = {part: nonzero(found) for part, found in operations.items()}

@@ -10,6 +10,7 @@ from typing import Annotated, Any, Literal, get_args
 
 from pydantic import BaseModel, ConfigDict, Field, PlainValidator, StrictBool, ValidationError, ValidationInfo
 
+from sched_sim.bounds import MOST_STEPS
 from sched_sim.costs import METHODS, Statistic, default_methods, load, shipped_names
 from sched_sim.errors import InputError
 from sched_sim.options import Gain, LowRateNoise, Options
@@ -83,19 +84,23 @@ class Settings(BaseModel):
     cpus: Annotated[tuple[str, ...], _one_of(1, 2)] = ("1",)
     context_switch: Annotated[tuple[Fraction, ...], PlainValidator(_works)] = (Fraction(0),)
     simulate: StrictBool = False
-    cycles: Annotated[int, Field(strict=True, ge=1)] = 3
+    cycles: Annotated[int, Field(strict=True, ge=1, le=MOST_STEPS)] = 3
 
     def sweep(self) -> Sweep:
         """Raises InputError without N, for a cost table that cannot be read or lacks an entry, and an empty grid."""
         if not self.N:
             raise InputError("N is missing: give -N (such as -N 10 or -N 10:100:10), or N = ... in the grid file")
         tables = tuple(load(name) for name in self.costs)
+        methods = self.method or default_methods(*tables)
+        if not methods:
+            has = "; ".join(f"{table.shown} has {', '.join(table.costs)}" for table in tables)
+            raise InputError(f"--costs: the cost tables have no method in common ({has}): sweep each by itself")
         grid = Grid(
             N=self.N,
             M=self.M,
             L=self.L,
             speeds=self.speed,
-            methods=self.method or default_methods(*tables),
+            methods=methods,
             tables=tables,
             options=self._options(),
             statistic=self.statistic,
@@ -118,7 +123,9 @@ def settings(flags: Mapping[str, Any], file: Path | None = None) -> Settings:
     Raises InputError that lists all that is wrong with the one or the other.
     """
     given = _validated({name: value for name, value in flags.items() if value is not None}, "flags", "")
-    return given if file is None else _read(file).model_copy(update=dict(given.model_dump(exclude_unset=True)))
+    if file is None:
+        return given
+    return _read(file).model_copy(update={name: getattr(given, name) for name in given.model_fields_set})
 
 
 def _read(path: Path) -> Settings:

@@ -9,7 +9,7 @@ from filters.modular.composition import ModularFilter
 from filters.modular.jobs import modular_jobs
 from filters.registry import Job
 from sched_sim.errors import InputError
-from studies.user_function import returned_by
+from studies.user_function import explained, returned_by
 
 HOW = (
     "name a function without arguments that returns a filters.modular.ModularFilter, or with it a typical state, "
@@ -36,11 +36,9 @@ def load_filter(name: str, seed: int = 0) -> UserFilter:
     composed, *typical = returned.value if isinstance(returned.value, tuple) else (returned.value,)
     if not isinstance(composed, ModularFilter) or len(typical) > 3:
         raise InputError(f"--filter {name!r}: {returned.function}() returned {_shown(returned.value)}; {HOW}")
-    try:
+    with explained(f"--filter {name!r}", f"; it was tried with {_tried(typical)}"):
         x0, P0, u = (*typical, None, None, None)[:3]
         return UserFilter(composed, modular_jobs(composed, x0, P0, u, seed))
-    except (TypeError, ValueError) as error:
-        raise InputError(f"--filter {name!r}: {error}; it was tried with {_tried(typical)}") from error
 
 
 def _shown(value: Any) -> str:

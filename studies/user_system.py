@@ -9,8 +9,9 @@ import numpy as np
 from filters.arrays import FloatArray
 from filters.problem import check_measurement_noise
 from filters.systems.system import System
+from sched_sim.bounds import MOST_STATES, short
 from sched_sim.errors import InputError
-from studies.user_function import returned_by
+from studies.user_function import explained, returned_by
 
 HOW = (
     "name a function without arguments that returns a filters.systems.system.System, as in --system mymodule:my_system "
@@ -30,12 +31,15 @@ def load_system(name: str) -> tuple[System, FloatArray]:
     system, x0 = returned if type(returned) is tuple and len(returned) == 2 else (returned, None)
     if not isinstance(system, System):
         raise InputError(f"--system {name!r}: {function_name}() returned a {type(system).__name__}; {HOW}")
-    if min(system.states, system.inputs + 1, system.measurements) < 1:
-        raise InputError(
-            f"--system {name!r}: states={system.states}, inputs={system.inputs}, measurements={system.measurements}: "
-            f"there must be at least one state and one measurement; of inputs there may be none"
-        )
-    state = np.zeros(system.states) if x0 is None else np.array(x0, dtype=np.float64)
+    sizes = {"states": system.states, "inputs": system.inputs, "measurements": system.measurements}
+    for what, size in sizes.items():
+        least = 0 if what == "inputs" else 1
+        if isinstance(size, bool) or not isinstance(size, int | np.integer) or not least <= size <= MOST_STATES:
+            raise InputError(
+                f"--system {name!r}: {what}={short(repr(size))} must be a whole number from {least} to {MOST_STATES}"
+            )
+    with explained(f"--system {name!r}: the typical state is no array of numbers"):
+        state = np.zeros(system.states) if x0 is None else np.array(x0, dtype=np.float64)
     _try_model(name, system, state)
     return system, state
 
@@ -64,16 +68,11 @@ def _filled(length: int, fill: Any) -> FloatArray:
 
 
 def _expect(name: str, what: str, call: Any, shape: tuple[int, ...]) -> None:
-    try:
-        with np.errstate(all="ignore"):
-            value = call()
-    except Exception as error:
-        raise InputError(
-            f"--system {name!r}: {what} failed: {type(error).__name__}: {error} (p is the system's `parameters`)"
-        ) from error
-    if np.shape(value) != shape:
-        raise InputError(f"--system {name!r}: {what} has shape {np.shape(value)}; needed is {shape}")
-    if not np.isfinite(np.asarray(value, dtype=np.float64)).all():
+    with explained(f"--system {name!r}: {what} failed", " (p is the system's `parameters`)"), np.errstate(all="ignore"):
+        value = np.asarray(call(), dtype=np.float64)
+    if value.shape != shape:
+        raise InputError(f"--system {name!r}: {what} has shape {value.shape}; needed is {shape}")
+    if not np.isfinite(value).all():
         raise InputError(
             f"--system {name!r}: {what} is not finite at the typical state; return (system, x0) with a state where it "
             f"is (without x0, it is tried at zero)"

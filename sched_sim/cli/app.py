@@ -20,8 +20,9 @@ def _shown_safely() -> Iterator[None]:
     try:
         yield
     except Exception as error:
-        if hasattr(error, "format_message"):  # its usage errors
-            error.message = visible_lines(error.message)
+        usage: Any = error
+        if hasattr(usage, "format_message"):
+            usage.message = visible_lines(usage.message)
         raise
 
 

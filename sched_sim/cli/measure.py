@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
+from sched_sim.bounds import MOST_STATES
 from sched_sim.cli import options as opt
 from sched_sim.cli.measure_filter import measure_own_filter, refuse_with_filter
 from sched_sim.cli.output import print_csv, print_json, print_table, say, units
@@ -19,6 +20,14 @@ if TYPE_CHECKING:
     from sched_sim.costs import CostTable
 
 SYSTEM = "System"
+
+
+def _size(text: str) -> int:
+    number = opt.at_least_one(text)
+    if number > MOST_STATES:
+        raise typer.BadParameter(f"{number} is too large: give at most {MOST_STATES}.")
+    return number
+
 
 Backend = Annotated[
     Literal["compiled", "counted", "numpy"],
@@ -33,7 +42,7 @@ UpdateForm = Annotated[
 ]
 Size = Annotated[
     int,
-    typer.Option(help="Size of the example system.", parser=opt.at_least_one, metavar="COUNT", rich_help_panel=SYSTEM),
+    typer.Option(help="Size of the example system.", parser=_size, metavar="COUNT", rich_help_panel=SYSTEM),
 ]
 Inputs = Annotated[
     int,
@@ -123,6 +132,7 @@ def measure(
     from sched_sim.cost_file import write_cost_table
     from sched_sim.files import check_writable
     from studies.measure import measure as run
+    from studies.user_function import explained
     from studies.user_system import load_system
 
     if output is not None:
@@ -145,11 +155,16 @@ def measure(
             if system is None:
                 model, x0 = example_system(states, inputs, measurements), None
                 name = f"{backend}-{states}-{inputs}-{measurements}"
+                the_system = f"--states {states} --inputs {inputs} --measurements {measurements}"
             else:
                 model, x0 = load_system(system)
                 refuse_one_file_for_two([("--output", output)], [("--system", file) for file in module_files()])
                 name = f"{backend}-{system.replace(':', '.')}"
-            table = run(model, backend, update, name=name, thorough=thorough, x0=x0, progress=progress, methods=methods)
+                the_system = f"--system {system!r}"
+            with explained(f"{the_system}: cannot be measured by --backend {backend}"):
+                table = run(
+                    model, backend, update, name=name, thorough=thorough, x0=x0, progress=progress, methods=methods
+                )
     unit = table.normalised() if "standard" in table.costs else None
     rows = [
         {

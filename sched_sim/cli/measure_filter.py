@@ -43,6 +43,7 @@ def measure_own_filter(
     """Measure, print, and write the file of samples."""
     from studies.measure_filter import measure_filter
     from studies.user_filter import load_filter
+    from studies.user_function import explained
 
     if backend == "numpy":
         raise InputError(f"--backend numpy does not go with --filter {name}: give --backend compiled or counted")
@@ -50,7 +51,8 @@ def measure_own_filter(
         user = load_filter(name)
         refuse_one_file_for_two([("--output", output)], [("--filter", file) for file in module_files()])
         table = f"{backend}-{name.replace(':', '.')}"
-        costs = measure_filter(user, backend, name=table, thorough=thorough, progress=progress)
+        with explained(f"--filter {name!r}: its parts cannot be measured by --backend {backend}"):
+            costs = measure_filter(user, backend, name=table, thorough=thorough, progress=progress)
     rows = [_row(costs, part) for part in costs.samples]
     if format == "json":
         print_json(rows)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
+from sched_sim.bounds import MOST_STEPS, short
 from sched_sim.costs import METHODS, TWO_RATE_METHODS, CostTable, Method, Statistic, default_methods, load
 from sched_sim.errors import InputError
 from sched_sim.options import Gain, LowRateNoise, Options
@@ -31,9 +32,12 @@ OUTPUT = "Output"
 def whole(text: str) -> int:
     """A whole number; says what was given instead, which typer itself does not."""
     try:
-        return int(text)
+        number = int(text)
     except ValueError:
-        raise typer.BadParameter(f"{text!r} is not a whole number, such as 10.") from None
+        raise typer.BadParameter(f"{short(text)!r} is not a whole number, such as 10.") from None
+    if abs(number) > MOST_STEPS:
+        raise typer.BadParameter(f"{short(number)} is out of bounds: give at most {MOST_STEPS:,}.")
+    return number
 
 
 def at_least_one(text: str) -> int:

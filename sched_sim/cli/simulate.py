@@ -13,6 +13,7 @@ import typer
 from sched_sim.cli import options as opt
 from sched_sim.cli.output import print_csv, print_json, print_table, say
 from sched_sim.cli.outputs import refuse_one_file_for_two
+from sched_sim.cli.progress import progress_bar
 from sched_sim.errors import InputError
 
 if TYPE_CHECKING:
@@ -136,6 +137,7 @@ def simulate(
             for one in traces:
                 one(piece)
 
+        progress = files.enter_context(progress_bar("Simulating"))
         schedule = run(
             work,
             timing,
@@ -145,6 +147,7 @@ def simulate(
             others,
             on_slice=write if traces else None,
             on_landing=landed,
+            on_progress=progress,
         )
     if gantt is not None:
         from reports.gantt import gantt as draw

@@ -1,0 +1,85 @@
+"""The one place where what the user gives is bounded.
+
+Every bound lies far beyond any design; what is above is a slip of the keyboard, or would run or fill the memory without
+end. Messages name the option or the key, the value and the bound.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from decimal import Decimal
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from sched_sim.errors import InputError
+
+if TYPE_CHECKING:
+    from sched_sim.tasks import Task
+
+MOST_DIGITS = 50
+"""Of a number: exact arithmetic takes them all."""
+LARGEST_EXPONENT = 18
+"""Costs and speeds of any unit lie between 1e-18 and 1e18."""
+MOST_STEPS = 10_000_000
+"""HR steps of a design, a delay and a simulation: more than a day at 100 Hz."""
+MOST_JOBS = 20_000_000
+"""Released in one simulation."""
+MOST_STATES = 200
+"""Of a system that is measured; inputs and measurements too. Its operations grow with the third power."""
+MOST_BYTES = 64_000_000
+"""Of an input file."""
+MOST_SHOWN = 60
+"""Characters of a value in a message."""
+
+
+def short(value: object) -> str:
+    """A value for a message, its middle left out where it is long."""
+    if isinstance(value, int) and abs(value) >= 10**MOST_SHOWN:
+        return f"about {'-' if value < 0 else ''}1e{int(abs(value).bit_length() * 0.30103)}"
+    text = str(value)
+    return text if len(text) <= MOST_SHOWN else f"{text[: MOST_SHOWN // 2]} ... {text[-MOST_SHOWN // 4 :]}"
+
+
+def check_digits(value: int | Decimal | str, what: str) -> None:
+    """Raises InputError for a number of more than MOST_DIGITS digits, in its exponent or before it, before anything
+    computes with it."""
+    if isinstance(value, int):
+        long = abs(value) >= 10**MOST_DIGITS
+    elif isinstance(value, str):
+        long = len(value) > MOST_DIGITS and sum(map(str.isdigit, value)) > MOST_DIGITS
+    else:
+        long = value.is_finite() and max(len(value.as_tuple().digits), abs(value.adjusted())) > MOST_DIGITS
+    if long:
+        raise InputError(f"{what} is {short(value)}: give a number of at most {MOST_DIGITS} digits")
+
+
+def check_size(number: Decimal | Fraction, what: str) -> None:
+    """Raises InputError for a number far from 1, as no unit of cost, speed or time makes it. A Decimal is not computed
+    with: 1e999999999 fills the memory."""
+    if isinstance(number, Decimal):
+        far = number.is_finite() and bool(number) and abs(number.adjusted()) > LARGEST_EXPONENT
+    else:
+        far = bool(number) and not Fraction(1, 10**LARGEST_EXPONENT) <= abs(number) < 10 ** (LARGEST_EXPONENT + 1)
+    if far:
+        raise InputError(
+            f"{what} is {short(number)}: give a number between 1e-{LARGEST_EXPONENT} and 1e{LARGEST_EXPONENT}"
+        )
+
+
+def check_whole(value: int, what: str, most: int = MOST_STEPS) -> None:
+    """Raises InputError for a whole number above `most`, by default of HR steps."""
+    if value > most:
+        raise InputError(f"{what} is {short(value)}: give at most {most:,}")
+
+
+def check_simulation(steps: int, tasks: Sequence[Task], what: str, most: int = MOST_JOBS) -> None:
+    """Raises InputError for a simulation of too many steps, or of too many jobs of the filter and the tasks."""
+    if steps > MOST_STEPS:
+        raise InputError(f"{what} are {short(steps)} HR steps: at most {MOST_STEPS:,} are simulated; give fewer")
+    jobs = steps + sum(int(steps / task.period) for task in tasks)
+    if jobs > most:
+        shortest = min(tasks, key=lambda task: task.period)
+        raise InputError(
+            f"{what} release {short(jobs)} jobs, most of them of task {shortest.name!r} with period "
+            f"{float(shortest.period):g}: at most {most:,} are possible; give fewer steps or longer periods"
+        )
