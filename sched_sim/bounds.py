@@ -53,16 +53,16 @@ def check_digits(value: int | Decimal | str, what: str) -> None:
         raise InputError(f"{what} is {short(value)}: give a number of at most {MOST_DIGITS} digits")
 
 
-def check_size(number: Decimal | Fraction, what: str) -> None:
-    """Raises InputError for a number far from 1, as no unit of cost, speed or time makes it. A Decimal is not computed
-    with: 1e999999999 fills the memory."""
+def check_size(number: Decimal | Fraction, what: str, given: object) -> None:
+    """Raises InputError for a number far from 1, as no unit of cost, speed or time makes it. given: how it was
+    written. A Decimal is not computed with: 1e999999999 fills the memory."""
     if isinstance(number, Decimal):
         far = number.is_finite() and bool(number) and abs(number.adjusted()) > LARGEST_EXPONENT
     else:
         far = bool(number) and not Fraction(1, 10**LARGEST_EXPONENT) <= abs(number) < 10 ** (LARGEST_EXPONENT + 1)
     if far:
         raise InputError(
-            f"{what} is {short(number)}: give a number between 1e-{LARGEST_EXPONENT} and 1e{LARGEST_EXPONENT}"
+            f"{what} is {short(given)}: give a number between 1e-{LARGEST_EXPONENT} and 1e{LARGEST_EXPONENT}"
         )
 
 

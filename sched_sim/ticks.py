@@ -29,7 +29,7 @@ def exact(value: int | str | float | Decimal | Fraction, what: str) -> Fraction:
         raise
     except (ArithmeticError, ValueError):
         raise InputError(f"{what} is {short(value)!r}: give a finite number such as 0.78 or 77/100") from None
-    check_size(number, what)
+    check_size(number, what, value)
     return number
 
 
@@ -44,7 +44,7 @@ def _written(value: int | str | float | Decimal, what: str) -> int | str | Decim
     if "/" in text:
         return text
     number = Decimal(text)
-    check_size(number, what)
+    check_size(number, what, value)
     return number
 
 

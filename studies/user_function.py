@@ -7,6 +7,7 @@ import importlib.util
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+from importlib.machinery import PathFinder
 from pathlib import Path
 from types import ModuleType
 from typing import Any, NamedTuple
@@ -33,13 +34,27 @@ def returned_by(name: str, option: str, how: str) -> Returned:
     module_name, colon, function_name = name.partition(":")
     if not (colon and module_name and function_name):
         raise InputError(f"{said}: {how}")
-    with explained(f"{said}: module {module_name!r} cannot be imported", f"; {how}"):
-        module = _imported(module_name)
-    function: Any = getattr(module, function_name, None)
-    if not callable(function):
-        raise InputError(f"{said}: module {module_name!r} has no function {function_name!r}; {how}")
-    with explained(f"{said}: {function_name}() failed"):
-        return Returned(function_name, function())
+    with _current_folder_last() as here:
+        with explained(f"{said}: module {module_name!r} cannot be imported", f"; {how}"):
+            module = _imported(module_name, here)
+        function: Any = getattr(module, function_name, None)
+        if not callable(function):
+            raise InputError(f"{said}: module {module_name!r} has no function {function_name!r}; {how}")
+        with explained(f"{said}: {function_name}() failed"):
+            return Returned(function_name, function())
+
+
+@contextmanager
+def _current_folder_last() -> Iterator[Path]:
+    """On the path of modules while the user's are imported."""
+    here = Path.cwd()
+    sys.path.append(str(here))
+    try:
+        yield here
+    finally:
+        sys.path.reverse()
+        sys.path.remove(str(here))
+        sys.path.reverse()
 
 
 @contextmanager
@@ -52,34 +67,33 @@ def explained(what: str, remedy: str = "") -> Iterator[None]:
 
 
 def _said(error: BaseException) -> str:
-    """The kind of error and its message, on one line."""
+    """Its message on one line, after the kind of error where that does not say enough."""
     if isinstance(error, SystemExit):
         return f"it ends the program, with sys.exit({error.code!r})"
-    if isinstance(error, InputError):
-        return str(error)
     try:
-        return " ".join(f"{type(error).__name__}: {error}".split())
+        message = " ".join(str(error).split())
     except Exception:
-        return type(error).__name__
+        message = ""
+    said_by_itself = message and isinstance(error, ValueError | RuntimeError | ImportError)
+    return message if said_by_itself else f"{type(error).__name__}: {message}"
 
 
-def _imported(name: str) -> ModuleType:
-    here = Path.cwd()
-    if str(here) not in sys.path:
-        sys.path.append(str(here))
+def _imported(name: str, here: Path) -> ModuleType:
+    """Raises ImportError where a file in the current folder has the name of an installed module."""
     top = name.partition(".")[0]
     own = next((path for path in (here / f"{top}.py", here / top / "__init__.py") if path.is_file()), None)
-    loaded = sys.modules.get(top)
-    if own is not None and (loaded is None or getattr(loaded, "__file__", None) != str(own)):
-        if loaded is not None or top in sys.stdlib_module_names or _is_installed(top, own):
+    if own is not None and getattr(sys.modules.get(top), "__file__", None) != str(own):
+        if top in sys.stdlib_module_names or PathFinder.find_spec(top, _installed(here)) is not None:
             raise ImportError(f"{own} has the name of another module that is installed; give it another name")
+        for loaded in [module for module in sys.modules if module.partition(".")[0] == top]:  # of another folder
+            del sys.modules[loaded]
         _load(top, own)
     return importlib.import_module(name)
 
 
-def _is_installed(top: str, own: Path) -> bool:
-    found = importlib.util.find_spec(top)
-    return found is not None and found.origin not in (None, str(own))
+def _installed(here: Path) -> list[str]:
+    """The path of modules without the current folder."""
+    return [entry for entry in sys.path if entry and Path(entry) != here]
 
 
 def _load(top: str, path: Path) -> None:
