@@ -25,8 +25,8 @@ def test_the_users_module_is_found_first_and_hides_no_library(tmp_path: Path, mo
     monkeypatch.setattr(sys, "path", list(sys.path))
     for name in ("helper_of_mine", "simpy"):
         (tmp_path / f"{name}.py").write_text("VALUE = 7")
-    (tmp_path / "this.py").write_text("import helper_of_mine\n\ndef seven(): return helper_of_mine.VALUE")
-    assert returned_by("this:seven", "--system", "how").value == 7
+    (tmp_path / "mine.py").write_text("import helper_of_mine\n\ndef seven(): return helper_of_mine.VALUE")
+    assert returned_by("mine:seven", "--system", "how").value == 7
     found = find_spec("simpy")
     assert found is not None
     assert not Path(str(found.origin)).is_relative_to(tmp_path)
