@@ -9,59 +9,85 @@ from __future__ import annotations
 
 import os
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from io import TextIOBase, TextIOWrapper
 
 from sched_sim.cli.output import say
 from sched_sim.errors import InputError
 
-STDOUT_CLOSED = "standard output is closed: open it, or send it to a file or to /dev/null"
-NO_FOLDER = "the current folder has been deleted: change to one that exists"
+
+class Stdout(TextIOWrapper):
+    """Standard output; raises InputError where it cannot be written."""
+
+    def write(self, text: str) -> int:
+        with _writing():
+            return super().write(text)
+
+    def flush(self) -> None:
+        with _writing():
+            super().flush()
 
 
 class Closed(TextIOBase):
     """Standard output that is not there."""
 
     def write(self, _text: str) -> int:
-        raise InputError(STDOUT_CLOSED)
+        raise InputError("standard output is closed: open it, or send it to a file or to /dev/null")
 
 
 def run() -> int:
     """Run the command that `sys.argv` says; its exit code."""
     _open_streams()
-    code = _explained()
     try:
+        code = _command()
         sys.stdout.flush()
+    except InputError as error:
+        return _refuse(str(error))
     except BrokenPipeError:
-        _drop_stdout()
-        return 1
-    except OSError as error:
-        _drop_stdout()
-        return _refuse(f"standard output cannot be written: {error.strerror}; make room, or send it elsewhere")
+        return _end(1)
+    except MemoryError:
+        return _refuse("memory ran out: give a smaller design, grid, system or file")
+    except FileNotFoundError:
+        if _folder_is_there():
+            raise
+        return _refuse("the current folder has been deleted: change to one that exists")
     return code
 
 
-def _explained() -> int:
-    try:
-        from sched_sim.cli.app import app
+def _command() -> int:
+    from sched_sim.cli.app import app
 
+    try:
         app(prog_name="sched-sim")
     except SystemExit as stop:
         return int(stop.code or 0)
-    except InputError as error:
-        return _refuse(str(error))
-    except MemoryError:
-        return _refuse("memory ran out: give a smaller design, grid, system or file")
-    except OSError:
-        if not _stdout_fails():
-            if not _folder_is_there():
-                return _refuse(NO_FOLDER)
-            raise
     return 0
 
 
+@contextmanager
+def _writing() -> Iterator[None]:
+    try:
+        yield
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        raise InputError(
+            f"standard output cannot be written: {error.strerror}; make room, or send it elsewhere"
+        ) from None
+
+
 def _refuse(message: str) -> int:
-    say(f"Error: {message}")
-    return 2
+    with suppress(OSError):  # nobody reads it
+        say(f"Error: {message}")
+    return _end(2)
+
+
+def _end(code: int) -> int:
+    """What is still to be written is written nowhere, lest Python try again as it ends."""
+    if isinstance(sys.stdout, Stdout):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    return code
 
 
 def _open_streams() -> None:
@@ -71,26 +97,20 @@ def _open_streams() -> None:
             os.fstat(number)
         except OSError:
             os.open(os.devnull, os.O_RDWR)  # takes the lowest number that is free
-    if sys.stdout is None:
-        sys.stdout = Closed()
     if sys.stderr is None:
         sys.stderr = open(os.devnull, "w")  # noqa: SIM115
+    if sys.stdout is None:
+        sys.stdout = Closed()
+    elif sys.stdout is sys.__stdout__ and isinstance(sys.stdout, TextIOWrapper):
+        sys.stdout = _checked(sys.stdout)
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")
 
 
-def _drop_stdout() -> None:
-    """What is still to be written is written nowhere, and Python does not try again as it ends."""
-    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-
-
-def _stdout_fails() -> bool:
-    try:
-        sys.stdout.flush()
-    except OSError:
-        return True
-    return False
+def _checked(stdout: TextIOWrapper) -> Stdout:
+    encoding, by_line, at_once = stdout.encoding, stdout.line_buffering, stdout.write_through
+    return Stdout(stdout.detach(), encoding, line_buffering=by_line, write_through=at_once)
 
 
 def _folder_is_there() -> bool:

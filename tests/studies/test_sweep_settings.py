@@ -1,12 +1,14 @@
 """A sweep from flags and from a file."""
 
 from fractions import Fraction
+from pathlib import Path
 
 import pytest
 
 from sched_sim.errors import InputError
 from sched_sim.options import Options
 from studies.sweep_settings import settings
+from tests.command_line import Run, is_refused
 
 FILE = """
 N = "10:30:10"
@@ -128,3 +130,41 @@ def test_a_file_that_is_no_toml(tmp_path, content, why):
         settings({}, tmp_path / "g.toml")
     with pytest.raises(InputError, match="not found"):
         settings({}, tmp_path / "none.toml")
+
+
+@pytest.mark.parametrize(
+    ("flags", "line"),
+    [
+        ("--speed 0.78", "N = 4"),
+        ("--context-switch 0.01", "N = 4"),
+        ("-M 1", "N = 4"),
+        ("", "N = 4\ncpus = 2\nM = 1\nL = 3\nspeed = 0.78\ncontext_switch = 0.01"),
+        ("", 'N = 4\nmethod = "larsen"\ngain = "at-update"\nfeedback = "next-step"\nlr_propagate_by = "m"'),
+        ("--cpus 1", "N = 4\ncpus = [1, 2]"),
+    ],
+)
+def test_flags_beside_a_grid_file_and_bare_values_in_it(sched_sim: Run, tmp_path: Path, flags: str, line: str) -> None:
+    (tmp_path / "grid.toml").write_text(line)
+    assert sched_sim(f"sweep grid.toml --method larsen {flags}").code == 0
+
+
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        ("gain = 3", ["gain", "'3'", "at-update"]),
+        ("cpus = true", ["cpus", "'True'", "1, 2"]),
+        ("feedback = []", ["feedback", "empty", "next-step"]),
+        ("method = { larsen = 1 }", ["method", "larsen"]),
+        ("lr_propagate_by = [[]]", ["lr_propagate_by", "'[]'"]),
+    ],
+)
+def test_a_value_of_a_grid_file_that_is_none(sched_sim: Run, tmp_path: Path, line: str, said: list[str]) -> None:
+    (tmp_path / "grid.toml").write_text(f"N = 4\n{line}")
+    is_refused(sched_sim("sweep grid.toml"), ["grid.toml", *said])
+
+
+def test_cost_tables_without_a_common_method(sched_sim: Run) -> None:
+    is_refused(
+        sched_sim("sweep -N 4 --costs steffes2014 --costs erkf-position"),
+        ["--costs", "no method in common", "steffes2014", "robust-lu"],
+    )

@@ -1,0 +1,89 @@
+"""Numbers, files and simulations of any size end with one message, before anything computes with them."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+
+from sched_sim.bounds import short
+from sched_sim.errors import InputError
+from sched_sim.ticks import exact
+from tests.command_line import Run, is_refused
+
+COSTS = 'name = "c"\nunit = "u"\n[costs.standard]\nupdate = 1\npropagate = '
+TASK = '[[task]]\nname = "t"\ncost = 0.1\npriority = 5\nperiod = '
+
+
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        ("simulate -N 9223372036854775807 -M 4", ["-N", "9223372036854775807", "10,000,000"]),
+        (f"simulate -N {'1' * 4301} -M 4", ["-N", "1111 ... 1111"]),
+        ("simulate -N 10 -M 4 --cycles 1000000000000", ["--cycles", "1000000000000", "10,000,000"]),
+        ("simulate -N 10 -M 4 --speed 1 --cycles 1000001", ["1000001 cycles", "N=10", "10,000,000"]),
+        (f"simulate -N 10 -M 4 --speed {'1' * 400}", ["--speed", "50 digits"]),
+        ("simulate -N 10 -M 4 --speed 1e999999999", ["--speed", "1e999999999", "1e18"]),
+        ("simulate -N 10 -M 4 --speed 1e99999999999999999999", ["--speed", "1e99999999999999999999"]),
+        ("sweep -N 1:1000000", ["-N", "pairs", "10,000,000"]),
+        ("sweep -N 10000001", ["-N", "10000001"]),
+        ("sweep -N 4 --speed 1:1e9:1", ["--speed", "1,000,000"]),
+        ("measure --states 100000", ["--states", "100000"]),
+    ],
+)
+def test_options(sched_sim: Run, line: str, said: list[str]) -> None:
+    is_refused(sched_sim(line), said)
+
+
+@pytest.mark.parametrize(
+    ("number", "said"),
+    [
+        ("1" * 4301, "too long"),
+        ("1" * 400, "costs.standard.propagate is about 1e399"),
+        ("0." + "1" * 400, "costs.standard.propagate"),
+        ("1e99", "costs.standard.propagate"),
+        ("1e999999999", "costs.standard.propagate"),
+        ("1e99999999999999999999", "too long"),
+        ("[" * 3000 + "]" * 3000, "nested too deep"),
+        ("1\n" + "a." * 3000 + "b = 1", "nested too deep"),
+    ],
+)
+def test_numbers_and_nesting_in_files(sched_sim: Run, tmp_path: Path, number: str, said: str) -> None:
+    (tmp_path / "c.toml").write_text(COSTS + number)
+    is_refused(sched_sim("minimum -N 10 -M 4 --costs c.toml"), ["c.toml", said])
+
+
+def test_thirty_digits_stay_exact() -> None:
+    assert exact("0." + "3" * 30, "cost") == exact("3" * 30 + "/1" + "0" * 30, "cost")
+
+
+@pytest.mark.parametrize("option", ["--costs", "--tasks", "--processor"])
+def test_only_regular_files_are_read(sched_sim: Run, tmp_path: Path, option: str) -> None:
+    os.mkfifo(tmp_path / "fifo.toml")
+    (tmp_path / "loop.toml").symlink_to("loop.toml")
+    line = f"minimum -N 10 -M 4 {option}"
+    is_refused(sched_sim(f"{line} /dev/zero"), ["/dev/zero", "no regular file"])
+    is_refused(sched_sim(f"{line} fifo.toml"), ["fifo.toml", "no regular file"])
+    is_refused(sched_sim(f"{line} loop.toml"), ["loop.toml", "cannot be read"])
+    is_refused(sched_sim(f"{line} {'a' * 300}"), ["aaa", "cannot be read"])
+
+
+def test_a_large_file_is_not_read(sched_sim: Run, tmp_path: Path) -> None:
+    with (tmp_path / "c.toml").open("wb") as file:
+        file.truncate(10**9)
+    is_refused(sched_sim("minimum -N 10 -M 4 --costs c.toml"), ["c.toml", "1,000,000,000 bytes", "64,000,000"])
+
+
+@pytest.mark.parametrize("command", ["simulate", "gantt"])
+def test_tasks_that_release_jobs_without_end(sched_sim: Run, tmp_path: Path, command: str) -> None:
+    (tmp_path / "t.toml").write_text(TASK + "1e-18")
+    is_refused(sched_sim(f"{command} -N 10 -M 4 --speed 1 --tasks t.toml"), ["'t'", "1e-18", "longer periods"])
+
+
+def test_values_in_messages_are_short() -> None:
+    assert short(10**5000) == "about 1e5000"
+    assert short("x") == "x"
+    assert len(short("x" * 5000)) < 70
+    with pytest.raises(InputError, match="about -1e60"):
+        exact(-(10**60), "--speed")

@@ -1,0 +1,51 @@
+"""The user's own function: whatever it is and does, it is told."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import pytest
+
+from sched_sim.errors import InputError
+from studies.user_function import returned_by
+
+
+@pytest.mark.parametrize(
+    ("code", "said"),
+    [
+        ("def made(:", "cannot be imported: SyntaxError"),
+        ("import sys; sys.exit(3)", r"cannot be imported: it ends the program, with sys.exit\(3\)"),
+        ("1 / 0", "cannot be imported: ZeroDivisionError"),
+        ("import absent_library", "cannot be imported: No module named 'absent_library'"),
+        ("def made(): import sys; sys.exit('bye')", r"made\(\) failed: it ends the program, with sys.exit\('bye'\)"),
+        ("def made(): return made()", r"made\(\) failed: maximum recursion depth"),
+        ("def made(): raise ValueError('a\\nb')", r"made\(\) failed: a b$"),
+        ("def made(x): return x", r"made\(\) failed: TypeError"),
+        ("class Mute(Exception):\n    def __str__(self): 1 / 0\ndef made(): raise Mute", r"made\(\) failed: Mute"),
+        ("made = 3", "has no function 'made'"),
+    ],
+)
+def test_what_it_does_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, code: str, said: str) -> None:
+    (tmp_path / "own_function.py").write_text(code)
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(InputError, match=rf"--system 'own_function:made'.*{said}"):
+        returned_by("own_function:made", "--system", "how")
+
+
+def test_each_folder_has_its_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    before = list(sys.path)
+    for value in (1, 2):
+        folder = tmp_path / str(value)
+        folder.mkdir()
+        (folder / "own_function.py").write_text(f"def made(): return {value}")
+        monkeypatch.chdir(folder)
+        assert returned_by("own_function:made", "--system", "how").value == value
+    assert sys.path == before
+
+
+def test_a_file_with_the_name_of_a_library_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "simpy.py").write_text("def made(): return 1")
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(InputError, match=r"simpy\.py has the name of another module that is installed"):
+        returned_by("simpy:made", "--system", "how")
