@@ -19,6 +19,10 @@ HOW = (
 )
 
 
+ROUNDING = 1e-9
+"""Of a covariance: so far below zero, in parts of the largest, may its eigenvalues lie."""
+
+
 def load_system(name: str) -> tuple[System, FloatArray]:
     """The system that the function `package.module:function` returns, and a typical state of it (n,).
 
@@ -55,6 +59,11 @@ def _try_model(name: str, system: System, x: FloatArray) -> None:
     _expect(name, "h(k, x, p, out)", lambda: _filled(p, lambda out: system.h(0, x, parameters, out)), (p,))
     _expect(name, "H(k, x, p)", lambda: system.H(0, x, parameters), (p, n))
     _expect(name, "R(k, p)", lambda: system.R(0, parameters), (p, p))
+    least, most = np.linalg.eigvalsh(system.Q(0, parameters))[[0, -1]]
+    if least < -ROUNDING * most or most < 0:
+        raise InputError(
+            f"--system {name!r}: Q(j, p) is no covariance: its smallest eigenvalue is {least:.3g}; none may be negative"
+        )
     try:
         check_measurement_noise(system.R(0, parameters), 0)
     except ValueError as error:
