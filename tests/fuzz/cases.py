@@ -71,7 +71,8 @@ FUNCTION_OPTIONS = {"--system", "--filter"}
 
 numbers = st.sampled_from(NUMBERS)
 texts = st.sampled_from(HOSTILE_TEXT) | st.text(max_size=6)
-ODD = [
+NESTED = "[" * 3000 + "]" * 3000
+ODD = [True, [], {}, [[]], [1, "a"], {"a": 1}, *map(Raw, ("1979-05-27", "07:32:00", "x", NESTED))]
     True,
     [],
     {},
