@@ -65,7 +65,8 @@ class Sensor:
         elif self.land_by < self.least_delay:
             wrong.append(
                 f"land_by {self.land_by} must not be less than the least delay {self.least_delay}: the correction "
-                f"may land in the step so many after the measurement's, and none lands before its measurement arrives"
+                f"may land in the step so many after the measurement's, and none lands before its measurement arrives; "
+                f"give {self.least_delay} or more"
             )
         if wrong:
             raise InputError(f"sensor {self.name!r}: {'; '.join(wrong)}")
@@ -167,14 +168,14 @@ class Scenario:
         if overlap is None:
             return []
         one, other = overlap
-        remedy = (
-            "a delay not longer than `every`"
+        offsets = (
+            ""
             if one.sensor == other.sensor
-            else "delays and offsets with which the second is taken when the first has arrived"
+            else "; or give offsets with which the second is taken when the first has arrived"
         )
         return [
             f'{one} and {other}: late = "larsen" can wait for one measurement at a time; choose late = "recalculate", '
-            f"or give {remedy}"
+            f"which takes any number{offsets}"
         ]
 
     def preempted(self, sensor: Sensor) -> bool:

@@ -170,7 +170,7 @@ class _ScenarioFile(_Entry):
     def _something_arrives(self) -> Self:
         too_late = [
             f"sensor {sensor.name!r}: the least delay {ends(sensor.delay)[0]} is not less than steps = {self.steps}: "
-            f"none arrives; give more steps, or a shorter delay"
+            f"none arrives; give more steps"
             for sensor in self.sensor
             if ends(sensor.delay)[0] >= self.steps > 0
         ]

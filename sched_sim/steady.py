@@ -96,13 +96,14 @@ def longest_run(timing: Timing, tasks: Sequence[Task]) -> int:
     if hyperperiod > LONGEST and not tasks:
         raise InputError(
             f"N={timing.N} is more than the {LONGEST} HR periods that are simulated to find what context switches "
-            f"cost: give a smaller N, or no --context-switch"
+            f"cost: leave out --context-switch (what is left has a closed form), or look at one speed with "
+            f"`sched-sim simulate --speed`"
         )
     if hyperperiod > LONGEST:
         raise InputError(
             f"the tasks repeat together with the measurements only after {hyperperiod:.3g} HR periods: round their "
-            f"periods ({', '.join(f'{task.name} {float(task.period):g}' for task in tasks)}) to a common grid with "
-            f"N={timing.N}"
+            f"periods ({', '.join(f'{task.name} {float(task.period):g}' for task in tasks)}) down to a common grid "
+            f"with N={timing.N}, or look at one speed with `sched-sim simulate --speed`"
         )
     return started + max(6 * hyperperiod, FEWEST)
 

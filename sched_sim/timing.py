@@ -31,19 +31,30 @@ class Timing:
         if self.M < 0:
             raise InputError(f"M={self.M} must be at least 0: it is the delay of the measurement in HR steps")
         if self.M > self.N:
-            raise InputError(
-                f"M={self.M} must be <= N={self.N}: the measurement must arrive before the next one is taken; "
-                f"give a larger N or a smaller M"
-            )
+            raise InputError(f"M={self.M} must be <= N={self.N}: {several_in_flight(self.N, self.M)}")
         if self.L < self.M:
             raise InputError(
                 f"L={self.L} must be > M={self.M}: the correction cannot land before the measurement arrives; "
-                f"give L from {self.M + 1} to N={self.N}"
+                f"give L {_up_to(min(self.M + 1, self.N), self.N)}"
             )
         if self.L > self.N:
             raise InputError(
-                f"L={self.L} must be <= N={self.N}: the correction must land before the next measurement is taken"
+                f"L={self.L} must be <= N={self.N}: the correction must land before the next measurement is taken; "
+                f"give L {_up_to(min(self.M + 1, self.N), self.N)}"
             )
+
+
+def _up_to(first: int, N: int) -> str:
+    return f"from {first} to N={N}" if first < N else f"of N={N}"
+
+
+def several_in_flight(N: int, M: int) -> str:
+    """Why no method here can have M > N, and what can."""
+    return (
+        f"these methods wait for one measurement at a time, and here others are taken before one arrives; simulate "
+        f"several on their way with `sched-sim simulate --scenario FILE.toml`, and write in that file under [[sensor]] "
+        f"`every = {N}` and `delay = {M}`"
+    )
 
 
 def latest_feedback_step(N: int, feedback: Feedback) -> int:
@@ -51,21 +62,21 @@ def latest_feedback_step(N: int, feedback: Feedback) -> int:
     return N if feedback == "next-step" else N - 1
 
 
+INSTEAD = "choose --method recalculate or larsen, which correct the state in that very step"
+"""Of the dual-rate filter, where M = N leaves it no step."""
+
+
 def check_dual_rate(timing: Timing, feedback: Feedback) -> None:
     """Raises InputError unless M < L <= N (next-step) or M <= L < N (same-step)."""
     N, M, L = timing.N, timing.M, timing.L
     if feedback == "next-step" and L <= M:
-        advice = (
-            f"give L from {M + 1} to N={N} (same-step feedback allows L = M)"
-            if M < N
-            else "give a larger N, or --method recalculate or larsen"
-        )
+        advice = f"give L from {M + 1} to N={N} (same-step feedback allows L = M)" if M < N else INSTEAD
         raise InputError(
             f"L={L} must be > M={M}: the dual-rate correction cannot land in the step in which the measurement "
             f"arrives; {advice}"
         )
     if feedback == "same-step" and L >= N:
-        advice = f"give L from {M} to {N - 1}" if M < N else "give a larger N, or --method recalculate or larsen"
+        advice = f"give L from {M} to {N - 1}" if M < N else INSTEAD
         raise InputError(f"L={L} must be < N={N} with same-step feedback: the correction lands during step l; {advice}")
 
 

@@ -8,9 +8,10 @@ from fractions import Fraction
 from functools import cached_property
 from itertools import accumulate, product
 
-from sched_sim.costs import CostTable, JobCosts, Statistic, select
+from sched_sim.costs import DELAYED_METHODS, CostTable, JobCosts, Statistic, select
 from sched_sim.errors import InputError
 from sched_sim.options import Options
+from sched_sim.timing import several_in_flight
 from studies.legal import Designs, Legal, law_of
 
 MOST_PAIRS = 10_000_000
@@ -87,9 +88,18 @@ class Grid:
         if not self.size:
             given = f"N={_extent(self.N)}, M={_extent(self.M)}, L={_extent(self.L)}"
             raise InputError(
-                f"the grid is empty: none of the {self.left_out} combinations of {given} is legal: give 0 <= M <= N, "
-                f"and M < L <= N for dual-rate (M <= L < N with same-step feedback), M <= L <= N for the others"
+                f"the grid is empty: none of the {self.left_out} combinations of {given} is legal: {self._rules()}"
             )
+
+    def _rules(self) -> str:
+        delayed = set(self.methods) & set(DELAYED_METHODS)
+        if delayed and self.M is not None and self.M[0] > self.N[-1]:
+            return several_in_flight(self.N[-1], self.M[0])
+        return (
+            "legal are M <= L <= N for standard, recalculate and larsen, M < L <= N for dual-rate (M <= L < N with "
+            "same-step feedback), and 1 <= L <= N without -M for the multirate and robust methods: choose -L and "
+            "--method so"
+        )
 
     @cached_property
     def blocks(self) -> tuple[Block, ...]:

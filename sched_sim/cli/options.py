@@ -74,7 +74,8 @@ Delay = Annotated[
     int | None,
     typer.Option(
         "-M",
-        help="Delay of the measurement in HR steps, 0 <= M <= N; multirate and robust methods have none.",
+        help="Delay of the measurement in HR steps, 0 <= M <= N (longer: simulate --scenario); multirate and robust "
+        "methods have none.",
         parser=whole,
         metavar="STEPS",
         rich_help_panel=DESIGN,
@@ -84,7 +85,8 @@ FeedbackStep = Annotated[
     int | None,
     typer.Option(
         "-L",
-        help="Step by which the correction must land, M < L <= N; by default the latest possible.",
+        help="Step by which the correction must land, M < L <= N, or L = M with --feedback same-step; by default the "
+        "latest possible.",
         parser=whole,
         metavar="STEPS",
         rich_help_panel=DESIGN,
@@ -229,7 +231,10 @@ def make_timing(N: int, M: int | None, L: int | None, method: str, options: Opti
     """With L the latest that the method can have, if the user did not say. Multirate methods have no delay."""
     if method in TWO_RATE_METHODS:
         if M:
-            raise InputError(f"-M {M}: {method} has no delay, it uses each measurement in its step: leave -M out")
+            raise InputError(
+                f"-M {M}: {method} has no delay, it uses each measurement in its step: for a late one choose "
+                f"--method recalculate, larsen or dual-rate; without delay leave -M out"
+            )
         M = 0
     if M is None:
         raise InputError(

@@ -41,8 +41,9 @@ ScenarioFile = Annotated[
     Path | None,
     typer.Option(
         "--scenario",
-        help="TOML file of a predictor and several sensors, with dropout, random delay and measured costs; instead of "
-        "the options for one filter.",
+        help="TOML file of a predictor and several sensors, several measurements on their way at once, dropout, random "
+        "delay and measured costs; instead of the options for one filter. At least: name, steps, speed, \\[predictor] "
+        "cost, \\[\\[sensor]] name, every, delay, cost.",
         rich_help_panel=opt.DESIGN,
     ),
 ]

@@ -134,7 +134,7 @@ LARSENS = BY_HAND | {"predict_accumulate": 4, "correct_late.gps": 2, "correct_la
 def test_larsen_refuses_a_measurement_that_is_taken_while_another_is_in_flight() -> None:
     said = (
         "sensor 'gps', steps 0 to 5 and sensor 'gps', steps 4 to 9: late = \"larsen\" can wait for one measurement at "
-        'a time; choose late = "recalculate", or give a delay not longer than `every`'
+        'a time; choose late = "recalculate", which takes any number'
     )
     with pytest.raises(InputError, match=re.escape(said)):
         scenario(10, LARSENS, sensor("gps", 4, 5), steps=20, late="larsen")

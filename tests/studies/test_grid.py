@@ -118,7 +118,8 @@ def test_a_grid_far_larger_than_memory_is_only_counted():
 
 
 def test_an_empty_grid_says_what_was_given():
-    with pytest.raises(InputError, match=r"none of the 4 combinations of N=5, M=6, L=all is legal: give 0 <= M <= N"):
+    said = r"none of the 4 combinations of N=5, M=6, L=all is legal: .*--scenario .*`every = 5` and `delay = 6`"
+    with pytest.raises(InputError, match=said):
         Grid((5,), (6,), None, (), DELAYED_METHODS, (STEFFES,), (Options(),))
 
 
