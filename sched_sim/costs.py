@@ -242,8 +242,9 @@ def arithmetic(counts: Counts) -> int:
 
 
 def default_methods(*tables: CostTable) -> tuple[str, ...]:
-    """What is meant if no method is named: those for a delayed measurement that every table has, or else all it has."""
-    common = [method for method in METHODS if all(method in table.costs for table in tables)]
+    """What is meant if no method is named: those for a delayed measurement that every table has, or else all it has; of
+    tables in which no job has a cost, those whose jobs are lacking one."""
+    common = [method for method in METHODS if all(method in (table.costs or table.lacking) for table in tables)]
     return tuple(method for method in common if method in DELAYED_METHODS) or tuple(common)
 
 

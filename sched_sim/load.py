@@ -15,7 +15,7 @@ from sched_sim.costs import (
     StandardCosts,
 )
 from sched_sim.options import Options
-from sched_sim.tasks import Task
+from sched_sim.tasks import Task, check_cpus
 from sched_sim.timing import Timing
 
 
@@ -30,7 +30,11 @@ def load(costs: JobCosts, timing: Timing, speed: Fraction) -> Fraction:
 def loads(
     costs: JobCosts, timing: Timing, speed: Fraction, options: Options = Options(), tasks: Sequence[Task] = ()
 ) -> tuple[Fraction, ...]:
-    """As `load`, of each processor, the user's tasks included. At a share above 1 work piles up without end."""
+    """As `load`, of each processor, the user's tasks included. At a share above 1 work piles up without end.
+
+    Raises InputError for a task on a processor that is not there.
+    """
+    check_cpus(tasks, options.cpus)
     low = low_rate_work_of_cycle(costs)
     work = [(work_of_cycle(costs, timing) - low) / timing.N, *[Fraction(0)] * (options.cpus - 1)]
     work[-1] += low / timing.N

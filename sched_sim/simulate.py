@@ -20,12 +20,11 @@ import simpy
 from sched_sim.bounds import check_simulation, short
 from sched_sim.clock import Clock, OnProgress
 from sched_sim.costs import JobCosts, LarsenCosts, RecalculateCosts
-from sched_sim.errors import InputError
 from sched_sim.jobs import Job, RecurringSource, Source
 from sched_sim.methods import OnLanding, method_source
 from sched_sim.options import Options
 from sched_sim.schedule import Response, Schedule, Slice
-from sched_sim.tasks import Task, TaskSource
+from sched_sim.tasks import Task, TaskSource, check_cpus
 from sched_sim.ticks import positive, ticks_per_unit, to_ticks
 from sched_sim.timing import Timing
 
@@ -99,9 +98,7 @@ def workload_in_ticks(
 ) -> Workload:
     """The fewest ticks per cost unit in which all is whole. Raises InputError as `simulate` does."""
     positive(speed, "speed")
-    for task in tasks:
-        if task.cpu > options.cpus:
-            raise InputError(f"task {task.name!r}: cpu {task.cpu} is not there; give --cpus {task.cpu}, or cpu = 1")
+    check_cpus(tasks, options.cpus)
     work = [Fraction(value) for value in astuple(costs)]
     times = [speed * time for task in tasks for time in (task.period, task.offset)]
     resolution = ticks_per_unit([speed, options.context_switch, *work, *times, *(task.cost for task in tasks)])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable
+from collections.abc import Hashable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -35,6 +35,13 @@ class Task:
             raise InputError(f"task {self.name!r}: offset {self.offset} must be 0 or more HR periods")
         if self.cpu not in (1, 2):
             raise InputError(f"task {self.name!r}: cpu {self.cpu} must be 1 or 2")
+
+
+def check_cpus(tasks: Sequence[Task], cpus: int) -> None:
+    """Raises InputError for a task on a processor that is not there."""
+    for task in tasks:
+        if task.cpu > cpus:
+            raise InputError(f"task {task.name!r}: cpu {task.cpu} is not there; give --cpus {task.cpu}, or cpu = 1")
 
 
 class TaskSource:

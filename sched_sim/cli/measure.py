@@ -10,7 +10,7 @@ import typer
 
 from sched_sim.bounds import MOST_STATES
 from sched_sim.cli import options as opt
-from sched_sim.cli.measure_filter import measure_own_filter, refuse_with_filter
+from sched_sim.cli.measure_filter import measure_own_filter, OF_A_SYSTEM, refuse_with_filter
 from sched_sim.cli.output import print_csv, print_json, print_table, say, units
 from sched_sim.cli.outputs import module_files, refuse_one_file_for_two
 from sched_sim.costs import SYSTEM_METHODS
@@ -38,7 +38,11 @@ Backend = Annotated[
 ]
 UpdateForm = Annotated[
     Literal["textbook", "joseph", "short"],
-    typer.Option("--update", help="Covariance update: Eq. 11, Joseph's form, or P - K (P H')'."),
+    typer.Option(
+        "--update",
+        help="Covariance update: textbook (Eq. 11, that of the shipped counts), joseph (the safest) or short, "
+        "P - K (P H')' (the cheapest: with few measurements a small part of the textbook's).",
+    ),
 ]
 Size = Annotated[
     int,
@@ -129,6 +133,7 @@ def measure(
     """
     from filters.systems.example import example_system
     from sched_sim.cli.progress import progress_bar
+    from sched_sim.cli.update_form import update_form
     from sched_sim.cost_file import write_cost_table
     from sched_sim.files import check_writable
     from studies.measure import measure as run
@@ -143,9 +148,9 @@ def measure(
         return
     if robust is None and parallel is not None:
         raise InputError(f"--parallel {parallel} is for the robust filter: give --robust attitude or position too")
-    if robust is not None and (system is not None or method):
+    if robust is not None and (given := opt.given_options(context, lambda name: name in OF_A_SYSTEM)):
         raise InputError(
-            f"--robust {robust} measures the methods robust-... on a system of its own: leave out --system and --method"
+            f"--robust {robust} measures the methods robust-... on a system of its own: leave out {', '.join(given)}"
         )
     with progress_bar("Measuring") as progress:
         if robust is not None:
@@ -170,6 +175,7 @@ def measure(
         {
             "method": method,
             "job": kind,
+            **update_form(table, method),
             "unit": table.unit,
             "minimum": float(cost.minimum),
             "median": float(cost.median),

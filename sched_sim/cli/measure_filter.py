@@ -20,13 +20,13 @@ from sched_sim.sample_file import SampledCosts, write_sampled_costs
 if TYPE_CHECKING:
     from sched_sim.scenario import Samples
 
-OF_A_SYSTEM = ("states", "inputs", "measurements", "system", "robust", "parallel", "method", "update")
-"""Options of `measure` that say what a system's filters are; a composed filter is what it is."""
+OF_A_SYSTEM = ("states", "inputs", "measurements", "system", "method", "update")
+"""Options of `measure` that say what a system's filters are; a robust and a composed filter are what they are."""
 
 
 def refuse_with_filter(name: str, context: typer.Context) -> None:
     """Raises InputError for options that were given beside --filter and have no meaning with it."""
-    given = given_options(context, lambda name: name in OF_A_SYSTEM)
+    given = given_options(context, lambda name: name in (*OF_A_SYSTEM, "robust", "parallel"))
     if given:
         raise InputError(
             f"--filter {name}: leave out {', '.join(given)}: the filter that it returns says all of that itself"

@@ -7,7 +7,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from sched_sim.cli import options as opt
-from sched_sim.cli.output import print_csv, print_json, print_table, say, units
+from sched_sim.cli.output import lines, print_csv, print_json, print_table, say, units
 from sched_sim.cli.progress import simulations
 
 if TYPE_CHECKING:
@@ -47,8 +47,8 @@ def minimum(
     sched-sim minimum -N 40 -M 4 --hr-hz 400 --costs my-costs.toml --method dual-rate
     sched-sim minimum -N 40 -M 20 --hr-hz 400 --processor cortex-m7
     """
-    from sched_sim.analysis import BINDING_WORDS
-    from sched_sim.cli.parts import MEANING, fit_row, fit_words
+    from sched_sim.cli.parts import MEANING, fit_row, fit_words, fixed_by, least_row
+    from sched_sim.cli.update_form import update_form, update_note
     from sched_sim.costs import select
     from sched_sim.fit import fit
     from sched_sim.least_speed import least_speed
@@ -69,39 +69,30 @@ def minimum(
         with simulations(name) as on_progress:
             found = None if part is None or rate is None else fit(work, timing, rate, options, others, on_progress)
             least = least_speed(work, timing, options, others, on_progress) if found is None else found.least
-        row = {
-            "method": name,
-            "N": N,
-            "M": timing.M,
-            "L": timing.L,
-            "min_speed": float(least.speed),
-            "min_speed_exact": str(least.speed),
-            "binding": least.binding,
-        } | ({} if table.update_form is None else {"update_form": table.update_form})
+        row = least_row(name, timing, least) | update_form(table, name)
         person: dict[str, Any] = {"method": "standard (no delay)" if name == "standard" else name}
-        fixed_by = BINDING_WORDS.get(least.binding, least.binding)
         if found is not None and part is not None and rate is not None:
             row |= fit_row(part, rate, found)
-            person |= fit_words(row) | {"fixed by": fixed_by}
+            person |= fit_words(row) | {"fixed by": fixed_by(least.binding)}
         else:
             landed = _landing(work, timing, least.speed, options, others)
             times = _absolute(rate, landed, float(least.speed), table.unit)
             row |= ({} if rate is None else {"hr_hz": float(rate)}) | times
-            person |= _speed(least.speed, table.unit) | {"fixed by": fixed_by, "lands at L": landed}
+            person |= _speed(least.speed, table.unit) | {"fixed by": fixed_by(least.binding), "lands at L": landed}
             person |= {_heading(key, table.unit): f"{value:.4g}" for key, value in times.items()}
         rows.append(row)
         shown.append(person)
+    note = update_note(table, [row["method"] for row in rows])
     if format == "json":
         print_json(rows)
     elif format == "csv":
         print_csv(rows)
     elif part is not None and rate is not None:
-        counts = opt.with_form(costs or opt.COUNTED, table)
-        title = f"{part.title}, HR loop at {float(rate):g} Hz, {design} (operations: {counts})"
-        print_table(title, shown, MEANING)
+        title = f"{part.title}, HR loop at {float(rate):g} Hz, {design} (operations: {costs or opt.COUNTED})"
+        print_table(title, shown, lines(MEANING, note))
     else:
         unit = f"{units(table.unit)} per HR period" if part is None else f"an HR period, on {part.title}"
-        print_table(f"Least speed, {design}, in {unit} (costs: {opt.with_form(table.name, table)})", shown)
+        print_table(f"Least speed, {design}, in {unit} (costs: {table.name})", shown, note)
 
 
 def _landing(costs: JobCosts, timing: Timing, speed: Fraction, options: Options, tasks: Sequence[Task]) -> int:

@@ -268,11 +268,6 @@ def load_costs(name: str | None, processor: Processor | None) -> CostTable:
     return on_processor(load(name or COUNTED), processor)
 
 
-def with_form(shown: str, table: CostTable) -> str:
-    """What a cost table is called in a heading, with the form of the covariance update that it is of."""
-    return shown if table.update_form is None else f"{shown}, {table.update_form} update"
-
-
 def make_processor(name: str | None) -> Processor | None:
     if name is None:
         return None

@@ -67,5 +67,10 @@ def _text(text: str, style: str = "") -> Text:
     return Text(text.encode(encoding, "backslashreplace").decode(encoding), style)
 
 
+def lines(*notes: str) -> str:
+    """Those that are not empty, one below the other."""
+    return "\n".join(note for note in notes if note)
+
+
 def _is_text(value: Any) -> bool:
     return isinstance(value, str) and not value[:1].isdigit()

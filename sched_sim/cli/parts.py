@@ -1,4 +1,4 @@
-"""How a method fits a processor, as a row for scripts and in words."""
+"""How much a method needs, and how it fits a processor, as a row for scripts and in words."""
 
 from __future__ import annotations
 
@@ -9,7 +9,30 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from sched_sim.fit import Fit
+    from sched_sim.least_speed import LeastSpeed
     from sched_sim.processor import Processor
+    from sched_sim.timing import Timing
+
+
+def least_row(method: str, timing: Timing, least: LeastSpeed | None) -> dict[str, Any]:
+    """least: None if the costs are not known."""
+    speed = None if least is None else least.speed
+    return {
+        "method": method,
+        "N": timing.N,
+        "M": timing.M,
+        "L": timing.L,
+        "min_speed": None if speed is None else float(speed),
+        "min_speed_exact": None if speed is None else str(speed),
+        "binding": None if least is None else least.binding,
+    }
+
+
+def fixed_by(binding: str | None) -> str | None:
+    """What fixes the least speed, in words."""
+    from sched_sim.analysis import BINDING_WORDS
+
+    return None if binding is None else BINDING_WORDS.get(binding, binding)
 
 
 def fit_row(part: Processor, hr_hz: Fraction, found: Fit | None) -> dict[str, Any]:

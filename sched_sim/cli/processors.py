@@ -2,17 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from sched_sim.cli import options as opt
-from sched_sim.cli.output import print_csv, print_json, print_table
+from sched_sim.cli.output import lines, print_csv, print_json, print_table
 from sched_sim.cli.parts import MEANING
-from sched_sim.costs import Method
+from sched_sim.costs import METHODS
 
 if TYPE_CHECKING:
+    from fractions import Fraction
+
+    from sched_sim.costs import Statistic
+    from sched_sim.options import Options
     from sched_sim.processor import Processor
+    from sched_sim.tasks import Task
+    from sched_sim.timing import Timing
 
 Parts = Annotated[
     list[str] | None,
@@ -22,8 +29,13 @@ Parts = Annotated[
         rich_help_panel=opt.PROCESSOR,
     ),
 ]
-RunMethod = Annotated[
-    Method | None, typer.Option("--method", help="The filter to run; by default dual-rate.", rich_help_panel=opt.DESIGN)
+RunMethods = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--method",
+        help=f"The filter to run: {', '.join(METHODS)}; repeatable; by default dual-rate.",
+        rich_help_panel=opt.DESIGN,
+    ),
 ]
 DesignSteps = Annotated[
     int | None,
@@ -38,26 +50,35 @@ DesignSteps = Annotated[
 
 
 def processors(
+    context: typer.Context,
     N: DesignSteps = None,
     M: opt.Delay = None,
     L: opt.FeedbackStep = None,
-    hr_hz: opt.HrHz = None,
-    method: RunMethod = None,
+    method: RunMethods = None,
     costs: opt.Costs = None,
+    statistic: opt.WhichCost = "minimum",
+    lr_propagate_by: opt.LrPropagateBy = "m",
+    feedback: opt.FeedbackIn = "next-step",
+    gain: opt.GainAt = "at-update",
+    low_rate_noise: opt.Noise = "exact",
     processor: Parts = None,
+    cpus: opt.Cpus = 1,
+    context_switch: opt.ContextSwitch = "0",
+    tasks: opt.Tasks = None,
+    hr_hz: opt.HrHz = None,
     format: opt.Format = "table",
 ) -> None:
     """The processors that are known; with -N and --hr-hz, which of them can run a method, and with how much to spare.
 
     sched-sim processors
-    sched-sim processors -N 40 -M 20 --hr-hz 400 --method dual-rate
+    sched-sim processors -N 40 -M 20 --hr-hz 400 --method dual-rate --gain precomputed
     """
-    from sched_sim.costs import load
     from sched_sim.errors import InputError
     from sched_sim.processor import load_processor, shipped_processors
+    from sched_sim.ticks import positive
 
     parts = [load_processor(name) for name in dict.fromkeys(processor or shipped_processors())]
-    if all(value is None for value in (N, M, L, hr_hz, method, costs)):
+    if not opt.given_options(context, lambda name: name not in OF_THE_LIST):
         rows = [_figures(part) for part in parts]
         shown = [_figures_in_words(part) for part in parts]
         title, note = "Cycles (microseconds where there is no clock) per operation", _titles(parts)
@@ -65,12 +86,15 @@ def processors(
         missing = "-N" if N is None else "--hr-hz"
         raise InputError(f"{missing} is missing: which processors can run a method depends on -N and --hr-hz")
     else:
-        wanted = method or "dual-rate"
-        rows, shown, reasons = _verdicts(parts, N, M, L, hr_hz, wanted, costs)
+        options = opt.make_options(lr_propagate_by, feedback, gain, low_rate_noise, cpus, context_switch)
+        methods = opt.known_methods(method or ["dual-rate"])
+        designs = {name: opt.make_timing(N, M, L, name, options) for name in methods}
+        rate, others = positive(hr_hz, "--hr-hz"), opt.make_tasks(tasks)
+        rows, shown, remarks = _verdicts(parts, designs, costs, statistic, rate, options, others)
         design = f"N={N} M={'none' if M is None else M} L={'latest' if L is None else L}"
-        counts = opt.with_form(costs or opt.COUNTED, load(costs or opt.COUNTED))
-        title = f"{wanted}, HR loop at {hr_hz} Hz, {design} (operations: {counts})"
-        note = "\n".join([MEANING, *reasons])
+        title = f"{', '.join(methods)}, HR loop at {hr_hz} Hz, {design} (operations: {costs or opt.COUNTED})"
+        same = f"{tasks}: its tasks take the same seconds on every processor" if others and len(parts) > 1 else ""
+        note = lines(MEANING, same, *remarks)
     if format == "json":
         print_json(rows)
     elif format == "csv":
@@ -121,36 +145,52 @@ def _figures_in_words(part: Processor) -> dict[str, str | None]:
     }
 
 
+OF_THE_LIST = ("processor", "format")
+"""The parameters that do not ask which processors can run a method."""
+
 OPERATIONS = ("multiply", "add", "divide", "sqrt", "function", "logic")
 OTHER_FIGURES = ("clock_mhz", "logic_per_arithmetic")
 
 
 def _verdicts(
-    parts: list[Processor], N: int, M: int | None, L: int | None, hr_hz: str, method: str, costs: str | None
+    parts: Sequence[Processor],
+    designs: Mapping[str, Timing],
+    costs: str | None,
+    statistic: Statistic,
+    rate: Fraction,
+    options: Options,
+    tasks: Sequence[Task],
 ) -> tuple[list[dict[str, Any]], list[dict[str, Any]], list[str]]:
-    """A row for each processor, the same in words, and why some of them cannot be told."""
-    from sched_sim.cli.parts import fit_row, fit_words
-    from sched_sim.costs import select
+    """A row for each processor and method, the same in words, and remarks: which covariance update the operations are
+    of, and why some processors cannot be told of."""
+    from sched_sim.cli.parts import fit_row, fit_words, fixed_by, least_row
+    from sched_sim.cli.progress import simulations
+    from sched_sim.cli.update_form import update_form, update_note
+    from sched_sim.costs import load, select
     from sched_sim.errors import InputError
     from sched_sim.fit import fit
-    from sched_sim.options import Options
-    from sched_sim.ticks import positive
+    from sched_sim.processor import on_processor
 
-    rate, options = positive(hr_hz, "--hr-hz"), Options()
-    timing = opt.make_timing(N, M, L, method, options)
-    rows: list[dict[str, Any]] = []
-    shown: list[dict[str, Any]] = []
-    reasons: list[str] = []
+    rows, shown, reasons = [], [], []
+    counts = load(costs or opt.COUNTED)
     for part in parts:
-        table, found, reason = opt.load_costs(costs, part), None, None
-        try:
-            found = fit(select(table, method, options), timing, rate, options)
-        except InputError as error:
-            if method not in table.lacking:
-                raise
-            reason = str(error)
-            reasons.append(f"{part.name}: {reason}")
-        row = {"method": method, **fit_row(part, rate, found), "reason": reason}
-        rows.append(row)
-        shown.append({"processor": part.name, "precision": part.precision, **fit_words(row)})
-    return rows, shown, reasons
+        table = on_processor(counts, part)
+        for method, timing in designs.items():
+            found, reason = None, None
+            try:
+                work = select(table, method, options, statistic)
+            except InputError as error:
+                if method not in table.lacking:
+                    raise
+                reason = str(error)
+                reasons.append(f"{part.name}: {reason}")
+            else:
+                with simulations(f"{method} on {part.name}") as on_progress:
+                    found = fit(work, timing, rate, options, tasks, on_progress)
+            least = None if found is None else found.least
+            row = least_row(method, timing, least) | update_form(counts, method) | fit_row(part, rate, found)
+            rows.append(row | {"reason": reason})
+            name = {"method": method} if len(designs) > 1 else {}
+            about = {"processor": part.name, "precision": part.precision, **name}
+            shown.append(about | fit_words(row) | {"fixed by": fixed_by(row["binding"])})
+    return rows, shown, [update_note(counts, designs), *reasons]

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from sched_sim.cli import options as opt
-from sched_sim.cli.output import print_csv, print_json, print_table, say
+from sched_sim.cli.output import lines, print_csv, print_json, print_table, say
 from sched_sim.cli.outputs import refuse_one_file_for_two
 from sched_sim.cli.progress import progress_bar
 from sched_sim.errors import InputError
@@ -108,6 +108,7 @@ def simulate(
         )
     from contextlib import ExitStack
 
+    from sched_sim.cli.update_form import update_form, update_note
     from sched_sim.costs import MULTIRATE_METHODS, select
     from sched_sim.least_speed import least_speed
     from sched_sim.simulate import simulate as run
@@ -158,7 +159,8 @@ def simulate(
     if not schedule.misses and (note := unseen(work, timing, pace, cycles, options, others)):
         say(f"Note: {note}")
     response = {kind: _response(figures, schedule.period) for kind, figures in schedule.responses.items()}
-    document = {
+    document: dict[str, Any] = {
+        **update_form(table, method),
         "achieved_l": achieved,
         "misses": schedule.misses,
         "utilization": float(schedule.utilization),
@@ -177,7 +179,8 @@ def simulate(
         where = f"at speed {float(pace):.6g}" if part is None else f"on {part.title}"
         if part is not None and rate is None:
             where += f", as fast as it can: HR period {1e6 * float(pace):.6g} us"
-        _show(f"{method}, N={N}{delay} L={timing.L}, {where}", document, rate, method in MULTIRATE_METHODS)
+        title = f"{method}, N={N}{delay} L={timing.L}, {where}"
+        _show(title, document, rate, method in MULTIRATE_METHODS, update_note(table, [method]))
 
 
 def unseen(
@@ -233,7 +236,8 @@ def _response(figures: Response, period: int) -> dict[str, Any]:
     }
 
 
-def _show(title: str, document: dict[str, Any], rate: Fraction | None, multirate: bool) -> None:
+def _show(title: str, document: dict[str, Any], rate: Fraction | None, multirate: bool, more: str) -> None:
+    """more: another line of the note below the table."""
     unit, scale = ("HR periods", 1.0) if rate is None else ("ms", float(1000 / rate))
     rows = [
         {
@@ -249,11 +253,9 @@ def _show(title: str, document: dict[str, Any], rate: Fraction | None, multirate
     ]
     what = "Gains are in use from" if multirate else "Corrections land at"
     note = f"{landings(document['achieved_l'], what)}; processor busy {document['utilization']:.1%} of the time"
-    if any(figures["max"] is None or figures["misses"] for figures in document["response"].values()):
-        note += (
-            "\nJobs that have not finished count as missed, not in worst and mean, and are late by that much or more"
-        )
-    print_table(f"{title}; response times in {unit}", rows, note)
+    unfinished = "Jobs that have not finished count as missed, not in worst and mean, and are late by that much or more"
+    some = any(figures["max"] is None or figures["misses"] for figures in document["response"].values())
+    print_table(f"{title}; response times in {unit}", rows, lines(note, unfinished if some else "", more))
 
 
 def _scaled(periods: float | None, scale: float) -> str:

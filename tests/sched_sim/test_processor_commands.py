@@ -172,14 +172,3 @@ def test_wrong_input_ends_with_code_2_and_one_message(
         'name = "l"\nunit = "operation"\n[operations.larsen]\npropagate = { add = 1 }\n'
     )
     is_refused(sched_sim(line), said)
-
-
-@pytest.mark.parametrize("form", ["textbook", "short"])
-def test_headings_and_rows_say_which_update_form_the_counts_are_of(sched_sim: Run, form: str) -> None:
-    sched_sim(f"measure --states 3 --inputs 1 --measurements 1 --backend counted --update {form} -o counts.toml")
-    assert f"(costs: counted-3-1-1, {form} update)" in sched_sim("minimum -N 10 -M 4 --costs counts.toml").out
-    fast = "-N 10 -M 4 --hr-hz 400 --costs counts.toml --processor leon3"
-    for command in ("minimum", "processors"):
-        assert f"(operations: counts.toml, {form} update)" in sched_sim(f"{command} {fast}").out
-    rows = json.loads(sched_sim(f"minimum {fast} --format json").out)
-    assert {row["update_form"] for row in rows} == {form}

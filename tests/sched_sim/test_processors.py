@@ -1,0 +1,113 @@
+"""`processors` is `minimum` transposed: whatever `minimum` says of a method on a part, `processors` says too."""
+
+from __future__ import annotations
+
+import json
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+
+from sched_sim.costs import load, select
+from sched_sim.options import Options
+from sched_sim.processor import load_processor, on_processor
+from sched_sim.simulate import simulate
+from sched_sim.timing import Timing
+from tests.command_line import Run, is_refused
+
+TASKS = '[[task]]\nname = "control"\nperiod = 2\ncost = 1e-4\npriority = 15\n'
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        "",
+        "--gain precomputed",
+        "--low-rate-noise sum",
+        "--low-rate-noise euler --gain precomputed",
+        "--lr-propagate-by l",
+        "--feedback same-step",
+        "--cpus 2",
+        "--context-switch 0.00001",
+        "--statistic p95",
+        "--tasks tasks.toml",
+        "--tasks tasks.toml --gain precomputed --cpus 2",
+    ],
+)
+def test_it_says_what_minimum_says(sched_sim: Run, tmp_path: Path, options: str) -> None:
+    (tmp_path / "tasks.toml").write_text(TASKS)
+    line = f"-N 10 -M 2 --hr-hz 400 --method dual-rate --method larsen {options} --format json"
+    parts = ["cortex-m4f", "leon3"]
+    asked = " ".join(f"--processor {part}" for part in parts)
+    rows = json.loads(sched_sim(f"processors {asked} {line}").out)
+    minimum = [row for part in parts for row in json.loads(sched_sim(f"minimum --processor {part} {line}").out)]
+    assert [row.pop("reason") for row in rows] == [None] * 4
+    assert rows == minimum
+
+
+def test_a_gain_computed_early_needs_less_of_a_part(sched_sim: Run) -> None:
+    """L = M + 1: of the LR update only the correction is left to step m."""
+    line = "processors -N 10 -M 4 -L 5 --hr-hz 400 --processor cortex-m4f --format json"
+    (late,), (early,) = (json.loads(sched_sim(line + gain).out) for gain in ("", " --gain precomputed"))
+    costs = select(on_processor(load("counted-9-3-3"), load_processor("cortex-m4f")), "dual-rate", EARLY)
+    speed = Fraction(early["min_speed_exact"])
+    assert early["needed_share"] < late["needed_share"]
+    assert simulate(costs, Timing(10, 4, 5), speed, 4, EARLY).misses == 0
+    assert simulate(costs, Timing(10, 4, 5), speed * Fraction(999999, 1000000), 4, EARLY).misses > 0
+
+
+EARLY = Options(gain="precomputed")
+
+
+def test_a_task_takes_its_share_of_every_part(sched_sim: Run, tmp_path: Path) -> None:
+    """100 us in every second period of 2.5 ms are 2 %, whatever the part."""
+    (tmp_path / "tasks.toml").write_text(TASKS)
+    line = "processors -N 10 -M 4 --hr-hz 400"
+    alone, beside = (
+        {row["processor"]: row["load"] for row in json.loads(sched_sim(f"{line} {tasks} --format json").out)}
+        for tasks in ("", "--tasks tasks.toml")
+    )
+    assert beside == {part: pytest.approx(share + 0.02) for part, share in alone.items()}
+    said = "tasks.toml: its tasks take the same seconds on every processor"
+    assert said in sched_sim(f"{line} --tasks tasks.toml").out
+
+
+def test_several_methods_are_told_apart(sched_sim: Run) -> None:
+    line = "processors -N 10 -M 4 --hr-hz 400 --processor leon3 --method larsen --method dual-rate --method larsen"
+    assert [row["method"] for row in json.loads(sched_sim(f"{line} --format json").out)] == ["larsen", "dual-rate"]
+    table = sched_sim(line).out
+    assert "larsen, dual-rate, HR loop at 400 Hz" in table
+    assert "method" in table
+
+
+def test_parts_that_can_do_no_job_of_a_table_are_listed_with_the_reason(sched_sim: Run) -> None:
+    line = "processors -N 40 --hr-hz 400 --costs erkf-position --method robust-closed --format json"
+    rows = {row["processor"]: row for row in json.loads(sched_sim(line).out)}
+    assert rows["leon3"]["fits"] is True
+    assert rows["patent"]["fits"] is None
+    assert "no time for sqrt" in rows["patent"]["reason"]
+
+
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        ("processors --gain precomputed", ["-N is missing"]),
+        ("processors --tasks tasks.toml -N 10", ["--hr-hz is missing"]),
+        ("processors --cpus 2", ["-N is missing"]),
+        ("processors -N 10 -M 4 --hr-hz 400 --gain early", ["--gain", "early", "precomputed"]),
+        ("processors -N 10 -M 4 --hr-hz 400 --tasks none.toml", ["--tasks", "none.toml"]),
+        ("processors -N 10 -M 4 --hr-hz 400 --tasks two.toml", ["task 'control'", "cpu 2", "--cpus 2"]),
+        ("processors -N 10 -M 4 --hr-hz 400 --context-switch -1", ["context switch", "-1"]),
+        ("processors -N 10 -M 4 --hr-hz 400 --method larson", ["--method 'larson'", "larsen"]),
+        ("processors -N 10 -M 4 --hr-hz 400 --costs steffes2014", ["steffes2014", "no operation counts", "counted"]),
+        ("processors -N 10 --hr-hz 400 --method robust-lu", ["[operations.robust-lu]", "erkf-attitude"]),
+        ("minimum -N 10 -M 4 --tasks two.toml", ["task 'control'", "cpu 2", "--cpus 2"]),
+        ("simulate -N 10 -M 4 --tasks two.toml", ["task 'control'", "cpu 2", "--cpus 2"]),
+        ("gantt -N 10 -M 4 --tasks two.toml", ["task 'control'", "cpu 2", "--cpus 2"]),
+        ("minimum -N 40 --costs erkf-position --processor patent", ["'patent'", "no time for sqrt"]),
+    ],
+)
+def test_wrong_input_is_refused(sched_sim: Run, tmp_path: Path, line: str, said: list[str]) -> None:
+    (tmp_path / "tasks.toml").write_text(TASKS)
+    (tmp_path / "two.toml").write_text(f"{TASKS}cpu = 2\n")
+    is_refused(sched_sim(line), said)

@@ -1,0 +1,79 @@
+"""Which covariance update the costs are of stands below every table and in JSON, where the cost table says it."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from tests.command_line import Run, is_refused
+
+COSTS = """
+name = "mine"
+unit = "operation"
+{form}
+[operations.larsen]
+propagate = {{ multiply = 10, add = 10 }}
+propagate_accumulate = {{ multiply = 15, add = 15 }}
+update = {{ multiply = 20, add = 20 }}
+"""
+LINES = [
+    "minimum -N 10 -M 4 --method larsen --costs mine.toml",
+    "minimum -N 10 -M 4 --method larsen --costs mine.toml --processor cortex-m7 --hr-hz 400",
+    "simulate -N 10 -M 4 --method larsen --costs mine.toml",
+    "processors -N 10 -M 4 --hr-hz 400 --method larsen --costs mine.toml",
+]
+
+
+def write(folder: Path, form: str) -> None:
+    (folder / "mine.toml").write_text(COSTS.format(form=form))
+
+
+@pytest.mark.parametrize("line", LINES)
+@pytest.mark.parametrize(
+    ("form", "said"),
+    [
+        ("textbook", "covariance update: textbook (Eq. 11); `sched-sim measure --update short` counts a cheaper one"),
+        ("joseph", "covariance update: joseph, the safest"),
+        ("short", "covariance update: short, P - K (P H')', the cheapest"),
+        ("my own", "covariance update: my own"),
+    ],
+)
+def test_it_is_said(sched_sim: Run, tmp_path: Path, line: str, form: str, said: str) -> None:
+    write(tmp_path, f'update_form = "{form}"')
+    assert said in sched_sim(line).out
+    document = json.loads(sched_sim(f"{line} --format json").out)
+    rows = document if isinstance(document, list) else [document]
+    assert {row["update_form"] for row in rows} == {form}
+
+
+@pytest.mark.parametrize("line", LINES)
+def test_nothing_is_said_where_the_table_does_not(sched_sim: Run, tmp_path: Path, line: str) -> None:
+    write(tmp_path, "")
+    assert "covariance update" not in sched_sim(line).out
+    assert "update_form" not in sched_sim(f"{line} --format json").out
+
+
+def test_methods_that_keep_factors_of_the_covariance_have_none(sched_sim: Run) -> None:
+    line = "minimum -N 5 --costs counted-9-3-3 --method multirate-ud"
+    assert "covariance update" not in sched_sim(line).out
+    assert json.loads(sched_sim(f"{line} --format json").out)[0]["update_form"] is None
+
+
+def test_measure_counts_what_the_line_below_the_table_names(sched_sim: Run) -> None:
+    """At 15 states and 3 measurements, textbook is more than three times short; joseph more than either."""
+    updates = {}
+    for form in ("textbook", "short", "joseph"):
+        line = f"measure --states 15 --method standard --backend counted --update {form} -o {form}.toml --format json"
+        (row,) = (row for row in json.loads(sched_sim(line).out) if row["job"] == "update")
+        assert row["update_form"] == form
+        updates[form] = row["minimum"]
+        found = json.loads(sched_sim(f"minimum -N 10 -M 0 --costs {form}.toml --format json").out)
+        assert found[0]["update_form"] == form
+    assert 3 * updates["short"] < updates["textbook"] < updates["joseph"]
+
+
+def test_a_form_that_would_be_ignored_is_refused(sched_sim: Run) -> None:
+    line = "measure --robust position --backend counted --update short --states 4"
+    is_refused(sched_sim(line), ["--robust position", "leave out --states, --update"])
