@@ -61,6 +61,8 @@ Counts = Mapping[str, int]
 """How often one job does each kind of operation."""
 
 SHIPPED = Path(__file__).parent / "cost_tables"
+PAPERS, COUNTED = "steffes2014", "counted-9-3-3"
+"""The tables that are meant if the user names none: of the paper; with a processor, counted operations."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,8 +87,8 @@ class CostTable:
 
     `provenance` holds whatever else the file says of where they come from: source, update form, machine,
     versions, protocol, date. `path` is where it was read from, for messages. `operations` holds the counts of
-    operations by method and job kind, where they are known; `processor.on_processor` turns them into time. `lacking`
-    says of jobs that cannot have a cost why not.
+    operations by method and job kind, where they are known; `processor.on_processor` turns them into time on the
+    `processor` of this name. `lacking` says of jobs that cannot have a cost why not.
     """
 
     name: str
@@ -96,6 +98,7 @@ class CostTable:
     path: str = ""
     operations: Mapping[str, Mapping[str, Counts]] = field(default_factory=dict)
     lacking: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
+    processor: str | None = None
 
     def entry(self, method: str, kind: str) -> Cost:
         """Raises InputError that names the missing entry and how to supply it."""

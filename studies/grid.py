@@ -11,7 +11,8 @@ from itertools import accumulate, product
 from sched_sim.costs import DELAYED_METHODS, CostTable, JobCosts, Statistic, select
 from sched_sim.errors import InputError
 from sched_sim.options import Options
-from sched_sim.timing import several_in_flight
+from sched_sim.tasks import Task, check_cpus
+from sched_sim.timing import Timing, several_in_flight
 from studies.legal import Designs, Legal, law_of
 
 MOST_PAIRS = 10_000_000
@@ -22,14 +23,23 @@ MOST_PAIRS = 10_000_000
 class Block:
     """The part of a grid with one cost table, one method and one set of options.
 
-    number: its position among the blocks; table: the table's name; costs: what the method's pieces cost.
+    number: its position among the blocks; table: the table's name; processor: the name of the one that its times are
+    for; unit: that of `costs`, what the method's pieces cost; tasks: the user's other ones, the same for all blocks.
     """
 
     number: int
     table: str
+    processor: str | None
+    unit: str
     method: str
     options: Options
     costs: JobCosts
+    tasks: tuple[Task, ...]
+
+    @property
+    def has_closed_form(self) -> bool:
+        """Whether the least speed needs no simulation."""
+        return not self.tasks and not self.options.context_switch
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,10 +72,12 @@ class Chunk:
 class Grid:
     """The axes of a sweep, each sorted and without repeats; M or L may be None: all that are legal.
 
-    statistic: which figure of a measured cost. No speeds: each design is looked at at its own least speed.
+    statistic: which figure of a measured cost. No speeds: each design is looked at at its own least speed. tasks: the
+    user's other ones, beside every design.
     A point's design index counts, from 0, the legal points in the order table, method, options, N, M, L, speed, the
     last running fastest.
-    Raises InputError where a cost table lacks an entry, two tables have one name, or no point is legal.
+    Raises InputError where a cost table lacks an entry, two tables have one name, a task cannot run beside every
+    design, or no point is legal.
     """
 
     N: tuple[int, ...]
@@ -76,12 +88,14 @@ class Grid:
     tables: tuple[CostTable, ...]
     options: tuple[Options, ...]
     statistic: Statistic = "minimum"
+    tasks: tuple[Task, ...] = ()
 
     def __post_init__(self) -> None:
         names = [table.name for table in self.tables]
         for name in names:
             if names.count(name) > 1:
                 raise InputError(f"two cost tables are named {name!r}: give each file a `name` of its own")
+        self._check_simulated()
         pairs = sum(N + 1 for N in self.N) if self.M is None else len(self.N) * len(self.M)
         if pairs > MOST_PAIRS:
             raise InputError(f"the grid has {pairs:,} pairs of N and M: at most {MOST_PAIRS:,}; give fewer -N or -M")
@@ -90,6 +104,22 @@ class Grid:
             raise InputError(
                 f"the grid is empty: none of the {self.left_out} combinations of {given} is legal: {self._rules()}"
             )
+
+    def _check_simulated(self) -> None:
+        """Raises InputError where designs that have no closed form cannot be simulated either."""
+        units = list(dict.fromkeys(table.unit for table in self.tables))
+        if self.tasks and len(units) > 1:
+            raise InputError(
+                f"the costs of the tasks are in one unit, and those of the cost tables in {' and '.join(units)}: sweep "
+                f"--costs of one unit at a time"
+            )
+        for options in self.options:
+            check_cpus(self.tasks, options.cpus)
+        if self.tasks or any(options.context_switch for options in self.options):
+            from sched_sim.steady import longest_run
+
+            for N in self.N:
+                longest_run(Timing(N, 0, N), self.tasks)
 
     def _rules(self) -> str:
         delayed = set(self.methods) & set(DELAYED_METHODS)
@@ -105,7 +135,16 @@ class Grid:
     def blocks(self) -> tuple[Block, ...]:
         keys = product(self.tables, self.methods, self.options)
         return tuple(
-            Block(number, table.name, method, options, select(table, method, options, self.statistic))
+            Block(
+                number=number,
+                table=table.name,
+                processor=table.processor,
+                unit=table.unit,
+                method=method,
+                options=options,
+                costs=select(table, method, options, self.statistic),
+                tasks=self.tasks,
+            )
             for number, (table, method, options) in enumerate(keys)
         )
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import astuple
 from fractions import Fraction
 from math import gcd
@@ -15,6 +15,7 @@ from sched_sim.costs import JobCosts
 from sched_sim.demand import Quotient
 from sched_sim.least_speed import least_speed
 from sched_sim.options import Options
+from sched_sim.tasks import Task
 from sched_sim.ticks import ticks_per_unit, to_ticks
 from sched_sim.timing import Timing
 from studies.grid import Chunk
@@ -50,8 +51,8 @@ class Analysis(NamedTuple):
 
 
 def analyse(chunk: Chunk) -> Analysis:
-    """In closed form; with context-switch costs, which have none, by simulation."""
-    return _by_simulation(chunk) if chunk.block.options.context_switch else _in_closed_form(chunk)
+    """In closed form; with context-switch costs or other tasks, which have none, by simulation."""
+    return _in_closed_form(chunk) if chunk.block.has_closed_form else _by_simulation(chunk)
 
 
 def _in_closed_form(chunk: Chunk) -> Analysis:
@@ -114,15 +115,15 @@ def _lowest_terms(periods: Quotient, resolution: int) -> Iterator[Least]:
 def _by_simulation(chunk: Chunk) -> Analysis:
     """A point is feasible if the simulation never has a miss at its speed; it lands at the latest L of all cycles, of
     the first ones where something is missed."""
-    costs, options = chunk.block.costs, chunk.block.options
+    costs, options, tasks = chunk.block.costs, chunk.block.options, chunk.block.tasks
     timings = [Timing(*design) for design in zip(*(axis.tolist() for axis in chunk.designs), strict=True)]
-    found = [least_speed(costs, timing, options) for timing in timings]
+    found = [least_speed(costs, timing, options, tasks) for timing in timings]
     least = [Least(item.speed.numerator, item.speed.denominator, item.binding) for item in found]
     result = Analysis(least, [])
     per_design = max(len(chunk.speeds), 1)
     for position in chunk.positions:
         timing, speed = timings[position // per_design], result.speed(chunk, position)
-        result.outcomes.append(_simulated(costs, timing, speed, options))
+        result.outcomes.append(_simulated(costs, timing, speed, options, tasks))
     return result
 
 
@@ -130,14 +131,14 @@ FIRST_CYCLES = 4
 """That are simulated to see where corrections land if deadlines are missed."""
 
 
-def _simulated(costs: JobCosts, timing: Timing, speed: Fraction, options: Options) -> Outcome:
+def _simulated(costs: JobCosts, timing: Timing, speed: Fraction, options: Options, tasks: Sequence[Task]) -> Outcome:
     from sched_sim.simulate import simulate
     from sched_sim.steady import run_until_steady
 
-    steady = run_until_steady(costs, timing, speed, options)
+    steady = run_until_steady(costs, timing, speed, options, tasks)
     if steady.repeats:
         return Outcome(True, max(steady.schedule.achieved))
-    schedule = simulate(costs, timing, speed, FIRST_CYCLES, options)
+    schedule = simulate(costs, timing, speed, FIRST_CYCLES, options, tasks)
     overrun = schedule.responses["hr"].misses > 0
     lands = not overrun and schedule.achieved.total() == FIRST_CYCLES
     return Outcome(False, max(schedule.achieved) if lands else None)

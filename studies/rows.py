@@ -30,6 +30,7 @@ ANALYSIS_COLUMNS = (
     Column("M", "int"),
     Column("L", "int"),
     Column("speed", "float"),
+    Column("hr_hz", "float"),
     Column("min_speed", "float"),
     Column("min_speed_exact", "text"),
     Column("binding", "text"),
@@ -37,7 +38,8 @@ ANALYSIS_COLUMNS = (
     Column("achieved_l", "int"),
 )
 """speed, min_speed in cost units per HR period; feasible: every deadline holds at `speed`; achieved_l: the L at which
-corrections land there, nothing if they do not. No speed given: `speed` is min_speed."""
+corrections land there, nothing if they do not. No speed given: `speed` is min_speed. hr_hz: where costs are in seconds,
+the HR rate at which a period is `speed`."""
 
 SIMULATION_COLUMNS = (
     Column("misses", "int"),
@@ -64,13 +66,15 @@ def rows_of(chunk: Chunk, cycles: int | None) -> list[Row]:
     found = analyse(chunk)
     least = [(n / d, str(n) if d == 1 else f"{n}/{d}", binding) for n, d, binding in found.least]
     designs = list(zip(*(axis.tolist() for axis in chunk.designs), strict=True))
-    given = [float(speed) for speed in chunk.speeds]
-    per_design = max(len(given), 1)
+    paces = [(float(speed), float(1 / speed)) for speed in chunk.speeds]
+    at_least = [] if paces else [(n / d, d / n) for n, d, _ in found.least]
+    per_design = max(len(paces), 1)
     rows: list[Row] = []
     for point, position, (feasible, achieved) in zip(chunk.points, chunk.positions, found.outcomes, strict=True):
         design, at = divmod(position, per_design)
-        speed = given[at] if given else least[design][0]
-        rows.append((point, block.number, *designs[design], speed, *least[design], int(feasible), achieved))
+        speed, rate = paces[at] if paces else at_least[design]
+        pace = speed, rate if block.unit == "second" else None
+        rows.append((point, block.number, *designs[design], *pace, *least[design], int(feasible), achieved))
     if cycles is None:
         return rows
     return [
@@ -83,7 +87,8 @@ def _simulation(chunk: Chunk, timing: Timing, speed: Fraction, cycles: int) -> R
     """The figures of `SIMULATION_COLUMNS`."""
     from sched_sim.simulate import simulate
 
-    schedule = simulate(chunk.block.costs, timing, speed, cycles, chunk.block.options)
+    block = chunk.block
+    schedule = simulate(block.costs, timing, speed, cycles, block.options, block.tasks)
     achieved = schedule.achieved
     return (
         schedule.misses,

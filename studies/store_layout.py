@@ -21,6 +21,7 @@ APPLICATION_ID = 0x53575031
 
 BLOCK_COLUMNS = (
     Column("costs", "text"),
+    Column("processor", "text"),
     Column("method", "text"),
     Column("lr_propagate_by", "text"),
     Column("feedback", "text"),
@@ -177,6 +178,7 @@ def _block_row(block: Block) -> Row:
     return (
         block.number,
         block.table,
+        block.processor,
         block.method,
         options.lr_propagate_by,
         options.feedback,

@@ -10,6 +10,8 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from sched_sim.errors import InputError
+from sched_sim.steady import hyperperiod_steps
+from sched_sim.timing import Timing
 from studies.grid import Chunk, Grid
 from studies.rows import Column, Row, columns, rows_of
 from studies.stopping import stop_signals
@@ -46,13 +48,15 @@ class Sweep:
         """All that the rows depend on, for the results file: equal for two sweeps only if all their rows are."""
         grid = self.grid
         return {
-            "format": 2,
+            "format": 3,
             "N": list(grid.N),
             "M": "all legal" if grid.M is None else list(grid.M),
             "L": "all legal" if grid.L is None else list(grid.L),
             "speed": [str(speed) for speed in grid.speeds] or "least",
             "method": list(grid.methods),
             "costs": [table.name for table in grid.tables],
+            "unit": [table.unit for table in grid.tables],
+            "tasks": [[str(value) for value in astuple(task)] for task in grid.tasks],
             "options": [[str(value) for value in astuple(options)] for options in grid.options],
             "work": [[str(value) for value in astuple(block.costs)] for block in grid.blocks],
             "simulated cycles": self.cycles,
@@ -108,7 +112,7 @@ def _computed(sweep: Sweep, missing: list[range], workers: int, stopped: Callabl
         if stopped():
             return
         chunk = chunk_of(span)
-        if cycles is None and not chunk.block.options.context_switch:
+        if cycles is None and chunk.block.has_closed_form:
             yield rows_of(chunk, None)
         else:
             simulated.append(span)
@@ -116,8 +120,11 @@ def _computed(sweep: Sweep, missing: list[range], workers: int, stopped: Callabl
         return
 
     def size(first: Chunk) -> int:
-        search = LEAST_SPEED_CYCLES if first.block.options.context_switch else 0
-        return min(SIMULATED_STEPS // (int(first.designs.N[0]) * (search + (cycles or 0))), LARGEST_TASK)
+        N = int(first.designs.N[0])
+        steps = N * (cycles or 0)
+        if not first.block.has_closed_form:
+            steps += LEAST_SPEED_CYCLES * hyperperiod_steps(Timing(N, 0, N), first.block.tasks)
+        return min(SIMULATED_STEPS // steps, LARGEST_TASK)
 
     smaller = chain.from_iterable(grid.spans(span, size) for span in simulated)
     try:

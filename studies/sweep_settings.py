@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from itertools import product
 from pathlib import Path
@@ -11,9 +11,11 @@ from typing import Annotated, Any, Literal, get_args
 from pydantic import BaseModel, ConfigDict, Field, PlainValidator, StrictBool, ValidationError, ValidationInfo
 
 from sched_sim.bounds import MOST_STEPS
-from sched_sim.costs import METHODS, Statistic, default_methods, load, shipped_names
+from sched_sim.costs import CostTable, COUNTED, default_methods, load, METHODS, PAPERS, shipped_names, Statistic
 from sched_sim.errors import InputError
 from sched_sim.options import Gain, LowRateNoise, Options
+from sched_sim.processor import load_processor, on_processor, shipped_processors
+from sched_sim.task_file import read_tasks
 from sched_sim.timing import Feedback
 from sched_sim.toml_file import problems, read_toml
 from studies.axes import numbers, whole_numbers, words
@@ -48,13 +50,22 @@ def _works(given: Any, info: ValidationInfo) -> tuple[Fraction, ...]:
     return numbers(given, _called(info), zero=True)
 
 
-def _names(given: Any, info: ValidationInfo) -> tuple[str, ...]:
-    items = [given] if isinstance(given, str) else given
-    if not isinstance(items, list) or not items or not all(isinstance(item, str) for item in items):
-        raise InputError(
-            f"{_called(info)} {given!r}: give the name of a shipped cost table, or the path of a TOML file"
-        )
-    return tuple(dict.fromkeys(items))
+def _names_of(what: str) -> PlainValidator:
+    def validated(given: Any, info: ValidationInfo) -> tuple[str, ...]:
+        items = [given] if isinstance(given, str) else given
+        if not isinstance(items, list) or not items or not all(isinstance(item, str) for item in items):
+            raise InputError(
+                f"{_called(info)} {given!r}: give the name of a shipped {what}, or the path of a TOML file"
+            )
+        return tuple(dict.fromkeys(items))
+
+    return PlainValidator(validated)
+
+
+def _path(given: Any, info: ValidationInfo) -> str:
+    if not isinstance(given, str | Path) or not str(given):
+        raise InputError(f"{_called(info)} {given!r}: give the path of a TOML file")
+    return str(given)
 
 
 def _one_of(*known: Any) -> PlainValidator:
@@ -75,7 +86,7 @@ class Settings(BaseModel):
     L: Annotated[tuple[int, ...] | None, PlainValidator(_steps_or_all)] = None
     speed: Annotated[tuple[Fraction, ...], PlainValidator(_speeds)] = ()
     method: Annotated[tuple[str, ...], _one_of(*METHODS)] = ()
-    costs: Annotated[tuple[str, ...], PlainValidator(_names)] = ("steffes2014",)
+    costs: Annotated[tuple[str, ...], _names_of("cost table")] = ()
     statistic: Statistic = "minimum"
     lr_propagate_by: Annotated[tuple[str, ...], _one_of("m", "l")] = ("m",)
     feedback: Annotated[tuple[str, ...], _one_of(*get_args(Feedback))] = ("next-step",)
@@ -83,14 +94,18 @@ class Settings(BaseModel):
     low_rate_noise: Annotated[tuple[str, ...], _one_of(*get_args(LowRateNoise))] = ("exact",)
     cpus: Annotated[tuple[str, ...], _one_of(1, 2)] = ("1",)
     context_switch: Annotated[tuple[Fraction, ...], PlainValidator(_works)] = (Fraction(0),)
+    processor: Annotated[tuple[str, ...], _names_of("processor")] = ()
+    hr_hz: Annotated[tuple[Fraction, ...], PlainValidator(_speeds)] = ()
+    tasks: Annotated[str | None, PlainValidator(_path)] = None
     simulate: StrictBool = False
     cycles: Annotated[int, Field(strict=True, ge=1, le=MOST_STEPS)] = 3
 
     def sweep(self) -> Sweep:
-        """Raises InputError without N, for a cost table that cannot be read or lacks an entry, and an empty grid."""
+        """Raises InputError without N, for speeds said twice, a file that cannot be read, a cost table that lacks an
+        entry, and an empty grid."""
         if not self.N:
             raise InputError("N is missing: give -N (such as -N 10 or -N 10:100:10), or N = ... in the grid file")
-        tables = tuple(load(name) for name in self.costs)
+        tables = self._tables()
         methods = self.method or default_methods(*tables)
         if not methods:
             has = "; ".join(f"{table.shown} has {', '.join(table.costs)}" for table in tables)
@@ -99,13 +114,40 @@ class Settings(BaseModel):
             N=self.N,
             M=self.M,
             L=self.L,
-            speeds=self.speed,
+            speeds=self._paces(tables),
             methods=methods,
             tables=tables,
             options=self._options(),
             statistic=self.statistic,
+            tasks=() if self.tasks is None else tuple(read_tasks(Path(self.tasks))),
         )
         return Sweep(grid, self.cycles if self.simulate else None)
+
+    def _tables(self) -> tuple[CostTable, ...]:
+        """Each of them on each of the processors, if there are any."""
+        tables = [load(name) for name in self.costs or (COUNTED if self.processor else PAPERS,)]
+        parts = [load_processor(name) for name in self.processor]
+        return tuple(on_processor(*pair) for pair in product(tables, parts)) if parts else tuple(tables)
+
+    def _paces(self, tables: Sequence[CostTable]) -> tuple[Fraction, ...]:
+        """Cost units per HR period: those asked for, or the seconds that a period has."""
+        if self.speed and self.processor:
+            raise InputError(
+                "--speed and --processor (speed and processor in a grid file) exclude each other: a part's speed "
+                "follows from --hr-hz"
+            )
+        if self.speed and self.hr_hz:
+            raise InputError(
+                "--speed and --hr-hz (speed and hr_hz in a grid file) exclude each other: both say how much is done in "
+                "an HR period"
+            )
+        for table in tables:
+            if self.hr_hz and table.unit != "second":
+                raise InputError(
+                    f"--hr-hz (hr_hz in a grid file) needs costs in seconds, and those of cost table {table.shown} are "
+                    f"in {table.unit!r}: give --processor with counted operations, or --speed instead"
+                )
+        return tuple(sorted(1 / rate for rate in self.hr_hz)) or self.speed
 
     def _options(self) -> tuple[Options, ...]:
         combinations: Any = product(
@@ -132,9 +174,12 @@ def _read(path: Path) -> Settings:
     """Of a TOML file: the flags' long names with _ for -; numbers, text such as "10:100:10", or lists of them."""
     document = read_toml(path, f"grid file {str(path)!r}", "give the path of a TOML file")
     found = _validated(document, "file", f"grid file {str(path)!r}: ")
-    shipped = shipped_names()
-    costs = tuple(name if name in shipped else str(path.parent / name) for name in found.costs)
-    return found.model_copy(update={"costs": costs})
+
+    def beside(names: Sequence[str], shipped: Sequence[str] = ()) -> tuple[str, ...]:
+        return tuple(name if name in shipped else str(path.parent / name) for name in names)
+
+    files = {"costs": beside(found.costs, shipped_names()), "processor": beside(found.processor, shipped_processors())}
+    return found.model_copy(update=files | {"tasks": found.tasks and str(path.parent / found.tasks)})
 
 
 def _validated(given: Mapping[str, Any], kind: Literal["flags", "file"], prefix: str) -> Settings:

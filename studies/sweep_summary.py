@@ -24,14 +24,16 @@ def by_method(store: Store) -> list[dict[str, Any]]:
 
 def best(store: Store) -> list[dict[str, Any]]:
     """For each cost table, N and M: the design that the slowest processor will do for, of equals the one with the
-    smallest L; with those of its options that the sweep varies.
+    smallest L; with those of its options that the sweep varies. Where costs are in seconds, `highest_hr_hz` is the HR
+    rate up to which its processor will do.
 
     `standard` has no delay to bear, and takes part only if it is alone.
     """
-    names = (*BEST, *_varied(store))
+    names = (*BEST, *_told(store))
     rows = store.query(
         f"SELECT {', '.join(names)} FROM (SELECT *, ROW_NUMBER() OVER "
-        "(PARTITION BY costs, N, M ORDER BY min_speed, L, point) AS place FROM results "
+        "(PARTITION BY costs, N, M ORDER BY min_speed, L, point) AS place, "
+        "CASE WHEN hr_hz IS NOT NULL THEN 1 / min_speed END AS highest_hr_hz FROM results "
         "WHERE method != 'standard' OR NOT EXISTS (SELECT 1 FROM blocks WHERE method != 'standard')) "
         "WHERE place = 1 ORDER BY point"
     )
@@ -39,8 +41,10 @@ def best(store: Store) -> list[dict[str, Any]]:
     return sorted(found, key=lambda row: (row["costs"], row["N"], row["M"]))
 
 
-def _varied(store: Store) -> Sequence[str]:
-    """The options with more than one value in this sweep."""
-    options = [column.name for column in BLOCK_COLUMNS[2:]]
-    counts = store.query(f"SELECT {', '.join(f'COUNT(DISTINCT {name})' for name in options)} FROM blocks")[0]
-    return [name for name, count in zip(options, counts, strict=True) if count > 1]
+def _told(store: Store) -> Sequence[str]:
+    """What else there is to tell: processors and rates if there are any, and options of more than one value."""
+    options = [column.name for column in BLOCK_COLUMNS if column.name not in ("costs", "processor", "method")]
+    seen = ["MAX(processor IS NOT NULL)", "(SELECT hr_hz IS NOT NULL FROM rows LIMIT 1)"]
+    counts = [f"COUNT(DISTINCT {name}) > 1" for name in options]
+    (told,) = store.query(f"SELECT {', '.join([*seen, *counts])} FROM blocks")
+    return [name for name, wanted in zip(["processor", "highest_hr_hz", *options], told, strict=True) if wanted]

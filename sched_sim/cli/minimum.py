@@ -49,7 +49,7 @@ def minimum(
     """
     from sched_sim.cli.parts import MEANING, fit_row, fit_words, fixed_by, least_row
     from sched_sim.cli.update_form import update_form, update_note
-    from sched_sim.costs import select
+    from sched_sim.costs import COUNTED, select
     from sched_sim.fit import fit
     from sched_sim.least_speed import least_speed
     from sched_sim.timing import impossible
@@ -88,7 +88,7 @@ def minimum(
     elif format == "csv":
         print_csv(rows)
     elif part is not None and rate is not None:
-        title = f"{part.title}, HR loop at {float(rate):g} Hz, {design} (operations: {costs or opt.COUNTED})"
+        title = f"{part.title}, HR loop at {float(rate):g} Hz, {design} (operations: {costs or COUNTED})"
         print_table(title, shown, lines(MEANING, note))
     else:
         unit = f"{units(table.unit)} per HR period" if part is None else f"an HR period, on {part.title}"

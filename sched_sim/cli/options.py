@@ -10,7 +10,17 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import typer
 
 from sched_sim.bounds import MOST_STEPS, short
-from sched_sim.costs import METHODS, TWO_RATE_METHODS, CostTable, Method, Statistic, default_methods, load
+from sched_sim.costs import (
+    COUNTED,
+    METHODS,
+    PAPERS,
+    TWO_RATE_METHODS,
+    CostTable,
+    Method,
+    Statistic,
+    default_methods,
+    load,
+)
 from sched_sim.errors import InputError
 from sched_sim.options import Gain, LowRateNoise, Options
 from sched_sim.tasks import Task
@@ -20,9 +30,6 @@ from sched_sim.timing import Feedback, Timing, latest_feedback_step
 if TYPE_CHECKING:
     from sched_sim.least_speed import LeastSpeed
     from sched_sim.processor import Processor
-
-COUNTED = "counted-9-3-3"
-"""The cost table of a processor, if the user names none."""
 
 DESIGN = "Design"
 PROCESSOR = "Processor"
@@ -262,7 +269,7 @@ def hr_rate(text: str | None) -> Fraction | None:
 def load_costs(name: str | None, processor: Processor | None) -> CostTable:
     """The cost table of this name or path, in seconds on the processor if there is one."""
     if processor is None:
-        return load(name or "steffes2014")
+        return load(name or PAPERS)
     from sched_sim.processor import on_processor
 
     return on_processor(load(name or COUNTED), processor)

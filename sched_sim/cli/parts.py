@@ -94,6 +94,9 @@ MEANING = (
 )
 
 
+TASKS_ON_PARTS = "the tasks of --tasks take the same seconds on every processor"
+
+
 def fit_words(row: dict[str, Any]) -> dict[str, str | None]:
     """Of a `fit_row`."""
     words = {heading: None if row[key] is None else shown(row[key]) for heading, (key, shown) in WORDS.items()}

@@ -9,8 +9,8 @@ import typer
 
 from sched_sim.cli import options as opt
 from sched_sim.cli.output import lines, print_csv, print_json, print_table
-from sched_sim.cli.parts import MEANING
-from sched_sim.costs import METHODS
+from sched_sim.cli.parts import MEANING, TASKS_ON_PARTS
+from sched_sim.costs import COUNTED, METHODS
 
 if TYPE_CHECKING:
     from fractions import Fraction
@@ -92,8 +92,8 @@ def processors(
         rate, others = positive(hr_hz, "--hr-hz"), opt.make_tasks(tasks)
         rows, shown, remarks = _verdicts(parts, designs, costs, statistic, rate, options, others)
         design = f"N={N} M={'none' if M is None else M} L={'latest' if L is None else L}"
-        title = f"{', '.join(methods)}, HR loop at {hr_hz} Hz, {design} (operations: {costs or opt.COUNTED})"
-        same = f"{tasks}: its tasks take the same seconds on every processor" if others and len(parts) > 1 else ""
+        title = f"{', '.join(methods)}, HR loop at {hr_hz} Hz, {design} (operations: {costs or COUNTED})"
+        same = TASKS_ON_PARTS if others and len(parts) > 1 else ""
         note = lines(MEANING, same, *remarks)
     if format == "json":
         print_json(rows)
@@ -172,7 +172,7 @@ def _verdicts(
     from sched_sim.processor import on_processor
 
     rows, shown, reasons = [], [], []
-    counts = load(costs or opt.COUNTED)
+    counts = load(costs or COUNTED)
     for part in parts:
         table = on_processor(counts, part)
         for method, timing in designs.items():

@@ -13,9 +13,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from sched_sim.cli import options as opt
-from sched_sim.cli.output import print_csv, print_json, print_table, say
+from sched_sim.cli.output import lines, print_csv, print_json, print_table, say
 from sched_sim.cli.outputs import refuse_one_file_for_two
-from sched_sim.costs import Statistic
+from sched_sim.cli.parts import TASKS_ON_PARTS, WORDS
+from sched_sim.costs import COUNTED, PAPERS, Statistic
 
 if TYPE_CHECKING:
     from studies.store import Store
@@ -41,7 +42,11 @@ Ms = Annotated[Axis, _values("-M", "Delay of the measurement in HR steps; by def
 Ls = Annotated[Axis, _values("-L", "Step by which the correction must land; by default all that are legal.")]
 MethodNames = Annotated[Axis, _values("--method", "Repeatable; by default all of them.")]
 Tables = Annotated[
-    Axis, _values("--costs", "Cost table, shipped or your own file; by default steffes2014. Repeatable.")
+    Axis,
+    _values(
+        "--costs",
+        f"Cost table, shipped or your own file; by default {PAPERS}, with --processor {COUNTED}. Repeatable.",
+    ),
 ]
 WhichCost = Annotated[
     Statistic | None,
@@ -56,6 +61,23 @@ Speeds = Annotated[
     _values("--speed", "Cost units per HR period: 0.6:1.6:0.05; by default each design's least.", opt.PROCESSOR),
 ]
 CpuCounts = Annotated[Axis, _values("--cpus", "1 (default), 2 or 1,2 processors.", opt.PROCESSOR)]
+Processors = Annotated[
+    Axis,
+    _values(
+        "--processor",
+        "Turn counted operations into seconds on this part: a shipped one by name (see `sched-sim processors`), or "
+        "your own TOML file by path. Its speed follows from --hr-hz. Repeatable.",
+        opt.PROCESSOR,
+    ),
+]
+HrRates = Annotated[
+    Axis,
+    _values(
+        "--hr-hz",
+        "Rates of the HR loop, where costs are in seconds: 100:800:100; by default each design's highest.",
+        opt.PROCESSOR,
+    ),
+]
 ContextSwitches = Annotated[Axis, _values("--context-switch", "Work charged at each switch of jobs.", opt.PROCESSOR)]
 Simulate = Annotated[
     bool | None,
@@ -102,6 +124,9 @@ def sweep(
     low_rate_noise: Noises = None,
     cpus: CpuCounts = None,
     context_switch: ContextSwitches = None,
+    processor: Processors = None,
+    hr_hz: HrRates = None,
+    tasks: opt.Tasks = None,
     simulate: Simulate = None,
     cycles: Cycles = None,
     results: ResultsFile = None,
@@ -112,6 +137,7 @@ def sweep(
     """Analyse a whole grid of designs, and simulate it with --simulate; all cores, and it resumes after any stop.
 
     sched-sim sweep -N 10:90:10 -M 1:4 --speed 0.6:1.6:0.05 --export designs.csv
+    sched-sim sweep -N 40 -M 20 --processor cortex-m4f --processor leon3 --hr-hz 100:800:100 --tasks tasks.toml
     sched-sim sweep grid.toml --simulate --results designs.sqlite
     """
     from studies.export import check_export
@@ -133,6 +159,9 @@ def sweep(
         "low_rate_noise": low_rate_noise,
         "cpus": cpus,
         "context_switch": context_switch,
+        "processor": processor,
+        "hr_hz": hr_hz,
+        "tasks": tasks,
         "simulate": simulate,
         "cycles": cycles,
     }
@@ -144,7 +173,12 @@ def sweep(
         check_export(file)
     refuse_one_file_for_two(
         [("--results", path), *(("--export", file) for file in exports)],
-        [("GRID", grid), *(("--costs", name) for name in wanted.costs)],
+        [
+            ("GRID", grid),
+            *(("--costs", name) for name in wanted.costs),
+            *(("--processor", name) for name in wanted.processor),
+            ("--tasks", wanted.tasks),
+        ],
     )
     with asked.open(path) as store:
         try:
@@ -204,8 +238,10 @@ def _progress(total: int) -> Iterator[Callable[[int], None]]:
 
 
 def _report(asked: Sweep, store: Store, outcome: Outcome, exports: Sequence[Path], format: opt.Format) -> None:
+    from sched_sim.cli.update_form import update_note
     from studies.sweep_summary import best, by_method
 
+    tables = asked.grid.tables
     designs = best(store)
     if format == "csv":
         print_csv(designs)
@@ -219,6 +255,7 @@ def _report(asked: Sweep, store: Store, outcome: Outcome, exports: Sequence[Path
                 "computed": outcome.computed,
                 "results": str(store.path),
                 "exports": [str(file) for file in exports],
+                "update_form": {table.name: form for table in tables if (form := table.provenance.get("update_form"))},
                 "methods": methods,
                 "best": designs,
             }
@@ -226,13 +263,21 @@ def _report(asked: Sweep, store: Store, outcome: Outcome, exports: Sequence[Path
         return
     left_out = f", {asked.grid.left_out} combinations left out as not legal" if asked.grid.left_out else ""
     before = f" ({outcome.before} of them were there before)" if outcome.before else ""
-    several = len(asked.grid.tables) > 1
-    print_table(f"{asked.grid.size} points{before}{left_out}", [_for_people(row, several) for row in methods])
+    several, in_seconds = len(tables) > 1, all(table.unit == "second" for table in tables)
+    notes = {update_note(table, asked.grid.methods): table.name for table in tables}
+    forms = [note if len(notes) == 1 else f"{name}: {note}" for note, name in notes.items() if note]
+    print_table(
+        f"{asked.grid.size} points{before}{left_out}", [_for_people(row, several, in_seconds) for row in methods]
+    )
     more = f"; the first {SHOWN} of {len(designs)} (all: --format json or csv)" if len(designs) > SHOWN else ""
     print_table(
         f"Slowest processor that will do, for each N and M{more}",
-        [_for_people(row, several) for row in designs[:SHOWN]],
-        note="All rows: " + ", ".join(str(file) for file in (store.path, *exports)),
+        [_for_people(row, several, in_seconds) for row in designs[:SHOWN]],
+        note=lines(
+            "All rows: " + ", ".join(str(file) for file in (store.path, *exports)),
+            TASKS_ON_PARTS if asked.grid.tasks and len({table.processor for table in tables}) > 1 else "",
+            *forms,
+        ),
     )
 
 
@@ -242,13 +287,22 @@ HEADINGS = {
     "highest_min_speed": "to",
     "min_speed": "least speed",
     "min_speed_exact": "exactly",
+    "highest_hr_hz": "highest HR Hz",
     "binding": "fixed by",
 }
 
 
-def _for_people(row: dict[str, Any], several_tables: bool) -> dict[str, Any]:
-    return {
-        HEADINGS.get(key, key.replace("_", " ")): f"{value:.6g}" if isinstance(value, float) else value
-        for key, value in row.items()
-        if several_tables or key != "costs"
-    }
+FORMATS = {"highest_hr_hz": WORDS["highest HR Hz"][1]}
+
+
+def _for_people(row: dict[str, Any], several_tables: bool, in_seconds: bool) -> dict[str, Any]:
+    """Without what the title or the name of the cost table says; seconds per HR period as microseconds."""
+    left_out = {"processor" if several_tables else "costs", *(["min_speed_exact"] if in_seconds else [])}
+    shown = {}
+    for key, value in row.items():
+        heading = HEADINGS.get(key, key.replace("_", " "))
+        if in_seconds and key in ("lowest_min_speed", "highest_min_speed", "min_speed"):
+            heading, value = f"{heading}, us", 1e6 * value
+        if key not in left_out:
+            shown[heading] = FORMATS.get(key, "{:.6g}".format)(value) if isinstance(value, float) else value
+    return shown

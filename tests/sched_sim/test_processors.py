@@ -68,7 +68,7 @@ def test_a_task_takes_its_share_of_every_part(sched_sim: Run, tmp_path: Path) ->
         for tasks in ("", "--tasks tasks.toml")
     )
     assert beside == {part: pytest.approx(share + 0.02) for part, share in alone.items()}
-    said = "tasks.toml: its tasks take the same seconds on every processor"
+    said = "the tasks of --tasks take the same seconds on every processor"
     assert said in sched_sim(f"{line} --tasks tasks.toml").out
 
 
