@@ -66,14 +66,14 @@ def rows_of(chunk: Chunk, cycles: int | None) -> list[Row]:
     found = analyse(chunk)
     least = [(n / d, str(n) if d == 1 else f"{n}/{d}", binding) for n, d, binding in found.least]
     designs = list(zip(*(axis.tolist() for axis in chunk.designs), strict=True))
-    paces = [(float(speed), float(1 / speed)) for speed in chunk.speeds]
-    at_least = [] if paces else [(n / d, d / n) for n, d, _ in found.least]
+    in_seconds = block.unit == "second"
+    paces = [(float(speed), float(1 / speed) if in_seconds else None) for speed in chunk.speeds]
+    at_least = [] if paces else [(n / d, d / n if in_seconds else None) for n, d, _ in found.least]
     per_design = max(len(paces), 1)
     rows: list[Row] = []
     for point, position, (feasible, achieved) in zip(chunk.points, chunk.positions, found.outcomes, strict=True):
         design, at = divmod(position, per_design)
-        speed, rate = paces[at] if paces else at_least[design]
-        pace = speed, rate if block.unit == "second" else None
+        pace = paces[at] if paces else at_least[design]
         rows.append((point, block.number, *designs[design], *pace, *least[design], int(feasible), achieved))
     if cycles is None:
         return rows
