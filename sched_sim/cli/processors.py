@@ -29,6 +29,15 @@ Parts = Annotated[
         rich_help_panel=opt.PROCESSOR,
     ),
 ]
+Counts = Annotated[
+    str | None,
+    typer.Option(
+        "--costs",
+        help="Cost table with counted operations: a shipped one by name, or your own TOML file by path; by default "
+        f"{COUNTED} (9 states, 3 inputs, 3 measurements).",
+        rich_help_panel=opt.DESIGN,
+    ),
+]
 RunMethods = Annotated[
     list[str] | None,
     typer.Option(
@@ -55,7 +64,7 @@ def processors(
     M: opt.Delay = None,
     L: opt.FeedbackStep = None,
     method: RunMethods = None,
-    costs: opt.Costs = None,
+    costs: Counts = None,
     statistic: opt.WhichCost = "minimum",
     lr_propagate_by: opt.LrPropagateBy = "m",
     feedback: opt.FeedbackIn = "next-step",

@@ -38,9 +38,12 @@ GridFile = Annotated[
     ),
 ]
 Ns = Annotated[Axis, _values("-N", "HR steps between measurements: 10 or 1,2,5 or 10:90:10 (end included).")]
-Ms = Annotated[Axis, _values("-M", "Delay of the measurement in HR steps; by default all that are legal.")]
+Ms = Annotated[
+    Axis,
+    _values("-M", "Delay of the measurement in HR steps, at most N (longer: simulate --scenario); by default all."),
+]
 Ls = Annotated[Axis, _values("-L", "Step by which the correction must land; by default all that are legal.")]
-MethodNames = Annotated[Axis, _values("--method", "Repeatable; by default all of them.")]
+MethodNames = Annotated[Axis, _values("--method", "Repeatable; by default those for a delayed measurement.")]
 Tables = Annotated[
     Axis,
     _values(
