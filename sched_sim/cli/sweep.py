@@ -258,7 +258,7 @@ def _report(asked: Sweep, store: Store, outcome: Outcome, exports: Sequence[Path
                 "computed": outcome.computed,
                 "results": str(store.path),
                 "exports": [str(file) for file in exports],
-                "update_form": {table.name: form for table in tables if (form := table.provenance.get("update_form"))},
+                "update_form": {table.name: form for table in tables if (form := table.update_form)},
                 "methods": methods,
                 "best": designs,
             }
