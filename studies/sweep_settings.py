@@ -11,7 +11,7 @@ from typing import Annotated, Any, Literal, get_args
 from pydantic import BaseModel, ConfigDict, Field, PlainValidator, StrictBool, ValidationError, ValidationInfo
 
 from sched_sim.bounds import MOST_STEPS
-from sched_sim.costs import CostTable, COUNTED, default_methods, load, METHODS, PAPERS, shipped_names, Statistic
+from sched_sim.costs import COUNTED, METHODS, PAPERS, CostTable, Statistic, default_methods, load, shipped_names
 from sched_sim.errors import InputError
 from sched_sim.options import Gain, LowRateNoise, Options
 from sched_sim.processor import load_processor, on_processor, shipped_processors

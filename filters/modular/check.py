@@ -11,9 +11,19 @@ from filters.problem import check_covariance
 from filters.robust.check import check_positive_definite
 
 
+def as_numbers(name: str, value: ArrayLike) -> FloatArray:
+    """A contiguous copy. Raises ValueError, naming it, unless it is an array of real numbers, finite or not."""
+    try:
+        if np.iscomplexobj(value):
+            raise TypeError("complex numbers")
+        return np.array(value, dtype=np.float64, order="C")
+    except (TypeError, ValueError) as error:
+        raise ValueError(f"{name} is {value!r:.60}; needed is an array of real numbers ({error})") from None
+
+
 def as_matrix(name: str, value: ArrayLike, shape: tuple[int | None, int | None]) -> FloatArray:
     """A contiguous copy. Raises ValueError, naming it, unless it is a finite matrix of this shape; None: any length."""
-    matrix = np.array(value, dtype=np.float64, order="C")
+    matrix = as_numbers(name, value)
     fits = matrix.ndim == 2 and all(want in (None, have) for want, have in zip(shape, matrix.shape, strict=True))
     if not fits:
         needed = ", ".join("any" if length is None else str(length) for length in shape)
@@ -25,10 +35,11 @@ def as_matrix(name: str, value: ArrayLike, shape: tuple[int | None, int | None])
 
 def as_covariance(name: str, value: ArrayLike) -> FloatArray:
     """A square matrix, not empty. Raises ValueError unless it is symmetric and positive semidefinite."""
-    if np.ndim(value) != 2:
-        raise ValueError(f"{name} has shape {np.shape(value)}; needed is a covariance (n, n), n the number of errors")
-    size = len(np.asarray(value))
-    matrix = as_matrix(name, value, (size, size))
+    matrix = as_numbers(name, value)
+    if matrix.ndim != 2:
+        raise ValueError(f"{name} has shape {matrix.shape}; needed is a covariance (n, n), n the number of errors")
+    size = len(matrix)
+    matrix = as_matrix(name, matrix, (size, size))
     if size == 0:
         raise ValueError(f"{name} is empty; it gives the number of errors")
     check_covariance(name, matrix)
@@ -43,13 +54,13 @@ def as_noise(name: str, value: ArrayLike) -> FloatArray:
 
 
 def check_start(of: Space, x0: ArrayLike, P0: ArrayLike) -> tuple[FloatArray, FloatArray]:
-    """Copies of the estimate and covariance to start from.
+    """Copies of the estimate and covariance to start from; the covariance is symmetric to the last digit.
 
     Raises:
         ValueError: a shape does not fit the space, x0 is not finite, an attitude in it has no length, or P0 is not
             positive definite.
     """
-    x = np.array(x0, dtype=np.float64, order="C")
+    x = as_numbers("x0", x0)
     if x.shape != (of.numbers,) or not np.isfinite(x).all():
         raise ValueError(f"x0 has shape {x.shape}, the filter needs {(of.numbers,)}, and finite numbers")
     for start in of.attitudes:
@@ -59,4 +70,4 @@ def check_start(of: Space, x0: ArrayLike, P0: ArrayLike) -> tuple[FloatArray, Fl
             )
     P = as_matrix("P0", P0, (of.errors, of.errors))
     check_positive_definite("P0", P, "give each state a positive variance")
-    return x, P
+    return x, 0.5 * (P + P.T)

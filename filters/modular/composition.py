@@ -78,6 +78,8 @@ class ModularFilter:
             raise ValueError(f"sensors is {sensors!r}; give a list of Sensor(name, corrector, ...)")
         object.__setattr__(self, "predictor", predictor)
         object.__setattr__(self, "sensors", tuple(sensors))
+        if not isinstance(dt, int | float | np.integer | np.floating):
+            raise ValueError(f"dt={dt!r} must be a number: it is the time of a step, in seconds")
         object.__setattr__(self, "dt", float(dt))
         object.__setattr__(self, "of", space(predictor.states) if of is None else of)
         self._check()

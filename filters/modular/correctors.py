@@ -12,7 +12,7 @@ from filters.arrays import FloatArray
 from filters.kernels.dense import add_matmul_blocked, copy, matmul_blocked, matvec, mirror
 from filters.kernels.place import clear
 from filters.kernels.solve import cholesky, solve_cholesky
-from filters.modular.check import as_matrix, as_noise
+from filters.modular.check import as_matrix, as_noise, as_numbers
 from filters.modular.predictors import Kind, difference
 from filters.modular.sigma_points import USUAL, SigmaPoints, Weights, add_covariance, draw, mean, weights
 from filters.modular.space import Space, minus, plain, plus, space
@@ -74,7 +74,7 @@ def linear_corrector(H: ArrayLike, R: ArrayLike) -> Corrector:
     sensor.
     """
     noise, seen = _noise_and_space(R, None)
-    matrix = np.array(H, dtype=np.float64)
+    matrix = as_numbers("H", H)
 
     def view(n: int) -> LinearView:
         return LinearView(as_matrix("H", matrix, (len(noise), n)), noise)
@@ -192,5 +192,5 @@ def _project(R: FloatArray, P: FloatArray, work: Workspace) -> None:
 
 
 def _noise_and_space(R: ArrayLike, observed: Space | None) -> tuple[FloatArray, Space]:
-    noise = np.array(R, dtype=np.float64, order="C", ndmin=1)
+    noise = np.atleast_1d(as_numbers("R", R))
     return noise, space(len(noise)) if observed is None else observed

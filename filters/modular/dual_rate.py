@@ -14,16 +14,27 @@ import numpy as np
 
 from filters.arrays import FloatArray
 from filters.covariance_forms import covariance_form
-from filters.dual_rate import HighRateTask, LowRateTask
-from filters.kernels.backends import BackendName
+from filters.dual_rate import HighRateTask
+from filters.kernels.backends import BackendName, arguments_for, function_for
+from filters.kernels.dense import copy
 from filters.low_rate_noise import NOISE_METHODS
+from filters.modular.breakdown import PREDICTOR, Failure, breakdown
 from filters.modular.composition import ModularFilter, Sensor
-from filters.modular.estimate import is_sound
-from filters.modular.history import PREDICTOR, ModularHistory, breakdown, new_history
+from filters.modular.correction import correction_by
+from filters.modular.estimate import empty, is_sound
+from filters.modular.history import ModularHistory, new_history
 from filters.modular.measurements import Arrivals, Measurement, arrivals
+from filters.modular.predictors import propagate
 from filters.modular.problem import check_linearised, check_problem
 from filters.modular.running import running
-from filters.records import Correction, Estimate
+from filters.modular.workspace import Workspace, new_workspace
+from filters.records import Estimate, Transition
+
+
+def lr_propagate(P: FloatArray, transition: Transition, P_next: FloatArray, work: Workspace) -> None:
+    """Job: the covariance of a step k is carried over the transition from it, Eq. (14); it stays symmetric."""
+    copy(transition.Phi, work.F)
+    propagate(transition.Q, P, P_next, work)
 
 
 def run(
@@ -55,36 +66,72 @@ def run(
     x, P, moves = check_problem(composed, x0, P0, inputs)
     arrived = arrivals(composed, measurements, len(moves), len(moves))
     _check_arrivals(sensor, arrived, lands)
+    low_rate = LowRateTask(composed, sensor, Estimate(x, P), backend)
     system = composed_system(composed, P, moves.shape[1])
-    noise, form = NOISE_METHODS["exact"], covariance_form("short")
-    high_rate = HighRateTask(system, N, x, noise, form, backend)
-    low_rate = LowRateTask(system, P, noise, form, "at-update", backend)
-    taken = {int(k) for k in arrived.taken}
-    at = {int(m): y for m, y in zip(arrived.arrives, arrived.y, strict=True)}
+    high_rate = HighRateTask(system, N, x, NOISE_METHODS["exact"], covariance_form("short"), backend)
     found = new_history(composed.of, len(moves))
-
-    correction: Correction | None = None
-    before_or_after = P  # P_{k^-} of the last k, and P_{k^+} once the correction has landed
+    following, scratch = 0, np.empty_like(P)
     with running():
         for j in range(len(moves) + 1):
             if j > 0:
                 high_rate.step(j - 1, moves[j - 1])
-            if correction is not None and j % N == lands % N:
-                high_rate.correct(lands, correction.delta_x)
-                correction, before_or_after = None, low_rate.P
+            if j % N == lands % N and low_rate.has_correction:
+                high_rate.correct(lands, low_rate.hand_over())
+            P = low_rate.covariance(high_rate.message(j).transition)
             if j % N == 0:
-                found.P[j] = before_or_after = low_rate.propagate(high_rate.message(j), measured=j in taken)
-            else:
-                Phi, Q = high_rate.message(j).transition
-                found.P[j] = Phi @ before_or_after @ Phi.T + Q  # for the history; the filter does not need it
-            found.x[j] = high_rate.x
-            if not is_sound(Estimate(found.x[j], found.P[j])):
-                raise breakdown(composed, PREDICTOR, j)
-            if j in at:
-                correction = low_rate.update(at[j])
-                if not is_sound(Estimate(correction.delta_x, low_rate.P)):
-                    raise breakdown(composed, 0, j)
+                low_rate.restart(Estimate(high_rate.x, P))
+            found.x[j], found.P[j] = high_rate.x, P
+            if not is_sound(composed.of, Estimate(high_rate.x, P), scratch):
+                before = Failure(Estimate(found.x[j - 1], found.P[j - 1]), Estimate(high_rate.x, P))
+                raise breakdown(composed, PREDICTOR, j, before, moves[j - 1])
+            while following < len(arrived.arrives) and arrived.arrives[following] == j:
+                correction = low_rate.correct(arrived.y[following])
+                if not is_sound(composed.of, correction.after, scratch):
+                    raise breakdown(composed, 0, j, correction, np.empty(0))
+                following += 1
     return found
+
+
+class LowRateTask:
+    """The estimate of the last k: `before` its measurements, and `after` those that have arrived since."""
+
+    def __init__(self, composed: ModularFilter, sensor: Sensor, start: Estimate, backend: BackendName) -> None:
+        corrector = sensor.corrector
+        self._of, self._observed = composed.of, corrector.observed
+        self._work = new_workspace(composed.of, corrector.observed)
+        self._view = arguments_for(backend, corrector.view(composed.of.errors))
+        self._propagate = function_for(backend, lr_propagate)
+        self._correct = function_for(backend, correction_by(corrector.expect))
+        self.restart(start)
+
+    def restart(self, before: Estimate) -> None:
+        """A new k."""
+        self._before = self._after = before
+
+    def covariance(self, transition: Transition | None) -> FloatArray:
+        """That of k with what has landed, carried over the transition from k; for the history, save at the next k."""
+        if transition is None:
+            return self._before.P
+        P = np.empty_like(self._before.P)
+        self._propagate(self._before.P, transition, P, self._work)
+        return P
+
+    def correct(self, y: FloatArray) -> Failure:
+        """Use a measurement of k."""
+        before, self._after = self._after, empty(self._of)
+        self._correct(self._view, self._observed, self._of, before, y, self._after, self._work)
+        return Failure(before, self._after)
+
+    @property
+    def has_correction(self) -> bool:
+        """Whether one has arrived and not landed."""
+        return self._after is not self._before
+
+    def hand_over(self) -> FloatArray:
+        """The error estimate (n,) of k, which lands now."""
+        delta_x = self._after.x - self._before.x
+        self._before = self._after
+        return delta_x
 
 
 def _only_sensor(composed: ModularFilter) -> Sensor:

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from filters.arrays import FloatArray
+from filters.kernels.definite import is_semidefinite
 from filters.kernels.dense import copy, copy_vector
-from filters.modular.space import Space
+from filters.modular.space import Space, is_point
 from filters.records import Estimate
 
 
@@ -20,13 +22,6 @@ def copy_estimate(source: Estimate, out: Estimate) -> None:
     copy(source.P, out.P)
 
 
-def is_sound(estimate: Estimate) -> bool:
-    """Whether all numbers of x are finite and no variance is negative or nan."""
-    for value in estimate.x:
-        if not np.isfinite(value):
-            return False
-    for i in range(estimate.P.shape[0]):
-        variance = estimate.P[i, i]
-        if variance < 0.0 or np.isnan(variance):
-            return False
-    return True
+def is_sound(of: Space, estimate: Estimate, scratch: FloatArray) -> bool:
+    """Whether x is a point of this space and P (n, n) is a covariance, see `is_semidefinite`; scratch is (n, n)."""
+    return is_point(of, estimate.x) and is_semidefinite(estimate.P, scratch)

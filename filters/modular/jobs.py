@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cache, partial
+from functools import partial
 from typing import Any
 
 from numpy.typing import ArrayLike
 
-from filters.arrays import FloatArray
 from filters.modular.composition import ModularFilter
-from filters.modular.correction import correct_with
+from filters.modular.correction import correction_by
 from filters.modular.estimate import empty
 from filters.modular.larsen_jobs import (
     accumulating,
@@ -19,10 +18,9 @@ from filters.modular.larsen_jobs import (
     larsen_correction_by,
 )
 from filters.modular.problem import unscented_parts
-from filters.modular.space import Space, space
+from filters.modular.space import space
 from filters.modular.typical import Moment, near, typical_moment
-from filters.modular.workspace import Workspace, new_workspace
-from filters.records import Estimate
+from filters.modular.workspace import new_workspace
 from filters.registry import Job
 
 
@@ -62,21 +60,6 @@ def modular_jobs(
                 arguments = partial(arguments_of_correction, composed, number, late)
                 jobs.append(job(f"{kind}.{sensor.name}", correct, arguments))
     return {job.kind: job for job in jobs}
-
-
-@cache
-def correction_by(expect: Callable[..., None]) -> Callable[..., None]:
-    """`correct_with` of these correctors: numba inlines a function that a job names, but not one of its arguments.
-
-    Same function in, same function out, so that it is compiled once.
-    """
-
-    def correct(
-        view: Any, observed: Space, of: Space, before: Estimate, y: FloatArray, after: Estimate, work: Workspace
-    ) -> None:
-        correct_with(expect, view, observed, of, before, y, after, work)
-
-    return correct
 
 
 def _predict(composed: ModularFilter, at: Moment) -> tuple[Any, ...]:

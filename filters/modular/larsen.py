@@ -34,10 +34,11 @@ from filters.kernels.dense import (
     store_vector,
 )
 from filters.kernels.place import IntArray
+from filters.modular.breakdown import PREDICTOR, SOUND, Failure, failed
 from filters.modular.composition import ModularFilter
 from filters.modular.correctors import apply
 from filters.modular.estimate import copy_estimate, empty, is_sound
-from filters.modular.history import PREDICTOR, SOUND, ModularHistory
+from filters.modular.history import ModularHistory
 from filters.modular.measurements import Arrivals, Measurement, arrivals
 from filters.modular.problem import check_linearised, check_problem
 from filters.modular.running import run_kernel
@@ -110,6 +111,7 @@ def filter_all(
     inputs: FloatArray,
     arrived: Arrivals,
     history: ModularHistory,
+    failure: Failure,
     work: Workspace,
     late: NDArray[np.bool_],
     taken_late: NDArray[np.bool_],
@@ -127,8 +129,8 @@ def filter_all(
     for j in range(len(inputs) + 1):
         if j > 0:
             predict(motion, of, current, inputs[j - 1], dt, scratch, work)
-            if not is_sound(scratch):
-                return PREDICTOR, j
+            if not is_sound(of, scratch, work.nn1):
+                return failed(PREDICTOR, j, current, scratch, failure)
             copy_estimate(scratch, current)
             if waiting:
                 accumulate(flight.M, work)
@@ -136,8 +138,8 @@ def filter_all(
             s = arrived.sensor[following]
             given = Given(of, flight, late[following], waiting, current, arrived.y[following], scratch)
             use(places[s, 0], places[s, 1], parts, given)
-            if not is_sound(scratch):
-                return s, j
+            if not is_sound(of, scratch, work.nn1):
+                return failed(s, j, flight.reference if late[following] else current, scratch, failure)
             copy_estimate(scratch, current)
             waiting = waiting and not late[following]
             following += 1

@@ -10,8 +10,14 @@ import numpy as np
 
 from filters.arrays import FloatArray
 from filters.kernels.place import IntArray
+from filters.modular.check import as_numbers
 from filters.modular.composition import ModularFilter, Sensor
 from filters.modular.space import Space, plain, plus
+
+UNIT = 1e-2
+"""How much the length of a quaternion may differ from one."""
+LAST = 2**62
+"""Steps are kept in 64 bits."""
 
 
 class Measurement(NamedTuple):
@@ -42,10 +48,13 @@ def observe(composed: ModularFilter, truth: FloatArray, seed: int) -> list[Measu
     on its dropout: with a higher one the same measurements are left, or fewer.
 
     Raises:
-        ValueError: the truth has a wrong shape.
+        ValueError: the truth has a wrong shape or is not finite.
     """
-    if np.ndim(truth) != 2 or np.shape(truth)[1] != composed.of.numbers:
-        raise ValueError(f"truth has shape {np.shape(truth)}, the filter's states need (any, {composed.of.numbers})")
+    truth = as_numbers("truth", truth)
+    if truth.ndim != 2 or truth.shape[1] != composed.of.numbers:
+        raise ValueError(f"truth has shape {truth.shape}, the filter's states need (any, {composed.of.numbers})")
+    if not np.isfinite(truth).all():
+        raise ValueError("truth holds a value that is not finite")
     found = []
     for number, sensor in enumerate(composed.sensors):
         random = np.random.default_rng([seed, number])
@@ -96,6 +105,9 @@ def arrivals(composed: ModularFilter, measurements: Iterable[Measurement], steps
     for kind in {*map(type, map(attrgetter("taken"), found)), *map(type, map(attrgetter("arrives"), found))}:
         if not issubclass(kind, int | np.integer):
             raise _unfit(next(one for one in found if kind in map(type, one[1:3])), "steps must be whole numbers")
+    for one in found:
+        if max(abs(one.taken), abs(one.arrives)) > LAST:
+            raise _unfit(one, f"steps must lie below {LAST}")
     found.sort(key=attrgetter("arrives"))
     names, taken_in, arrives_in, _ = zip(*found, strict=True) if found else ((),) * 4
     for name in set(names) - set(numbers):
@@ -104,12 +116,15 @@ def arrivals(composed: ModularFilter, measurements: Iterable[Measurement], steps
     taken, arrives = np.array(taken_in, dtype=np.int64), np.array(arrives_in, dtype=np.int64)
     _, firsts = np.unique(taken * len(numbers) + number, return_index=True)
     longest = max((sensor.corrector.observed.numbers for sensor in composed.sensors), default=0)
-    y = np.zeros((len(found), longest))
+    y, turned = np.zeros((len(found), longest)), np.ones(len(found), dtype=np.bool_)
     for each, sensor in enumerate(composed.sensors):
-        rows = np.flatnonzero(number == each)
-        y[rows, : sensor.corrector.observed.numbers] = _stacked([found[row] for row in rows], sensor)
+        rows, observed = np.flatnonzero(number == each), sensor.corrector.observed
+        y[rows, : observed.numbers] = _stacked([found[row] for row in rows], sensor)
+        for start in observed.attitudes:
+            turned[rows] &= np.abs(np.linalg.norm(y[rows, start : start + 4], axis=1) - 1.0) < UNIT
     refused = (
         (~np.isfinite(y).all(axis=1), "y holds a value that is not finite; leave lost measurements out"),
+        (~turned, "an attitude in y is no unit quaternion; divide it by its length, or leave it out"),
         ((taken < 0) | (taken > arrives), "it must be taken in step 0 or later, and before it arrives"),
         (arrives - taken > history, f"the history goes back {history} steps: give a longer history=, or leave it out"),
         (~np.isin(np.arange(len(found)), firsts), "there are two; a sensor measures once in a step"),

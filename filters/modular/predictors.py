@@ -120,7 +120,7 @@ def predict_linear(
     matvec(motion.F, before.x, after.x)
     add_matvec(motion.B, u, after.x)
     copy(motion.F, work.F)
-    _propagate(motion.Q, before.P, after.P, work)
+    propagate(motion.Q, before.P, after.P, work)
 
 
 def predict_extended(
@@ -135,7 +135,7 @@ def predict_extended(
     """Job: x' = f(x, u), P' = F P F^T + Q with the Jacobian F at x."""
     motion.f(before.x, u, dt, after.x)
     motion.jacobian(before.x, u, dt, work.F)
-    _propagate(motion.Q, before.P, after.P, work)
+    propagate(motion.Q, before.P, after.P, work)
 
 
 def predict_numeric(
@@ -157,7 +157,7 @@ def predict_numeric(
         scale = 0.5 / step
         for e in range(of.errors):
             work.F[e, i] = scale * work.n1[e]
-    _propagate(motion.Q, before.P, after.P, work)
+    propagate(motion.Q, before.P, after.P, work)
 
 
 def difference(of: Space, at: Estimate, i: int, work: Workspace) -> float:
@@ -196,7 +196,7 @@ def predict_unscented(
     mirror(after.P)
 
 
-def _propagate(Q: FloatArray, P: FloatArray, P_next: FloatArray, work: Workspace) -> None:
+def propagate(Q: FloatArray, P: FloatArray, P_next: FloatArray, work: Workspace) -> None:
     """P_next = F P F^T + Q with the F in work."""
     matmul_blocked(work.F, P, work.nn1)
     transpose(work.F, work.nn2)

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from filters.arrays import FloatArray
-from filters.modular.check import check_start
+from filters.modular.check import as_numbers, check_start
 from filters.modular.composition import ModularFilter
 from filters.modular.trial import try_functions
 from filters.records import Estimate
@@ -23,13 +23,13 @@ def check_problem(
         ValueError: as `check.check_start` and `trial.try_functions`; the inputs are no matrix, or not finite.
     """
     x, P = check_start(composed.of, x0, P0)
-    rows = np.ascontiguousarray(inputs, dtype=np.float64)
+    rows = as_numbers("inputs", inputs)
     if rows.ndim != 2:
         raise ValueError(f"inputs has shape {rows.shape}; needed is (steps, inputs of the predictor)")
-    if not np.isfinite(rows).all():
-        raise ValueError("inputs holds a value that is not finite")
-    if len(rows) > 0:
-        try_functions(composed, Estimate(x, P), rows[0])
+    wrong = ~np.isfinite(rows).all(axis=1)
+    if wrong.any():
+        raise ValueError(f"inputs holds a value that is not finite, in row {wrong.argmax()}; give each step its input")
+    try_functions(composed, Estimate(x, P), rows[0] if len(rows) else None)
     return x, P, rows
 
 

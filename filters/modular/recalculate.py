@@ -11,10 +11,11 @@ from filters.arrays import FloatArray
 from filters.kernels.backends import BackendName
 from filters.kernels.dense import store, store_vector
 from filters.kernels.place import IntArray
+from filters.modular.breakdown import PREDICTOR, SOUND, Failure, failed
 from filters.modular.composition import ModularFilter
 from filters.modular.correction import correct_with
 from filters.modular.estimate import copy_estimate, empty, is_sound
-from filters.modular.history import PREDICTOR, SOUND, ModularHistory
+from filters.modular.history import ModularHistory
 from filters.modular.measurements import Arrivals, Measurement, arrivals
 from filters.modular.problem import check_problem
 from filters.modular.running import run_kernel
@@ -59,6 +60,7 @@ def filter_all(
     inputs: FloatArray,
     arrived: Arrivals,
     history: ModularHistory,
+    failure: Failure,
     work: Workspace,
     memory: Memory,
     current: Estimate,
@@ -67,7 +69,7 @@ def filter_all(
     """The whole filter as one kernel; memory holds the start as the prediction for step 0, history is filled.
 
     current, corrected: scratch. Returns SOUND and the last step, or the number of the sensor, or PREDICTOR, that left
-    an estimate that is none, and the step.
+    an estimate that is none, and the step; then the failure holds both estimates.
     """
     count, sensors = memory.known.shape
     following = 0
@@ -83,15 +85,15 @@ def filter_all(
             at = Estimate(memory.x[i % count], memory.P[i % count])
             if i > first or 0 < i == j:
                 predict(motion, of, current, inputs[i - 1], dt, at, work)
-                if not is_sound(at):
-                    return PREDICTOR, i
+                if not is_sound(of, at, work.nn1):
+                    return failed(PREDICTOR, i, current, at, failure)
             before, corrections = at, 0
             for s in range(sensors):
                 number = memory.known[i % count, s]
                 if number >= 0:
                     use(places[s, 0], places[s, 1], parts, Given(of, before, arrived.y[number], corrected))
-                    if not is_sound(corrected):
-                        return s, i
+                    if not is_sound(of, corrected, work.nn1):
+                        return failed(s, i, before, corrected, failure)
                     copy_estimate(corrected, current)
                     before, corrections = current, corrections + 1
             if corrections == 0:
@@ -124,7 +126,7 @@ def run(
             f"history={history!r} must be a whole number, at least 0: how many steps the filter can go back"
         )
     arrived = arrivals(composed, measurements, len(moves), depth)
-    count, n = depth + 1, of.errors
+    count, n = min(depth, len(moves)) + 1, of.errors
     memory = Memory(
         np.zeros((count, of.numbers)), np.zeros((count, n, n)), np.full((count, len(composed.sensors)), -1, np.int64)
     )

@@ -11,9 +11,10 @@ import numpy as np
 from filters.arrays import FloatArray
 from filters.kernels.backends import BackendName, arguments_for, function_for
 from filters.kernels.numba_error import gist, is_numbas
+from filters.modular.breakdown import PREDICTOR, SOUND, breakdown, new_failure
 from filters.modular.chain import chain
 from filters.modular.composition import ModularFilter
-from filters.modular.history import SOUND, ModularHistory, breakdown, new_history
+from filters.modular.history import ModularHistory, new_history
 from filters.modular.measurements import Arrivals
 from filters.modular.space import space
 from filters.modular.workspace import new_workspace
@@ -30,13 +31,15 @@ def run_kernel(
 ) -> ModularHistory:
     """What the kernel of a way to use late measurements leaves.
 
-    kernel(predict, use, motion, parts, places, of, dt, inputs, arrived, history, work, *own) returns which part, and in
-    which step, left an estimate that is none, or SOUND. correct: its job of one correction, see `chain.chain`.
+    kernel(predict, use, motion, parts, places, of, dt, inputs, arrived, history, failure, work, *own) returns which
+    part, and in which step, left an estimate that is none, or SOUND. correct: its job of one correction, see
+    `chain.chain`.
 
     Raises:
         ValueError: as `running`, or an estimate breaks down; the part is named.
     """
-    predictor, chained, found = composed.predictor, chain(correct, composed), new_history(composed.of, len(inputs))
+    predictor, chained = composed.predictor, chain(correct, composed)
+    found, failure = new_history(composed.of, len(inputs)), new_failure(composed.of)
     with running():
         culprit, step = function_for(backend, kernel)(
             arguments_for(backend, predictor.predict),
@@ -49,11 +52,12 @@ def run_kernel(
             inputs,
             arrived,
             found,
+            failure,
             new_workspace(composed.of, space(0)),
             *own,
         )
     if culprit != SOUND:
-        raise breakdown(composed, culprit, step)
+        raise breakdown(composed, culprit, step, failure, inputs[step - 1] if culprit == PREDICTOR else np.empty(0))
     return found
 
 

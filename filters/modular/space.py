@@ -15,6 +15,9 @@ from filters.arrays import FloatArray
 from filters.kernels.place import IntArray
 from filters.kernels.quaternion import rotation_between, turn
 
+SHORTEST = 1e-200
+"""The squared length of a quaternion that is as good as none."""
+
 
 class Space(NamedTuple):
     """numbers, errors: the lengths of a point and of an error; attitudes: where their quaternions begin in a point,
@@ -46,6 +49,18 @@ def space(numbers: int, attitudes: Sequence[int] = (), angles: Sequence[int] = (
     return Space(
         numbers, numbers - len(starts), np.array(starts, dtype=np.int64), np.array(sorted(of_error), dtype=np.int64)
     )
+
+
+def is_point(of: Space, x: FloatArray) -> bool:
+    """Whether all numbers of x (numbers,) are finite and each quaternion has a length, by which it can be divided."""
+    for value in x:
+        if not np.isfinite(value):
+            return False
+    for at in of.attitudes:
+        squared = x[at] * x[at] + x[at + 1] * x[at + 1] + x[at + 2] * x[at + 2] + x[at + 3] * x[at + 3]
+        if not SHORTEST < squared < np.inf:
+            return False
+    return True
 
 
 def plus(of: Space, x: FloatArray, error: FloatArray, out: FloatArray) -> None:

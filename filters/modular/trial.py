@@ -13,10 +13,10 @@ from typing import Any
 import numpy as np
 
 from filters.arrays import FloatArray
-from filters.modular.composition import ModularFilter
+from filters.modular.composition import ModularFilter, Sensor
 from filters.modular.correctors import NumericView, expect_numeric
 from filters.modular.predictors import NumericMotion, predict_numeric
-from filters.modular.space import space
+from filters.modular.space import Space, is_point, space
 from filters.modular.workspace import new_workspace
 from filters.records import Estimate
 
@@ -26,20 +26,30 @@ ROUNDING = 1e-11
 """What differences of a thousandth of a deviation lose to rounding, as a share of the values that they are of."""
 
 
-def try_functions(composed: ModularFilter, at: Estimate, u: FloatArray) -> None:
-    """Call each of the user's functions at an estimate, with the input u.
+def try_functions(composed: ModularFilter, at: Estimate, u: FloatArray | None) -> None:
+    """Call each of the user's functions at an estimate, with the input u; without one the predictor's are left out.
 
     Raises:
         ValueError: one fails, changes x, returns what it should write into out, or leaves a number that is not finite;
             or a Jacobian is not that of its function. It names the predictor or the sensor, the function and what came
             back.
     """
-    motion, dt, of, n, x = composed.predictor.motion, composed.dt, composed.of, composed.of.errors, at.x
+    if u is not None:
+        _try_predictor(composed, at, u)
+    for sensor in composed.sensors:
+        if sensor.corrector.kind != "linear":
+            _try_sensor(composed, sensor, at)
+
+
+def _try_predictor(composed: ModularFilter, at: Estimate, u: FloatArray) -> None:
+    motion, dt, of, x = composed.predictor.motion, composed.dt, composed.of, at.x
+    n = of.errors
     if composed.predictor.kind == "linear":
         if motion.B.shape[1] not in (0, len(u)):
             raise ValueError(f"predictor: B has {motion.B.shape[1]} columns, but the input has {len(u)} numbers")
     else:
-        _try("predictor: f(x, u, dt, out)", motion.f, (x, u, dt), (len(x),), np.nan)
+        what = "predictor: f(x, u, dt, out)"
+        _check_attitudes(what, of, _try(what, motion.f, (x, u, dt), (len(x),), np.nan), x)
         if hasattr(motion, "jacobian"):
             what = "predictor: jacobian(x, u, dt, out)"
             F = _try(what, motion.jacobian, (x, u, dt), (n, n), 0.0)
@@ -47,16 +57,26 @@ def try_functions(composed: ModularFilter, at: Estimate, u: FloatArray) -> None:
             after = Estimate(np.empty_like(x), np.empty((n, n)))
             predict_numeric(NumericMotion(motion.f, motion.Q), of, at, u, dt, after, work)
             _compare(what, F, work.F, at, after.x)
-    for sensor in composed.sensors:
-        if sensor.corrector.kind != "linear":
-            view, observed = sensor.corrector.view(n), sensor.corrector.observed
-            _try(f"sensor {sensor.name!r}: h(x, out)", view.h, (x,), (observed.numbers,), np.nan)
-            if hasattr(view, "jacobian"):
-                what = f"sensor {sensor.name!r}: jacobian(x, out)"
-                H = _try(what, view.jacobian, (x,), (observed.errors, n), 0.0)
-                work = new_workspace(of, observed)
-                expect_numeric(NumericView(view.h, view.R), observed, of, at, work)
-                _compare(what, H, work.H, at, work.expected)
+
+
+def _try_sensor(composed: ModularFilter, sensor: Sensor, at: Estimate) -> None:
+    of, observed, view = composed.of, sensor.corrector.observed, sensor.corrector.view(composed.of.errors)
+    what = f"sensor {sensor.name!r}: h(x, out)"
+    _check_attitudes(what, observed, _try(what, view.h, (at.x,), (observed.numbers,), np.nan), at.x)
+    if hasattr(view, "jacobian"):
+        what = f"sensor {sensor.name!r}: jacobian(x, out)"
+        H = _try(what, view.jacobian, (at.x,), (observed.errors, of.errors), 0.0)
+        work = new_workspace(of, observed)
+        expect_numeric(NumericView(view.h, view.R), observed, of, at, work)
+        _compare(what, H, work.H, at, work.expected)
+
+
+def _check_attitudes(what: str, of: Space, out: FloatArray, x: FloatArray) -> None:
+    if not is_point(of, out):
+        raise ValueError(
+            f"{what} left in out {out.tolist()}, with an attitude that has no length, at x = {x.tolist()}; write a "
+            f"unit quaternion, scalar first"
+        )
 
 
 def _try(

@@ -9,11 +9,11 @@ from numpy.typing import ArrayLike
 
 from filters.arrays import FloatArray
 from filters.kernels.place import IntArray
-from filters.modular.check import check_start
+from filters.modular.breakdown import PREDICTOR, Failure, breakdown
+from filters.modular.check import as_numbers, check_start
 from filters.modular.composition import ModularFilter, Sensor
 from filters.modular.correction import correct_with
 from filters.modular.estimate import empty, is_sound
-from filters.modular.history import PREDICTOR, breakdown
 from filters.modular.measurements import expected_by
 from filters.modular.space import Space, plus, space
 from filters.modular.trial import try_functions
@@ -51,7 +51,7 @@ def typical_moment(
     """
     of, random = composed.of, np.random.default_rng(seed)
     x, P = check_start(of, _origin(of) if x0 is None else x0, np.eye(of.errors) if P0 is None else P0)
-    given = np.zeros(_inputs(composed)) if u is None else np.array(u, dtype=np.float64)
+    given = np.zeros(_inputs(composed)) if u is None else as_numbers("u", u)
     if given.ndim != 1 or not np.isfinite(given).all():
         raise ValueError(f"u has shape {given.shape}; an input has one dimension, and finite numbers")
     try_functions(composed, Estimate(x, P), given)
@@ -85,9 +85,9 @@ def _warmed_up(composed: ModularFilter, start: Estimate, u: FloatArray, random: 
     for step in range(WARM_UP):
         for number, sensor in enumerate(composed.sensors):
             y = drawn(sensor.corrector.observed, expected_by(sensor, of)(truth), sensor.corrector.R, random)
-            at = _sound(composed, number, step, _corrected(composed, sensor, at, y))
+            at = _sound(composed, number, step, Failure(at, _corrected(composed, sensor, at, y)), u)
         truth = drawn(of, _evolved(composed, truth, u), composed.predictor.motion.Q, random)
-        at = _sound(composed, PREDICTOR, step, _predicted(composed, at, u))
+        at = _sound(composed, PREDICTOR, step, Failure(at, _predicted(composed, at, u)), u)
     return at
 
 
@@ -126,7 +126,8 @@ def _corrected(composed: ModularFilter, sensor: Sensor, at: Estimate, y: FloatAr
     return after
 
 
-def _sound(composed: ModularFilter, part: int, step: int, after: Estimate) -> Estimate:
-    if not is_sound(after):
-        raise breakdown(composed, part, step)
-    return after
+def _sound(composed: ModularFilter, part: int, step: int, job: Failure, u: FloatArray) -> Estimate:
+    """What a job left, if it is an estimate."""
+    if not is_sound(composed.of, job.after, np.empty_like(job.after.P)):
+        raise breakdown(composed, part, step, job, u)
+    return job.after

@@ -10,7 +10,7 @@ import typer
 
 from sched_sim.bounds import MOST_STATES
 from sched_sim.cli import options as opt
-from sched_sim.cli.measure_filter import measure_own_filter, OF_A_SYSTEM, refuse_with_filter
+from sched_sim.cli.measure_filter import OF_A_SYSTEM, measure_own_filter, refuse_with_filter
 from sched_sim.cli.output import print_csv, print_json, print_table, say, units
 from sched_sim.cli.outputs import module_files, refuse_one_file_for_two
 from sched_sim.costs import SYSTEM_METHODS

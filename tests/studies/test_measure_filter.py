@@ -221,7 +221,7 @@ def test_a_function_that_cannot_be_compiled_is_named_with_its_line(sched_sim: Ru
         ("own_filter:too_long", r"sensor 'eye': h\(x, out\) failed: IndexError.*out \(1,\)"),
         ("own_filter:wrong_jacobian", r"sensor 'eye': jacobian\(x, out\) returned a ndarray of shape \(1, 2\)"),
         ("own_filter:not_plain", r"predictor: f\(x, u, dt, out\) is a ufunc; give a plain function"),
-        ("own_filter:unstable", "sensor 'gps', step 1: the covariance is no longer positive definite"),
+        ("own_filter:unstable", "predictor, step 0: the estimate is no longer finite: the model lets it grow"),
     ],
 )
 def test_what_is_wrong_with_a_users_filter_is_named(name: str, said: str) -> None:
