@@ -1,4 +1,4 @@
-"""The one array type of this package."""
+"""The array types of this package."""
 
 from __future__ import annotations
 
@@ -8,3 +8,4 @@ import numpy as np
 from numpy.typing import NDArray
 
 FloatArray: TypeAlias = NDArray[np.float64]
+Flags: TypeAlias = NDArray[np.bool_]

@@ -18,7 +18,8 @@ def as_numbers(name: str, value: ArrayLike) -> FloatArray:
             raise TypeError("complex numbers")
         return np.array(value, dtype=np.float64, order="C")
     except (TypeError, ValueError) as error:
-        raise ValueError(f"{name} is {value!r:.60}; needed is an array of real numbers ({error})") from None
+        shown = " ".join(repr(value).split())
+        raise ValueError(f"{name} is {shown:.60}; needed is an array of real numbers ({error})") from None
 
 
 def as_matrix(name: str, value: ArrayLike, shape: tuple[int | None, int | None]) -> FloatArray:

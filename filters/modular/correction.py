@@ -6,7 +6,7 @@ from collections.abc import Callable
 from functools import cache
 from typing import Any
 
-from filters.arrays import FloatArray
+from filters.arrays import Flags, FloatArray
 from filters.modular.correctors import apply
 from filters.modular.space import Space
 from filters.modular.workspace import Workspace
@@ -20,12 +20,16 @@ def correct_with(
     of: Space,
     before: Estimate,
     y: FloatArray,
+    lost: Flags,
     after: Estimate,
     work: Workspace,
 ) -> None:
-    """Job: `after` is `before`, corrected by the measurement y; expect, view, observed: see `correctors.Corrector`."""
+    """Job: `after` is `before`, corrected by the measurement y, of which what is lost is left out, see `apply`.
+
+    expect, view, observed: see `correctors.Corrector`.
+    """
     expect(view, observed, of, before, work)
-    apply(observed, of, before, y, after, work)
+    apply(observed, of, before, y, lost, after, work)
 
 
 @cache
@@ -36,8 +40,15 @@ def correction_by(expect: Callable[..., None]) -> Callable[..., None]:
     """
 
     def correct(
-        view: Any, observed: Space, of: Space, before: Estimate, y: FloatArray, after: Estimate, work: Workspace
+        view: Any,
+        observed: Space,
+        of: Space,
+        before: Estimate,
+        y: FloatArray,
+        lost: Flags,
+        after: Estimate,
+        work: Workspace,
     ) -> None:
-        correct_with(expect, view, observed, of, before, y, after, work)
+        correct_with(expect, view, observed, of, before, y, lost, after, work)
 
     return correct

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike
 
-from filters.arrays import FloatArray
+from filters.arrays import Flags, FloatArray
 from filters.kernels.dense import add_matmul_blocked, copy, matmul_blocked, matvec, mirror
 from filters.kernels.place import clear
 from filters.kernels.solve import cholesky, solve_cholesky
@@ -159,12 +159,17 @@ def expect_unscented(view: UnscentedView, observed: Space, of: Space, before: Es
     add_covariance(work.seen_errors, work.errors, view.weighing, work.cross)
 
 
-def apply(observed: Space, of: Space, before: Estimate, y: FloatArray, after: Estimate, work: Workspace) -> None:
+def apply(
+    observed: Space, of: Space, before: Estimate, y: FloatArray, lost: Flags, after: Estimate, work: Workspace
+) -> None:
     """The measurement y (numbers,) is used, once `expect` has run: K = cross^T S^-1, x' = x + K z, P' = P - K cross.
 
-    y may be longer: what is behind is not read.
+    lost (p,): what its error has no number of. y and lost may be longer: what is behind is not read.
     """
     minus(observed, y, work.expected, work.z)
+    for r in range(observed.errors):
+        if lost[r]:
+            _leave_out(r, work)
     cholesky(work.S, work.pp1)
     solve_cholesky(work.pp1, work.cross, work.gain)
     for e in range(of.errors):
@@ -178,6 +183,16 @@ def apply(observed: Space, of: Space, before: Estimate, y: FloatArray, after: Es
             work.K[e, r] = -work.gain[r, e]
     add_matmul_blocked(before.P, work.K, work.cross, after.P)
     mirror(after.P)
+
+
+def _leave_out(r: int, work: Workspace) -> None:
+    """Row r of a measurement says nothing: the others are corrected with as if it were not there."""
+    for other in range(work.S.shape[0]):
+        work.S[r, other] = work.S[other, r] = 0.0
+    work.S[r, r] = 1.0
+    for e in range(work.cross.shape[1]):
+        work.cross[r, e] = 0.0
+    work.z[r] = 0.0
 
 
 def _project(R: FloatArray, P: FloatArray, work: Workspace) -> None:

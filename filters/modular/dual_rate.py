@@ -11,19 +11,21 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from filters.arrays import FloatArray
+from filters.arrays import Flags, FloatArray
 from filters.covariance_forms import covariance_form
 from filters.dual_rate import HighRateTask
 from filters.kernels.backends import BackendName, arguments_for, function_for
 from filters.kernels.dense import copy
 from filters.low_rate_noise import NOISE_METHODS
+from filters.modular.arrivals import Arrivals, TooOld, arrivals
 from filters.modular.breakdown import PREDICTOR, Failure, breakdown
 from filters.modular.composition import ModularFilter, Sensor
 from filters.modular.correction import correction_by
 from filters.modular.estimate import empty, is_sound
-from filters.modular.history import ModularHistory, new_history
-from filters.modular.measurements import Arrivals, Measurement, arrivals
+from filters.modular.history import ModularHistory, new_estimates
+from filters.modular.measurements import Measurement
 from filters.modular.predictors import propagate
 from filters.modular.problem import check_linearised, check_problem
 from filters.modular.running import running
@@ -39,18 +41,19 @@ def lr_propagate(P: FloatArray, transition: Transition, P_next: FloatArray, work
 
 def run(
     composed: ModularFilter,
-    x0: FloatArray,
-    P0: FloatArray,
-    inputs: FloatArray,
+    x0: ArrayLike,
+    P0: ArrayLike,
+    inputs: ArrayLike,
     measurements: Iterable[Measurement],
     *,
     L: int | None = None,
+    too_old: TooOld = "refuse",
     backend: BackendName = "reference",
 ) -> ModularHistory:
     """Filter a record of data; the measurement of step k corrects the estimate at the start of step k + L.
 
     Other arguments and results as in `late.run`. L: more than the delay, and at most the sensor's `every`, which it is
-    if not given.
+    if not given. too_old: what is done with a measurement that arrives in step k + L or later: "refuse", or "drop" it.
 
     Raises:
         ValueError: there is not exactly one sensor, a part is unscented, or not all quantities are plain; L does not
@@ -64,12 +67,13 @@ def run(
     N, lands = sensor.every, sensor.every if L is None else L
     _check_landing(sensor, lands)
     x, P, moves = check_problem(composed, x0, P0, inputs)
-    arrived = arrivals(composed, measurements, len(moves), len(moves))
+    oldest = lands - 1 if too_old == "drop" else len(moves)
+    arrived, dropped = arrivals(composed, measurements, len(moves), oldest, too_old)
     _check_arrivals(sensor, arrived, lands)
     low_rate = LowRateTask(composed, sensor, Estimate(x, P), backend)
     system = composed_system(composed, P, moves.shape[1])
     high_rate = HighRateTask(system, N, x, NOISE_METHODS["exact"], covariance_form("short"), backend)
-    found = new_history(composed.of, len(moves))
+    found = new_estimates(composed.of, len(moves))
     following, scratch = 0, np.empty_like(P)
     with running():
         for j in range(len(moves) + 1):
@@ -85,11 +89,11 @@ def run(
                 before = Failure(Estimate(found.x[j - 1], found.P[j - 1]), Estimate(high_rate.x, P))
                 raise breakdown(composed, PREDICTOR, j, before, moves[j - 1])
             while following < len(arrived.arrives) and arrived.arrives[following] == j:
-                correction = low_rate.correct(arrived.y[following])
+                correction = low_rate.correct(arrived.y[following], arrived.lost[following])
                 if not is_sound(composed.of, correction.after, scratch):
                     raise breakdown(composed, 0, j, correction, np.empty(0))
                 following += 1
-    return found
+    return ModularHistory(found, dropped)
 
 
 class LowRateTask:
@@ -116,10 +120,10 @@ class LowRateTask:
         self._propagate(self._before.P, transition, P, self._work)
         return P
 
-    def correct(self, y: FloatArray) -> Failure:
+    def correct(self, y: FloatArray, lost: Flags) -> Failure:
         """Use a measurement of k."""
         before, self._after = self._after, empty(self._of)
-        self._correct(self._view, self._observed, self._of, before, y, self._after, self._work)
+        self._correct(self._view, self._observed, self._of, before, y, lost, self._after, self._work)
         return Failure(before, self._after)
 
     @property
@@ -175,5 +179,5 @@ def _check_arrivals(sensor: Sensor, arrived: Arrivals, L: int) -> None:
         if m >= k + L:
             raise ValueError(
                 f"{where}: it arrives in step {m}, and its correction lands in step {k + L}; give a greater L, use "
-                f"late='recalculate', or leave it out"
+                f"late='recalculate', or too_old='drop'"
             )

@@ -7,19 +7,31 @@ from typing import NamedTuple
 import numpy as np
 
 from filters.arrays import FloatArray
+from filters.modular.measurements import Measurement
 from filters.modular.space import Space
 
 
-class ModularHistory(NamedTuple):
-    """The estimate at the end of every step, with what had been used by then.
-
-    x (steps + 1, numbers); P (steps + 1, n, n): the covariance of its error, of length n.
-    """
+class Estimates(NamedTuple):
+    """x (steps + 1, numbers); P (steps + 1, n, n): the covariance of its error, of length n."""
 
     x: FloatArray
     P: FloatArray
 
 
-def new_history(of: Space, steps: int) -> ModularHistory:
+class ModularHistory(Estimates):
+    """The estimate at the end of every step, with what had been used by then: x, P, as which it unpacks.
+
+    dropped: measurements that came too late to be used, in the order in which they came.
+    """
+
+    dropped: tuple[Measurement, ...] = ()
+
+    def __new__(cls, found: Estimates, dropped: tuple[Measurement, ...]) -> ModularHistory:
+        history = super().__new__(cls, *found)
+        history.dropped = dropped
+        return history
+
+
+def new_estimates(of: Space, steps: int) -> Estimates:
     """Memory for steps 0 to `steps`."""
-    return ModularHistory(np.empty((steps + 1, of.numbers)), np.empty((steps + 1, of.errors, of.errors)))
+    return Estimates(np.empty((steps + 1, of.numbers)), np.empty((steps + 1, of.errors, of.errors)))

@@ -8,6 +8,7 @@ from typing import Any
 
 from numpy.typing import ArrayLike
 
+from filters.modular.arrivals import whole
 from filters.modular.composition import ModularFilter
 from filters.modular.correction import correction_by
 from filters.modular.estimate import empty
@@ -71,4 +72,4 @@ def _correct(composed: ModularFilter, number: int, at: Moment) -> tuple[Any, ...
     of, corrector = composed.of, composed.sensors[number].corrector
     view, observed = corrector.view(of.errors), corrector.observed
     work = new_workspace(of, observed)
-    return view, observed, of, at.estimate, at.y[number], empty(of), work
+    return view, observed, of, at.estimate, at.y[number], whole(observed), empty(of), work

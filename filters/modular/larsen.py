@@ -12,7 +12,8 @@ error. The estimate is the best one, that of `recalculate`, only if no other sen
 about e_k is not used.
 
 In one step: first the late measurement that arrives, then those of the step itself, in the sensors' order, then one
-that will come late is taken. So a delay as long as the time between the measurements is allowed.
+that will come late is taken. So a delay as long as the time between the measurements is allowed. Several that are taken
+in one step may be in flight together: when one has arrived, what was known in k is corrected by it as well.
 """
 
 from __future__ import annotations
@@ -22,9 +23,9 @@ from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike
 
-from filters.arrays import FloatArray
+from filters.arrays import Flags, FloatArray
 from filters.kernels.backends import BackendName
 from filters.kernels.dense import (
     copy,
@@ -34,12 +35,13 @@ from filters.kernels.dense import (
     store_vector,
 )
 from filters.kernels.place import IntArray
+from filters.modular.arrivals import Arrivals, arrivals, chosen
 from filters.modular.breakdown import PREDICTOR, SOUND, Failure, failed
 from filters.modular.composition import ModularFilter
 from filters.modular.correctors import apply
 from filters.modular.estimate import copy_estimate, empty, is_sound
-from filters.modular.history import ModularHistory
-from filters.modular.measurements import Arrivals, Measurement, arrivals
+from filters.modular.history import Estimates, ModularHistory
+from filters.modular.measurements import Measurement
 from filters.modular.problem import check_linearised, check_problem
 from filters.modular.running import run_kernel
 from filters.modular.space import Space
@@ -69,6 +71,7 @@ class Given(NamedTuple):
     waiting: bool
     before: Estimate
     y: FloatArray
+    lost: Flags
     after: Estimate
 
 
@@ -85,7 +88,7 @@ def correct(expect: Callable[..., None], view: Any, observed: Space, work: Works
     if given.late:  # the covariance of z_k with e_k becomes that with e_m, and K_k becomes M K_k
         matmul_transposed_narrow(work.cross, given.flight.M, work.gain)
         copy(work.gain, work.cross)
-    apply(observed, given.of, given.before, given.y, given.after, work)
+    apply(observed, given.of, given.before, given.y, given.lost, given.after, work)
     if given.waiting and not given.late:
         _condition(given.flight.M, work)
 
@@ -110,41 +113,47 @@ def filter_all(
     dt: float,
     inputs: FloatArray,
     arrived: Arrivals,
-    history: ModularHistory,
+    history: Estimates,
     failure: Failure,
     work: Workspace,
-    late: NDArray[np.bool_],
-    taken_late: NDArray[np.bool_],
+    late: Flags,
+    taken_late: IntArray,
     current: Estimate,
     scratch: Estimate,
     flight: Flight,
 ) -> tuple[int, int]:
     """The whole filter as one kernel; `current` holds the prediction for step 0, history is filled.
 
-    arrived: in the order of use. late (count,): which of them were taken before. taken_late (steps + 1,): the steps in
-    which these were. Returns as `recalculate.filter_all`.
+    arrived: in the order of use. late (count,): which of them were taken before. taken_late (steps + 1,): how many of
+    these in each step. Returns as `recalculate.filter_all`.
     """
     following = 0
-    waiting = False
+    waiting = 0
     for j in range(len(inputs) + 1):
         if j > 0:
             predict(motion, of, current, inputs[j - 1], dt, scratch, work)
             if not is_sound(of, scratch, work.nn1):
                 return failed(PREDICTOR, j, current, scratch, failure)
             copy_estimate(scratch, current)
-            if waiting:
+            if waiting > 0:
                 accumulate(flight.M, work)
         while following < len(arrived.arrives) and arrived.arrives[following] == j:
             s = arrived.sensor[following]
-            given = Given(of, flight, late[following], waiting, current, arrived.y[following], scratch)
+            y, lost = arrived.y[following], arrived.lost[following]
+            given = Given(of, flight, late[following], waiting > 0, current, y, lost, scratch)
             use(places[s, 0], places[s, 1], parts, given)
             if not is_sound(of, scratch, work.nn1):
                 return failed(s, j, flight.reference if late[following] else current, scratch, failure)
             copy_estimate(scratch, current)
-            waiting = waiting and not late[following]
+            if late[following]:
+                waiting -= 1
+            if late[following] and waiting > 0:  # another of that step is to come: what was known then is more now
+                given = Given(of, flight, False, False, flight.reference, y, lost, scratch)
+                use(places[s, 0], places[s, 1], parts, given)
+                copy_estimate(scratch, flight.reference)
             following += 1
-        if taken_late[j]:
-            waiting = True
+        if taken_late[j] > 0:
+            waiting = taken_late[j]
             copy_estimate(current, flight.reference)
             for i in range(of.errors):
                 for e in range(of.errors):
@@ -156,9 +165,9 @@ def filter_all(
 
 def run(
     composed: ModularFilter,
-    x0: FloatArray,
-    P0: FloatArray,
-    inputs: FloatArray,
+    x0: ArrayLike,
+    P0: ArrayLike,
+    inputs: ArrayLike,
     measurements: Iterable[Measurement],
     *,
     backend: BackendName = "reference",
@@ -168,38 +177,37 @@ def run(
     Arguments and results as in `late.run`.
 
     Raises:
-        ValueError: a part is unscented, which leaves no F or H; a measurement that will come late is taken before
-            another late one has arrived; and as `late.run`.
+        ValueError: a part is unscented, which leaves no F or H; a measurement that will come late is taken after
+            another late one, which has not arrived yet; and as `late.run`.
     """
     check_linearised(composed, "larsen")
     x, P, moves = check_problem(composed, x0, P0, inputs)
     steps = len(moves)
-    arrived = _in_order_of_use(arrivals(composed, measurements, steps, steps))
+    arrived = _in_order_of_use(arrivals(composed, measurements, steps, steps)[0])
     late = arrived.taken < arrived.arrives
     _check_one_in_flight(composed, arrived, late)
-    taken_late = np.zeros(steps + 1, dtype=np.bool_)
-    taken_late[arrived.taken[late]] = True
+    taken_late = np.bincount(arrived.taken[late], minlength=steps + 1)
     own = late, taken_late, Estimate(x, P), empty(composed.of), Flight(empty(composed.of), np.empty_like(P))
-    return run_kernel(filter_all, correct, composed, moves, arrived, own, backend)
+    return ModularHistory(run_kernel(filter_all, correct, composed, moves, arrived, own, backend), ())
 
 
 def _in_order_of_use(arrived: Arrivals) -> Arrivals:
     """In each step those taken before come first, then those of the step in the sensors' order."""
     order = np.lexsort((arrived.sensor, arrived.taken == arrived.arrives, arrived.arrives))
-    return Arrivals(arrived.sensor[order], arrived.taken[order], arrived.arrives[order], arrived.y[order])
+    return chosen(arrived, order)
 
 
-def _check_one_in_flight(composed: ModularFilter, arrived: Arrivals, late: NDArray[np.bool_]) -> None:
+def _check_one_in_flight(composed: ModularFilter, arrived: Arrivals, late: Flags) -> None:
     rows = np.flatnonzero(late)
-    rows = rows[np.argsort(arrived.taken[rows], kind="stable")]
-    for one, other in pairwise(rows):
-        if arrived.taken[other] < arrived.arrives[one]:
+    rows = rows[np.lexsort((arrived.arrives[rows], arrived.taken[rows]))]
+    for one, other in pairwise(rows):  # of those of one step the last to arrive comes last
+        if arrived.taken[one] < arrived.taken[other] < arrived.arrives[one]:
             flights = " and ".join(
                 f"sensor {composed.sensors[arrived.sensor[row]].name!r}, steps {arrived.taken[row]} to "
                 f"{arrived.arrives[row]}"
                 for row in (one, other)
             )
             raise ValueError(
-                f"{flights}: late='larsen' can wait for one measurement at a time; use late='recalculate', or take the "
-                f"second when the first has arrived"
+                f"{flights}: but for those of one step, late='larsen' can wait for one measurement at a time; "
+                f"use late='recalculate', or take the second when the first has arrived"
             )

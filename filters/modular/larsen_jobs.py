@@ -11,6 +11,7 @@ from typing import Any
 
 from filters.arrays import FloatArray
 from filters.kernels.dense import copy
+from filters.modular.arrivals import whole
 from filters.modular.composition import ModularFilter
 from filters.modular.estimate import empty
 from filters.modular.larsen import Flight, Given, accumulate, correct
@@ -67,7 +68,7 @@ def arguments_of_correction(composed: ModularFilter, number: int, late: bool, at
     of, corrector = composed.of, composed.sensors[number].corrector
     view, observed = corrector.view(of.errors), corrector.observed
     flight = _flight(composed, at)
-    given = Given(of, flight, late, True, at.estimate, at.y[number], empty(of))
+    given = Given(of, flight, late, True, at.estimate, at.y[number], whole(observed), empty(of))
     return view, observed, new_workspace(of, observed), given, flight.M.copy()
 
 

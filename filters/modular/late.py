@@ -5,9 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Literal, TypeAlias
 
-from filters.arrays import FloatArray
+import numpy as np
+from numpy.typing import ArrayLike
+
 from filters.kernels.backends import BackendName
 from filters.modular import dual_rate, larsen, recalculate
+from filters.modular.arrivals import TooOld, last_arrival
 from filters.modular.composition import ModularFilter
 from filters.modular.history import ModularHistory
 from filters.modular.measurements import Measurement
@@ -18,24 +21,30 @@ Late: TypeAlias = Literal["recalculate", "larsen", "dual-rate"]
 
 def run(
     composed: ModularFilter,
-    x0: FloatArray,
-    P0: FloatArray,
-    inputs: FloatArray,
+    x0: ArrayLike,
+    P0: ArrayLike,
+    inputs: ArrayLike | None,
     measurements: Iterable[Measurement],
     *,
     late: Late = "recalculate",
     history: int | None = None,
     L: int | None = None,
+    too_old: TooOld = "refuse",
     backend: BackendName = "reference",
 ) -> ModularHistory:
     """Filter a record of data in which measurements arrive in their steps or late.
 
     x0 (numbers,), P0 (n, n): estimate and covariance at step 0, before its measurements.
-    inputs (steps, any): row j takes the state from j to j + 1; np.zeros((steps, 0)) if there are none.
+    inputs (steps, any): row j takes the state from j to j + 1. None: there are none, and as many steps as it takes for
+        all measurements to arrive; for another number of steps give np.zeros((steps, 0)).
+    measurements: None in place of a number that is lost, see `Measurement`. Several of one sensor and one step are all
+        used. Those that arrive after the last step are left out.
     late: what is done with a late measurement: "recalculate" goes back, with any parts, any delays and in any order;
         "larsen" carries its correction forward, with linear and extended parts, one at a time; "dual-rate" corrects
         in a later step, with one sensor, linear or extended.
     history: of "recalculate", see there. L: of "dual-rate", see there.
+    too_old: what is done with a measurement from before the history, or one that arrives too late for L: "refuse", or
+        "drop" it and go on; it is then among the `dropped` of what is returned.
     backend: "compiled" takes ten seconds or more the first time and is then some hundred times as fast as "reference".
 
     Raises:
@@ -50,8 +59,13 @@ def run(
         )
     if L is not None and late != "dual-rate":
         raise ValueError(f"L={L} goes with late='dual-rate'; late={late!r} corrects on arrival, leave it out")
+    if too_old != "refuse" and late == "larsen":
+        raise ValueError(f"too_old={too_old!r}: for late='larsen' no measurement is too old, leave it out")
+    measurements = list(measurements)
+    if inputs is None:
+        inputs = np.zeros((last_arrival(measurements), 0))
     if late == "larsen":
         return larsen.run(composed, x0, P0, inputs, measurements, backend=backend)
     if late == "dual-rate":
-        return dual_rate.run(composed, x0, P0, inputs, measurements, L=L, backend=backend)
-    return recalculate.run(composed, x0, P0, inputs, measurements, history=history, backend=backend)
+        return dual_rate.run(composed, x0, P0, inputs, measurements, L=L, too_old=too_old, backend=backend)
+    return recalculate.run(composed, x0, P0, inputs, measurements, history=history, too_old=too_old, backend=backend)

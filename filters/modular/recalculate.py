@@ -6,17 +6,19 @@ from collections.abc import Callable, Iterable
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from filters.arrays import FloatArray
+from filters.arrays import Flags, FloatArray
 from filters.kernels.backends import BackendName
 from filters.kernels.dense import store, store_vector
 from filters.kernels.place import IntArray
+from filters.modular.arrivals import Arrivals, TooOld, arrivals
 from filters.modular.breakdown import PREDICTOR, SOUND, Failure, failed
 from filters.modular.composition import ModularFilter
 from filters.modular.correction import correct_with
 from filters.modular.estimate import copy_estimate, empty, is_sound
-from filters.modular.history import ModularHistory
-from filters.modular.measurements import Arrivals, Measurement, arrivals
+from filters.modular.history import Estimates, ModularHistory
+from filters.modular.measurements import Measurement
 from filters.modular.problem import check_problem
 from filters.modular.running import run_kernel
 from filters.modular.space import Space
@@ -27,12 +29,14 @@ from filters.records import Estimate
 class Memory(NamedTuple):
     """The last steps, each at its number modulo their count: predictions x (count, numbers) and P (count, n, n).
 
-    known (count, sensors): which measurement of each sensor was taken in the step and has arrived; -1: none.
+    known (count, sensors): the first measurement of each sensor that was taken in the step and has arrived; then
+    (measurements,): the next of the same sensor and step; -1: none.
     """
 
     x: FloatArray
     P: FloatArray
     known: IntArray
+    then: IntArray
 
 
 class Given(NamedTuple):
@@ -41,12 +45,25 @@ class Given(NamedTuple):
     of: Space
     before: Estimate
     y: FloatArray
+    lost: Flags
     after: Estimate
 
 
 def correct(expect: Callable[..., None], view: Any, observed: Space, work: Workspace, given: Given) -> None:
     """Job: `after` is `before`, corrected by the measurement."""
-    correct_with(expect, view, observed, given.of, given.before, given.y, given.after, work)
+    correct_with(expect, view, observed, given.of, given.before, given.y, given.lost, given.after, work)
+
+
+def remember(memory: Memory, number: int, arrived: Arrivals) -> None:
+    """This measurement has arrived; it comes after those of its sensor and step that have before."""
+    step, sensor = arrived.taken[number] % memory.known.shape[0], arrived.sensor[number]
+    last = memory.known[step, sensor]
+    if last < 0:
+        memory.known[step, sensor] = number
+        return
+    while memory.then[last] >= 0:
+        last = memory.then[last]
+    memory.then[last] = number
 
 
 def filter_all(
@@ -59,7 +76,7 @@ def filter_all(
     dt: float,
     inputs: FloatArray,
     arrived: Arrivals,
-    history: ModularHistory,
+    history: Estimates,
     failure: Failure,
     work: Workspace,
     memory: Memory,
@@ -78,7 +95,7 @@ def filter_all(
             memory.known[j % count, s] = -1
         first = j
         while following < len(arrived.arrives) and arrived.arrives[following] == j:
-            memory.known[arrived.taken[following] % count, arrived.sensor[following]] = following
+            remember(memory, following, arrived)
             first = min(first, arrived.taken[following])
             following += 1
         for i in range(first, j + 1):
@@ -90,12 +107,14 @@ def filter_all(
             before, corrections = at, 0
             for s in range(sensors):
                 number = memory.known[i % count, s]
-                if number >= 0:
-                    use(places[s, 0], places[s, 1], parts, Given(of, before, arrived.y[number], corrected))
+                while number >= 0:
+                    given = Given(of, before, arrived.y[number], arrived.lost[number], corrected)
+                    use(places[s, 0], places[s, 1], parts, given)
                     if not is_sound(of, corrected, work.nn1):
                         return failed(s, i, before, corrected, failure)
                     copy_estimate(corrected, current)
                     before, corrections = current, corrections + 1
+                    number = memory.then[number]
             if corrections == 0:
                 copy_estimate(at, current)
         store_vector(current.x, history.x, j)
@@ -105,18 +124,20 @@ def filter_all(
 
 def run(
     composed: ModularFilter,
-    x0: FloatArray,
-    P0: FloatArray,
-    inputs: FloatArray,
+    x0: ArrayLike,
+    P0: ArrayLike,
+    inputs: ArrayLike,
     measurements: Iterable[Measurement],
     *,
     history: int | None = None,
+    too_old: TooOld = "refuse",
     backend: BackendName = "reference",
 ) -> ModularHistory:
     """Filter a record of data; each measurement is used from the step on in which it arrives, in whatever order.
 
     Other arguments, results and errors as in `late.run`.
     history: how many steps the filter can go back; if not given, as many as the sensors' longest delay.
+    too_old: what is done with a measurement that is older: "refuse", or "drop" it and go on.
     """
     x, P, moves = check_problem(composed, x0, P0, inputs)
     of = composed.of
@@ -125,10 +146,14 @@ def run(
         raise ValueError(
             f"history={history!r} must be a whole number, at least 0: how many steps the filter can go back"
         )
-    arrived = arrivals(composed, measurements, len(moves), depth)
+    arrived, dropped = arrivals(composed, measurements, len(moves), depth, too_old)
     count, n = min(depth, len(moves)) + 1, of.errors
     memory = Memory(
-        np.zeros((count, of.numbers)), np.zeros((count, n, n)), np.full((count, len(composed.sensors)), -1, np.int64)
+        np.zeros((count, of.numbers)),
+        np.zeros((count, n, n)),
+        np.full((count, len(composed.sensors)), -1, np.int64),
+        np.full(len(arrived.arrives), -1, np.int64),
     )
     memory.x[0], memory.P[0] = x, P
-    return run_kernel(filter_all, correct, composed, moves, arrived, (memory, empty(of), empty(of)), backend)
+    found = run_kernel(filter_all, correct, composed, moves, arrived, (memory, empty(of), empty(of)), backend)
+    return ModularHistory(found, dropped)

@@ -11,11 +11,11 @@ import numpy as np
 from filters.arrays import FloatArray
 from filters.kernels.backends import BackendName, arguments_for, function_for
 from filters.kernels.numba_error import gist, is_numbas
+from filters.modular.arrivals import Arrivals
 from filters.modular.breakdown import PREDICTOR, SOUND, breakdown, new_failure
 from filters.modular.chain import chain
 from filters.modular.composition import ModularFilter
-from filters.modular.history import ModularHistory, new_history
-from filters.modular.measurements import Arrivals
+from filters.modular.history import Estimates, new_estimates
 from filters.modular.space import space
 from filters.modular.workspace import new_workspace
 
@@ -28,7 +28,7 @@ def run_kernel(
     arrived: Arrivals,
     own: tuple[Any, ...],
     backend: BackendName,
-) -> ModularHistory:
+) -> Estimates:
     """What the kernel of a way to use late measurements leaves.
 
     kernel(predict, use, motion, parts, places, of, dt, inputs, arrived, history, failure, work, *own) returns which
@@ -39,7 +39,7 @@ def run_kernel(
         ValueError: as `running`, or an estimate breaks down; the part is named.
     """
     predictor, chained = composed.predictor, chain(correct, composed)
-    found, failure = new_history(composed.of, len(inputs)), new_failure(composed.of)
+    found, failure = new_estimates(composed.of, len(inputs)), new_failure(composed.of)
     with running():
         culprit, step = function_for(backend, kernel)(
             arguments_for(backend, predictor.predict),

@@ -51,6 +51,11 @@ def space(numbers: int, attitudes: Sequence[int] = (), angles: Sequence[int] = (
     )
 
 
+def numbers_of_errors(of: Space) -> IntArray:
+    """Of each entry of an error the index of a number of the point that it is about."""
+    return np.setdiff1d(np.arange(of.numbers), of.attitudes + 3)
+
+
 def is_point(of: Space, x: FloatArray) -> bool:
     """Whether all numbers of x (numbers,) are finite and each quaternion has a length, by which it can be divided."""
     for value in x:

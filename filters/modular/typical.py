@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from filters.arrays import FloatArray
 from filters.kernels.place import IntArray
+from filters.modular.arrivals import whole
 from filters.modular.breakdown import PREDICTOR, Failure, breakdown
 from filters.modular.check import as_numbers, check_start
 from filters.modular.composition import ModularFilter, Sensor
@@ -121,8 +122,8 @@ def _predicted(composed: ModularFilter, at: Estimate, u: FloatArray) -> Estimate
 
 def _corrected(composed: ModularFilter, sensor: Sensor, at: Estimate, y: FloatArray) -> Estimate:
     of, corrector, after = composed.of, sensor.corrector, empty(composed.of)
-    work = new_workspace(of, corrector.observed)
-    correct_with(corrector.expect, corrector.view(of.errors), corrector.observed, of, at, y, after, work)
+    view, observed = corrector.view(of.errors), corrector.observed
+    correct_with(corrector.expect, view, observed, of, at, y, whole(observed), after, new_workspace(of, observed))
     return after
 
 

@@ -120,10 +120,8 @@ Y = np.zeros(1)
             [Measurement("gps", 0, 4, Y)],
             "sensor 'gps', measurement of step 0, .* step 4: the history goes back 3 steps: give a longer history=",
         ),
-        (
-            [Measurement("gps", 2, 3, Y), Measurement("gps", 2, 4, Y)],
-            "sensor 'gps', measurement of step 2.*there are two",
-        ),
+        ([Measurement("gps", 0, 2**70, Y)], "sensor 'gps', measurement of step 0.*whole numbers below"),
+        ([Measurement("gps", 0, 1, np.array([None]).astype(float))], "sensor 'gps', .*give None for a lost number"),
         (
             [Measurement("other", 1, 1, np.array([np.nan]))],
             "sensor 'other', .* not finite; leave lost measurements out",
@@ -163,12 +161,26 @@ def test_measurements(measurements: list[Measurement], message: str) -> None:
         ({"history": 5.5}, "history=5.5 must be a whole number, at least 0"),
         ({"late": "never"}, "late='never' is unknown; give one of recalculate, larsen, dual-rate"),
         ({"late": "larsen", "history": 3}, "history=3 goes with late='recalculate'; late='larsen' goes back no step"),
+        ({"too_old": "keep"}, "too_old='keep' is unknown; give one of refuse, drop"),
+        (
+            {"late": "larsen", "too_old": "drop"},
+            "too_old='drop': for late='larsen' no measurement is too old, leave it",
+        ),
+        ({"x0": ["here", 1.0]}, "x0 is .'here', 1.0.; needed is an array of real numbers"),
+        ({"inputs": 1j * np.ones((6, 1))}, "inputs is array.*; needed is an array of real numbers"),
+        ({"inputs": None}, "predictor: B has 1 columns, but the input has 0 numbers"),
         ({"L": 3}, "L=3 goes with late='dual-rate'; late='recalculate' corrects on arrival"),
         ({"backend": "gpu"}, "backend 'gpu' is unknown"),
     ],
 )
 def test_arguments_of_a_run(change: dict[str, Any], message: str) -> None:
-    good = {"x0": GPS.x0, "P0": GPS.P0, "inputs": GPS.inputs(6), "measurements": [], "backend": "reference"}
+    good = {
+        "x0": GPS.x0,
+        "P0": GPS.P0,
+        "inputs": GPS.inputs(6),
+        "measurements": [Measurement("gps", 0, 3, Y)],
+        "backend": "reference",
+    }
     refused(message, lambda: run(GPS.composed, **{**good, **change}))
 
 
