@@ -9,6 +9,8 @@ import numpy as np
 from filters.modular.correctors import Corrector, check_noise
 from filters.modular.predictors import Predictor
 from filters.modular.space import Space, space
+from filters.modular.updates import UPDATES, UpdateName
+from filters.problem import check_choice
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,6 +58,8 @@ class ModularFilter:
 
     dt: the time of a step, in seconds, as the predictor's f gets it. of: what the state stands for; plain quantities
     if not given, as many as the predictor's noise has. In one step the sensors are used in their order.
+    update: how the covariance is corrected, "short" with the least work, or "joseph", which keeps it positive definite
+        where measurements tell far more than was known, see `updates`.
 
     Raises:
         ValueError: dt is not positive, two sensors have one name, or a part does not fit the state; it is named.
@@ -65,9 +69,16 @@ class ModularFilter:
     sensors: tuple[Sensor, ...]
     dt: float
     of: Space
+    update: UpdateName
 
     def __init__(
-        self, predictor: Predictor, sensors: tuple[Sensor, ...] | list[Sensor], dt: float = 1.0, of: Space | None = None
+        self,
+        predictor: Predictor,
+        sensors: tuple[Sensor, ...] | list[Sensor],
+        dt: float = 1.0,
+        of: Space | None = None,
+        *,
+        update: UpdateName = "short",
     ) -> None:
         if not isinstance(predictor, Predictor):
             raise ValueError(
@@ -82,6 +93,8 @@ class ModularFilter:
             raise ValueError(f"dt={dt!r} must be a number: it is the time of a step, in seconds")
         object.__setattr__(self, "dt", float(dt))
         object.__setattr__(self, "of", space(predictor.states) if of is None else of)
+        check_choice("update", update, tuple(UPDATES))
+        object.__setattr__(self, "update", update)
         self._check()
 
     def _check(self) -> None:

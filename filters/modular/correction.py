@@ -7,36 +7,30 @@ from functools import cache
 from typing import Any
 
 from filters.arrays import Flags, FloatArray
-from filters.modular.correctors import apply
-from filters.modular.space import Space
+from filters.modular.composition import ModularFilter
+from filters.modular.correctors import Corrector, estimate_error
+from filters.modular.space import Space, plus
+from filters.modular.updates import Covariance, covariance_of
 from filters.modular.workspace import Workspace
 from filters.records import Estimate
 
+Correction = Callable[[Any, Space, Space, Estimate, FloatArray, Flags, Estimate, Workspace], None]
+"""correct(view, observed, of, before, y, lost, after, work): `after` is `before`, corrected by the measurement y.
 
-def correct_with(
-    expect: Callable[..., None],
-    view: Any,
-    observed: Space,
-    of: Space,
-    before: Estimate,
-    y: FloatArray,
-    lost: Flags,
-    after: Estimate,
-    work: Workspace,
-) -> None:
-    """Job: `after` is `before`, corrected by the measurement y, of which what is lost is left out, see `apply`.
+view, observed: see `correctors.Corrector`; lost: see `correctors.estimate_error`.
+"""
 
-    expect, view, observed: see `correctors.Corrector`.
-    """
-    expect(view, observed, of, before, work)
-    apply(observed, of, before, y, lost, after, work)
+
+def correction(composed: ModularFilter, corrector: Corrector) -> Correction:
+    """The job of this corrector of the filter."""
+    return _correction_by(corrector.expect, covariance_of(composed.update, corrector.kind))
 
 
 @cache
-def correction_by(expect: Callable[..., None]) -> Callable[..., None]:
-    """`correct_with` of these correctors: numba inlines a function that a job names, but not one of its arguments.
+def _correction_by(expect: Callable[..., None], covariance: Covariance) -> Correction:
+    """Functions that a job names are inlined by numba, but not its arguments.
 
-    Same function in, same function out, so that it is compiled once.
+    Same functions in, same function out, so that it is compiled once.
     """
 
     def correct(
@@ -49,6 +43,9 @@ def correction_by(expect: Callable[..., None]) -> Callable[..., None]:
         after: Estimate,
         work: Workspace,
     ) -> None:
-        correct_with(expect, view, observed, of, before, y, lost, after, work)
+        expect(view, observed, of, before, work)
+        estimate_error(observed, of, y, lost, work)
+        plus(of, before.x, work.n1, after.x)
+        covariance(view, before.P, after.P, work)
 
     return correct

@@ -9,13 +9,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from filters.arrays import Flags, FloatArray
-from filters.kernels.dense import add_matmul_blocked, copy, matmul_blocked, matvec, mirror
+from filters.kernels.dense import copy, matmul_blocked, matvec
 from filters.kernels.place import clear
 from filters.kernels.solve import cholesky, solve_cholesky
 from filters.modular.check import as_matrix, as_noise, as_numbers
 from filters.modular.predictors import Kind, difference
 from filters.modular.sigma_points import USUAL, SigmaPoints, Weights, add_covariance, draw, mean, weights
-from filters.modular.space import Space, minus, plain, plus, space
+from filters.modular.space import Space, minus, plain, space
 from filters.modular.workspace import Workspace
 from filters.records import Estimate
 
@@ -159,10 +159,8 @@ def expect_unscented(view: UnscentedView, observed: Space, of: Space, before: Es
     add_covariance(work.seen_errors, work.errors, view.weighing, work.cross)
 
 
-def apply(
-    observed: Space, of: Space, before: Estimate, y: FloatArray, lost: Flags, after: Estimate, work: Workspace
-) -> None:
-    """The measurement y (numbers,) is used, once `expect` has run: K = cross^T S^-1, x' = x + K z, P' = P - K cross.
+def estimate_error(observed: Space, of: Space, y: FloatArray, lost: Flags, work: Workspace) -> None:
+    """K^T = S^-1 cross in gain, and the error K z that the measurement y (numbers,) tells in n1, once `expect` has run.
 
     lost (p,): what its error has no number of. y and lost may be longer: what is behind is not read.
     """
@@ -177,12 +175,6 @@ def apply(
         for r in range(1, observed.errors):
             total += work.gain[r, e] * work.z[r]
         work.n1[e] = total
-    plus(of, before.x, work.n1, after.x)
-    for e in range(of.errors):
-        for r in range(observed.errors):
-            work.K[e, r] = -work.gain[r, e]
-    add_matmul_blocked(before.P, work.K, work.cross, after.P)
-    mirror(after.P)
 
 
 def _leave_out(r: int, work: Workspace) -> None:
@@ -191,7 +183,9 @@ def _leave_out(r: int, work: Workspace) -> None:
         work.S[r, other] = work.S[other, r] = 0.0
     work.S[r, r] = 1.0
     for e in range(work.cross.shape[1]):
-        work.cross[r, e] = 0.0
+        work.cross[r, e] = work.H[r, e] = 0.0
+    for i in range(work.seen_errors.shape[0]):
+        work.seen_errors[i, r] = 0.0
     work.z[r] = 0.0
 
 

@@ -22,7 +22,7 @@ from filters.low_rate_noise import NOISE_METHODS
 from filters.modular.arrivals import Arrivals, TooOld, arrivals
 from filters.modular.breakdown import PREDICTOR, Failure, breakdown
 from filters.modular.composition import ModularFilter, Sensor
-from filters.modular.correction import correction_by
+from filters.modular.correction import correction
 from filters.modular.estimate import empty, is_sound
 from filters.modular.history import ModularHistory, new_estimates
 from filters.modular.measurements import Measurement
@@ -105,7 +105,7 @@ class LowRateTask:
         self._work = new_workspace(composed.of, corrector.observed)
         self._view = arguments_for(backend, corrector.view(composed.of.errors))
         self._propagate = function_for(backend, lr_propagate)
-        self._correct = function_for(backend, correction_by(corrector.expect))
+        self._correct = function_for(backend, correction(composed, corrector))
         self.restart(start)
 
     def restart(self, before: Estimate) -> None:

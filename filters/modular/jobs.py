@@ -10,13 +10,14 @@ from numpy.typing import ArrayLike
 
 from filters.modular.arrivals import whole
 from filters.modular.composition import ModularFilter
-from filters.modular.correction import correction_by
+from filters.modular.correction import correction
 from filters.modular.estimate import empty
+from filters.modular.larsen import larsen_correction
 from filters.modular.larsen_jobs import (
     accumulating,
     arguments_of_correction,
     arguments_of_prediction,
-    larsen_correction_by,
+    larsen_correction_from,
 )
 from filters.modular.problem import unscented_parts
 from filters.modular.space import space
@@ -50,13 +51,13 @@ def modular_jobs(
     predict = composed.predictor.predict
     jobs = [job("predict", predict, partial(_predict, composed))]
     for number, sensor in enumerate(composed.sensors):
-        correct = correction_by(sensor.corrector.expect)
+        correct = correction(composed, sensor.corrector)
         jobs.append(job(f"correct.{sensor.name}", correct, partial(_correct, composed, number)))
     if not unscented_parts(composed):
         accumulate = accumulating(predict)
         jobs.append(job("predict_accumulate", accumulate, partial(arguments_of_prediction, composed)))
         for number, sensor in enumerate(composed.sensors):
-            correct = larsen_correction_by(sensor.corrector.expect)
+            correct = larsen_correction_from(larsen_correction(composed, sensor.corrector))
             for kind, late in (("correct_accumulate", False), ("correct_late", True)):
                 arguments = partial(arguments_of_correction, composed, number, late)
                 jobs.append(job(f"{kind}.{sensor.name}", correct, arguments))

@@ -19,6 +19,7 @@ in one step may be in flight together: when one has arrived, what was known in k
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from functools import cache, partial
 from itertools import pairwise
 from typing import Any, NamedTuple
 
@@ -28,23 +29,30 @@ from numpy.typing import ArrayLike
 from filters.arrays import Flags, FloatArray
 from filters.kernels.backends import BackendName
 from filters.kernels.dense import (
+    add_matmul_blocked,
     copy,
     matmul_blocked,
     matmul_transposed_narrow,
+    matvec,
+    mirror,
     store,
     store_vector,
+    subtract,
+    transpose,
 )
 from filters.kernels.place import IntArray
 from filters.modular.arrivals import Arrivals, arrivals, chosen
 from filters.modular.breakdown import PREDICTOR, SOUND, Failure, failed
 from filters.modular.composition import ModularFilter
-from filters.modular.correctors import apply
+from filters.modular.correction import Correction, correction
+from filters.modular.correctors import Corrector, estimate_error
 from filters.modular.estimate import copy_estimate, empty, is_sound
 from filters.modular.history import Estimates, ModularHistory
 from filters.modular.measurements import Measurement
 from filters.modular.problem import check_linearised, check_problem
 from filters.modular.running import run_kernel
-from filters.modular.space import Space
+from filters.modular.space import Space, plus
+from filters.modular.updates import joseph, short
 from filters.modular.workspace import Workspace
 from filters.records import Estimate
 
@@ -81,16 +89,54 @@ def accumulate(M: FloatArray, work: Workspace) -> None:
     copy(work.nn1, M)
 
 
-def correct(expect: Callable[..., None], view: Any, observed: Space, work: Workspace, given: Given) -> None:
-    """Job: `after` is `before`, corrected by a measurement, late or not; M is kept up if one is waited for."""
-    at = given.flight.reference if given.late else given.before
-    expect(view, observed, given.of, at, work)
-    if given.late:  # the covariance of z_k with e_k becomes that with e_m, and K_k becomes M K_k
-        matmul_transposed_narrow(work.cross, given.flight.M, work.gain)
-        copy(work.gain, work.cross)
-    apply(observed, given.of, given.before, given.y, given.lost, given.after, work)
-    if given.waiting and not given.late:
-        _condition(given.flight.M, work)
+def larsen_correction(composed: ModularFilter, corrector: Corrector) -> Callable[..., None]:
+    """The job of this corrector of the filter, see `_correction_by`."""
+    late = _late_joseph if composed.update == "joseph" else _late_short
+    return _correction_by(corrector.expect, correction(composed, corrector), late)
+
+
+@cache
+def _correction_by(
+    expect: Callable[..., None], correct: Correction, correct_late: Callable[..., None]
+) -> Callable[..., None]:
+    """Job: `after` is `before`, corrected by a measurement, late or not; M is kept up if one is waited for.
+
+    Same functions in, same function out, so that it is compiled once.
+    """
+
+    def use(view: Any, observed: Space, work: Workspace, given: Given) -> None:
+        if given.late:
+            expect(view, observed, given.of, given.flight.reference, work)
+            correct_late(view, observed, work, given)
+        else:
+            correct(view, observed, given.of, given.before, given.y, given.lost, given.after, work)
+            if given.waiting:
+                _condition(given.flight.M, work)
+
+    return use
+
+
+def _late_short(view: Any, observed: Space, work: Workspace, given: Given) -> None:
+    """The covariance of z_k with e_k becomes that with e_m, and so K_k becomes M K_k."""
+    matmul_transposed_narrow(work.cross, given.flight.M, work.gain)
+    copy(work.gain, work.cross)
+    estimate_error(observed, given.of, given.y, given.lost, work)
+    plus(given.of, given.before.x, work.n1, given.after.x)
+    short(view, given.before.P, given.after.P, work)
+
+
+def _late_joseph(view: Any, observed: Space, work: Workspace, given: Given) -> None:
+    """P_m <- P_m - M (P_k - P_k') M^T, with P_k' in Joseph's form."""
+    reference, M = given.flight
+    estimate_error(observed, given.of, given.y, given.lost, work)
+    matvec(M, work.n1, work.n2)
+    plus(given.of, given.before.x, work.n2, given.after.x)
+    joseph(view, reference.P, given.after.P, work)
+    subtract(given.after.P, reference.P, work.nn1)
+    matmul_blocked(M, work.nn1, work.nn2)
+    transpose(M, work.nn3)
+    add_matmul_blocked(given.before.P, work.nn2, work.nn3, given.after.P)
+    mirror(given.after.P)
 
 
 def _condition(M: FloatArray, work: Workspace) -> None:
@@ -188,7 +234,8 @@ def run(
     _check_one_in_flight(composed, arrived, late)
     taken_late = np.bincount(arrived.taken[late], minlength=steps + 1)
     own = late, taken_late, Estimate(x, P), empty(composed.of), Flight(empty(composed.of), np.empty_like(P))
-    return ModularHistory(run_kernel(filter_all, correct, composed, moves, arrived, own, backend), ())
+    job_of = partial(larsen_correction, composed)
+    return ModularHistory(run_kernel(filter_all, job_of, composed, moves, arrived, own, backend), ())
 
 
 def _in_order_of_use(arrived: Arrivals) -> Arrivals:

@@ -14,7 +14,7 @@ from filters.kernels.dense import copy
 from filters.modular.arrivals import whole
 from filters.modular.composition import ModularFilter
 from filters.modular.estimate import empty
-from filters.modular.larsen import Flight, Given, accumulate, correct
+from filters.modular.larsen import Flight, Given, accumulate
 from filters.modular.space import Space, space
 from filters.modular.typical import Moment
 from filters.modular.workspace import Workspace, new_workspace
@@ -44,12 +44,12 @@ def accumulating(predict: Callable[..., None]) -> Callable[..., None]:
 
 
 @cache
-def larsen_correction_by(expect: Callable[..., None]) -> Callable[..., None]:
-    """`larsen.correct` of these correctors, from M (n, n). Same function in, same function out."""
+def larsen_correction_from(correct: Callable[..., None]) -> Callable[..., None]:
+    """The correction by Larsen's way, from M (n, n). Same function in, same function out."""
 
     def correct_from(view: Any, observed: Space, work: Workspace, given: Given, M: FloatArray) -> None:
         copy(M, given.flight.M)
-        correct(expect, view, observed, work, given)
+        correct(view, observed, work, given)
 
     return correct_from
 

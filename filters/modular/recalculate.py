@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from functools import cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -15,7 +16,7 @@ from filters.kernels.place import IntArray
 from filters.modular.arrivals import Arrivals, TooOld, arrivals
 from filters.modular.breakdown import PREDICTOR, SOUND, Failure, failed
 from filters.modular.composition import ModularFilter
-from filters.modular.correction import correct_with
+from filters.modular.correction import Correction, correction
 from filters.modular.estimate import copy_estimate, empty, is_sound
 from filters.modular.history import Estimates, ModularHistory
 from filters.modular.measurements import Measurement
@@ -49,9 +50,14 @@ class Given(NamedTuple):
     after: Estimate
 
 
-def correct(expect: Callable[..., None], view: Any, observed: Space, work: Workspace, given: Given) -> None:
-    """Job: `after` is `before`, corrected by the measurement."""
-    correct_with(expect, view, observed, given.of, given.before, given.y, given.lost, given.after, work)
+@cache
+def given_to(correct: Correction) -> Callable[..., None]:
+    """The correction as a link of a chain. Same function in, same function out."""
+
+    def use(view: Any, observed: Space, work: Workspace, given: Given) -> None:
+        correct(view, observed, given.of, given.before, given.y, given.lost, given.after, work)
+
+    return use
 
 
 def remember(memory: Memory, number: int, arrived: Arrivals) -> None:
@@ -155,5 +161,8 @@ def run(
         np.full(len(arrived.arrives), -1, np.int64),
     )
     memory.x[0], memory.P[0] = x, P
-    found = run_kernel(filter_all, correct, composed, moves, arrived, (memory, empty(of), empty(of)), backend)
+    own = memory, empty(of), empty(of)
+    found = run_kernel(
+        filter_all, lambda each: given_to(correction(composed, each)), composed, moves, arrived, own, backend
+    )
     return ModularHistory(found, dropped)

@@ -15,6 +15,7 @@ from filters.modular.arrivals import Arrivals
 from filters.modular.breakdown import PREDICTOR, SOUND, breakdown, new_failure
 from filters.modular.chain import chain
 from filters.modular.composition import ModularFilter
+from filters.modular.correctors import Corrector
 from filters.modular.history import Estimates, new_estimates
 from filters.modular.space import space
 from filters.modular.workspace import new_workspace
@@ -22,7 +23,7 @@ from filters.modular.workspace import new_workspace
 
 def run_kernel(
     kernel: Callable[..., tuple[int, int]],
-    correct: Callable[..., None],
+    job_of: Callable[[Corrector], Callable[..., None]],
     composed: ModularFilter,
     inputs: FloatArray,
     arrived: Arrivals,
@@ -32,13 +33,13 @@ def run_kernel(
     """What the kernel of a way to use late measurements leaves.
 
     kernel(predict, use, motion, parts, places, of, dt, inputs, arrived, history, failure, work, *own) returns which
-    part, and in which step, left an estimate that is none, or SOUND. correct: its job of one correction, see
+    part, and in which step, left an estimate that is none, or SOUND. job_of: its job of one correction, see
     `chain.chain`.
 
     Raises:
         ValueError: as `running`, or an estimate breaks down; the part is named.
     """
-    predictor, chained = composed.predictor, chain(correct, composed)
+    predictor, chained = composed.predictor, chain(job_of, composed)
     found, failure = new_estimates(composed.of, len(inputs)), new_failure(composed.of)
     with running():
         culprit, step = function_for(backend, kernel)(

@@ -13,7 +13,7 @@ from filters.modular.arrivals import whole
 from filters.modular.breakdown import PREDICTOR, Failure, breakdown
 from filters.modular.check import as_numbers, check_start
 from filters.modular.composition import ModularFilter, Sensor
-from filters.modular.correction import correct_with
+from filters.modular.correction import correction
 from filters.modular.estimate import empty, is_sound
 from filters.modular.measurements import expected_by
 from filters.modular.space import Space, plus, space
@@ -123,7 +123,8 @@ def _predicted(composed: ModularFilter, at: Estimate, u: FloatArray) -> Estimate
 def _corrected(composed: ModularFilter, sensor: Sensor, at: Estimate, y: FloatArray) -> Estimate:
     of, corrector, after = composed.of, sensor.corrector, empty(composed.of)
     view, observed = corrector.view(of.errors), corrector.observed
-    correct_with(corrector.expect, view, observed, of, at, y, whole(observed), after, new_workspace(of, observed))
+    work = new_workspace(of, observed)
+    correction(composed, corrector)(view, observed, of, at, y, whole(observed), after, work)
     return after
 
 

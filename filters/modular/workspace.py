@@ -20,11 +20,13 @@ class Workspace(NamedTuple):
     F: FloatArray
     nn1: FloatArray
     nn2: FloatArray
+    nn3: FloatArray
     points: FloatArray  # (2 n + 1, numbers of the state)
     moved: FloatArray
     errors: FloatArray  # (2 n + 1, n)
     moved_errors: FloatArray
     n1: FloatArray
+    n2: FloatArray
     H: FloatArray
     z: FloatArray
     S: FloatArray
@@ -44,11 +46,13 @@ def new_workspace(of: Space, observed: Space) -> Workspace:
         F=np.zeros((n, n)),
         nn1=np.zeros((n, n)),
         nn2=np.zeros((n, n)),
+        nn3=np.zeros((n, n)),
         points=np.zeros((count, of.numbers)),
         moved=np.zeros((count, of.numbers)),
         errors=np.zeros((count, n)),
         moved_errors=np.zeros((count, n)),
         n1=np.zeros(n),
+        n2=np.zeros(n),
         H=np.zeros((p, n)),
         z=np.zeros(p),
         S=np.zeros((p, p)),
