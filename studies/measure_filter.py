@@ -70,4 +70,10 @@ def timed_together(
 def _about(user: UserFilter, backend: Backend) -> dict[str, Any]:
     predictor = user.composed.predictor
     kinds = {sensor.name: sensor.corrector.kind for sensor in user.composed.sensors}
-    return {"backend": backend, "predictor": predictor.kind, "states": predictor.states, "sensors": kinds}
+    return {
+        "backend": backend,
+        "predictor": predictor.kind,
+        "states": predictor.states,
+        "sensors": kinds,
+        "update": user.composed.update,
+    }

@@ -173,6 +173,12 @@ def copy(A: FloatArray, out: FloatArray) -> None:
             out[i, j] = A[i, j]
 
 
+def copy_diagonal(A: FloatArray, out: FloatArray) -> None:
+    """out (n,) = the diagonal of A (n, n)."""
+    for i in range(A.shape[0]):
+        out[i] = A[i, i]
+
+
 def copy_vector(a: FloatArray, out: FloatArray) -> None:
     """out = a, for vectors (n,)."""
     for i in range(a.shape[0]):

@@ -8,8 +8,9 @@ import numpy as np
 
 from filters.arrays import FloatArray
 from filters.kernels.solve import cholesky
-from filters.modular.composition import ModularFilter
+from filters.modular.composition import ModularFilter, unscented_parts
 from filters.modular.estimate import copy_estimate, empty
+from filters.modular.kept import with_covariance
 from filters.modular.space import Space, is_point, space
 from filters.modular.workspace import Workspace, new_workspace
 from filters.records import Estimate
@@ -49,9 +50,10 @@ def failed(part: int, step: int, at: Estimate, after: Estimate, failure: Failure
 def breakdown(composed: ModularFilter, part: int, step: int, failure: Failure, u: FloatArray) -> ValueError:
     """The error that says which part of a filter failed, in which step, why, and what to do.
 
-    part: the number of a sensor, or PREDICTOR, which had the input u.
+    part: the number of a sensor, or PREDICTOR, which had the input u. failure: as the filter keeps its estimates.
     """
     with np.errstate(all="ignore"):
+        failure = Failure(*(with_covariance(composed, each) for each in failure))
         if part == PREDICTOR:
             name, cause = "predictor", _of_predictor(composed, failure, u)
         else:
@@ -67,11 +69,13 @@ def _of_predictor(composed: ModularFilter, failure: Failure, u: FloatArray) -> C
         return (
             _of_function("f(x, u, dt, out)", of, after.x, failure.at.x, u)
             or _of_jacobian("f", work.F, failure.at.x, u)
-            or _of_numbers(failure)
+            or _of_numbers(composed, failure)
         )
     if predictor.kind == "unscented":
-        return _of_points("f(x, u, dt, out)", of, predictor.motion, work, work.moved, failure, u)
-    return _of_numbers(failure)
+        return _of_points("f(x, u, dt, out)", of, predictor.motion, work, work.moved, failure, u) or _of_numbers(
+            composed, failure
+        )
+    return _of_numbers(composed, failure)
 
 
 def _of_sensor(composed: ModularFilter, number: int, failure: Failure) -> Cause:
@@ -82,11 +86,13 @@ def _of_sensor(composed: ModularFilter, number: int, failure: Failure) -> Cause:
         return (
             _of_function("h(x, out)", corrector.observed, work.expected, failure.at.x)
             or _of_jacobian("h", work.H, failure.at.x)
-            or _of_numbers(failure)
+            or _of_numbers(composed, failure)
         )
     if corrector.kind == "unscented":
-        return _of_points("h(x, out)", corrector.observed, view, work, work.seen, failure)
-    return _of_numbers(failure)
+        return _of_points("h(x, out)", corrector.observed, view, work, work.seen, failure) or _of_numbers(
+            composed, failure
+        )
+    return _of_numbers(composed, failure)
 
 
 def _of_function(name: str, of: Space, value: FloatArray, *given: FloatArray) -> Cause | None:
@@ -110,7 +116,7 @@ def _of_value(what: str, given: tuple[FloatArray, ...]) -> Cause:
 
 def _of_points(
     name: str, of: Space, unscented: Any, work: Workspace, images: FloatArray, failure: Failure, *u: FloatArray
-) -> Cause:
+) -> Cause | None:
     root = np.zeros_like(failure.at.P)
     cholesky(failure.at.P, root)
     if not np.isfinite(root).all():
@@ -129,20 +135,23 @@ def _of_points(
             "more noise (Q, R), or spread the points by merwe() with alpha = 1 and kappa = 0, which leaves no weight "
             "negative",
         )
-    return _of_numbers(failure)
+    return None
 
 
-def _of_numbers(failure: Failure) -> Cause:
+def _of_numbers(composed: ModularFilter, failure: Failure) -> Cause:
     if _has_grown(failure):
         return Cause(
             "the estimate is no longer finite: the model lets it grow beyond all numbers",
             "a sensor that sees what grows, more of its measurements, or a model that does not grow so",
         )
     variances = np.diag(failure.at.P)
+    others = {"short": ["update='joseph'"], "joseph": [], "u-d": []}[composed.update]
+    if composed.update != "u-d" and not unscented_parts(composed):
+        others = [*others, "update='u-d' (with late='recalculate')"]
     return Cause(
         f"the covariance is no longer positive definite: rounding is more than what is left of variances of "
         f"{variances.min():.3g} to {variances.max():.3g}",
-        "more noise (Q, R) or a smaller P0, so that one measurement does not tell so much",
+        ", ".join([*others, "more noise (Q, R) or a smaller P0, so that one measurement does not tell so much"]),
     )
 
 

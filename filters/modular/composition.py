@@ -58,8 +58,9 @@ class ModularFilter:
 
     dt: the time of a step, in seconds, as the predictor's f gets it. of: what the state stands for; plain quantities
     if not given, as many as the predictor's noise has. In one step the sensors are used in their order.
-    update: how the covariance is corrected, "short" with the least work, or "joseph", which keeps it positive definite
-        where measurements tell far more than was known, see `updates`.
+    update: how the covariance is corrected, "short" with the least work; "joseph", which keeps it positive definite
+        where measurements tell far more than was known, see `updates`; or "u-d", which also keeps it accurate there,
+        for linear and extended parts, see `u_d`.
 
     Raises:
         ValueError: dt is not positive, two sensors have one name, or a part does not fit the state; it is named.
@@ -93,7 +94,7 @@ class ModularFilter:
             raise ValueError(f"dt={dt!r} must be a number: it is the time of a step, in seconds")
         object.__setattr__(self, "dt", float(dt))
         object.__setattr__(self, "of", space(predictor.states) if of is None else of)
-        check_choice("update", update, tuple(UPDATES))
+        check_choice("update", update, UPDATES)
         object.__setattr__(self, "update", update)
         self._check()
 
@@ -108,6 +109,12 @@ class ModularFilter:
             )
         if self.predictor.kind == "linear" and len(self.of.attitudes):
             raise ValueError("predictor: a linear one cannot turn an attitude; make it extended or unscented")
+        if self.update == "u-d":
+            for part in unscented_parts(self):
+                raise ValueError(
+                    f"{part}: update='u-d' keeps factors, which need the matrices of linear and extended parts, and "
+                    f"this one is unscented; give update='joseph', or make it extended"
+                )
         names = [sensor.name for sensor in self.sensors]
         for sensor in self.sensors:
             if names.count(sensor.name) > 1:
@@ -124,3 +131,10 @@ class ModularFilter:
                             f"sensor {sensor.name!r}: H of a linear one sees an attitude (columns {start - at} to "
                             f"{start - at + 2}); make it extended or unscented"
                         )
+
+
+def unscented_parts(composed: ModularFilter) -> list[str]:
+    """The parts that leave no F or H, in words."""
+    parts = {"predictor": composed.predictor.kind}
+    parts |= {f"sensor {sensor.name!r}": sensor.corrector.kind for sensor in composed.sensors}
+    return [part for part, kind in parts.items() if kind == "unscented"]

@@ -8,8 +8,9 @@ from typing import Any
 
 from filters.arrays import Flags, FloatArray
 from filters.modular.composition import ModularFilter
-from filters.modular.correctors import Corrector, estimate_error
+from filters.modular.correctors import Corrector, estimate_error, observe_numeric
 from filters.modular.space import Space, plus
+from filters.modular.u_d import u_d_correction_by
 from filters.modular.updates import Covariance, covariance_of
 from filters.modular.workspace import Workspace
 from filters.records import Estimate
@@ -23,6 +24,9 @@ view, observed: see `correctors.Corrector`; lost: see `correctors.estimate_error
 
 def correction(composed: ModularFilter, corrector: Corrector) -> Correction:
     """The job of this corrector of the filter."""
+    if composed.update == "u-d":
+        assert corrector.observe is not None  # none of the parts is unscented, see `ModularFilter`
+        return u_d_correction_by(corrector.observe, corrector.observe is observe_numeric)
     return _correction_by(corrector.expect, covariance_of(composed.update, corrector.kind))
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from filters.arrays import Flags, FloatArray
-from filters.kernels.dense import copy, matmul_blocked, matvec
+from filters.kernels.dense import copy, copy_diagonal, matmul_blocked, matvec
 from filters.kernels.place import clear
 from filters.kernels.solve import cholesky, solve_cholesky
 from filters.modular.check import as_matrix, as_noise, as_numbers
@@ -26,12 +26,14 @@ Observation: TypeAlias = Callable[[FloatArray, FloatArray], None]
 class Corrector(NamedTuple):
     """expect(view, observed, of, before, work) fills `expected`, `S` and `cross` of work, and `H` unless unscented.
 
+    observe(view, observed, of, x, work): its part that fills `expected` and `H`; None if it is unscented.
     view(n): the model that expect takes, for a state whose error has length n; raises ValueError if it does not fit.
     observed: what a measurement stands for; of: what the state stands for. R (p, p): of the measurement's error.
     """
 
     kind: Kind
     expect: Callable[..., None]
+    observe: Callable[..., None] | None
     view: Callable[[int], Any]
     observed: Space
     R: FloatArray
@@ -79,7 +81,7 @@ def linear_corrector(H: ArrayLike, R: ArrayLike) -> Corrector:
     def view(n: int) -> LinearView:
         return LinearView(as_matrix("H", matrix, (len(noise), n)), noise)
 
-    return Corrector("linear", expect_linear, view, seen, noise)
+    return Corrector("linear", expect_linear, observe_linear, view, seen, noise)
 
 
 def extended_corrector(
@@ -94,9 +96,11 @@ def extended_corrector(
     """
     noise, seen = _noise_and_space(R, observed)
     if jacobian is None:
-        return Corrector("extended", expect_numeric, lambda _n: NumericView(h, noise), seen, noise)
+        return Corrector("extended", expect_numeric, observe_numeric, lambda _n: NumericView(h, noise), seen, noise)
     given = jacobian
-    return Corrector("extended", expect_extended, lambda _n: ExtendedView(h, given, noise), seen, noise)
+    return Corrector(
+        "extended", expect_extended, observe_extended, lambda _n: ExtendedView(h, given, noise), seen, noise
+    )
 
 
 def unscented_corrector(
@@ -104,7 +108,9 @@ def unscented_corrector(
 ) -> Corrector:
     """Any observation, of 2 n + 1 sigma points. h, R, observed as in `extended_corrector`."""
     noise, seen = _noise_and_space(R, observed)
-    return Corrector("unscented", expect_unscented, lambda n: UnscentedView(h, weights(points, n), noise), seen, noise)
+    return Corrector(
+        "unscented", expect_unscented, None, lambda n: UnscentedView(h, weights(points, n), noise), seen, noise
+    )
 
 
 def check_noise(corrector: Corrector) -> None:
@@ -118,33 +124,46 @@ def check_noise(corrector: Corrector) -> None:
     as_noise("R", corrector.R)
 
 
-def expect_linear(view: LinearView, _observed: Space, of: Space, before: Estimate, work: Workspace) -> None:
-    """H x and, as for all linearised ones, S = H P H^T + R and H P."""
-    plain(of, before.x, work.n1)
+def observe_linear(view: LinearView, _observed: Space, of: Space, x: FloatArray, work: Workspace) -> None:
+    """H x, and H."""
+    plain(of, x, work.n1)
     matvec(view.H, work.n1, work.expected)
     copy(view.H, work.H)
-    _project(view.R, before.P, work)
 
 
-def expect_extended(view: ExtendedView, _observed: Space, _of: Space, before: Estimate, work: Workspace) -> None:
+def observe_extended(view: ExtendedView, _observed: Space, _of: Space, x: FloatArray, work: Workspace) -> None:
     """h(x), and H its Jacobian at x."""
-    view.h(before.x, work.expected)
-    view.jacobian(before.x, work.H)
-    _project(view.R, before.P, work)
+    view.h(x, work.expected)
+    view.jacobian(x, work.H)
 
 
-def expect_numeric(view: NumericView, observed: Space, of: Space, before: Estimate, work: Workspace) -> None:
-    """As `expect_extended`, H by central differences of h."""
-    view.h(before.x, work.expected)
+def observe_numeric(view: NumericView, observed: Space, of: Space, x: FloatArray, work: Workspace) -> None:
+    """As `observe_extended`, H by central differences of h; work has the variances of x."""
+    view.h(x, work.expected)
     for i in range(of.errors):
-        step = difference(of, before, i, work)
+        step = difference(of, x, i, work)
         view.h(work.points[0], work.seen[0])
         view.h(work.points[1], work.seen[1])
         minus(observed, work.seen[0], work.seen[1], work.z)
         scale = 0.5 / step
         for r in range(observed.errors):
             work.H[r, i] = scale * work.z[r]
-    _project(view.R, before.P, work)
+
+
+def _expectation_by(observe: Callable[..., None]) -> Callable[..., None]:
+    """`expect` of a linear or extended corrector: also S = H P H^T + R and H P."""
+
+    def expect(view: Any, observed: Space, of: Space, before: Estimate, work: Workspace) -> None:
+        copy_diagonal(before.P, work.variances)
+        observe(view, observed, of, before.x, work)
+        _project(view.R, before.P, work)
+
+    return expect
+
+
+expect_linear = _expectation_by(observe_linear)
+expect_extended = _expectation_by(observe_extended)
+expect_numeric = _expectation_by(observe_numeric)
 
 
 def expect_unscented(view: UnscentedView, observed: Space, of: Space, before: Estimate, work: Workspace) -> None:
@@ -167,7 +186,7 @@ def estimate_error(observed: Space, of: Space, y: FloatArray, lost: Flags, work:
     minus(observed, y, work.expected, work.z)
     for r in range(observed.errors):
         if lost[r]:
-            _leave_out(r, work)
+            leave_out(r, work)
     cholesky(work.S, work.pp1)
     solve_cholesky(work.pp1, work.cross, work.gain)
     for e in range(of.errors):
@@ -177,7 +196,7 @@ def estimate_error(observed: Space, of: Space, y: FloatArray, lost: Flags, work:
         work.n1[e] = total
 
 
-def _leave_out(r: int, work: Workspace) -> None:
+def leave_out(r: int, work: Workspace) -> None:
     """Row r of a measurement says nothing: the others are corrected with as if it were not there."""
     for other in range(work.S.shape[0]):
         work.S[r, other] = work.S[other, r] = 0.0

@@ -9,9 +9,10 @@ from typing import Any
 from numpy.typing import ArrayLike
 
 from filters.modular.arrivals import whole
-from filters.modular.composition import ModularFilter
+from filters.modular.composition import ModularFilter, unscented_parts
 from filters.modular.correction import correction
 from filters.modular.estimate import empty
+from filters.modular.kept import keep
 from filters.modular.larsen import larsen_correction
 from filters.modular.larsen_jobs import (
     accumulating,
@@ -19,7 +20,7 @@ from filters.modular.larsen_jobs import (
     arguments_of_prediction,
     larsen_correction_from,
 )
-from filters.modular.problem import unscented_parts
+from filters.modular.prediction import prediction
 from filters.modular.space import space
 from filters.modular.typical import Moment, near, typical_moment
 from filters.modular.workspace import new_workspace
@@ -35,8 +36,8 @@ def modular_jobs(
 ) -> dict[str, Job]:
     """The jobs by part of the filter: "predict", and "correct.NAME" for each sensor. See `registry.Job`.
 
-    Where no part is unscented, also those of Larsen's way with late measurements: "predict_accumulate", and for each
-    sensor "correct_accumulate.NAME" and "correct_late.NAME".
+    Where no part is unscented and the covariance is not kept as factors, also those of Larsen's way with late
+    measurements: "predict_accumulate", and for each sensor "correct_accumulate.NAME" and "correct_late.NAME".
 
     x0, P0, u: a typical state and covariance to start from, and a typical input, see `typical.typical_moment`.
 
@@ -48,12 +49,12 @@ def modular_jobs(
     def job(kind: str, function: Callable[..., None], arguments: Callable[[Moment], tuple[Any, ...]]) -> Job:
         return Job(kind, function, lambda index: arguments(near(composed, typical, seed, index)))
 
-    predict = composed.predictor.predict
+    predict = prediction(composed)
     jobs = [job("predict", predict, partial(_predict, composed))]
     for number, sensor in enumerate(composed.sensors):
         correct = correction(composed, sensor.corrector)
         jobs.append(job(f"correct.{sensor.name}", correct, partial(_correct, composed, number)))
-    if not unscented_parts(composed):
+    if not unscented_parts(composed) and composed.update != "u-d":
         accumulate = accumulating(predict)
         jobs.append(job("predict_accumulate", accumulate, partial(arguments_of_prediction, composed)))
         for number, sensor in enumerate(composed.sensors):
@@ -66,11 +67,11 @@ def modular_jobs(
 
 def _predict(composed: ModularFilter, at: Moment) -> tuple[Any, ...]:
     of, motion = composed.of, composed.predictor.motion
-    return motion, of, at.estimate, at.u, composed.dt, empty(of), new_workspace(of, space(0))
+    return motion, of, keep(composed, at.estimate), at.u, composed.dt, empty(of), new_workspace(of, space(0))
 
 
 def _correct(composed: ModularFilter, number: int, at: Moment) -> tuple[Any, ...]:
     of, corrector = composed.of, composed.sensors[number].corrector
     view, observed = corrector.view(of.errors), corrector.observed
     work = new_workspace(of, observed)
-    return view, observed, of, at.estimate, at.y[number], whole(observed), empty(of), work
+    return view, observed, of, keep(composed, at.estimate), at.y[number], whole(observed), empty(of), work

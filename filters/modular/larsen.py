@@ -46,7 +46,7 @@ from filters.modular.breakdown import PREDICTOR, SOUND, Failure, failed
 from filters.modular.composition import ModularFilter
 from filters.modular.correction import Correction, correction
 from filters.modular.correctors import Corrector, estimate_error
-from filters.modular.estimate import copy_estimate, empty, is_sound
+from filters.modular.estimate import copy_estimate, empty
 from filters.modular.history import Estimates, ModularHistory
 from filters.modular.measurements import Measurement
 from filters.modular.problem import check_linearised, check_problem
@@ -152,6 +152,7 @@ def _condition(M: FloatArray, work: Workspace) -> None:
 def filter_all(
     predict: Callable[..., None],
     use: Callable[..., None],
+    is_sound: Callable[..., bool],
     motion: Any,
     parts: Any,
     places: IntArray,

@@ -9,7 +9,16 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from filters.arrays import FloatArray
-from filters.kernels.dense import add_matmul_blocked, add_matvec, copy, matmul_blocked, matvec, mirror, transpose
+from filters.kernels.dense import (
+    add_matmul_blocked,
+    add_matvec,
+    copy,
+    copy_diagonal,
+    matmul_blocked,
+    matvec,
+    mirror,
+    transpose,
+)
 from filters.modular.check import as_covariance, as_matrix
 from filters.modular.sigma_points import USUAL, SigmaPoints, Weights, add_covariance, draw, mean, weights
 from filters.modular.space import Space, minus, plus
@@ -27,12 +36,14 @@ DIFFERENCE = 1e-3
 class Predictor(NamedTuple):
     """predict(motion, of, before, u, dt, after, work) fills `after` from `before`; motion: the model that it takes.
 
+    evolve(motion, of, x, u, dt, x_next, work): its part that leaves F in work; None if it is unscented.
     states: the length of the state's error.
     """
 
     kind: Kind
     states: int
     predict: Callable[..., None]
+    evolve: Callable[..., None] | None
     motion: Any
 
 
@@ -77,7 +88,7 @@ def linear_predictor(F: ArrayLike, Q: ArrayLike, B: ArrayLike | None = None) -> 
     n = len(noise)
     motion = as_matrix("linear_predictor: F", F, (n, n))
     entry = np.zeros((n, 0)) if B is None else as_matrix("linear_predictor: B", B, (n, None))
-    return Predictor("linear", n, predict_linear, LinearMotion(motion, entry, noise))
+    return Predictor("linear", n, predict_linear, evolve_linear, LinearMotion(motion, entry, noise))
 
 
 def extended_predictor(f: Evolution, Q: ArrayLike, jacobian: Evolution | None = None) -> Predictor:
@@ -92,8 +103,8 @@ def extended_predictor(f: Evolution, Q: ArrayLike, jacobian: Evolution | None = 
     """
     noise = as_covariance("extended_predictor: Q", Q)
     if jacobian is None:
-        return Predictor("extended", len(noise), predict_numeric, NumericMotion(f, noise))
-    return Predictor("extended", len(noise), predict_extended, ExtendedMotion(f, jacobian, noise))
+        return Predictor("extended", len(noise), predict_numeric, evolve_numeric, NumericMotion(f, noise))
+    return Predictor("extended", len(noise), predict_extended, evolve_extended, ExtendedMotion(f, jacobian, noise))
 
 
 def unscented_predictor(f: Evolution, Q: ArrayLike, points: SigmaPoints = USUAL) -> Predictor:
@@ -104,76 +115,74 @@ def unscented_predictor(f: Evolution, Q: ArrayLike, points: SigmaPoints = USUAL)
     """
     noise = as_covariance("unscented_predictor: Q", Q)
     weighing = weights(points, len(noise))
-    return Predictor("unscented", len(noise), predict_unscented, UnscentedMotion(f, weighing, noise))
+    return Predictor("unscented", len(noise), predict_unscented, None, UnscentedMotion(f, weighing, noise))
 
 
-def predict_linear(
-    motion: LinearMotion,
-    _of: Space,
-    before: Estimate,
-    u: FloatArray,
-    _dt: float,
-    after: Estimate,
-    work: Workspace,
+def evolve_linear(
+    motion: LinearMotion, _of: Space, x: FloatArray, u: FloatArray, _dt: float, x_next: FloatArray, work: Workspace
 ) -> None:
-    """Job: x' = F x + B u, P' = F P F^T + Q."""
-    matvec(motion.F, before.x, after.x)
-    add_matvec(motion.B, u, after.x)
+    """x' = F x + B u; F."""
+    matvec(motion.F, x, x_next)
+    add_matvec(motion.B, u, x_next)
     copy(motion.F, work.F)
-    propagate(motion.Q, before.P, after.P, work)
 
 
-def predict_extended(
-    motion: ExtendedMotion,
-    _of: Space,
-    before: Estimate,
-    u: FloatArray,
-    dt: float,
-    after: Estimate,
-    work: Workspace,
+def evolve_extended(
+    motion: ExtendedMotion, _of: Space, x: FloatArray, u: FloatArray, dt: float, x_next: FloatArray, work: Workspace
 ) -> None:
-    """Job: x' = f(x, u), P' = F P F^T + Q with the Jacobian F at x."""
-    motion.f(before.x, u, dt, after.x)
-    motion.jacobian(before.x, u, dt, work.F)
-    propagate(motion.Q, before.P, after.P, work)
+    """x' = f(x, u), and F the Jacobian at x."""
+    motion.f(x, u, dt, x_next)
+    motion.jacobian(x, u, dt, work.F)
 
 
-def predict_numeric(
-    motion: NumericMotion,
-    of: Space,
-    before: Estimate,
-    u: FloatArray,
-    dt: float,
-    after: Estimate,
-    work: Workspace,
+def evolve_numeric(
+    motion: NumericMotion, of: Space, x: FloatArray, u: FloatArray, dt: float, x_next: FloatArray, work: Workspace
 ) -> None:
-    """Job: as `predict_extended`, F by central differences of f."""
-    motion.f(before.x, u, dt, after.x)
+    """As `evolve_extended`, F by central differences of f; work has the variances of x."""
+    motion.f(x, u, dt, x_next)
     for i in range(of.errors):
-        step = difference(of, before, i, work)
+        step = difference(of, x, i, work)
         motion.f(work.points[0], u, dt, work.moved[0])
         motion.f(work.points[1], u, dt, work.moved[1])
         minus(of, work.moved[0], work.moved[1], work.n1)
         scale = 0.5 / step
         for e in range(of.errors):
             work.F[e, i] = scale * work.n1[e]
-    propagate(motion.Q, before.P, after.P, work)
 
 
-def difference(of: Space, at: Estimate, i: int, work: Workspace) -> float:
+def _prediction_by(evolve: Callable[..., None]) -> Callable[..., None]:
+    """The job of a linear or extended predictor: x', and P' = F P F^T + Q."""
+
+    def predict(
+        motion: Any, of: Space, before: Estimate, u: FloatArray, dt: float, after: Estimate, work: Workspace
+    ) -> None:
+        copy_diagonal(before.P, work.variances)
+        evolve(motion, of, before.x, u, dt, after.x, work)
+        propagate(motion.Q, before.P, after.P, work)
+
+    return predict
+
+
+predict_linear = _prediction_by(evolve_linear)
+predict_extended = _prediction_by(evolve_extended)
+predict_numeric = _prediction_by(evolve_numeric)
+
+
+def difference(of: Space, x: FloatArray, i: int, work: Workspace) -> float:
     """points[0] and points[1] of work = the point moved along error i, by the step that is returned and its negative.
 
-    A small share of the standard deviation: as long as the errors that the filter expects, whatever their unit.
+    A small share of the standard deviation: as long as the errors that the filter expects, whatever their unit. work
+    has the variances.
     """
-    step: float = DIFFERENCE * np.sqrt(at.P[i, i])
+    step: float = DIFFERENCE * np.sqrt(work.variances[i])
     if not step > 0.0:
         step = DIFFERENCE
     for e in range(of.errors):
         work.n1[e] = 0.0
     work.n1[i] = step
-    plus(of, at.x, work.n1, work.points[0])
+    plus(of, x, work.n1, work.points[0])
     work.n1[i] = -step
-    plus(of, at.x, work.n1, work.points[1])
+    plus(of, x, work.n1, work.points[1])
     return step
 
 

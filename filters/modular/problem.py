@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike
 
 from filters.arrays import FloatArray
 from filters.modular.check import as_numbers, check_start
-from filters.modular.composition import ModularFilter
+from filters.modular.composition import ModularFilter, unscented_parts
 from filters.modular.trial import try_functions
 from filters.records import Estimate
 
@@ -33,15 +33,16 @@ def check_problem(
     return x, P, rows
 
 
-def unscented_parts(composed: ModularFilter) -> list[str]:
-    """The parts that leave no F or H, in words."""
-    parts = {"predictor": composed.predictor.kind}
-    parts |= {f"sensor {sensor.name!r}": sensor.corrector.kind for sensor in composed.sensors}
-    return [part for part, kind in parts.items() if kind == "unscented"]
-
-
 def check_linearised(composed: ModularFilter, late: str) -> None:
-    """Raises ValueError, naming the part, if one is unscented: `late`, the way to use late measurements, needs F, H."""
+    """Raises ValueError, naming the part, if one is unscented: `late`, the way to use late measurements, needs F, H.
+
+    So does update='u-d', for `late` needs the covariance itself.
+    """
+    if composed.update == "u-d":
+        raise ValueError(
+            f"update='u-d' keeps factors of the covariance, and late={late!r} works on the covariance; use "
+            f"late='recalculate', or update='joseph'"
+        )
     for part in unscented_parts(composed):
         raise ValueError(
             f"{part}: late={late!r} needs the matrices of linear and extended parts, and this one is unscented; "

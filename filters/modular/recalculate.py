@@ -17,8 +17,9 @@ from filters.modular.arrivals import Arrivals, TooOld, arrivals
 from filters.modular.breakdown import PREDICTOR, SOUND, Failure, failed
 from filters.modular.composition import ModularFilter
 from filters.modular.correction import Correction, correction
-from filters.modular.estimate import copy_estimate, empty, is_sound
+from filters.modular.estimate import copy_estimate, empty
 from filters.modular.history import Estimates, ModularHistory
+from filters.modular.kept import keep
 from filters.modular.measurements import Measurement
 from filters.modular.problem import check_problem
 from filters.modular.running import run_kernel
@@ -75,6 +76,7 @@ def remember(memory: Memory, number: int, arrived: Arrivals) -> None:
 def filter_all(
     predict: Callable[..., None],
     use: Callable[..., None],
+    is_sound: Callable[..., bool],
     motion: Any,
     parts: Any,
     places: IntArray,
@@ -160,7 +162,7 @@ def run(
         np.full((count, len(composed.sensors)), -1, np.int64),
         np.full(len(arrived.arrives), -1, np.int64),
     )
-    memory.x[0], memory.P[0] = x, P
+    memory.x[0], memory.P[0] = keep(composed, Estimate(x, P))
     own = memory, empty(of), empty(of)
     found = run_kernel(
         filter_all, lambda each: given_to(correction(composed, each)), composed, moves, arrived, own, backend

@@ -17,6 +17,8 @@ from filters.modular.chain import chain
 from filters.modular.composition import ModularFilter
 from filters.modular.correctors import Corrector
 from filters.modular.history import Estimates, new_estimates
+from filters.modular.kept import kept_by
+from filters.modular.prediction import prediction
 from filters.modular.space import space
 from filters.modular.workspace import new_workspace
 
@@ -32,20 +34,21 @@ def run_kernel(
 ) -> Estimates:
     """What the kernel of a way to use late measurements leaves.
 
-    kernel(predict, use, motion, parts, places, of, dt, inputs, arrived, history, failure, work, *own) returns which
-    part, and in which step, left an estimate that is none, or SOUND. job_of: its job of one correction, see
+    kernel(predict, use, is_sound, motion, parts, places, of, dt, inputs, arrived, history, failure, work, *own) returns
+    which part, and in which step, left an estimate that is none, or SOUND. job_of: its job of one correction, see
     `chain.chain`.
 
     Raises:
         ValueError: as `running`, or an estimate breaks down; the part is named.
     """
-    predictor, chained = composed.predictor, chain(job_of, composed)
+    chained, kept = chain(job_of, composed), kept_by(composed)
     found, failure = new_estimates(composed.of, len(inputs)), new_failure(composed.of)
     with running():
         culprit, step = function_for(backend, kernel)(
-            arguments_for(backend, predictor.predict),
+            arguments_for(backend, prediction(composed)),
             arguments_for(backend, chained.use),
-            arguments_for(backend, predictor.motion),
+            arguments_for(backend, kept.is_sound),
+            arguments_for(backend, composed.predictor.motion),
             arguments_for(backend, chained.parts),
             chained.places,
             composed.of,
@@ -59,6 +62,9 @@ def run_kernel(
         )
     if culprit != SOUND:
         raise breakdown(composed, culprit, step, failure, inputs[step - 1] if culprit == PREDICTOR else np.empty(0))
+    covariance = function_for(backend, kept.covariance)
+    for P in found.P:
+        covariance(P.copy(), P)
     return found
 
 

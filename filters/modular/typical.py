@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -81,6 +82,8 @@ def drawn(of: Space, point: FloatArray, covariance: FloatArray, random: np.rando
 
 
 def _warmed_up(composed: ModularFilter, start: Estimate, u: FloatArray, random: np.random.Generator) -> Estimate:
+    if composed.update == "u-d":  # on the covariance itself, for it is far from rounding
+        composed = replace(composed, update="joseph")
     of, at = composed.of, start
     truth = drawn(of, at.x, at.P, random)
     for step in range(WARM_UP):

@@ -1,4 +1,4 @@
-"""How the covariance is corrected: in the shortest form, or in Joseph's.
+"""How the covariance is corrected: in the shortest form, or in Joseph's; for factors of it see `u_d`.
 
 Each writes P' (n, n), which is symmetric to the last digit, once `correctors.estimate_error` has left the gain K^T.
 view: the corrector's, see `correctors.Corrector`. Bucy and Joseph, Filtering for stochastic processes with applications
@@ -8,7 +8,7 @@ to guidance, 1968.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, Literal, NamedTuple, TypeAlias
+from typing import Any, Literal, TypeAlias
 
 from filters.arrays import FloatArray
 from filters.kernels.dense import add_matmul_blocked, matmul_blocked, mirror, transpose
@@ -17,7 +17,8 @@ from filters.modular.predictors import Kind
 from filters.modular.sigma_points import add_covariance
 from filters.modular.workspace import Workspace
 
-UpdateName: TypeAlias = Literal["short", "joseph"]
+UpdateName: TypeAlias = Literal["short", "joseph", "u-d"]
+UPDATES: tuple[UpdateName, ...] = ("short", "joseph", "u-d")
 Covariance: TypeAlias = Callable[[Any, FloatArray, FloatArray, Workspace], None]
 
 
@@ -69,20 +70,8 @@ def _add_noise(R: FloatArray, out: FloatArray, work: Workspace) -> None:
     add_matmul_blocked(out, work.K, work.cross, out)
 
 
-class UpdateForm(NamedTuple):
-    """covariance(view, P, out, work): for linear and extended correctors; of_points: for unscented ones."""
-
-    covariance: Covariance
-    of_points: Covariance
-
-
-UPDATES: dict[UpdateName, UpdateForm] = {
-    "short": UpdateForm(short, short),
-    "joseph": UpdateForm(joseph, joseph_of_points),
-}
-
-
 def covariance_of(update: UpdateName, kind: Kind) -> Covariance:
-    """How the covariance is corrected by a corrector of this kind."""
-    form = UPDATES[update]
-    return form.of_points if kind == "unscented" else form.covariance
+    """How the covariance, not factors of it, is corrected by a corrector of this kind."""
+    if update == "short":
+        return short
+    return joseph_of_points if kind == "unscented" else joseph

@@ -27,6 +27,10 @@ class Workspace(NamedTuple):
     moved_errors: FloatArray
     n1: FloatArray
     n2: FloatArray
+    variances: FloatArray  # (n,), of the state, for differences
+    V: FloatArray  # (n, 2 n), of factors
+    weights: FloatArray  # (2 n,)
+    weighted: FloatArray
     H: FloatArray
     z: FloatArray
     S: FloatArray
@@ -34,6 +38,7 @@ class Workspace(NamedTuple):
     gain: FloatArray
     K: FloatArray  # (n, p)
     pp1: FloatArray
+    noises: FloatArray  # (p,)
     expected: FloatArray  # (numbers of the measurement,)
     seen: FloatArray  # (2 n + 1, numbers of the measurement)
     seen_errors: FloatArray  # (2 n + 1, p)
@@ -53,6 +58,10 @@ def new_workspace(of: Space, observed: Space) -> Workspace:
         moved_errors=np.zeros((count, n)),
         n1=np.zeros(n),
         n2=np.zeros(n),
+        variances=np.zeros(n),
+        V=np.zeros((n, 2 * n)),
+        weights=np.zeros(2 * n),
+        weighted=np.zeros(2 * n),
         H=np.zeros((p, n)),
         z=np.zeros(p),
         S=np.zeros((p, p)),
@@ -60,6 +69,7 @@ def new_workspace(of: Space, observed: Space) -> Workspace:
         gain=np.zeros((p, n)),
         K=np.zeros((n, p)),
         pp1=np.zeros((p, p)),
+        noises=np.zeros(p),
         expected=np.zeros(observed.numbers),
         seen=np.zeros((count, observed.numbers)),
         seen_errors=np.zeros((count, p)),

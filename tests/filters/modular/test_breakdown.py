@@ -42,13 +42,15 @@ def filtered(
     x0: Any = (0.5, 0.5),
     late: Late = "recalculate",
     every: int = 1,
+    P0: float = 1.0,
+    **options: Any,
 ) -> None:
     """With a measurement in the first step and each so many later, and the number of the step as input."""
     of = space(7, attitudes=[0]) if predictor.states == 6 else None
-    composed = ModularFilter(predictor, [Sensor("s", corrector)], of=of)
+    composed = ModularFilter(predictor, [Sensor("s", corrector)], of=of, **options)
     inputs = np.arange(float(steps))[:, None]
     measurements = [Measurement("s", k, k, np.zeros(corrector.observed.numbers)) for k in range(0, steps, every)]
-    run(composed, x0, np.eye(predictor.states), inputs, measurements, late=late, backend="reference")
+    run(composed, x0, P0 * np.eye(predictor.states), inputs, measurements, late=late, backend="reference")
 
 
 def refused(message: str, *parts: Any, **options: Any) -> None:
@@ -170,15 +172,18 @@ def test_sigma_points_of_a_singular_covariance_and_that_the_remedy_helps() -> No
 
 
 @pytest.mark.parametrize("late", WAYS)
-def test_a_covariance_that_is_lost_to_rounding_and_that_the_remedy_helps(late: Late) -> None:
-    """Two numbers tell 1e17 times as much as was known: what is left is less than the last digit of what was."""
-    tilted = [[1.0, 1.0], [1.0, 1.0 + 1e-7]]
-    sharp, blunt = (linear_corrector(tilted, variance * np.eye(2)) for variance in (1e-18, 1e-3))
+def test_a_covariance_that_is_lost_to_rounding_and_that_each_remedy_helps(late: Late) -> None:
+    """A measurement tells 1e18 times as much as was known: what is left is less than the last digit of what was."""
+    moving = linear_predictor([[1.0, 0.01], [0.0, 1.0]], 1e-12 * np.eye(2))
+    sharp, blunt = linear_corrector([[1.0, 0.0]], [[1e-8]]), linear_corrector([[1.0, 0.0]], [[1e2]])
     message = (
-        r"sensor 's', step 0: the covariance is no longer positive definite: rounding .* of 1 to 1; give more noise"
+        "sensor 's', step 0: the covariance is no longer .*: rounding .* of 1e.10 to 1e.10; give update='joseph', "
     )
-    refused(message, STILL, sharp, late=late)
-    filtered(STILL, blunt, late=late)
+    refused(message, moving, sharp, P0=1e10, late=late)
+    filtered(moving, blunt, P0=1e10, late=late)
+    filtered(moving, sharp, P0=1.0, late=late)
+    filtered(moving, sharp, P0=1e10, late=late, update="joseph")
+    filtered(moving, sharp, P0=1e10, late="recalculate", update="u-d")
 
 
 def test_an_attitude_without_length() -> None:
