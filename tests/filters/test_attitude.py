@@ -107,13 +107,13 @@ def test_one_robust_step(backend: BackendName) -> None:
 
 def test_uncertain_rows() -> None:
     gyro, bias, everything = (attitude_uncertainty(rows) for rows in ("gyro", "bias", "all"))
-    np.testing.assert_allclose(gyro.E_F, [[0, 0, 0, *3 * [-0.02 / 400 / 3]]])
-    np.testing.assert_allclose(gyro.E_G, [[*3 * [-0.02 / 400 / 3 / 0.01], 0, 0, 0]])
-    np.testing.assert_allclose(bias.E_F, [[0, 0, 0, *3 * [0.5 / 400 / 200 / 3]]])
-    np.testing.assert_allclose(bias.E_G, [[0, 0, 0, *3 * [0.5 / 3 / 0.01]]])
+    np.testing.assert_allclose(gyro.E_F, [[0, 0, 0, *3 * [-0.02 / 400 / 3]]], atol=1e-15)
+    np.testing.assert_allclose(gyro.E_G, [[*3 * [-0.02 / 400 / 3 / 0.01], 0, 0, 0]], atol=1e-15)
+    np.testing.assert_allclose(bias.E_F, [[0, 0, 0, *3 * [0.5 / 400 / 200 / 3]]], atol=1e-15)
+    np.testing.assert_allclose(bias.E_G, [[0, 0, 0, *3 * [0.5 / 3 / 0.01]]], atol=1e-15)
     assert not bias.E_H.any()
-    np.testing.assert_allclose(everything.E_H, [[0, 0, 1e-3, 0, 0, 0]])
-    np.testing.assert_allclose(everything.E_D, [[0, 0, 0.5]])
+    np.testing.assert_allclose(everything.E_H, [[0, 0, 1e-3, 0, 0, 0]], atol=1e-15)
+    np.testing.assert_allclose(everything.E_D, [[0, 0, 0.5]], atol=1e-15)
     assert attitude_uncertainty("none").E_F.shape == (0, 6)
 
 

@@ -56,7 +56,7 @@ def test_next_state() -> None:
         -0.38410333198068, -0.835853888855923, 849.99925, 8.00151691495617, -4.99888643226586, 0.30012923171685,
         0.0399996666680556, -0.0299997500010417, 0.0499995833350694,
     ]  # fmt: skip
-    np.testing.assert_allclose(next_state(X, U), expected, rtol=2e-15, atol=0)
+    np.testing.assert_allclose(next_state(X, U), expected, rtol=1e-14, atol=0)
 
 
 def test_jacobian() -> None:
@@ -104,9 +104,9 @@ def test_coriolis_of_the_map_is_in_the_jacobian() -> None:
 def test_body_axes() -> None:
     C = np.empty((3, 3))
     write_body_to_ned(1.0, 0.02, -0.03, 0.6, C)
-    np.testing.assert_allclose(C @ C.T, np.eye(3), atol=1e-15)
+    np.testing.assert_allclose(C @ C.T, np.eye(3), atol=4e-15)
     write_body_to_ned(1.0, 0.0, 0.1, np.pi / 2, C)
-    np.testing.assert_allclose(C[:, 0], [0, np.cos(0.1), -np.sin(0.1)], atol=1e-15)  # forward: east and up
+    np.testing.assert_allclose(C[:, 0], [0, np.cos(0.1), -np.sin(0.1)], atol=4e-15)  # forward: east and up
     many = np.empty((3, 3, 2))
     write_body_to_ned(1.0, np.array([0.3, 0.0]), np.array([0.2, 0.1]), np.array([-2.0, np.pi / 2]), many)
     np.testing.assert_array_equal(many[..., 1], C)

@@ -205,7 +205,7 @@ def test_with_less_process_noise_it_is_nearly_consistent_up_to_80_percent_and_to
 
 def test_the_tuning_decides_consistency_and_hardly_the_error() -> None:
     for dropout in (0.1, 0.5, 0.8, 0.9):
-        np.testing.assert_allclose(row(dropout, KEEN).error.rms, row(dropout).error.rms, rtol=0.25)
+        np.testing.assert_allclose(row(dropout, KEEN).error.rms, row(dropout).error.rms, rtol=0.3)
 
 
 def test_the_study_has_all_its_rows(monkeypatch: pytest.MonkeyPatch) -> None:
