@@ -3,7 +3,7 @@ in flight. On average over one whole pattern of the sensors; of a very long patt
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from math import lcm
 from typing import NamedTuple, TypeAlias
 
@@ -24,14 +24,14 @@ RAREST = 1 << 40
 
 
 class GoingBack(NamedTuple):
-    """What a sensor's corrections do in an HR step, on average; those that go together count for the first of them.
+    """What a sensor's corrections do in an HR step, on average; late ones that go together count for the first of them.
 
-    jobs: how many start; steps: how many they predict again; corrections: how many of each sensor they make again.
+    jobs: how many start; work: to predict and correct again; most: of this in one job, with delays that are certain.
     """
 
     jobs: float
-    steps: float
-    corrections: list[float]
+    work: float
+    most: float
 
 
 class Arrivals:
@@ -80,63 +80,64 @@ def _arrivals(sensors: Sequence[Sensor]) -> list[Arrivals]:
     return [Arrivals(sensor, longest) for sensor in sensors]
 
 
-def going_back(sensors: Sequence[Sensor]) -> list[GoingBack]:
+def going_back(sensors: Sequence[Sensor], predict: float, corrections: Sequence[float]) -> list[GoingBack]:
     """Of each sensor, if late measurements are replayed and every correction lands in the step in which it arrives.
 
-    A late one that arrives in step m finds the corrections of its own step and of later ones that have arrived before,
-    or arrive in m too and are more urgent. Late ones of its own priority that arrive in m go back with it, to the
-    earliest of them.
+    predict, corrections: the work of one, of each sensor. A late one that arrives in step m finds the corrections of
+    its own step and of later ones that have arrived before, or arrive in m too and are more urgent. Late ones of its
+    own priority that arrive in m go back with it, to the earliest of them.
     """
     arrivals = _arrivals(sensors)
-    return [_going_back(number, arrivals) for number in range(len(arrivals))]
+    return [_going_back(number, arrivals, predict, corrections) for number in range(len(arrivals))]
 
 
-def _going_back(number: int, arrivals: Sequence[Arrivals]) -> GoingBack:
+def _going_back(number: int, arrivals: Sequence[Arrivals], predict: float, corrections: Sequence[float]) -> GoingBack:
     own = arrivals[number]
     delays = np.flatnonzero(own.at)
+    late = delays > 0
     taken = own.steps(arrivals, MOST_CASES // max(delays.size, 1))[:, np.newaxis]
     now = taken + delays
-    earliest = np.broadcast_to(own.at[delays], now.shape)  # it arrives then, and none before it in the row does
-    for other, one in enumerate(arrivals):
-        if one.priority == own.priority:
-            earliest = earliest * one.products(1 - one.at, now, delays + (other >= number))
-    goes_back = earliest * (delays > 0)
-    corrections = []
-    for other, one in enumerate(arrivals):
+    first = np.broadcast_to(own.at[delays], now.shape)  # it arrives then, and no late one before it in the row does
+    work = np.broadcast_to(delays * predict, now.shape)
+    for other, (one, correction) in enumerate(zip(arrivals, corrections, strict=True)):
         there = one.before + one.at if one.priority < own.priority else one.before
         found = one.sums(there, now, delays - (other == number))
-        if other < number and one.priority == own.priority:  # of the same step, and known not to arrive now
-            at, before = one.at[delays], one.before[delays]
-            of_step = (taken - one.offset) % one.every == 0
-            found = found + of_step * before * at / np.where(at < 1, 1 - at, np.inf)
-        corrections.append(float((goes_back * found).sum()) / taken.size / own.every)
-    jobs, steps = (float(each.sum()) / taken.size / own.every for each in (earliest, goes_back * delays))
-    return GoingBack(jobs, steps, corrections)
+        if one.priority == own.priority:
+            first = first * np.where(late, one.products(1 - one.at, now, delays + (other >= number)), 1)
+            if other < number:  # of the same step, and known not to arrive now
+                at, before = one.at[delays], one.before[delays]
+                of_step = (taken - one.offset) % one.every == 0
+                found = found + of_step * before * at / np.where(at < 1, 1 - at, np.inf)
+        work = work + correction * found
+    jobs, again = (float(each.sum()) / taken.size / own.every for each in (first, first * late * work))
+    return GoingBack(jobs, again, float((work * late).max(initial=0, where=first > 0)))
 
 
-def in_flight(sensors: Sequence[Sensor], of: Sensor | None = None) -> float:
+def in_flight(sensors: Sequence[Sensor], longer: Mapping[str, int], of: Sensor | None = None) -> float:
     """The share of steps at whose start Larsen's method has a measurement in flight; or, of the steps in which `of`
     takes its undelayed measurements, that in which one still is when their corrections have landed.
 
-    A lost one is waited for until the next late one is taken. At most: one that is lost while another is in flight
-    counts too.
+    longer: steps from the arrival until the correction lands, by sensor. A lost measurement is waited for until the
+    next late one is taken. At most: one that is lost while another is in flight counts too.
     """
     late = [one for one in _arrivals(sensors) if one.sensor.delayed]
     every, offset = (1, 0) if of is None else (min(of.every, RAREST), of.offset)
     steps = _steps(every, offset % every, late, MOST_CASES)
-    lags = [1 + (steps - 1 - one.offset) % one.every for one in late]
-    surely = [(one, lag) for one, lag in zip(late, lags, strict=True) if one.sensor.least_delay > 0]
-    newest = np.min([lag for _, lag in surely], axis=0, initial=RAREST) if surely else np.full(steps.size, RAREST)
-    waits = np.ones(steps.size, bool)
-    for one, lag in surely:
-        if of is not None:
-            waits &= lag < one.every
     flying = np.zeros(steps.size)
+    lags = [1 + (steps - 1 - one.offset) % one.every for one in late]  # from the last that was taken before
+    surely = [lag for one, lag in zip(late, lags, strict=True) if one.sensor.least_delay > 0]
+    newest = np.min(surely, axis=0) if surely else np.full(steps.size, RAREST)
+    waits = np.ones(steps.size, bool)  # for a lost one: no other is taken in this step, before the correction
+    if of is not None:
+        for one in late:
+            waits &= (steps - one.offset) % one.every > 0 if one.sensor.least_delay > 0 else True
     for one, lag in zip(late, lags, strict=True):
-        arrives = 1 - one.sensor.dropout
-        landed = of is not None and one.priority <= of.priority
-        there = arrives - one.before - (one.at if landed else 0)
+        more = longer[one.sensor.name]
+        before = np.append(np.zeros(more), one.before)
+        at = np.append(np.zeros(more), one.at) if of is not None and one.priority <= of.priority else 0
+        there = 1 - one.sensor.dropout - before - at
         there[0] = 0
         flying += one.sums(there, steps, np.full(steps.size, there.size - 1))
-        flying += one.sensor.dropout / (1 - one.at[0]) * (waits & (lag <= newest)) if one.sensor.dropout else 0
+        if one.sensor.dropout:
+            flying += one.sensor.dropout / (1 - one.at[0]) * (waits & (lag <= newest))
     return float(np.minimum(flying, 1).mean())

@@ -17,7 +17,8 @@ def causes(scenario: Scenario, outcome: Outcome) -> list[str]:
 
 
 def _demand(scenario: Scenario) -> list[str]:
-    from sched_sim.scenario_load import ROUNDING, demand, loads
+    from sched_sim.scenario_landing import ROUNDING
+    from sched_sim.scenario_load import demand, loads
 
     parts = loads(scenario)
     lines = []

@@ -7,15 +7,18 @@ from fractions import Fraction
 from pathlib import Path
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from sched_sim.cli.overload import causes
+from sched_sim.errors import InputError
 from sched_sim.scenario import Scenario, Sensor
 from sched_sim.scenario_file import read_scenario
 from sched_sim.scenario_load import catching_up, demand, loads
 from sched_sim.scenario_run import run_scenario
 from sched_sim.tasks import Task
+from tests.scenarios import HR, LR, sensor
 from tests.scenarios import scenario as case
-from tests.scenarios import sensor
 
 ROCKET = read_scenario(Path(__file__).parent / "rocket.toml")
 
@@ -56,7 +59,7 @@ def test_loads_are_mean_costs_over_mean_periods() -> None:
 
 
 def test_larsen_accumulates_while_a_measurement_is_in_flight_and_replays_nothing() -> None:
-    by_name = {load.name: 10 * load.share for load in loads(scenario(10, late="larsen"))}
+    by_name = {load.name: 40 * load.share for load in loads(scenario(40, late="larsen"))}
     share = 5 / 20
     assert by_name == pytest.approx(
         {"predict": share * 9 + (1 - share) * 4, "correct s": 7 / 20, "correct barometer": 1, "control": 1}
@@ -64,15 +67,17 @@ def test_larsen_accumulates_while_a_measurement_is_in_flight_and_replays_nothing
 
 
 def test_with_two_processors_each_has_its_own_demand() -> None:
-    """The barometer leaves 9 of each step to the corrections of s, 32: six steps pass, each 5 to do again."""
+    """A correction of s takes 32 on average, at most 6 + 6 x 4 + 3 x 3; beside the barometer's, 3 in a third of the
+    steps, it may end in the eighth after its own: 8 steps and 3 barometers to do again."""
     first, second = demand(scenario(10, cpus=2))
-    assert (first, second) == (pytest.approx((4 + 1) / 10), pytest.approx(((32 + 6 * 5) / 20 + 1) / 10))
+    assert (first, second) == (pytest.approx((4 + 1) / 10), pytest.approx(((32 + 8 * 4 + 3 * 3) / 20 + 1) / 10))
 
 
 @pytest.mark.parametrize("late", ["recalculate", "larsen"])
-def test_demand_is_what_the_simulation_was_busy_with(late: str) -> None:
+def test_demand_is_what_the_simulation_was_busy_with_or_a_little_more(late: str) -> None:
     asked = replace(scenario(40, steps=2000), late=late)
-    assert demand(asked) == [pytest.approx(float(run_scenario(asked).schedule.utilization), rel=0.02)]
+    (share,) = demand(asked)
+    assert 0.99 * share < 1.02 * float(run_scenario(asked).schedule.utilization) < 1.03 * share
 
 
 def test_a_correction_catches_up_only_if_a_step_leaves_more_than_it_takes_to_do_again() -> None:
@@ -184,8 +189,8 @@ def test_demand_is_as_by_hand_and_what_a_long_simulation_is_busy_with(name: str)
 def test_random_delays_and_dropout_weigh_by_probability(priority: int, dropout: float) -> None:
     """Both sensors draw; some arrive together, some overtake others."""
     a = sensor("a", 2, [0, 1, 2, 4, 7], dropout=dropout, priority=priority)
-    asked = case(1000, BOTH, a, sensor("b", 1, [0, 2, 3], dropout=dropout), steps=20_000)
-    assert demand(asked) == [pytest.approx(float(run_scenario(asked).schedule.utilization), rel=0.01)]
+    asked = case(1000, BOTH, a, sensor("b", 1, [0, 2, 3], dropout=dropout), steps=8_000)
+    assert demand(asked) == [pytest.approx(float(run_scenario(asked).schedule.utilization), rel=0.02)]
 
 
 def test_corrections_that_wait_for_one_another_go_together_and_pile_up_nothing() -> None:
@@ -198,8 +203,44 @@ def test_corrections_that_wait_for_one_another_go_together_and_pile_up_nothing()
     assert "so that corrections wait for one another and go back together: predict 12%" in demanded
 
 
+@st.composite
+def certain(draw: st.DrawFn) -> Scenario:
+    """Up to three sensors without dropout, each with one delay, and one cost of each part."""
+    work = st.integers(1, 5)
+    names = "abc"[: draw(st.integers(1, 3))]
+    entries = {"predict": draw(work)} | {f"correct.{name}": draw(work) for name in names}
+    more = {"predict_accumulate": entries["predict"] + 1}
+    for name in names:
+        more |= {f"correct_accumulate.{name}": 6, f"correct_late.{name}": 7}
+    sensors = []
+    for name in names:
+        every, delay = draw(st.sampled_from([1, 2, 3, 4, 6, 10])), draw(st.sampled_from([0, 0, 1, 2, 3, 5, 8]))
+        priority = draw(st.sampled_from([HR - 5, HR, LR, LR, LR + 10]))
+        sensors.append(sensor(name, every, delay, offset=draw(st.integers(0, every - 1)), priority=priority))
+    speed = sum(entries.values()) * draw(st.sampled_from([1, 2, 5, 20]))
+    of = {
+        "steps": 600,
+        "cpus": draw(st.sampled_from([1, 2])),
+        "late": draw(st.sampled_from(["recalculate", "larsen"])),
+    }
+    try:
+        return case(speed, entries | more, *sensors, **of)
+    except InputError:  # two in flight at once
+        return case(speed, entries | more, *sensors, **of | {"late": "recalculate"})
+
+
+@settings(max_examples=60)
+@given(certain())
+def test_where_all_is_certain_the_simulation_is_never_busier_than_the_demand(asked: Scenario) -> None:
+    busy = float(run_scenario(asked).schedule.utilization) * asked.cpus
+    assert busy <= sum(min(share, 1) for share in demand(asked)) * 1.01
+
+
 def test_a_pattern_of_any_length_is_soon_looked_through() -> None:
     """Rates without a common step for longer than the world will last, and very many delays."""
-    sensors = [sensor(f"s{number}", every, range(500_000)) for number, every in enumerate((99_991, 99_989, 10**30))]
+    sensors = [
+        sensor(f"s{number}", every, range(500_000), priority=HR)
+        for number, every in enumerate((99_991, 99_989, 10**30))
+    ]
     asked = case(1000, {"predict": 1} | {f"correct.{one.name}": 1 for one in sensors}, *sensors)
     assert 1 < demand(asked)[0] * 1000 < 1 + 3 * 250_001 / 99_989 * 10
