@@ -6,12 +6,12 @@ from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from filters.arrays import FloatArray
 from filters.breakdown import breakdown, first_broken
 from filters.kernels.backends import BackendName, arguments_for, function_for
-from filters.measured import Measured, Measurements, measured
+from filters.measured import Measurements, measured
 from filters.problem import check_choice
 from filters.robust.check import check_inputs, check_start
 from filters.robust.model import RobustModel, Weights, prepared, weights, without_measurement
@@ -68,6 +68,7 @@ def step_all(
         step(model, weighing, before, measurements[i], added[i], after, work)
 
 
+@np.errstate(all="ignore")
 def run(
     models: RobustModel | Sequence[RobustModel],
     x0: ArrayLike,
@@ -94,68 +95,46 @@ def run(
     check_choice("way", way, WAYS)
     ready = [prepared(model, mu, xi) for model in ([models] if isinstance(models, RobustModel) else models)]
     found = measured(len(ready[0].H), 1, measurements)
-    taken = found.y
-    added = np.zeros((len(taken), len(ready[0].F))) if c is None else np.array(c, dtype=np.float64)
-    if len(ready) not in (1, len(taken)) or len(added) != len(taken):
-        raise ValueError(f"there are {len(taken)} measurements, but {len(ready)} models and {len(added)} rows of c")
+    added = np.zeros((len(found.y), len(ready[0].F))) if c is None else np.array(c, dtype=np.float64)
+    if len(ready) not in (1, len(found.y)) or len(added) != len(found.y):
+        raise ValueError(f"there are {len(found.y)} measurements, but {len(ready)} models and {len(added)} rows of c")
     if len({tuple(matrix.shape for matrix in model) for model in ready}) > 1:
         raise ValueError(
             "models differ in shape, or in which of their E rows are zero; run them one by one with `step`"
         )
     n = len(ready[0].F)
-    history = RobustHistory(np.empty((len(taken) + 1, n)), np.empty((len(taken) + 1, n, n)))
+    history = RobustHistory(np.empty((len(found.y) + 1, n)), np.empty((len(found.y) + 1, n, n)))
     start = Predicted(np.array(x0, dtype=np.float64), np.array(P0, dtype=np.float64))
     check_start(ready[0], start.x, start.P)
-    check_inputs(ready[0], taken, added)
+    check_inputs(ready[0], found.y, added)
     history.x[0], history.P[0] = start
-    if not found.present.all():
-        _step_by_step(ready, found, added, history, mu, xi, way, backend)
+    if found.present.all():
+        job = JOBS[way]
+        function_for(backend, step_all)(
+            arguments_for(backend, job.function),
+            RobustModel(*(np.stack(matrices) for matrices in zip(*ready, strict=True))),
+            WeightsByStep(
+                *(np.array(values) for values in zip(*(weights(model, mu, xi) for model in ready), strict=True))
+            ),
+            found.y,
+            added,
+            history,
+            job.workspace(ready[0]),
+        )
     else:
-        _step_at_once(ready, taken, added, history, mu, xi, way, backend)
+        for i, present in enumerate(found.present):
+            model = _with_rows(ready[i % len(ready)], present)
+            before = Predicted(history.x[i], history.P[i])
+            after = step(model, before, found.y[i, present], added[i], mu=mu, xi=xi, way=way, backend=backend)
+            history.x[i + 1], history.P[i + 1] = after
     broken = first_broken(history.x, history.P, 1, backend)
     if broken is not None:
         raise breakdown(broken - 1, REMEDY)
     return history
 
 
-def _step_at_once(
-    ready: Sequence[RobustModel],
-    taken: FloatArray,
-    added: FloatArray,
-    history: RobustHistory,
-    mu: float,
-    xi: float,
-    way: WayName,
-    backend: BackendName,
-) -> None:
-    job = JOBS[way]
-    function_for(backend, step_all)(
-        arguments_for(backend, job.function),
-        RobustModel(*(np.stack(matrices) for matrices in zip(*ready, strict=True))),
-        WeightsByStep(*(np.array(values) for values in zip(*(weights(model, mu, xi) for model in ready), strict=True))),
-        taken,
-        added,
-        history,
-        job.workspace(ready[0]),
-    )
-
-
-def _step_by_step(
-    ready: Sequence[RobustModel],
-    found: Measured,
-    added: FloatArray,
-    history: RobustHistory,
-    mu: float,
-    xi: float,
-    way: WayName,
-    backend: BackendName,
-) -> None:
-    for i, present in enumerate(found.present):
-        model = ready[i % len(ready)]
-        if present.any():
-            model = model._replace(H=model.H[present], D=model.D[present], M2=model.M2[present])
-        else:
-            model = without_measurement(model)
-        before = Predicted(history.x[i], history.P[i])
-        after = step(model, before, found.y[i, present], added[i], mu=mu, xi=xi, way=way, backend=backend)
-        history.x[i + 1], history.P[i + 1] = after
+def _with_rows(model: RobustModel, present: NDArray[np.bool_]) -> RobustModel:
+    """The model of a step from which only these numbers of the measurement (p,) came."""
+    if not present.any():
+        return without_measurement(model)
+    return model._replace(H=model.H[present], D=model.D[present], M2=model.M2[present])

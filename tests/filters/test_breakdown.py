@@ -15,11 +15,15 @@ from filters.covariance_forms import COVARIANCE_FORMS
 from filters.factored import FACTORED_FORMS
 from filters.kernels.definite import is_semidefinite
 from filters.registry import DELAYED_METHODS
+from filters.robust.records import Predicted
+from filters.robust.run import run as run_robust
+from filters.robust.step import WAYS, WayName, step
 from filters.systems.example import example_system
 from filters.systems.linear import linear_system
 from filters.systems.system import System
 from filters.true_covariance import true_covariance
 from tests.filters.cases import Case, each_case
+from tests.filters.robust.cases import random_model
 from tests.filters.test_unstable import without_data
 from tests.strategies import Problem, problem, seeds
 
@@ -155,6 +159,23 @@ def test_a_true_covariance_without_bounds() -> None:
     system = linear_system([[1e30]], [[1.0]], [[0.0]], [[1.0]], [[1.0]])
     with np.errstate(all="ignore"), pytest.raises(ValueError, match=r"true_covariance, step 6: .* no longer finite"):
         true_covariance(system, np.eye(1), np.zeros((40, 1, 1)))
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_a_robust_estimate_without_bounds(way: WayName) -> None:
+    model = random_model(0, 2, 2, 1, 0, 0)
+    grown = model._replace(F=1e120 * model.F, H=0.0 * model.H)
+    with pytest.raises(ValueError, match=r"step 1: the covariance is no longer positive semidefinite, or a value no"):
+        run_robust(grown, np.ones(2), np.eye(2), np.zeros((5, 1)), way=way)
+    with pytest.raises(ValueError, match="the step leaves a P that is no covariance, or a value that is not finite"):
+        step(grown, Predicted(np.ones(2), 1e100 * np.eye(2)), np.zeros(1), np.zeros(2), way=way)
+
+
+@each_value
+def test_what_is_given_to_the_robust_filter(value: float) -> None:
+    model = random_model(0, 2, 2, 1, 0, 0)
+    with pytest.raises(ValueError, match=r"the measurement of step 2 is .* not finite; give None"):
+        run_robust(model, np.ones(2), np.eye(2), [[0.0], [0.0], [value]])
 
 
 # -------------------- covariances

@@ -18,31 +18,12 @@ from filters.robust.step import WAYS, step
 from filters.systems.example import example_system
 from filters.systems.navigation import simulate_drive
 from tests.filters.cases import CASES, Case, each_case, relative_difference
+from tests.filters.oracle import textbook_kalman_filter
 from tests.filters.robust.cases import random_model, start
 from tests.strategies import Problem, problem
 
 RELATIVE = 1e-10
 EVERY_CASE = [Case("standard", {}, "at-arrival"), *CASES]
-
-
-def with_rows(data: Problem, present: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """x after every step and P before every update, where row c of `present` says which numbers of y_c came: NumPy."""
-    system, N, _, _, x, P, inputs, measurements = data
-    matrices = system.parameters
-    states, references = [], []
-    for j in range(len(inputs) + 1):
-        if j > 0:
-            Phi, B, Q = (matrix[(j - 1) % len(matrix)] for matrix in (matrices.Phi, matrices.B, matrices.Q))
-            x, P = Phi @ x + B @ inputs[j - 1], Phi @ P @ Phi.T + Q
-        if j % N == 0:
-            references.append(P)
-            came = present[j // N]
-            if came.any():
-                H, R = matrices.H[j % len(matrices.H)][came], matrices.R[j % len(matrices.R)][np.ix_(came, came)]
-                K = P @ H.T @ np.linalg.inv(H @ P @ H.T + R)
-                x, P = x + K @ (measurements[j // N][came] - H @ x), P - K @ H @ P
-        states.append(x)
-    return np.array(states), np.array(references)
 
 
 def record(measurements: FloatArray, present: FloatArray) -> list[Any]:
@@ -66,7 +47,7 @@ def test_every_method_is_the_filter_with_the_remaining_rows(case: Case, form: st
     whole = data.draw(case.problems())
     present = losses(*whole.measurements.shape, data.draw(st.integers(0, 99)))
     found = case.run(whole._replace(measurements=record(whole.measurements, present)), update=form)
-    states, references = with_rows(whole, present)
+    states, references = textbook_kalman_filter(whole, present)
     assert relative_difference(found.P_reference, references) <= RELATIVE
     for j, x in enumerate(found.x):
         if case.method == "standard" or j % whole.N >= whole.L:
@@ -83,7 +64,7 @@ def test_a_gain_in_every_step(form: str, seed: int) -> None:
     present = losses(21, 3, seed)
     lost = record(data.measurements, present)
     found = multirate_gain.run(data.system, 1, data.x0, data.P0, data.inputs, lost, form=form)
-    states, references = with_rows(data, present)
+    states, references = textbook_kalman_filter(data, present)
     assert relative_difference(found.P_reference, references) <= RELATIVE
     assert relative_difference(found.x, states) <= RELATIVE
 

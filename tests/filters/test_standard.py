@@ -10,32 +10,13 @@ from hypothesis import strategies as st
 from filters import standard
 from filters.covariance_forms import COVARIANCE_FORMS
 from filters.systems.example import example_system
+from tests.filters.oracle import textbook_kalman_filter
 from tests.strategies import Problem, problem, systems
 
 each_form = pytest.mark.parametrize("form", COVARIANCE_FORMS)
 problems = st.builds(
     problem, systems(), st.integers(1, 5), st.just(0), st.just(0), st.integers(0, 12), st.integers(0, 99)
 )
-
-
-def textbook_kalman_filter(given_problem: Problem) -> tuple[list[np.ndarray], list[np.ndarray]]:
-    """x after every step and P before every update, in one line of NumPy per equation; not the error-state form."""
-    system, N, _, _, x, P, inputs, measurements = given_problem
-    matrices = system.parameters
-    states, references = [], []
-    for j in range(len(inputs) + 1):
-        if j > 0:
-            Phi, B, Q = (matrix[(j - 1) % len(matrix)] for matrix in (matrices.Phi, matrices.B, matrices.Q))
-            x = Phi @ x + B @ inputs[j - 1]
-            P = Phi @ P @ Phi.T + Q
-        if j % N == 0:
-            references.append(P)
-            H, R = (matrix[j % len(matrix)] for matrix in (matrices.H, matrices.R))
-            K = P @ H.T @ np.linalg.inv(H @ P @ H.T + R)
-            x = x + K @ (measurements[j // N] - H @ x)
-            P = P - K @ H @ P
-        states.append(x)
-    return states, references
 
 
 @each_form
