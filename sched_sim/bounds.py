@@ -81,5 +81,5 @@ def check_simulation(steps: int, tasks: Sequence[Task], what: str, most: int = M
         shortest = min(tasks, key=lambda task: task.period)
         raise InputError(
             f"{what} release {short(jobs)} jobs, most of them of task {shortest.name!r} with period "
-            f"{float(shortest.period):g}: at most {most:,} are possible; give fewer steps or longer periods"
+            f"{float(shortest.period):g}: at most {most:,} are possible; give fewer steps, or check its period"
         )

@@ -87,8 +87,8 @@ class CostTable:
 
     `provenance` holds whatever else the file says of where they come from: source, update form, machine,
     versions, protocol, date. `path` is where it was read from, for messages. `operations` holds the counts of
-    operations by method and job kind, where they are known; `processor.on_processor` turns them into time on the
-    `processor` of this name. `lacking` says of jobs that cannot have a cost why not.
+    operations by method and job kind, where they are known; `processor.on_processor` turns them into time. `lacking`
+    says of jobs that cannot have a cost why not.
     """
 
     name: str
@@ -98,7 +98,6 @@ class CostTable:
     path: str = ""
     operations: Mapping[str, Mapping[str, Counts]] = field(default_factory=dict)
     lacking: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
-    processor: str | None = None
 
     def entry(self, method: str, kind: str) -> Cost:
         """Raises InputError that names the missing entry and how to supply it."""
@@ -122,6 +121,13 @@ class CostTable:
         """The form of the covariance update that was costed, such as "textbook"; None if the file does not say."""
         form = self.provenance.get("update_form")
         return None if form is None else str(form)
+
+    @property
+    def processor(self) -> str | None:
+        """The name of the one that the times are for; None if the file does not say."""
+        about = self.provenance.get("processor")
+        name = about.get("name") if isinstance(about, Mapping) else about
+        return None if name is None else str(name)
 
     def _remedy(self, method: str, kind: str) -> str:
         if {self.name, self.path} & set(shipped_names()):

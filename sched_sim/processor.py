@@ -91,7 +91,6 @@ def on_processor(table: CostTable, processor: Processor) -> CostTable:
         costs=costs,
         provenance={**table.provenance, "machine": processor.title, "processor": _about(processor)},
         lacking=lacking,
-        processor=processor.name,
     )
 
 

@@ -98,7 +98,9 @@ class Grid:
         self._check_simulated()
         pairs = sum(N + 1 for N in self.N) if self.M is None else len(self.N) * len(self.M)
         if pairs > MOST_PAIRS:
-            raise InputError(f"the grid has {pairs:,} pairs of N and M: at most {MOST_PAIRS:,}; give fewer -N or -M")
+            raise InputError(
+                f"the grid has {pairs:,} pairs of N and M: at most {MOST_PAIRS:,}; give fewer values of -N or -M"
+            )
         if not self.size:
             given = f"N={_extent(self.N)}, M={_extent(self.M)}, L={_extent(self.L)}"
             raise InputError(

@@ -10,7 +10,7 @@ from typing import Annotated, Any, Literal, get_args
 
 from pydantic import BaseModel, ConfigDict, Field, PlainValidator, StrictBool, ValidationError, ValidationInfo
 
-from sched_sim.bounds import MOST_STEPS
+from sched_sim.bounds import MOST_STEPS, short
 from sched_sim.costs import COUNTED, METHODS, PAPERS, CostTable, Statistic, default_methods, load, shipped_names
 from sched_sim.errors import InputError
 from sched_sim.options import Gain, LowRateNoise, Options
@@ -55,7 +55,7 @@ def _names_of(what: str) -> PlainValidator:
         items = [given] if isinstance(given, str) else given
         if not isinstance(items, list) or not items or not all(isinstance(item, str) for item in items):
             raise InputError(
-                f"{_called(info)} {given!r}: give the name of a shipped {what}, or the path of a TOML file"
+                f"{_called(info)} {short(repr(given))}: give the name of a shipped {what}, or the path of a TOML file"
             )
         return tuple(dict.fromkeys(items))
 
@@ -64,7 +64,7 @@ def _names_of(what: str) -> PlainValidator:
 
 def _path(given: Any, info: ValidationInfo) -> str:
     if not isinstance(given, str | Path) or not str(given):
-        raise InputError(f"{_called(info)} {given!r}: give the path of a TOML file")
+        raise InputError(f"{_called(info)} {short(repr(given))}: give the path of a TOML file")
     return str(given)
 
 

@@ -78,7 +78,7 @@ def test_a_large_file_is_not_read(sched_sim: Run, tmp_path: Path) -> None:
 @pytest.mark.parametrize("command", ["simulate", "gantt"])
 def test_tasks_that_release_jobs_without_end(sched_sim: Run, tmp_path: Path, command: str) -> None:
     (tmp_path / "t.toml").write_text(TASK + "1e-18")
-    is_refused(sched_sim(f"{command} -N 10 -M 4 --speed 1 --tasks t.toml"), ["'t'", "1e-18", "longer periods"])
+    is_refused(sched_sim(f"{command} -N 10 -M 4 --speed 1 --tasks t.toml"), ["'t'", "1e-18", "check its period"])
 
 
 def test_values_in_messages_are_short() -> None:
