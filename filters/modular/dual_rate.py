@@ -93,7 +93,7 @@ def run(
                 if not is_sound(composed.of, correction.after, scratch):
                     raise breakdown(composed, 0, j, correction, np.empty(0))
                 following += 1
-    return ModularHistory(found, dropped)
+    return ModularHistory(*found, dropped)
 
 
 class LowRateTask:

@@ -26,8 +26,8 @@ class ModularHistory(Estimates):
 
     dropped: tuple[Measurement, ...] = ()
 
-    def __new__(cls, found: Estimates, dropped: tuple[Measurement, ...]) -> ModularHistory:
-        history = super().__new__(cls, *found)
+    def __new__(cls, x: FloatArray, P: FloatArray, dropped: tuple[Measurement, ...] = ()) -> ModularHistory:
+        history = super().__new__(cls, x, P)
         history.dropped = dropped
         return history
 

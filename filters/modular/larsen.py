@@ -236,7 +236,7 @@ def run(
     taken_late = np.bincount(arrived.taken[late], minlength=steps + 1)
     own = late, taken_late, Estimate(x, P), empty(composed.of), Flight(empty(composed.of), np.empty_like(P))
     job_of = partial(larsen_correction, composed)
-    return ModularHistory(run_kernel(filter_all, job_of, composed, moves, arrived, own, backend), ())
+    return ModularHistory(*run_kernel(filter_all, job_of, composed, moves, arrived, own, backend))
 
 
 def _in_order_of_use(arrived: Arrivals) -> Arrivals:

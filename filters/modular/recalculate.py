@@ -167,4 +167,4 @@ def run(
     found = run_kernel(
         filter_all, lambda each: given_to(correction(composed, each)), composed, moves, arrived, own, backend
     )
-    return ModularHistory(found, dropped)
+    return ModularHistory(*found, dropped)

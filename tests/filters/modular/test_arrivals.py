@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pickle
 from typing import Any, Literal
 
 import numpy as np
@@ -223,6 +224,7 @@ def test_the_too_old_are_dropped_where_that_is_asked_for() -> None:
         history([sensor], [*good, *old], "recalculate")
     found = history([sensor], [*old, *good, never], "recalculate", too_old="drop")
     assert found.dropped == (old[1], old[0])
+    assert pickle.loads(pickle.dumps(found)).dropped == found.dropped
     x, P = history([sensor], good, "recalculate")
     np.testing.assert_array_equal(found.x, x)
     np.testing.assert_array_equal(found.P, P)
