@@ -1,13 +1,17 @@
-"""Whether a covariance is one."""
+"""Covariances that are singular, or nearly: whether one is a covariance, and its root."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from filters.arrays import FloatArray
+from filters.kernels.solve import cholesky
 
 ROUNDING = 1e-8
 """An eigenvalue so little below zero, where the diagonal is scaled to one, may be what rounding has left of zero."""
+
+SINGULAR = 1e-14
+"""A variance so small, as a share of that before the others were known, is what rounding has made of zero."""
 
 
 def is_semidefinite(P: FloatArray, scratch: FloatArray) -> bool:
@@ -33,3 +37,28 @@ def is_semidefinite(P: FloatArray, scratch: FloatArray) -> bool:
             return False
         scratch[i, i] = np.sqrt(pivot)
     return True
+
+
+def covariance_root(P: FloatArray, out: FloatArray) -> None:
+    """out = C, lower triangular, of a covariance P = C C^T (n, n), of which the lower triangle is read.
+
+    Cholesky's factor, if P is not singular; else where no variance is left but what rounding makes of none, a column
+    is zero. What is above the diagonal of out is left as it was.
+    """
+    cholesky(P, out)
+    for i in range(P.shape[0]):
+        if not out[i, i] > 0.0:
+            _singular_root(P, out)
+            return
+
+
+def _singular_root(P: FloatArray, out: FloatArray) -> None:
+    for i in range(P.shape[0]):
+        for j in range(i + 1):
+            total = P[i, j]
+            for k in range(j):
+                total -= out[i, k] * out[j, k]
+            if i > j:
+                out[i, j] = total / out[j, j] if out[j, j] > 0.0 else 0.0
+            else:
+                out[i, i] = np.sqrt(total) if total > SINGULAR * P[i, i] else 0.0

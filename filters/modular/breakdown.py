@@ -7,7 +7,6 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from filters.arrays import FloatArray
-from filters.kernels.solve import cholesky
 from filters.modular.composition import ModularFilter, unscented_parts
 from filters.modular.estimate import copy_estimate, empty
 from filters.modular.kept import with_covariance
@@ -117,13 +116,6 @@ def _of_value(what: str, given: tuple[FloatArray, ...]) -> Cause:
 def _of_points(
     name: str, of: Space, unscented: Any, work: Workspace, images: FloatArray, failure: Failure, *u: FloatArray
 ) -> Cause | None:
-    root = np.zeros_like(failure.at.P)
-    cholesky(failure.at.P, root)
-    if not np.isfinite(root).all():
-        return Cause(
-            "sigma points need a covariance that is positive definite, and it is no longer",
-            "each state noise of its own (Q), however little",
-        )
     for point, image in zip(work.points, images, strict=True):
         cause = _of_function(name, of, image, point, *u)
         if cause:

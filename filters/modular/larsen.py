@@ -12,8 +12,8 @@ error. The estimate is the best one, that of `recalculate`, only if no other sen
 about e_k is not used.
 
 In one step: first the late measurement that arrives, then those of the step itself, in the sensors' order, then one
-that will come late is taken. So a delay as long as the time between the measurements is allowed. Several that are taken
-in one step may be in flight together: when one has arrived, what was known in k is corrected by it as well.
+that will come late is taken. So a delay as long as the time between the measurements is allowed. Several of
+one sensor and one step may be in flight together: when one has arrived, what was known in k is corrected by it as well.
 """
 
 from __future__ import annotations
@@ -248,14 +248,15 @@ def _in_order_of_use(arrived: Arrivals) -> Arrivals:
 def _check_one_in_flight(composed: ModularFilter, arrived: Arrivals, late: Flags) -> None:
     rows = np.flatnonzero(late)
     rows = rows[np.lexsort((arrived.arrives[rows], arrived.taken[rows]))]
-    for one, other in pairwise(rows):  # of those of one step the last to arrive comes last
-        if arrived.taken[one] < arrived.taken[other] < arrived.arrives[one]:
+    for one, other in pairwise(rows):  # of those that go together the last to arrive comes last
+        together = arrived.taken[one] == arrived.taken[other] and arrived.sensor[one] == arrived.sensor[other]
+        if arrived.taken[other] < arrived.arrives[one] and not together:
             flights = " and ".join(
                 f"sensor {composed.sensors[arrived.sensor[row]].name!r}, steps {arrived.taken[row]} to "
                 f"{arrived.arrives[row]}"
                 for row in (one, other)
             )
             raise ValueError(
-                f"{flights}: but for those of one step, late='larsen' can wait for one measurement at a time; "
-                f"use late='recalculate', or take the second when the first has arrived"
+                f"{flights}: but for those of one sensor and step, late='larsen' can wait for one measurement at a "
+                f"time; use late='recalculate', or take the second when the first has arrived"
             )

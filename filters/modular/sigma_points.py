@@ -7,8 +7,8 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from filters.arrays import FloatArray
+from filters.kernels.definite import covariance_root
 from filters.kernels.dense import copy_vector
-from filters.kernels.solve import cholesky
 from filters.modular.space import Space, minus_each, plus, plus_each
 
 MEAN_STEPS = 20
@@ -81,10 +81,10 @@ def draw(
     """points (2 n + 1, numbers) of the mean x (numbers,) and the covariance P (n, n), through its Cholesky factor.
 
     errors (2 n + 1, n) = points less x; the zeros among them, before the diagonals, are those that it was made with.
-    root (n, n): scratch. P that is not positive definite gives nan.
+    root (n, n): scratch.
     """
     n = of.errors
-    cholesky(P, root)
+    covariance_root(P, root)
     for e in range(n):
         for i in range(e + 1):
             error = spread * root[e, i]

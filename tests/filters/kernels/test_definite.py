@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from filters.kernels.definite import ROUNDING, is_semidefinite
+from filters.kernels.definite import ROUNDING, covariance_root, is_semidefinite
 
 
 def found(P: object) -> bool:
@@ -56,3 +56,18 @@ def test_a_number_that_is_none_is_found_wherever_it_is(value: float, place: tupl
     P[place] = P[place[::-1]] = value
     with np.errstate(invalid="ignore"):
         assert not found(P)
+
+
+@given(n=st.integers(1, 6), rank=st.integers(0, 6), seed=st.integers(0, 10_000))
+def test_the_root_of_a_singular_covariance(n: int, rank: int, seed: int) -> None:
+    """Whatever its rank; of one that is not singular it is Cholesky's factor."""
+    random = np.random.default_rng(seed)
+    half = random.normal(size=(n, rank))
+    P = half @ half.T
+    root = np.zeros((n, n))
+    with np.errstate(all="ignore"):
+        covariance_root(P, root)
+    deviations = np.sqrt(np.diag(P))
+    assert (np.abs(root @ root.T - P) <= 1e-7 * np.outer(deviations, deviations)).all()
+    if rank == n:
+        np.testing.assert_allclose(root, np.linalg.cholesky(P), rtol=1e-6, atol=1e-9)

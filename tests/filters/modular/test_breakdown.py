@@ -156,21 +156,6 @@ def test_sigma_points_of_negative_weight_and_that_the_remedy_helps(points: Sigma
     filtered(STILL, unscented_corrector(bent, [[1e-3]], merwe(alpha=1.0, kappa=0.0)))
 
 
-def test_sigma_points_of_a_singular_covariance_and_that_the_remedy_helps() -> None:
-    def forgotten(x: FloatArray, _u: FloatArray, _dt: float, out: FloatArray) -> None:
-        out[0], out[1], out[2] = x[0], 0.0 * x[1], 0.0 * x[2]
-
-    first = linear_corrector(np.eye(1, 3), [[1.0]])
-    refused(
-        "predictor, step 2: sigma points need a covariance that is positive .*; give each state noise of its own",
-        unscented_predictor(forgotten, np.zeros((3, 3))),
-        first,
-        x0=np.ones(3),
-        every=3,
-    )
-    filtered(unscented_predictor(forgotten, 1e-9 * np.eye(3)), first, x0=np.ones(3), every=3)
-
-
 @pytest.mark.parametrize("late", WAYS)
 def test_a_covariance_that_is_lost_to_rounding_and_that_each_remedy_helps(late: Late) -> None:
     """A measurement tells 1e18 times as much as was known: what is left is less than the last digit of what was."""

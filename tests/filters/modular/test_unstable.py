@@ -133,3 +133,24 @@ def test_an_inverted_pendulum_with_a_torque_that_is_not_known(late: Late) -> Non
     given = np.zeros(3), 0.01 * np.eye(3), np.zeros((steps, 0)), measurements
     P = run(composed, *given, late=late, backend="reference", **lands).P
     np.testing.assert_allclose(np.sqrt(P[1009::10, 0, 0]), np.sqrt(P[1009, 0, 0]), rtol=1e-6)
+
+
+def test_sigma_points_of_states_that_are_known_exactly() -> None:
+    """Without noise, of states that are copies or constants: the covariance is singular, and that of the linear one."""
+    F, H = np.array([[1.1, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 0.0]]), np.array([[1.0, 1.0, 0.0]])
+
+    def f(x: FloatArray, _u: FloatArray, _dt: float, out: FloatArray) -> None:
+        out[:] = F @ x
+
+    def h(x: FloatArray, out: FloatArray) -> None:
+        out[:] = H @ x
+
+    measurements = [Measurement("s", k, k, [0.1 * k]) for k in range(0, 20, 3)]
+    unscented = unscented_predictor(f, np.zeros((3, 3))), unscented_corrector(h, [[0.5]])
+    linear = linear_predictor(F, np.zeros((3, 3))), linear_corrector(H, [[0.5]])
+    found, expected = (
+        run(ModularFilter(predictor, [Sensor("s", corrector)]), np.ones(3), np.eye(3), np.zeros((20, 0)), measurements)
+        for predictor, corrector in (unscented, linear)
+    )
+    for each, same in zip(found, expected, strict=True):
+        np.testing.assert_allclose(each, same, rtol=0, atol=1e-10)
