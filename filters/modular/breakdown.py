@@ -137,13 +137,15 @@ def _of_numbers(composed: ModularFilter, failure: Failure) -> Cause:
             "a sensor that sees what grows, more of its measurements, or a model that does not grow so",
         )
     variances = np.diag(failure.at.P)
-    others = {"short": ["update='joseph'"], "joseph": [], "u-d": []}[composed.update]
-    if composed.update != "u-d" and not unscented_parts(composed):
-        others = [*others, "update='u-d' (with late='recalculate')"]
+    form = []
+    if not unscented_parts(composed):
+        form = ["update='u-d' (with late='recalculate')"] if composed.update != "u-d" else []
+    elif composed.update == "short":
+        form = ["update='joseph'"]
     return Cause(
         f"the covariance is no longer positive definite: rounding is more than what is left of variances of "
         f"{variances.min():.3g} to {variances.max():.3g}",
-        ", ".join([*others, "more noise (Q, R) or a smaller P0, so that one measurement does not tell so much"]),
+        ", ".join([*form, "more noise (Q, R) or a smaller P0, so that one measurement does not tell so much"]),
     )
 
 

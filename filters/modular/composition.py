@@ -58,9 +58,9 @@ class ModularFilter:
 
     dt: the time of a step, in seconds, as the predictor's f gets it. of: what the state stands for; plain quantities
     if not given, as many as the predictor's noise has. In one step the sensors are used in their order.
-    update: how the covariance is corrected, "short" with the least work; "joseph", which keeps it positive definite
-        where measurements tell far more than was known, see `updates`; or "u-d", which also keeps it accurate there,
-        for linear and extended parts, see `u_d`.
+    update: how the covariance is corrected, "short" with the least work; "joseph", less of which is lost
+        to rounding where measurements tell far more than was known, see `updates`; or "u-d", of which nothing is, for
+        linear and extended parts, see `u_d`.
 
     Raises:
         ValueError: dt is not positive, two sensors have one name, or a part does not fit the state; it is named.

@@ -161,14 +161,20 @@ def test_a_covariance_that_is_lost_to_rounding_and_that_each_remedy_helps(late: 
     """A measurement tells 1e18 times as much as was known: what is left is less than the last digit of what was."""
     moving = linear_predictor([[1.0, 0.01], [0.0, 1.0]], 1e-12 * np.eye(2))
     sharp, blunt = linear_corrector([[1.0, 0.0]], [[1e-8]]), linear_corrector([[1.0, 0.0]], [[1e2]])
-    message = (
-        "sensor 's', step 0: the covariance is no longer .*: rounding .* of 1e.10 to 1e.10; give update='joseph', "
-    )
+    message = "sensor 's', step 0: the covariance is no longer .*: rounding .* of 1e.10 to 1e.10; give update='u-d' "
     refused(message, moving, sharp, P0=1e10, late=late)
     filtered(moving, blunt, P0=1e10, late=late)
     filtered(moving, sharp, P0=1.0, late=late)
-    filtered(moving, sharp, P0=1e10, late=late, update="joseph")
     filtered(moving, sharp, P0=1e10, late="recalculate", update="u-d")
+
+
+def test_with_sigma_points_the_remedy_is_josephs_form() -> None:
+    def first(x: FloatArray, out: FloatArray) -> None:
+        out[0] = x[0]
+
+    moving, sharp = linear_predictor([[1.0, 0.01], [0.0, 1.0]], 1e-12 * np.eye(2)), unscented_corrector(first, [[1e-8]])
+    refused("sensor 's', step 0: .*rounding .*; give update='joseph', more noise", moving, sharp, P0=1e10)
+    filtered(moving, sharp, P0=1e10, update="joseph")
 
 
 def test_an_attitude_without_length() -> None:
