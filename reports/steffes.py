@@ -9,11 +9,12 @@ from reports.comparisons import Speeds, cost_figure, table4_figure
 from reports.figures import achieved_figure, least_speed_figure
 from reports.gantt import gantt, image, method_panel
 from reports.render import csv_bytes, render
-from reports.timelines import dual_rate_timeline, serial_timeline
+from reports.timelines import dual_rate_timeline, serial_costs, serial_timeline
 from sched_sim.analysis import BINDING_WORDS
 from sched_sim.cost_file import cost_table_text
 from sched_sim.costs import DELAYED_METHODS, CostTable, load, select
 from sched_sim.least_speed import achieved_l, least_speed
+from sched_sim.load import load as busy
 from sched_sim.options import Options
 from sched_sim.simulate import simulate
 from sched_sim.timing import Timing
@@ -34,6 +35,7 @@ def build(measured: CostTable) -> dict[str, bytes]:
     figures = {name: image(figure, "svg") for name, figure in _figures(tables).items()}
     cells = steffes.cells(paper)
     waste = least_speed(select(paper, "dual-rate", Options()), WASTE)
+    serial = serial_costs(paper)
     about = measured.provenance
     pages = render(
         "steffes2014",
@@ -53,6 +55,12 @@ def build(measured: CostTable) -> dict[str, bytes]:
         table4=table4_rows,
         not_reached=_not_reached(cells),
         simulated=simulated_rows,
+        serial={
+            "N": FIGURE_3.N,
+            "propagate": _number(serial.propagate, 2),
+            "update": _number(serial.update, 2),
+            "unused": _percent(1 - busy(serial, FIGURE_3, least_speed(serial, FIGURE_3).speed)),
+        },
         waste={
             "speed": _number(waste.speed),
             "achieved": achieved_l(select(paper, "dual-rate", Options()), WASTE, waste.speed),
@@ -60,6 +68,7 @@ def build(measured: CostTable) -> dict[str, bytes]:
         by_m=_number(_least(paper, "dual-rate", SMALL_DELAYS[0])),
         by_l=_number(_least(paper, "dual-rate", SMALL_DELAYS[0], BY_L), 4),
         propagate_by=_propagate_by(paper),
+        saved_by_l=_saved_by_l(paper),
     )
     return {
         **pages,
@@ -74,6 +83,10 @@ def build(measured: CostTable) -> dict[str, bytes]:
 
 def _number(value: Fraction, digits: int = 3) -> str:
     return f"{float(value):.{digits}f}"
+
+
+def _percent(share: Fraction) -> str:
+    return f"{100 * float(share):.0f} %"
 
 
 def _least(table: CostTable, method: str, timing: Timing, options: Options = Options()) -> Fraction:
@@ -161,6 +174,24 @@ def _propagate_by(paper: CostTable) -> list[list[Any]]:
     return rows
 
 
+def _saved_by_l(paper: CostTable) -> dict[str, Any]:
+    """Over every design of the same N: for which M the rule "by l" needs less, and what share less, from and to."""
+    N = FIGURE_3.N
+    saved = {}
+    for timing in (Timing(N, M, L) for M in range(N) for L in range(M + 1, N + 1)):
+        by_m, by_l = (_least(paper, "dual-rate", timing, options) for options in (Options(), BY_L))
+        saved[timing] = 1 - by_l / by_m
+    less = {timing: share for timing, share in saved.items() if share > 0}
+    return {
+        "N": N,
+        "designs": len(saved),
+        "M": sorted({timing.M for timing in less}),
+        "least": _percent(min(less.values())),
+        "most": _percent(max(less.values())),
+        "here": _percent(less[SMALL_DELAYS[0]]),
+    }
+
+
 def _figures(tables: dict[str, CostTable]) -> dict[str, Any]:
     paper = tables["paper"]
     panels = [
@@ -181,7 +212,7 @@ def _figures(tables: dict[str, CostTable]) -> dict[str, Any]:
     return {
         "costs.svg": cost_figure(tables),
         "table4.svg": table4_figure(table4),
-        "fig1.svg": serial_timeline(paper, FIGURE_3, _least(paper, "larsen", FIGURE_3)),
+        "fig1.svg": serial_timeline(paper, FIGURE_3, least_speed(serial_costs(paper), FIGURE_3).speed),
         "fig2.svg": dual_rate_timeline(paper, FIGURE_3, _least(paper, "dual-rate", FIGURE_3)),
         "fig3.svg": gantt(panels),
         "least-speed.svg": least_speed_figure(paper),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
 
@@ -19,7 +20,7 @@ from reports.marks import draw_marks
 from reports.panels import METHOD_NAMES, Panel, cycle_marks
 from reports.scale import Scale
 from reports.style import GREY, INK, SMALL_PT, WIDTH_MM, axes_at, drawing, page, text_width_mm
-from sched_sim.costs import CostTable, select
+from sched_sim.costs import CostTable, JobCosts, LarsenCosts, select
 from sched_sim.errors import InputError
 from sched_sim.options import Options
 from sched_sim.simulate import simulate
@@ -39,12 +40,13 @@ STEPS = (
 
 
 def serial_timeline(table: CostTable, timing: Timing, speed: Fraction) -> Figure:
-    """Fig. 1: a Kalman filter in real time, one step after another (here by Larsen's method), and the time that it
-    leaves unused. Shown from one step before the second measurement until two after it has arrived.
+    """Fig. 1: a Kalman filter in real time, one step after another, and the time that it leaves unused. Shown from one
+    step before the second measurement until two after it has arrived.
 
+    As the paper says of it, each step propagates alike; its update is that of Larsen's method.
     Raises InputError if a deadline is missed at `speed`.
     """
-    panel = _second_cycle(table, "larsen", timing, speed, timing.M + 3)
+    panel = _second_cycle(serial_costs(table), "larsen", timing, speed, timing.M + 3)
     period = panel.schedule.period
     with drawing():
         figure, axes, scale = _sheet(panel, 19.0, timing.N)
@@ -66,7 +68,7 @@ def dual_rate_timeline(table: CostTable, timing: Timing, speed: Fraction) -> Fig
 
     Raises InputError if a deadline is missed at `speed`, and for an L that the method cannot have.
     """
-    panel = _second_cycle(table, "dual-rate", timing, speed, timing.L + 2)
+    panel = _second_cycle(select(table, "dual-rate", Options()), "dual-rate", timing, speed, timing.L + 2)
     schedule, k, m = panel.schedule, timing.N, timing.N + timing.M
     with drawing():
         figure, axes, scale = _sheet(panel, 43.0, timing.N, STEPS)
@@ -102,6 +104,13 @@ def dual_rate_timeline(table: CostTable, timing: Timing, speed: Fraction) -> Fig
         return figure
 
 
+def serial_costs(table: CostTable) -> LarsenCosts:
+    """Of a filter whose steps all propagate alike, and one of which also updates."""
+    costs = select(table, "larsen", Options())
+    assert isinstance(costs, LarsenCosts)
+    return replace(costs, accumulate=costs.propagate)
+
+
 def unused(all_jobs: Sequence[JobSpan], first: int, end: int) -> list[tuple[int, int]]:
     """The intervals of [first, end) ticks in which none of the jobs runs; they run one at a time."""
     runs = sorted(run for job in all_jobs for run in job.runs if first < run[1] and run[0] < end)
@@ -109,12 +118,10 @@ def unused(all_jobs: Sequence[JobSpan], first: int, end: int) -> list[tuple[int,
     return [(start, stop) for start, stop in list(pairwise(edges))[::2] if start < stop]
 
 
-def _second_cycle(table: CostTable, method: str, timing: Timing, speed: Fraction, steps: int) -> Panel:
+def _second_cycle(costs: JobCosts, method: str, timing: Timing, speed: Fraction, steps: int) -> Panel:
     """The second cycle, so that what the first left to do is there too; from step k-1 until step k + `steps`."""
     landings: dict[int, int] = {}
-    schedule = simulate(
-        select(table, method, Options()), timing, speed, 3, keep_slices=True, on_landing=landings.__setitem__
-    )
+    schedule = simulate(costs, timing, speed, 3, keep_slices=True, on_landing=landings.__setitem__)
     if schedule.misses:
         raise InputError(
             f"timeline of {method}: {schedule.misses} deadlines are missed at speed {float(speed):g}: give the "

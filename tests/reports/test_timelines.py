@@ -5,8 +5,11 @@ from __future__ import annotations
 from fractions import Fraction
 
 import pytest
+from matplotlib.collections import PolyCollection
+from matplotlib.colors import to_rgba
 
 from reports.intervals import jobs
+from reports.style import FILLS
 from reports.timelines import dual_rate_timeline, serial_timeline, unused
 from sched_sim.costs import load, select
 from sched_sim.errors import InputError
@@ -16,15 +19,30 @@ from sched_sim.timing import Timing
 from tests.reports.layout import flaws, texts
 
 PAPER = load("steffes2014")
-LARSEN, DUAL_RATE = Fraction("1.47"), Fraction("0.77")
+LARSEN, SERIAL, DUAL_RATE = Fraction("1.47"), Fraction("1.26"), Fraction("0.77")
+"""Least speeds; SERIAL: of steps that all propagate in 0.45, and update in 0.81."""
 
 
 def test_figure_1_can_be_read_and_shows_the_unused_time() -> None:
-    figure = serial_timeline(PAPER, Timing(10, 4, 8), LARSEN)
+    figure = serial_timeline(PAPER, Timing(10, 4, 8), SERIAL)
     assert flaws(figure) == []
     said = [text.get_text() for text, _ in texts(figure)]
     assert said.count("unused") == 7  # k-1 .. k+6, but for m
     assert {"$k$", "$m = l$", "measurement taken", "delayed measurement available"} <= set(said)
+
+
+def test_figure_1_has_blocks_of_one_length_for_propagation() -> None:
+    """The paper: "Assuming the propagation computations take the same amount of time regardless of the time step"."""
+    figure = serial_timeline(PAPER, Timing(10, 4, 8), SERIAL)
+    (axes,) = [axes for axes in figure.axes if axes.axison]
+    colour = to_rgba(FILLS["P"].colour)
+    boxes = [
+        path.get_extents().width
+        for drawn in axes.collections
+        if isinstance(drawn, PolyCollection) and tuple(drawn.get_facecolor()[0]) == colour
+        for path in drawn.get_paths()
+    ]
+    assert boxes == pytest.approx([0.45 / 1.26] * 30)  # of three cycles
 
 
 def test_unused_time_is_what_the_jobs_leave() -> None:
