@@ -57,6 +57,11 @@ class SampledCosts:
                 )
 
     @property
+    def harness(self) -> bool:
+        """Whether `measure --filter` timed the samples: most of such a sample is the loop that timed it."""
+        return self.unit == "second" and self.provenance.get("backend") == "compiled"
+
+    @property
     def shown(self) -> str:
         """Name and path, for messages."""
         return f"{self.name!r} ({self.path})" if self.path else repr(self.name)

@@ -111,6 +111,7 @@ class Scenario:
     costs: from `sample_file`, all parts that `needed_parts` names. priority: of the predict jobs.
     cpus: with 2, corrections run on the second. context_switch: in cost units, as in `options.Options`.
     files: those that its own file names, from which costs were read.
+    harness: whether any of the costs are samples of `measure --filter`, from which no probability of a miss follows.
     Raises InputError that lists all that is wrong.
     """
 
@@ -127,6 +128,7 @@ class Scenario:
     context_switch: Fraction = Fraction(0)
     cpus: Literal[1, 2] = 1
     files: Sequence[Path] = ()
+    harness: bool = False
 
     def __post_init__(self) -> None:
         wrong = []

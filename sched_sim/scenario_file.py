@@ -15,7 +15,7 @@ from sched_sim.errors import InputError
 from sched_sim.jobs import HR, LR
 from sched_sim.processor import load_processor, seconds_for, shipped_processors
 from sched_sim.sample_file import SampledCosts, read_sampled_costs
-from sched_sim.scenario import Late, Samples, Scenario, Sensor, ends
+from sched_sim.scenario import Late, Samples, Scenario, Sensor, ends, needed_parts
 from sched_sim.task_file import TaskEntry, named_twice
 from sched_sim.tasks import Task
 from sched_sim.ticks import exact, positive
@@ -201,19 +201,23 @@ def _scenario(checked: _ScenarioFile, folder: Path) -> Scenario:
     tasks = [Task(**dict(entry)) for entry in checked.task]
     if twice := named_twice(tasks):
         raise InputError("; ".join(twice))
-    costs: dict[str, Sequence[Fraction]] = {}
-    if checked.costs is not None:
-        costs |= _from_file(read_sampled_costs(folder / checked.costs), checked, folder)
+    stated = {f"correct.{sensor.name}": sensor.cost for sensor in checked.sensor if sensor.cost is not None}
     if checked.predictor.cost is not None:
-        costs["predict"] = checked.predictor.cost
-    costs |= {f"correct.{sensor.name}": sensor.cost for sensor in checked.sensor if sensor.cost is not None}
+        stated["predict"] = checked.predictor.cost
+    costs: dict[str, Sequence[Fraction]] = {}
+    sensors, harness = [sensor.sensor() for sensor in checked.sensor], False
+    if checked.costs is not None:
+        sampled = read_sampled_costs(folder / checked.costs)
+        costs |= _from_file(sampled, checked, folder)
+        harness = sampled.harness and not set(needed_parts(sensors, checked.late)) <= set(stated)
+    costs |= stated
     speed = checked.speed if checked.hr_hz is None else 1 / checked.hr_hz
     assert speed is not None  # see _one_unit
     return Scenario(
         name=checked.name,
         steps=checked.steps,
         speed=speed,
-        sensors=[sensor.sensor() for sensor in checked.sensor],
+        sensors=sensors,
         costs=costs,
         hr_hz=checked.hr_hz,
         seed=checked.seed,
@@ -223,6 +227,7 @@ def _scenario(checked: _ScenarioFile, folder: Path) -> Scenario:
         context_switch=checked.context_switch,
         cpus=checked.cpus,
         files=[folder / name for name in (checked.costs, checked.processor) if name is not None],
+        harness=harness,
     )
 
 

@@ -1,4 +1,8 @@
-"""What each part of a composed filter takes, one figure for each of many samples: the distribution, not a bound."""
+"""What each part of a composed filter takes, one figure for each of many samples.
+
+Not yet the distribution of one execution: a call of the loop takes longer than the jobs in it, and its least time is
+what is subtracted. So the samples rank parts, and carry no probability of a rare event.
+"""
 
 from __future__ import annotations
 
@@ -52,8 +56,8 @@ def timed_together(
     times = seconds_per_run(jobs, "compiled", protocol, seed, progress)
     source = (
         f"{protocol.rounds} samples of each part; a sample is the mean of {protocol.repetitions} executions in one "
-        "compiled call, less the least time of an empty loop; other parts run in between; time in which the operating "
-        "system runs something else is not counted"
+        "compiled call, less the least time of an empty loop, so that most of it is the loop's; other parts run in "
+        "between; time in which the operating system runs something else is not counted"
     )
     return {
         name: SampledCosts(

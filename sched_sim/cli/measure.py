@@ -84,7 +84,8 @@ OwnFilter = Annotated[
     typer.Option(
         "--filter",
         help="Your own composed filter: package.module:function that returns a ModularFilter, or with it a typical "
-        "state, covariance and input. Its times are written sample by sample, for a scenario.",
+        "state, covariance and input. Its times are written sample by sample, each mostly that of the timing loop: "
+        "they rank parts, and give no probability of a miss.",
         rich_help_panel=SYSTEM,
     ),
 ]

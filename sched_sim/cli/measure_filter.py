@@ -97,8 +97,8 @@ def _note(costs: SampledCosts) -> str:
 
 def what_a_sample_means(repetitions: int) -> str:
     return (
-        f"A mean of {repetitions} executions hides single slow ones: where only those would miss a deadline, P(miss) "
-        f"from these samples is too low"
+        f"Most of a sample is the loop that takes it, not the job, and a mean of {repetitions} executions hides single "
+        f"slow ones: no probability of a miss follows from these samples, and `simulate --scenario` gives none"
     )
 
 

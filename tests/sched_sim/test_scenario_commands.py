@@ -116,6 +116,31 @@ def test_people_get_two_tables(sched_sim: Run) -> None:
         assert words in out
 
 
+SAMPLED = 'name = "m"\nunit = "second"\n{}[samples]\npredict = [1e-6, 3e-6]\n[samples.correct]\ngps = [2e-6]\n'
+
+
+@pytest.mark.parametrize(
+    ("backend", "stated", "given"), [("", "", True), ("compiled", "", False), ("compiled", "cost = 1e-6", True)]
+)
+def test_no_probability_of_a_miss_from_samples_of_measure_filter(
+    backend: str, stated: str, given: bool, sched_sim: Run, tmp_path: Path
+) -> None:
+    """Most of such a sample is the loop that took it. Misses are counted all the same."""
+    about = f'backend = "{backend}"\n' if backend else ""
+    scenario = SHORT.replace("speed = 10", "hr_hz = 100").replace("[predictor]", f"[predictor]\n{stated}")
+    write(tmp_path, scenario.replace('"gps"', f'"gps"\n{stated}'), SAMPLED.format(about))
+    people = sched_sim("simulate --scenario s.toml").out
+    document = json.loads(sched_sim("simulate --scenario s.toml --format json").out)
+    table = list(csv.DictReader(io.StringIO(sched_sim("simulate --scenario s.toml --format csv").out)))
+    for job, row in zip(document["jobs"].values(), table, strict=True):
+        assert (job["miss_probability"] is not None) == (job["miss_interval"] is not None) == given
+        assert (row["miss_probability"] != "") == (row["miss_probability_most"] != "") == given
+        assert job["misses"] >= 0
+    assert ("95 % interval" in people) == given
+    assert ("no P(miss): samples of `measure --filter`" in " ".join(people.split())) != given
+    assert (document["note"] is None) == given
+
+
 def test_larsen_in_overload(sched_sim: Run, tmp_path: Path) -> None:
     """In a period of 5, step 2 takes 4 and 7 until 21, steps 3 and 4, still accumulating, until 29, step 5 until 32."""
     write(tmp_path, SHORT.replace("speed = 10", 'speed = 5\nlate = "larsen"'))
