@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
@@ -19,8 +19,9 @@ from reports.erkf_results import Results
 from reports.erkf_schedule import millions, one_period, speed_figure, two_rates
 from reports.erkf_singular import singular_figure
 from reports.gantt import gantt, image
-from reports.multirate_words import percent
+from reports.machine import legend, residue, timed_on
 from reports.render import csv_bytes, render
+from reports.written import percent
 from sched_sim.costs import ROBUST_METHODS, CostTable, RobustMethod, load
 from sched_sim.fit import fit
 from sched_sim.least_speed import least_speed
@@ -59,7 +60,7 @@ def build(found: Results) -> dict[str, bytes]:
         TITLE,
         figures,
         **{name.replace("-", "_"): table for name, table in rows.items()},
-        about=_about(found),
+        legend=legend(timed_on(found.measured["position"].provenance), residues=True),
         cost=_cost(found),
         device_gain=_parallel(devices),
         rounding=_rounding(found),
@@ -132,16 +133,24 @@ def _ways_gantt(table: CostTable, part: Processor) -> Figure:
         costs = tables.on(table, part, method)
         assert costs is not None
         title = tables.WAYS[method]
-        panels.append(two_rates(costs, N, pace, title[0].upper() + title[1:], f"HR period {float(1000 * pace):g} ms"))
+        panels.append(
+            two_rates(
+                costs, Timing(N, 0, N), pace, title[0].upper() + title[1:], f"HR period {float(1000 * pace):g} ms"
+            )
+        )
     return gantt(panels)
 
 
 def _deadlines_gantt(table: CostTable) -> Figure:
     """Givens at the least speeds for two L, and in one period at the faster of them."""
     costs = tables.robust_costs_of(table, "robust-givens")
-    speeds = {L: least_speed(costs, Timing(N, 0, L)).speed for L in (N, SOON)}
-    panels = [two_rates(costs, N, speed, f"Two rates, L = {L}", _pace(speed)) for L, speed in speeds.items()]
-    return gantt([*panels, one_period(costs, N, speeds[SOON], "In one period", _pace(speeds[SOON]))])
+    timings = [Timing(N, 0, L) for L in (N, SOON)]
+    speeds = [least_speed(costs, timing).speed for timing in timings]
+    panels = [
+        two_rates(costs, timing, speed, f"Two rates, L = {timing.L}", _pace(speed))
+        for timing, speed in zip(timings, speeds, strict=True)
+    ]
+    return gantt([*panels, one_period(costs, N, speeds[-1], "In one period", _pace(speeds[-1]))])
 
 
 def _pace(speed: Fraction) -> str:
@@ -149,17 +158,6 @@ def _pace(speed: Fraction) -> str:
 
 
 # ------------------------------------------------------------------------------------------- the numbers of the text
-
-
-def _about(found: Results) -> dict[str, str]:
-    about = found.measured["position"].provenance
-    protocol = about["protocol"]
-    return {
-        "machine": about["machine"],
-        "date": about["date"],
-        "versions": ", ".join(f"{name} {number}" for name, number in about["versions"].items()),
-        "protocol": f"{protocol['rounds']} rounds of {protocol['repetitions']} repetitions",
-    }
 
 
 def _cost(found: Results) -> dict[str, Any]:
@@ -229,26 +227,31 @@ def _parallel(devices: Mapping[SystemName, Parallel]) -> dict[str, Any]:
 
 
 def _rounding(found: Results) -> dict[str, Any]:
+    """How far each way is from the inverse. Residues, but for what fails."""
     records = found.records("agreement")
     scaled = [record for record in records if "radians" not in record["case"]]
 
-    def worst(way: str, *keys: str) -> str:
-        return f"{max(float(r[key]) for r in scaled if r['way'] == way for key in keys):.1e}"
+    def worst(rows: Sequence[Mapping[str, str]], *keys: str) -> str:
+        return residue(max(float(row[key]) for row in rows for key in keys))
 
+    of = {way: [record for record in scaled if record["way"] == way] for way in ("givens", "lu")}
     (radians,) = [r for r in records if "radians" in r["case"] and r["way"] == "givens"]
-    unpivoted = [r for r in scaled if r["way"] == "lu without pivoting"]
-    kept = [r for r in unpivoted if not r["fails_in_step"]]
+    unpivoted = [r for r in records if r["way"] == "lu without pivoting"]
+    kept, failing = ([r for r in unpivoted if bool(r["fails_in_step"]) == fails] for fails in (False, True))
+    limits = [record for record in unpivoted if "mu=inf" in record["case"]]
     return {
-        "absolute": worst("givens", "largest", "smallest"),
-        "relative": worst("givens", "relative_largest", "relative_smallest"),
-        "lu_relative": worst("lu", "relative_largest", "relative_smallest"),
-        "radians_absolute": f"{max(float(radians[key]) for key in ('largest', 'smallest')):.1e}",
-        "radians_percent": f"{100 * float(radians['relative_smallest']):.1f}",
-        "failing": len(unpivoted) - len(kept),
+        "absolute": worst(of["givens"], "largest", "smallest"),
+        "relative": worst(of["givens"], "relative_largest", "relative_smallest"),
+        "lu_absolute": worst(of["lu"], "largest", "smallest"),
+        "lu_relative": worst(of["lu"], "relative_largest", "relative_smallest"),
+        "radians_absolute": worst([radians], "largest", "smallest"),
+        "radians_percent": f"{100 * float(radians['relative_smallest']):.0f}",
+        "failing": len(failing),
         "of": len(unpivoted),
-        "step": max(int(r["fails_in_step"]) for r in unpivoted if r["fails_in_step"]),
-        "unpivoted": f"{max(float(r['relative_largest']) for r in kept):.1e}",
-        "pivoted": f"{max(float(r['relative_largest']) for r in scaled if r['way'] == 'lu' and _same(r, kept)):.1e}",
+        "the_limits_fail": failing == limits,
+        "step": max(int(record["fails_in_step"]) for record in failing),
+        "unpivoted": worst(kept, "relative_largest"),
+        "pivoted": worst([r for r in of["lu"] if _same(r, kept)], "relative_largest"),
     }
 
 
@@ -257,27 +260,41 @@ def _same(record: Mapping[str, str], others: list[dict[str, str]]) -> bool:
 
 
 def _drive(found: Results) -> dict[str, Any]:
+    """Errors with twice their standard errors."""
     of = {(float(r["scale_error"]), r["method"]): r for r in found.records("attitude")}
     at = {(float(r["scale_error"]), r["method"]): r for r in found.records("position")}
     small, large = drive.SCALE_ERRORS
     (raw,) = found.records("raw")
     mild, strong = drive.POSITION_EKF.name, drive.POSITION_ROBUST.name
 
-    def yaw(error: float, method: drive.AttitudeMethod) -> str:
-        return of[error, method.name]["yaw_deg"]
+    def error(scale: float, method: drive.AttitudeMethod, angle: str = "yaw") -> str:
+        return tables.with_error(of[scale, method.name], f"{angle}_deg")
+
+    def both(method: drive.AttitudeMethod) -> list[str]:
+        return [error(scale, method) for scale in (small, large)]
+
+    def worse(scale: float, method: drive.AttitudeMethod, angle: str) -> str:
+        """Than the EKF, in percent; negative if it is better."""
+        robust, plain = (float(of[scale, one.name][f"{angle}_deg"]) for one in (method, drive.EKF))
+        return f"{100 * (robust / plain - 1):.0f}"
 
     def sides(record: Mapping[str, str], what: str) -> str:
         return ", ".join(record[f"{what}_{axis}_m"] for axis in ("north", "east", "down"))
 
     return {
         "seeds": len(drive.SEEDS),
-        "ekf": [yaw(error, drive.EKF) for error in (small, large)],
-        "robust": [yaw(error, drive.ROBUST) for error in (small, large)],
-        "more": [yaw(error, drive.MORE_ROBUST) for error in (small, large)],
-        "inflated": [yaw(error, drive.INFLATED) for error in (small, large)],
-        "noisier": [yaw(error, drive.NOISIER) for error in (small, large)],
-        "limits": [yaw(small, method) for method in (drive.LIMIT_GYRO, drive.LIMIT_BIAS, drive.LIMIT_ALL)],
-        "roll": [of[small, method.name]["roll_deg"] for method in (drive.EKF, drive.MORE_ROBUST)],
+        "ekf": both(drive.EKF),
+        "robust": both(drive.ROBUST),
+        "more": both(drive.MORE_ROBUST),
+        "inflated": both(drive.INFLATED),
+        "noisier": both(drive.NOISIER),
+        "limits": [error(small, method) for method in (drive.LIMIT_GYRO, drive.LIMIT_BIAS, drive.LIMIT_ALL)],
+        "pitch": [error(large, method, "pitch") for method in (drive.EKF, drive.MORE_ROBUST)],
+        "roll": [error(small, method, "roll") for method in (drive.EKF, drive.MORE_ROBUST)],
+        "worse": [
+            {angle: worse(scale, drive.MORE_ROBUST, angle) for angle in ("roll", "pitch")}
+            for scale in drive.SCALE_ERRORS
+        ],
         "from_gps": of[small, drive.ROBUST.name]["gps_deg"],
         "from_imu": of[small, drive.ROBUST.name]["imu_deg"],
         "ekf_from_gps": of[small, drive.EKF.name]["gps_deg"],
@@ -287,7 +304,12 @@ def _drive(found: Results) -> dict[str, Any]:
         "ekf_between": sides(at[small, mild], "between"),
         "gps": sides(raw, "gps"),
         "held": sides(raw, "held"),
-        "outage": [at[small, name]["outage_end_m"] for name in (mild, strong)],
+        "position_differs": any(
+            tables.differ(at[scale, mild], at[scale, strong], name)
+            for scale in drive.SCALE_ERRORS
+            for name in tables.OF_POSITION
+        ),
+        "outage": [tables.with_error(at[small, name], "outage_end_m") for name in (mild, strong)],
     }
 
 

@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 
 from reports.axes import AXIS_MM, EDGE_MM, TITLE_MM, decades, plain
 from reports.legend import draw_legend, legend_height, line_entry
+from reports.machine import marked
 from reports.style import (
     INK,
     PALE,
@@ -69,7 +70,7 @@ def cost_figure(ways: Sequence[Way], step_s: float) -> Figure:
             va="center", size=SMALL_PT,
         )  # fmt: skip
         counts.set_title("Operations in a step", loc="left", size=TITLE_PT)
-        times.set_title("Compiled code †", loc="left", size=TITLE_PT)
+        times.set_title(marked("Compiled code"), loc="left", size=TITLE_PT)
         counts.set_xlabel("floating-point operations", labelpad=2)
         times.set_xlabel("time of a step (µs)", labelpad=2)
         draw_legend(figure, legend, left, legend_top, across)

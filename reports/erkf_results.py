@@ -70,11 +70,20 @@ def read(folder: Path) -> Results:
 
 
 def results(thorough: bool = False, progress: Progress = lambda _done, _total, _what: None) -> Results:
-    """Times the code and runs the studies: about three minutes, half of them compiling."""
+    """Times the code and runs the studies: about five minutes."""
+    measured: dict[SystemName, CostTable] = {}
+    for done, name in enumerate(SYSTEMS):
+        progress(done, len(SYSTEMS), f"timing, {name}")
+        measured[name] = robust_costs(name, "compiled", thorough=thorough)
+    return Results(measured, simulated(progress))
+
+
+def simulated(progress: Progress = lambda _done, _total, _what: None) -> dict[str, Rows]:
+    """All tables: none depends on times."""
     errors = drive.SCALE_ERRORS
     asked = [(method, error) for error in errors for method in drive.ATTITUDE_METHODS]
     asked_position = [(method, error) for error in errors for method in drive.POSITION_METHODS]
-    total = len(SYSTEMS) + len(asked) + len(asked_position) + len(singular.CASES) + 1
+    total = len(asked) + len(asked_position) + len(singular.CASES) + 1
     done = 0
 
     def tell(what: str) -> None:
@@ -82,10 +91,6 @@ def results(thorough: bool = False, progress: Progress = lambda _done, _total, _
         progress(done, total, what)
         done += 1
 
-    measured: dict[SystemName, CostTable] = {}
-    for name in SYSTEMS:
-        tell(f"timing, {name}")
-        measured[name] = robust_costs(name, "compiled", thorough=thorough)
     attitude: Rows = [[*_ATTITUDE]]
     for of_attitude, error in asked:
         tell(f"attitude, {of_attitude.name}")
@@ -106,21 +111,18 @@ def results(thorough: bool = False, progress: Progress = lambda _done, _total, _
     tell("the drive of the figures")
     course, close_up = _drives()
     progress(total, total, "done")
-    return Results(
-        measured,
-        {
-            "attitude": attitude,
-            "position": position,
-            "raw": [
-                ["imu_yaw_deg", "gps_yaw_deg", *_of("gps", "m"), *_of("held", "m")],
-                [digits(value) for value in (raw.imu_yaw_deg, raw.gps_yaw_deg, *raw.gps_m, *raw.held_m)],
-            ],
-            "agreement": agreement,
-            "singular-values": rows_of(curves, "{:.4g}"),
-            "drive": rows_of(course, "{:.3f}"),
-            "close-up": rows_of(close_up, "{:.4f}"),
-        },
-    )
+    return {
+        "attitude": attitude,
+        "position": position,
+        "raw": [
+            ["imu_yaw_deg", "gps_yaw_deg", *_of("gps", "m"), *_of("held", "m")],
+            [digits(value) for value in (raw.imu_yaw_deg, raw.gps_yaw_deg, *raw.gps_m, *raw.held_m)],
+        ],
+        "agreement": agreement,
+        "singular-values": rows_of(curves, "{:.4g}"),
+        "drive": rows_of(course, "{:.3f}"),
+        "close-up": rows_of(close_up, "{:.4f}"),
+    }
 
 
 # -------------------------------------------------------------------------------------------------------- as tables
@@ -130,21 +132,30 @@ def _of(what: str, unit: str) -> list[str]:
     return [f"{what}_{axis}_{unit}" for axis in ("north", "east", "down")]
 
 
-_ATTITUDE = ("scale_error", "method", "roll_deg", "pitch_deg", "yaw_deg", "gps_deg", "imu_deg", "outage_deg")
+_OF_ATTITUDE = ("roll_deg", "pitch_deg", "yaw_deg", "gps_deg", "imu_deg", "outage_deg")
+_ATTITUDE = ("scale_error", "method", *_OF_ATTITUDE, *(f"{name} se" for name in _OF_ATTITUDE))
 _POSITION = (
     "scale_error", "method", *_of("fix", "m"), *_of("between", "m"), *_of("velocity", "m_s"), *_of("outage", "m"),
-    "outage_end_m",
+    "outage_end_m", *(f"{name} se" for name in (*_of("between", "m"), "outage_end_m")),
 )  # fmt: skip
 _AGREEMENT = ("case", "way", "largest", "smallest", "relative_largest", "relative_smallest", "state", "fails_in_step")
 
 
 def _attitude_row(found: drive.AttitudeResult) -> list[Any]:
     others = (found.yaw_from_gps_deg, found.yaw_from_imu_deg, found.outage_yaw_deg)
-    return [found.scale_error, found.method, *(digits(value) for value in (*found.errors_deg, *others))]
+    return [
+        found.scale_error,
+        found.method,
+        *(digits(value) for value in (*found.errors_deg, *others, *found.standard_errors_deg)),
+    ]
 
 
 def _position_row(found: drive.PositionResult) -> list[Any]:
-    values = (*found.after_fix_m, *found.between_m, *found.between_velocity, *found.outage_m, found.outage_end_m)
+    errors = (*found.between_standard_error_m, found.outage_end_standard_error_m)
+    values = (
+        *(*found.after_fix_m, *found.between_m, *found.between_velocity, *found.outage_m),
+        *(found.outage_end_m, *errors),
+    )
     return [found.scale_error, found.method, *(digits(value) for value in values)]
 
 

@@ -70,16 +70,16 @@ def millions(speed: Fraction, hr_hz: int) -> float:
     return float(speed * hr_hz / 10**6)
 
 
-def two_rates(costs: RobustCosts, N: int, speed: Fraction, title: str, pace: str, cycles: int = 1) -> Panel:
-    """The robust step in what the inertial propagation leaves of N steps. pace: what the title says of the speed."""
-    schedule = simulate(costs, Timing(N, 0, N), speed, cycles, keep_slices=True)
-    landed = achieved_l(costs, Timing(N, 0, N), speed)
+def two_rates(costs: RobustCosts, timing: Timing, speed: Fraction, title: str, pace: str, cycles: int = 1) -> Panel:
+    """The robust step in what the inertial propagation leaves of L steps. pace: what the title says of the speed."""
+    schedule = simulate(costs, timing, speed, cycles, keep_slices=True)
+    landed = achieved_l(costs, timing, speed)
     lands = "no result lands" if landed is None else f"lands at $l = k+{landed}$"
     return Panel(
         title=title,
         schedule=schedule,
         notes=[pace, lands, f"{100 * float(schedule.utilization):.1f} % busy"],
-        marks=cycle_marks(Timing(N, 0, N), cycles, {} if landed is None else {0: landed}, arrives=False),
+        marks=cycle_marks(timing, cycles, {} if landed is None else {0: landed}, arrives=False),
     )
 
 

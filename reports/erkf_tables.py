@@ -9,7 +9,8 @@ from typing import Any
 from reports.erkf_counts import ALL_WAYS, PROCESSORS, TIMED, Counts, Parallel
 from reports.erkf_results import Results
 from reports.erkf_schedule import millions
-from reports.multirate_words import percent, significant
+from reports.machine import marked, residue
+from reports.written import percent, plus_minus, significant
 from sched_sim.costs import ROBUST_METHODS, CostTable, RobustCosts, StandardCosts, select
 from sched_sim.fit import fit
 from sched_sim.least_speed import achieved_l, least_speed
@@ -30,8 +31,9 @@ ASKED = (1, 5, 10, 20, N)
 """The L of the table."""
 UNITS = (1, 4, 16, 64)
 """Column pairs at a time, of the parallel device."""
+OF_POSITION = ("between_north_m", "between_east_m", "between_down_m", "outage_end_m")
+"""Of the table."""
 SHOWN = tuple(P for P in PROCESSORS if P not in (4, 256))
-DAGGER = "†"
 
 
 def robust_costs_of(table: CostTable, method: str) -> RobustCosts:
@@ -44,7 +46,7 @@ def cost_rows(counts: Counts, measured: Mapping[SystemName, CostTable]) -> Rows:
     """Operations of every way, with infinite and finite mu, and the time of the compiled code."""
     rows: Rows = [["Way"]]
     for system in SYSTEMS:
-        rows[0] += [f"{system}, μ = ∞", "finite μ", f"µs {DAGGER}"]
+        rows[0] += [f"{system}, μ = ∞", "finite μ", marked("µs")]
     for way in ALL_WAYS:
         row: list[Any] = [way]
         for system in SYSTEMS:
@@ -72,43 +74,50 @@ def parallel_rows(found: Mapping[SystemName, Parallel]) -> Rows:
 
 
 def agreement_rows(found: Results) -> Rows:
-    """How far each way is from the inverse: at most, in a whole drive. All from rounding, so all stored."""
-    heads = ("max, abs.", "min, abs.", "max, rel.", "min, rel.", "fails in")
-    rows: Rows = [["Filter", "Way", *heads]]
+    """How far each way is from the inverse: at most, in a whole drive. Nothing but rounding."""
+    rows: Rows = [["Filter", "Way", *map(marked, ("max, abs.", "min, abs.", "max, rel.", "min, rel.")), "fails in"]]
     names = {"givens": "Givens", "lu": "LU, pivoting", "lu without pivoting": "LU, no pivoting"}
     for record in found.records("agreement"):
         values = [record[key] for key in ("largest", "smallest", "relative_largest", "relative_smallest")]
         failed = record["fails_in_step"]
-        shown = [_power(value) if failed == "" else "-" for value in values]
+        shown = [residue(float(value)) if failed == "" else "-" for value in values]
         rows.append([record["case"], names[record["way"]], *shown, f"step {failed}" if failed else "-"])
     return rows
 
 
-def _power(text: str) -> str:
-    return f"{float(text):.1e}"
-
-
 def attitude_rows(found: Results) -> Rows:
-    rows: Rows = [["Scale error", "Filter", "roll", "pitch", "yaw", "yaw − GPS", "yaw − IMU", "yaw, GPS out"]]
+    rows: Rows = [["Scale error", "Filter", "roll", "pitch", "yaw", "yaw, GPS out"]]
     for record in found.records("attitude"):
-        values = [record[key] for key in ("roll_deg", "pitch_deg", "yaw_deg", "gps_deg", "imu_deg", "outage_deg")]
+        values = [with_error(record, f"{name}_deg") for name in ("roll", "pitch", "yaw", "outage")]
         rows.append([f"{100 * float(record['scale_error']):g} %", record["method"], *values])
     return rows
 
 
 def position_rows(found: Results) -> Rows:
-    rows: Rows = [["Scale error", "Filter", "between fixes: north", "east", "down", "GPS out, end"]]
+    rows: Rows = [["Scale error", "Filter", "north", "east", "down", "GPS out, end"]]
     for record in found.records("position"):
-        values = [record[f"between_{axis}_m"] for axis in ("north", "east", "down")]
-        rows.append([f"{100 * float(record['scale_error']):g} %", record["method"], *values, record["outage_end_m"]])
+        values = [with_error(record, name) for name in OF_POSITION]
+        rows.append([f"{100 * float(record['scale_error']):g} %", record["method"], *values])
     return rows
+
+
+def differ(one: Mapping[str, str], other: Mapping[str, str], name: str) -> bool:
+    """Whether two root mean squares are farther apart than twice the standard error of their difference, which is at
+    most this, as both are of the same drives."""
+    errors = [float(record[f"{name} se"]) for record in (one, other)]
+    return abs(float(one[name]) - float(other[name])) > 2 * sum(errors)
+
+
+def with_error(record: Mapping[str, str], name: str) -> str:
+    """A root mean square of several drives, ± twice its standard error."""
+    return plus_minus(float(record[name]), float(record[f"{name} se"]))
 
 
 def speed_rows(tables: Mapping[SystemName, CostTable], measured: Mapping[SystemName, CostTable]) -> Rows:
     """The least speed by L in millions of operations a second, the L achieved with that for L = N, and what the whole
     step in one HR period needs; measured: the least share of this machine for L = N."""
     heads = [f"L = {L}" for L in ASKED]
-    rows: Rows = [["System", "Way", "in one period", *heads, "lands at", f"load, % {DAGGER}"]]
+    rows: Rows = [["System", "Way", "in one period", *heads, "lands at", marked("load, %")]]
     for system, table in tables.items():
         for method in ROBUST_METHODS:
             costs, timed = robust_costs_of(table, method), robust_costs_of(measured[system], method)

@@ -23,7 +23,7 @@ from reports.render import csv_bytes, render
 from studies import spring_mass
 from studies.late_measurements import SENSORS
 from studies.rocket import BASE, PHASES
-from studies.rocket_schedule import compared_at
+from studies.rocket_schedule import compared_at, counted
 from studies.spring_mass_run import OSCILLATOR
 
 TITLE = "Modular Kalman filters: what dropout, delay and ignorance do to them, what they cost, and when they land"
@@ -84,7 +84,7 @@ def _figures(found: Results) -> dict[str, Figure]:
         "misses.svg": schedule.miss_figure(misses),
         "responses.svg": schedule.response_figure(found.columns("schedule-responses")),
         "landings.svg": schedule.landing_figure(found.columns("schedule-landings")),
-        "one-fix.svg": gantt(fix_panels(found.costs, compared_at(misses))),
+        "one-fix.svg": gantt(fix_panels(counted(), compared_at(misses))),
     }
 
 

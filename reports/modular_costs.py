@@ -10,19 +10,20 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from reports.axes import decades
 from reports.legend import line_entry
+from reports.machine import marked
 from reports.sheet import label, sheet
 from reports.style import SOURCE_LINES, drawing
 
 Record: TypeAlias = Mapping[str, str]
 
 LINES = dict(zip(("linear", "extended", "unscented"), SOURCE_LINES[1:], strict=False))
-OPERATIONS, SECONDS = "operations", "minimum, µs †"
+OPERATIONS, SECONDS = "operations", marked("minimum, µs")
 """As the columns are called."""
 
 
 def cost_figure(rows: Sequence[Record]) -> Figure:
     """Above, operations; below, times: of predict at the left, of correct at the right."""
-    shown = {OPERATIONS: ("operations", 60, 40_000), SECONDS: ("time, compiled † (µs)", 0.015, 5)}
+    shown = {OPERATIONS: ("operations", 60, 40_000), SECONDS: (f"time, {marked('compiled')} (µs)", 0.015, 5)}
     states = sorted({int(row["states"]) for row in rows})
     with drawing():
         figure, plots = sheet(2, 2, [line_entry(kind, line) for kind, line in LINES.items()], height_mm=36.0)

@@ -36,6 +36,8 @@ BOUNDS = (Fill(PALE, PALE, "", "95 % bounds"), Fill("#bdbdbd", "#bdbdbd", "", "9
 SHOWN = (0.1, 0.5, 0.8, 0.9, 0.95, 0.98, 0.99)
 """Dropouts with a number on the axis."""
 CLAIMED = 0.8
+ENDS = ("", "low ", "high ")
+"""How the columns of a value and of its interval are called."""
 OSCILLATOR_AMPLITUDES = dict(zip(QUANTITIES, map(float, AMPLITUDES), strict=True))
 NOISES = {"position": float(POSITION_SIGMA_M), "acceleration": float(ACCELERATION_SIGMA)}
 
@@ -74,7 +76,7 @@ def history_figure(run: Columns, periods_s: float) -> Figure:
 
 
 def dropout_figure(rows: Sequence[Record]) -> Figure:
-    """The three readings of "residual" against dropout; bars: twice the standard error."""
+    """The three readings of "residual" against dropout; bars: the 95 % interval."""
     shown = [row for row in rows if float(row["dropout"]) >= SHOWN[0]]
     titles = ("Error of the estimate", "Innovation", "What is left after the update")
     names = ("RMS over amplitude (%)", "RMS over sensor noise", "RMS over sensor noise")
@@ -83,9 +85,8 @@ def dropout_figure(rows: Sequence[Record]) -> Figure:
         for axes, title, up, what in zip(plots, titles, names, ("error", "innovation", "after"), strict=True):
             for name in QUANTITIES if what == "error" else SENSORS:
                 unit = 0.01 * OSCILLATOR_AMPLITUDES[name] if what == "error" else NOISES[name]
-                value = _column(shown, f"{what} {UNITS[name]}") / unit
-                bar = 2 * _column(shown, f"{what} se {UNITS[name]}") / unit
-                _curve(axes, _spaced(_column(shown, "dropout")), value, bar, LINES[name])
+                value, *ends = (_column(shown, f"{what} {end}{UNITS[name]}") / unit for end in ENDS)
+                _curve(axes, _spaced(_column(shown, "dropout")), value, ends, LINES[name])
             label(axes, title, "dropout (%)", up)
             dropout_axis(axes)
         decades(plots[0], "y", 1, 20_000)
@@ -107,18 +108,18 @@ def rate_figure(by_rate: Mapping[int, Sequence[Record]], reach: float) -> Figure
         figure, [[left, right]] = sheet(1, 2, legend)
         for rate, rows in by_rate.items():
             shown = [row for row in rows if float(row["dropout"]) >= SHOWN[0]]
-            value, bar = (
-                _column(shown, f"error {se}m") / (0.01 * OSCILLATOR_AMPLITUDES["position"]) for se in ("", "se ")
+            value, *ends = (
+                _column(shown, f"error {end}m") / (0.01 * OSCILLATOR_AMPLITUDES["position"]) for end in ENDS
             )
-            _curve(left, _spaced(_column(shown, "dropout")), value, 2 * bar, lines[rate])
-            _curve(right, _column(shown, "interval"), value, 2 * bar, lines[rate])
+            _curve(left, _spaced(_column(shown, "dropout")), value, ends, lines[rate])
+            _curve(right, _column(shown, "interval"), value, ends, lines[rate])
         for axes in (left, right):
             decades(axes, "y", 0.5, 50_000)
         still = 100 * float(next(iter(by_rate.values()))[0]["still"])
         _level(left, still)
         _level(right, still, "motion ignored")
         dropout_axis(left)
-        label(left, "Against dropout", "dropout (%)", "RMS error of position over amplitude (%)")
+        label(left, "Against dropout", "dropout (%)", "error of position over amplitude (%)")
         decades(right, "x", 0.002, 7)
         right.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
         right.axvline(reach, color=GREY, lw=0.9, ls=(0, (2, 1.5)), zorder=1)
@@ -187,10 +188,12 @@ def _column(rows: Iterable[Record], name: str) -> FloatArray:
     return np.array([float(row[name]) for row in rows])
 
 
-def _curve(axes: Axes, across: FloatArray, up: FloatArray, bar: FloatArray, line: Line) -> None:
+def _curve(axes: Axes, across: FloatArray, up: FloatArray, ends: Sequence[FloatArray], line: Line) -> None:
+    """ends: of the bars, low and high."""
+    low, high = ends
     axes.errorbar(
-        across, up, bar, fmt=line.marker, color=line.colour, ms=line.size, mew=1.3 if line.marker == "|" else 0,
-        ls=line.dashes, lw=1.0, elinewidth=0.8, capsize=1.6, capthick=0.8,
+        across, up, [up - low, high - up], fmt=line.marker, color=line.colour, ms=line.size,
+        mew=1.3 if line.marker == "|" else 0, ls=line.dashes, lw=1.0, elinewidth=0.8, capsize=1.6, capthick=0.8,
     )  # fmt: skip
 
 

@@ -6,7 +6,7 @@ machines, and the report is made from these files.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from statistics import median
 from typing import NamedTuple
@@ -15,14 +15,16 @@ import numpy as np
 
 from filters.arrays import FloatArray
 from filters.systems.spring_mass import period_s
+from reports.machine import marked, timed_on
 from reports.modular_costs import OPERATIONS, SECONDS
 from reports.modular_oscillator import QUANTITIES, SENSORS, UNITS
 from reports.modular_rocket_rows import rocket_tables
 from reports.modular_schedule import TABLES as SCHEDULE_TABLES
-from reports.modular_schedule import read_samples, sample_files, schedule_tables
+from reports.modular_schedule import schedule_tables
 from reports.stored import Rows, Tables, as_stored, columns, digits, read_tables, records, rows_of, table_files
 from studies import late_measurements, modular_costs, rocket, rocket_schedule, spring_mass
 from studies.spring_mass_run import OSCILLATOR, SETTLED_PERIODS, step_s
+from studies.typical import UNLUCKY, quantile
 
 Progress = Callable[[int, int, str], None]
 
@@ -40,10 +42,9 @@ TABLES = (
 
 
 class Results(NamedTuple):
-    """tables: by name, as in `TABLES`. costs: samples of the execution times of the rocket's filters."""
+    """tables: by name, as in `TABLES`."""
 
     tables: Tables
-    costs: rocket_schedule.Costs
 
     def columns(self, name: str) -> dict[str, FloatArray]:
         """A table of numbers; nan where a cell is empty."""
@@ -55,27 +56,30 @@ class Results(NamedTuple):
 
     def files(self) -> dict[str, bytes]:
         """What `read` reads."""
-        return {**table_files(self.tables), **sample_files(self.costs)}
+        return table_files(self.tables)
 
 
 def read(folder: Path) -> Results:
     """The results that a report in `folder` was made from."""
-    return Results(read_tables(folder, TABLES), read_samples(folder))
+    return Results(read_tables(folder, TABLES))
 
 
 def results(thorough: bool = False, progress: Progress = lambda _done, _total, _what: None) -> Results:
-    """Runs the studies and times the code: about three minutes, and two more if nothing was compiled before."""
-    costs = rocket_schedule.measured(thorough=thorough, progress=progress)
-    tables = as_stored(
+    """Runs the studies and times the code: about ten minutes, and two more if nothing was compiled before."""
+    times = modular_costs.times(thorough=thorough, progress=progress)
+    return Results({**simulated(progress), **as_stored(part_tables(modular_costs.operations(), times))})
+
+
+def simulated(progress: Progress = lambda _done, _total, _what: None) -> dict[str, Rows]:
+    """All tables but those of times."""
+    return as_stored(
         {
             **oscillator_tables(spring_mass.dropout_study(progress)),
             **rocket_tables(rocket.rocket_study(progress=progress)),
             "late": late_rows(late_measurements.late_study(progress=progress)),
-            **part_tables(modular_costs.operations(), modular_costs.times(thorough=thorough, progress=progress)),
-            **schedule_tables(costs, progress),
+            **schedule_tables(rocket_schedule.counted(), progress),
         }
     )
-    return Results(tables, costs)
 
 
 # ----------------------------------------------------------------------------------------------------- the oscillator
@@ -83,37 +87,56 @@ def results(thorough: bool = False, progress: Progress = lambda _done, _total, _
 
 def oscillator_tables(study: spring_mass.DropoutStudy) -> dict[str, Rows]:
     """One run, all rows of the study, and NEES in each step at the dropout of that run."""
-    groups: dict[str, Iterable[spring_mass.Row]] = {
-        "usual": study.rows,
-        "less process noise": study.keen,
-        OWN_MODEL: study.own_model,
+    groups: dict[str, list[spring_mass.Row]] = {
+        "usual": [*study.rows],
+        "less process noise": [*study.keen],
+        OWN_MODEL: [*study.own_model],
         **{f"{losing} only": [row for row in study.by_sensor if row.setting.losing == losing] for losing in SENSORS},
         **{f"rate {rate}": [row for row in study.by_rate if row.setting.rate == rate] for rate in spring_mass.RATES},
     }
     return {
         "oscillator": rows_of(_one_run(), "{:.4f}"),
-        "dropout": [[*_DROPOUT], *(_dropout_row(group, row) for group, rows in groups.items() for row in rows)],
+        "dropout": dropout_table(groups),
         "consistency": rows_of(_consistency(study), "{:.3f}"),
     }
 
 
-def _each(what: str, names: Iterable[str]) -> list[str]:
-    return [f"{what} {se}{UNITS[name]}" for se in ("", "se ") for name in names]
+def dropout_table(groups: Mapping[str, Sequence[spring_mass.Row]]) -> Rows:
+    """All rows by group; each group has one of the lowest dropout."""
+    body = [_dropout_row(group, row, rows) for group, rows in groups.items() for row in rows]
+    return [[*_DROPOUT], *body]
+
+
+_OF = {"error": [*QUANTITIES], "innovation": [*SENSORS], "after": [*SENSORS]}
+
+
+def _heads(what: str) -> list[str]:
+    """What is said of a run's root mean squares: typical, over those of the same run at the lowest dropout, and
+    unlucky; each with its 95 % interval."""
+    kinds = ("", "times ", "unlucky ")
+    ends = ("", "low ", "high ")
+    return [f"{what} {kind}{end}{UNITS[name]}" for name in _OF[what] for kind in kinds for end in ends]
 
 
 _DROPOUT = (
-    "group", "rate", "dropout", "runs", "interval", "still",
-    *_each("error", QUANTITIES), *_each("innovation", SENSORS), *_each("after", SENSORS),
-    "nees", "low", "high", "inside", "below", "above",
+    "group", "rate", "dropout", "runs", "interval", "still", *(head for what in _OF for head in _heads(what)),
+    "nees", "nees se", "low", "high", "inside", "below", "above",
 )  # fmt: skip
 
 
-def _dropout_row(group: str, row: spring_mass.Row) -> list[str]:
-    spread = [value for one in (row.error, row.innovation, row.after) for part in one for value in part]
+def _dropout_row(group: str, row: spring_mass.Row, rows: Iterable[spring_mass.Row]) -> list[str]:
+    """rows: of the same group, among them that of the lowest dropout."""
+    (lowest,) = (one for one in rows if one.dropout == spring_mass.LOWEST)
+    spread: list[float] = []
+    for values, least in ((row.error, lowest.error), (row.innovation, lowest.innovation), (row.after, lowest.after)):
+        for of_run, at_least in zip(values.T, least.T, strict=True):
+            typical, times = quantile(of_run), quantile(of_run / at_least)
+            spread += [*typical, *times, *quantile(of_run, UNLUCKY)]
     found = row.consistency
     counts = [str(number) for number in (row.setting.rate, row.dropout, row.runs)]
     shares = [f"{share:.3f}" for share in (found.inside, found.below, found.above)]
-    return [group, *counts, *map(digits, (row.interval, row.still[0], *spread, found.overall, *found.bounds)), *shares]
+    figures = (row.interval, row.still[0], *spread, found.overall, found.standard_error, *found.bounds)
+    return [group, *counts, *map(digits, figures), *shares]
 
 
 def _one_run() -> dict[str, FloatArray]:
@@ -160,15 +183,12 @@ def late_rows(found: Iterable[late_measurements.Row]) -> Rows:
 
 def part_tables(operations: Mapping[modular_costs.Key, int], timed: modular_costs.Times) -> dict[str, Rows]:
     """Operations and times of each part, and where they were taken."""
-    rows: Rows = [["kind", "states", "part", OPERATIONS, SECONDS, "median, µs †"]]
+    rows: Rows = [["kind", "states", "part", OPERATIONS, SECONDS, marked("median, µs")]]
     for key, number in operations.items():
         micros = [1e6 * each for each in timed.seconds[key]]
         rows.append([*key, number, *map(digits, (min(micros), median(micros)))])
-    about = timed.about
-    versions = ", ".join(f"{name} {number}" for name, number in about["versions"].items())
-    protocol = f"{about['protocol']['rounds']} rounds of {about['protocol']['repetitions']} repetitions"
     where: Rows = [
-        ["machine †", "date †", "versions †", "protocol †"],
-        [about["machine"], about["date"], versions, protocol],
+        [marked("timed on")],
+        [timed_on(timed.about)],
     ]
     return {"parts": rows, "machine": where}

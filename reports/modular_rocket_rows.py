@@ -13,6 +13,7 @@ from reports.stored import Rows, digits, rows_of
 from studies import rocket
 from studies.rocket_flights import Run, fly
 from studies.rocket_readings import READINGS as ALL_READINGS
+from studies.typical import quantile
 
 SEED, EVERY, NEES_EVERY = 0, 10, 5
 """Of the flight that is drawn, and of curves: the seed, and steps between points."""
@@ -28,9 +29,9 @@ READINGS = (
 """Those that are drawn."""
 CASES = dict(zip(DROPOUTS, (case.name for case in rocket.DROPOUT_CASES), strict=True))
 
-ERRORS = ("case", "runs", *(f"{name}{what}" for name in QUANTITIES for what in ("", " se", " largest")))
+ERRORS = ("case", "runs", *(f"{name}{what}" for name in QUANTITIES for what in ("", " low", " high", " largest")))
 RESIDUALS = (
-    "case", "reading", "mean", "se", "worst", "within", "within se", "runs hold", "holds from s", "half from s",
+    "case", "reading", "typical", "low", "high", "worst", "hold", "runs", "holds from s", "half from s",
 )  # fmt: skip
 NEES = ("case", "phase", "of", "n", "mean", "se", "low", "high", "below", "above")
 
@@ -41,7 +42,7 @@ def rocket_tables(found: rocket.RocketResults) -> dict[str, Rows]:
         "rocket-errors": [[*ERRORS], *(_error_row(row) for row in found.errors)],
         "rocket-residuals": [
             [*RESIDUALS],
-            *([row.case.name, row.reading, *map(_digits, row[2:])] for row in found.residuals),
+            *(_residual_row(row) for row in found.residuals),
         ],
         "rocket-nees": [[*NEES], *(_nees_row(row) for row in found.nees)],
         "rocket-residual-course": rows_of(_residual_course(found.series), "{:.3g}"),
@@ -56,8 +57,14 @@ def _digits(value: float) -> str:
 
 
 def _error_row(row: rocket.ErrorRow) -> list[str]:
-    values = np.stack([row.mean, row.standard_error, row.largest], axis=1)
-    return [row.case.name, str(row.runs), *map(digits, values.ravel())]
+    values = [(*quantile(of_run), largest) for of_run, largest in zip(row.rms.T, row.largest, strict=True)]
+    return [row.case.name, str(len(row.rms)), *(digits(value) for one in values for value in one)]
+
+
+def _residual_row(row: rocket.ResidualRow) -> list[str]:
+    values = map(_digits, (*row.typical, row.worst))
+    counts = map(str, (row.hold, row.runs))
+    return [row.case.name, row.reading, *values, *counts, *map(_digits, (row.holds_from_s, row.half_from_s))]
 
 
 def _nees_row(row: rocket.NeesRow) -> list[str]:

@@ -4,7 +4,6 @@ which step the GPS correction lands."""
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from pathlib import Path
 from statistics import median
 
 import numpy as np
@@ -13,20 +12,18 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullLocator
 
 from filters.arrays import FloatArray
-from filters.systems.rocket_filter import GPS, PredictorName
+from filters.systems.rocket_filter import GPS
 from reports.axes import decades
 from reports.legend import fill_entries, line_entry
 from reports.sheet import label, sheet
 from reports.stored import Rows, digits, rows_of
 from reports.style import GREY, PALE, RED, SMALL_PT, SOURCE_LINES, Fill, Line, drawing
-from sched_sim.sample_file import read_sampled_costs, sampled_costs_text
 from studies.rocket_schedule import (
     CONTROL_EVERY,
     GPS_DELAYS,
     JOBS,
     LAND_BY,
     PERIOD_MS,
-    PREDICTORS,
     PURPOSES,
     URGENCIES,
     WAYS,
@@ -37,10 +34,10 @@ from studies.rocket_schedule import (
     Way,
     arrivals,
     chosen,
+    clocks,
     compared_at,
     miss_curves,
     slowest_that_holds,
-    slownesses,
 )
 
 Columns = Mapping[str, FloatArray]
@@ -52,8 +49,8 @@ URGENCY_TITLES = {"preempted": "GPS correction preempted", "in the loop": "GPS c
 BAND = {"band:": Fill(PALE, PALE, "", "95 % band")}
 DEADLINES = {"band:": Fill("#f6e0e0", "#f6e0e0", "", "from the first to the last deadline")}
 ARRIVALS = Line(GREY, "-", "")
-SHOWN = (20, 50, 100, 200, 500, 1000, 2000, 5000)
-"""Times slower with a number on the axis."""
+SHOWN = (10, 20, 50, 100, 200, 500, 1000, 2000)
+"""MHz with a number on the axis."""
 
 LEAST_SHARE, LEVELS = 1e-3, 61
 """Of response times: the shares that exceed them are stored from 1 down to the least, on a logarithmic scale."""
@@ -67,30 +64,16 @@ TABLES = ("schedule-misses", "schedule-responses", "schedule-landings", "schedul
 
 def schedule_tables(costs: Costs, progress: Progress = lambda _done, _total, _what: None) -> dict[str, Rows]:
     """`TABLES`, by name: simulated with these costs, the same every time."""
-    rows = miss_curves(costs, slownesses(costs), progress=progress)
+    rows = miss_curves(costs, clocks(costs), progress=progress)
     at = compared_at(rows)
     runs = [chosen(costs, way, urgency, at) for way in WAYS for urgency in URGENCIES]
     found = (miss_table(rows), rows_of(responses(runs), "{:.4g}"), rows_of(landings(runs), "{:.3g}"), share_rows(runs))
     return dict(zip(TABLES, found, strict=True))
 
 
-def sample_files(costs: Costs) -> dict[str, bytes]:
-    """The execution times as files that `read_samples` reads, and that a scenario can name as its costs."""
-    return {_sample_file(predictor): sampled_costs_text(found).encode() for predictor, found in costs.items()}
-
-
-def read_samples(folder: Path) -> Costs:
-    """The execution times that a report in `folder` was made from."""
-    return {predictor: read_sampled_costs(folder / _sample_file(predictor)) for predictor in PREDICTORS}
-
-
-def _sample_file(predictor: PredictorName) -> str:
-    return f"samples-rocket-{predictor}.toml"
-
-
 def miss_table(rows: Iterable[MissRow]) -> Rows:
     """What `miss_rows_of` reads back, to three digits."""
-    body = [[*row[:6], digits(row.late_ms) if row.late_ms else "0", digits(row.utilization)] for row in rows]
+    body = [[*row[:7], digits(row.late_ms) if row.late_ms else "0", digits(row.utilization)] for row in rows]
     return [[*MissRow._fields], *body]
 
 
@@ -100,10 +83,11 @@ def miss_rows_of(records: Iterable[Record]) -> list[MissRow]:
         MissRow(
             record["way"],
             record["urgency"],
-            int(record["times_slower"]),
+            int(record["clock_mhz"]),
             record["job"],
             int(record["misses"]),
             int(record["decided"]),
+            int(record["cycles"]),
             float(record["late_ms"]),
             float(record["utilization"]),
         )
@@ -146,40 +130,42 @@ def landings(runs: Iterable[Run]) -> dict[str, FloatArray]:
 
 
 def verdict_rows(rows: Sequence[MissRow], at: int) -> Rows:
-    """How slow a processor may be, and what is late on one that is `at` times slower."""
+    """Down to which clock each way holds, and what is late on a processor of `at` MHz, with 95 % intervals."""
     heading = [
-        "late GPS fix", "its correction", "holds up to (times slower)", f"busy at {at} (%)",
-        "loop missed (%)", "by at most (ms)", "control missed (%)", "GPS missed (%)",
+        "late GPS fix", "its correction", "holds from, MHz", f"busy at {at} MHz, %", "loop missed, %",
+        "by at most, ms", "control missed, %", "GPS missed, %",
     ]  # fmt: skip
     table: Rows = [heading]
     for way in WAYS:
         for urgency in URGENCIES:
-            there = {
-                row.job: row
-                for row in rows
-                if (row.way, row.urgency, row.times_slower) == (way.name, urgency, at)
-            }  # fmt: skip
+            there = {row.job: row for row in rows if (row.way, row.urgency, row.clock_mhz) == (way.name, urgency, at)}
             held = slowest_that_holds(rows, way.name, urgency)
+            if not there:
+                table.append([way.name, urgency, "-" if held is None else held, *["-"] * 5])
+                continue
             loop, control, gps = (there[job] for job in JOBS)
             table.append([
                 way.name, urgency, "-" if held is None else held, f"{100 * loop.utilization:.0f}",
-                f"{100 * loop.probability:.1f}", f"{loop.late_ms:.0f}", f"{100 * control.probability:.1f}",
-                f"{100 * gps.probability:.1f}",
+                missed_percent(loop), f"{loop.late_ms:.0f}", missed_percent(control), missed_percent(gps),
             ])  # fmt: skip
     return table
+
+
+def missed_percent(row: MissRow) -> str:
+    """The share of deadlines missed, with its interval."""
+    share, low, high = (f"{100 * value:.1f}" for value in (row.probability, *row.interval))
+    return f"{share} ({low} to {high})"
 
 
 def share_rows(runs: Iterable[Run]) -> Rows:
     """What the processor's time is spent on, in percent, and when the GPS correction lands after it arrived."""
     purposes = (f"{purpose} (%)" for purpose in PURPOSES)
-    table: Rows = [
-        ["late GPS fix", "its correction", "times slower", *purposes, "idle (%)", "GPS response, median (ms)"]
-    ]
+    table: Rows = [["late GPS fix", "its correction", "MHz", *purposes, "idle (%)", "GPS response, median (ms)"]]
     for run in runs:
         spent = [run.shares[purpose] for purpose in PURPOSES]
         shares = [f"{100 * share:.1f}" for share in (*spent, 1 - sum(spent))]
         gps = run.responses_ms["GPS"]
-        table.append([run.way, run.urgency, run.times_slower, *shares, f"{median(gps):.1f}" if gps else "-"])
+        table.append([run.way, run.urgency, run.clock_mhz, *shares, f"{median(gps):.1f}" if gps else "-"])
     return table
 
 
@@ -187,8 +173,8 @@ def share_rows(runs: Iterable[Run]) -> Rows:
 
 
 def miss_figure(rows: Sequence[MissRow]) -> Figure:
-    """The probability of a miss against the slowness of the processor; a row of plots for each urgency."""
-    ends = min(row.times_slower for row in rows) / 1.15, 1.15 * max(row.times_slower for row in rows)
+    """The probability of a miss against the clock of the processor; a row of plots for each urgency."""
+    ends = min(row.clock_mhz for row in rows) / 1.15, 1.15 * max(row.clock_mhz for row in rows)
     with drawing():
         legend = [*(line_entry(name, line) for name, line in LINES.items()), *fill_entries(BAND)]
         figure, plots = sheet(len(URGENCIES), len(JOBS), legend, height_mm=38.0, gap_mm=9.0)
@@ -197,11 +183,11 @@ def miss_figure(rows: Sequence[MissRow]) -> Figure:
                 for name, line in LINES.items():
                     of_way = [row for row in rows if (row.way, row.urgency, row.job) == (name, urgency, job)]
                     _miss_curve(axes, of_way, line)
-                _slowness_axis(axes, ends)
+                _clock_axis(axes, ends)
                 _probability_axis(axes)
                 _titles(axes, urgency, job, "deadlines missed (%)")
                 if urgency == [*URGENCIES][-1]:
-                    label(axes, across="processor: times slower")
+                    label(axes, across="clock of the processor (MHz)")
         return figure
 
 
@@ -272,7 +258,7 @@ def _solid(line: Line) -> Line:
 
 def _miss_curve(axes: Axes, rows: Sequence[MissRow], line: Line) -> None:
     """With its 95 % band."""
-    across = [row.times_slower for row in rows]
+    across = [row.clock_mhz for row in rows]
     low, high = (np.array([100 * row.interval[side] for row in rows]) for side in (0, 1))
     axes.fill_between(across, low, high, color=line.colour, alpha=0.18, lw=0)
     axes.plot(
@@ -297,7 +283,7 @@ def _probability_axis(axes: Axes) -> None:
     axes.yaxis.set_minor_locator(NullLocator())
 
 
-def _slowness_axis(axes: Axes, ends: tuple[float, float]) -> None:
+def _clock_axis(axes: Axes, ends: tuple[float, float]) -> None:
     axes.set_xscale("log")
     axes.set_xlim(*ends)
     axes.xaxis.set_major_locator(FixedLocator([number for number in SHOWN if ends[0] <= number <= ends[1]]))

@@ -18,17 +18,17 @@ DELAY, BEFORE, AFTER = 15, 2, 8
 ON_TIME = "correct on time"
 
 
-def fix_panels(costs: Costs, times_slower: int) -> list[Panel]:
+def fix_panels(costs: Costs, clock_mhz: int) -> list[Panel]:
     """The first fix of the extended filter."""
     recalculate, larsen = WAYS[1:]
     cases = [*((recalculate, urgency) for urgency in URGENCIES), (larsen, "preempted")]
-    return [_panel(costs, way, urgency, times_slower) for way, urgency in cases]
+    return [_panel(costs, way, urgency, clock_mhz) for way, urgency in cases]
 
 
-def _panel(costs: Costs, way: Way, urgency: str, times_slower: int) -> Panel:
+def _panel(costs: Costs, way: Way, urgency: str, clock_mhz: int) -> Panel:
     slices: list[Slice] = []
     steps = DELAY + AFTER
-    of = scenario(costs, way, urgency, times_slower, steps=steps, seed=_seed())
+    of = scenario(costs, way, urgency, clock_mhz, steps=steps, seed=_seed())
     outcome = run_scenario(of, on_slice=slices.append)
     marks = [Mark(DELAY, "m", 0, False)]
     landed = list(outcome.sensors[GPS].achieved)

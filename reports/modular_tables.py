@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
+from reports.machine import marked
 from reports.modular_costs import OPERATIONS, SECONDS
 from reports.modular_oscillator import OSCILLATOR_AMPLITUDES, QUANTITIES, SENSORS, UNITS, Record
 from reports.modular_results import OWN_MODEL, Results
 from reports.modular_rocket import QUANTITIES as OF_ROCKET
 from reports.modular_rocket_rows import CASES
 from reports.modular_schedule import miss_rows_of, verdict_rows
-from reports.multirate_words import significant
 from reports.stored import Rows
+from reports.written import between, plus_minus, significant
+from sched_sim.distribution import wilson
 from studies import late_measurements, modular_costs, rocket, spring_mass
 from studies.rocket_readings import READINGS
 from studies.rocket_schedule import compared_at
@@ -21,48 +21,60 @@ COMPARED = ("0.1", "0.8")
 LOST = ("0.5", "0.8", "0.9", "0.95", "0.98", "0.99")
 
 
-def percent_of_amplitude(row: Record, name: str, *, se: bool = False) -> str:
-    """RMS error, or its standard error twice."""
-    value = 100 * float(row[f"error {'se ' if se else ''}{UNITS[name]}"]) / OSCILLATOR_AMPLITUDES[name]
-    return significant(2 * value, 2) if se else significant(value)
+def percent_of_amplitude(row: Record, name: str, kind: str = "") -> str:
+    """RMS error of a typical run, or of an "unlucky" one, with its interval."""
+    unit = 0.01 * OSCILLATOR_AMPLITUDES[name]
+    return between(*(value / unit for value in interval_of(row, "error", name, kind)))
 
 
-def over(row: Record, base: Record, column: str) -> str:
-    """How many times as much."""
-    return significant(float(row[column]) / float(base[column]))
+def over(row: Record, what: str, name: str) -> str:
+    """How many times as much as in the same run at 10 % dropout: typically, with its interval."""
+    return between(*interval_of(row, what, name, "times"))
+
+
+def interval_of(row: Record, what: str, name: str, kind: str = "") -> tuple[float, float, float]:
+    """Of the stored row: value, low, high."""
+    ends = (" ".join(word for word in (what, kind, end, UNITS[name]) if word) for end in ("", "low", "high"))
+    value, low, high = (float(row[end]) for end in ends)
+    return value, low, high
 
 
 def dropout_rows(found: Results) -> Rows:
     """Errors against dropout, and NEES."""
     rows: Rows = [["Dropout, %", "gap, periods", *QUANTITIES, "NEES", "inside, %"]]
     for row in found.records("dropout", group="usual"):
-        errors = [f"{percent_of_amplitude(row, n)} ± {percent_of_amplitude(row, n, se=True)}" for n in QUANTITIES]
+        errors = [percent_of_amplitude(row, name) for name in QUANTITIES]
         share = f"{100 * float(row['inside']):.0f}"
-        rows.append([_percent(row["dropout"]), row["interval"], *errors, row["nees"], share])
+        rows.append([_percent(row["dropout"]), row["interval"], *errors, nees_of(row), share])
     return rows
+
+
+def nees_of(row: Record) -> str:
+    return plus_minus(float(row["nees"]), float(row["nees se"]))
 
 
 def claim_rows(found: Results) -> Rows:
     """At 80 % over 10 %, by reading of "residual"."""
-    low, high = (found.records("dropout", group="usual", dropout=dropout)[0] for dropout in COMPARED)
+    (high,) = found.records("dropout", group="usual", dropout=COMPARED[1])
     rows: Rows = [["Reading, 80 % over 10 %", *QUANTITIES]]
     for what, said in (
         ("error", "error of the estimate"),
         ("innovation", "innovation"),
         ("after", "what is left after the update"),
     ):
-        ratios = [over(high, low, f"{what} {UNITS[n]}") if what == "error" or n in SENSORS else "-" for n in QUANTITIES]
-        rows.append([said, *ratios])
+        rows.append([said, *(over(high, what, n) if what == "error" or n in SENSORS else "-" for n in QUANTITIES)])
     return rows
 
 
 def rate_rows(found: Results) -> Rows:
     """What sampling faster does to the claim; the last column follows from `spring_mass.BORNE`."""
-    rows: Rows = [["In a period", "error at 10 %", "error at 80 %", "times", "borne, %"]]
+    heads = ("error at 10 %", "error at 80 %", "times", "1 run in 20 above", "borne, %")
+    rows: Rows = [["In a period", "runs", *heads]]
     for rate in sorted({*spring_mass.RATES, spring_mass.USUAL.rate}):
         low, high = (found.records("dropout", group=group_of(rate), dropout=dropout)[0] for dropout in COMPARED)
         errors = [percent_of_amplitude(row, "position") for row in (low, high)]
-        rows.append([rate, *errors, over(high, low, "error m"), f"{100 * spring_mass.borne(rate):.1f}"])
+        others = [over(high, "error", "position"), percent_of_amplitude(high, "position", "unlucky")]
+        rows.append([rate, high["runs"], *errors, *others, f"{100 * spring_mass.borne(rate):.0f}"])
     return rows
 
 
@@ -89,7 +101,7 @@ def consistency_rows(found: Results) -> Rows:
             (row,) = found.records("dropout", group=group, dropout=dropout)
             shares = [f"{100 * float(row[share]):.0f}" for share in ("inside", "below", "above")]
             limits = f"{row['low']} to {row['high']}"
-            rows.append([group, _percent(dropout), row["runs"], row["nees"], limits, *shares])
+            rows.append([group, _percent(dropout), row["runs"], nees_of(row), limits, *shares])
     return rows
 
 
@@ -97,22 +109,27 @@ def consistency_rows(found: Results) -> Rows:
 
 
 def rocket_error_rows(found: Results) -> Rows:
-    """RMS errors of every case, means over the flights."""
-    rows: Rows = [["Filter", "flights", *OF_ROCKET, "position, max"]]
+    """RMS errors of every case in a typical flight, and the largest of all flights."""
+    rows: Rows = [["Filter", "flights", *OF_ROCKET, "position, largest"]]
     for row in found.records("rocket-errors"):
-        rows.append(
-            [row["case"], row["runs"], *(row[name] for name in OF_ROCKET), significant(float(row["position largest"]))]
-        )
+        errors = [rocket_error(row, name) for name in OF_ROCKET]
+        rows.append([row["case"], row["runs"], *errors, significant(float(row["position largest"]))])
     return rows
+
+
+def rocket_error(row: Record, name: str) -> str:
+    """Of a typical flight, with its interval."""
+    return between(*(float(row[f"{name}{end}"]) for end in ("", " low", " high")))
 
 
 def reading_rows(found: Results) -> Rows:
     """Each reading of the claim, without dropout."""
-    heads = ("all, from s", "half, from s", "hold, %", "mean, %", "worst, %")
+    heads = ("all, from s", "half, from s", "hold, %", "typical mean, %", "worst, %")
     rows: Rows = [["Residual", *heads]]
     for row in found.records("rocket-residuals", case=rocket.BASE.name):
         from_s = [_never(row[name]) for name in ("holds from s", "half from s")]
-        rows.append([row["reading"], *from_s, _whole(row["runs hold"]), row["mean"], significant(float(row["worst"]))])
+        typical = between(*(float(row[name]) for name in ("typical", "low", "high")))
+        rows.append([row["reading"], *from_s, share_that_holds(row), typical, significant(float(row["worst"]))])
     return rows
 
 
@@ -121,8 +138,15 @@ def lost_rows(found: Results) -> Rows:
     rows: Rows = [["Residual", *(f"dropout {dropout}" for dropout in CASES)]]
     for reading in READINGS:
         of = [found.records("rocket-residuals", case=case, reading=reading)[0] for case in CASES.values()]
-        rows.append([reading, *(_whole(row["runs hold"]) for row in of)])
+        rows.append([reading, *map(share_that_holds, of)])
     return rows
+
+
+def share_that_holds(row: Record) -> str:
+    """Of the flights, in percent, with its 95 % interval."""
+    hold, runs = int(row["hold"]), int(row["runs"])
+    share, *ends = (f"{100 * value:.0f}" for value in (hold / runs, *wilson(hold, runs)))
+    return f"{share} ({' to '.join(ends)})"
 
 
 def rocket_nees_rows(found: Results) -> Rows:
@@ -130,7 +154,7 @@ def rocket_nees_rows(found: Results) -> Rows:
     rows: Rows = [["Phase", *(f"dropout {dropout}" for dropout in CASES), "95 % bounds"]]
     for phase in rocket.PHASES:
         of = [found.records("rocket-nees", case=case, phase=phase, of="all")[0] for case in CASES.values()]
-        means = [f"{significant(float(row['mean']))} ± {significant(2 * float(row['se']), 2)}" for row in of]
+        means = [plus_minus(float(row["mean"]), float(row["se"])) for row in of]
         rows.append([phase, *means, f"{of[0]['low']} to {of[0]['high']}"])
     return rows
 
@@ -150,10 +174,15 @@ def late_rows(found: Results) -> Rows:
             of_way = {row["delay"]: row for row in found.records("late", sensors=sensors, way=way)}
             if of_way:
                 asked = [of_way.get(str(delay)) for delay in late_measurements.DELAYS]
-                errors = ["-" if row is None else significant(100 * float(row["error"])) for row in asked]
+                errors = ["-" if row is None else late_error(row) for row in asked]
                 work = [f"{float(of_way[str(COSTED)][name]):,.0f}" for name in ("mean", "longest")]
                 rows.append([sensors.replace(" and ", ", "), way, *errors, *work])
     return rows
+
+
+def late_error(row: Record) -> str:
+    """RMS error of position in percent of the amplitude, which is 1 m."""
+    return plus_minus(100 * float(row["error"]), 100 * float(row["se"]))
 
 
 # -------------------------------------------------------------------------------------------------------------- costs
@@ -163,7 +192,7 @@ def part_rows(found: Results) -> Rows:
     """Operations and times by kind, part and states."""
     rows: Rows = [["Filter", "Part"]]
     for states in modular_costs.STATES:
-        rows[0] = [*rows[0], f"n = {states}", f"{states}: µs †"]
+        rows[0] = [*rows[0], f"n = {states}", marked(f"{states}: µs")]
     for part in modular_costs.PARTS:
         for kind in modular_costs.KINDS:
             of = [found.records("parts", kind=kind, part=part, states=str(n))[0] for n in modular_costs.STATES]
@@ -174,15 +203,13 @@ def part_rows(found: Results) -> Rows:
 
 # ------------------------------------------------------------------------------------------------------- the schedule
 
-MARK = "†"
-
 
 def verdict_on_processors(found: Results) -> Rows:
-    """How slow a processor may be, and what is late on one of them; all by times measured here."""
+    """Down to which clock each way holds, and what is late on one of the processors."""
     misses = miss_rows_of(found.records("schedule-misses"))
     at = compared_at(misses)
-    heads = ("holds to", f"busy at {at}, %", "loop, %", "by, ms", "control, %", "GPS, %")
-    return _marked(("Late fix", "correction", *heads), verdict_rows(misses, at))
+    heads = ("holds from, MHz", f"busy at {at} MHz, %", "loop, %", "by, ms", "control, %", "GPS, %")
+    return [["Late fix", "correction", *heads], *verdict_rows(misses, at)[1:]]
 
 
 def spent_on(found: Results) -> Rows:
@@ -197,12 +224,7 @@ def spent_on(found: Results) -> Rows:
     }
     kept = ("late GPS fix", "its correction", *heads.values())
     records = found.records("schedule-shares")
-    return _marked(("Late fix", "correction", *heads), [kept, *([row[name] for name in kept] for row in records)])
-
-
-def _marked(heads: Sequence[str], rows: Rows) -> Rows:
-    """The rows under these heads, of which all but the first two are marked as measured."""
-    return [[*heads[:2], *(f"{head} {MARK}" for head in heads[2:])], *rows[1:]]
+    return [["Late fix", "correction", *heads], *([row[name] for name in kept] for row in records)]
 
 
 def _never(seconds: str) -> str:

@@ -2,21 +2,38 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
+from math import ceil
 from typing import Any
+
+import numpy as np
 
 from filters.modular.sigma_points import maccormack, merwe, weights
 from filters.systems.rocket import BURN_S, RATE_HZ
 from filters.systems.spring_mass import period_s
+from reports.machine import legend, marked
 from reports.modular_costs import OPERATIONS, SECONDS
+from reports.modular_oscillator import OSCILLATOR_AMPLITUDES
 from reports.modular_results import HALF, OWN_MODEL, SHOWN_PERIODS, Results
+from reports.modular_rocket import QUANTITIES as OF_ROCKET
 from reports.modular_rocket_rows import CASES
-from reports.modular_schedule import miss_rows_of
-from reports.modular_tables import group_of, over, percent_of_amplitude
-from reports.multirate_words import significant
+from reports.modular_schedule import miss_rows_of, missed_percent
+from reports.modular_tables import (
+    group_of,
+    interval_of,
+    late_error,
+    nees_of,
+    over,
+    percent_of_amplitude,
+    rocket_error,
+    share_that_holds,
+)
+from reports.written import plus_minus, significant
+from sched_sim.processor import load_processor
 from studies import late_measurements, modular_costs, rocket, rocket_schedule, spring_mass
 from studies.rocket_schedule import GPS_DELAYS as DELAYS
-from studies.rocket_schedule import compared_at
-from studies.spring_mass_run import OSCILLATOR, PERIODS, SETTLED_PERIODS
+from studies.rocket_schedule import MissRow, compared_at
+from studies.spring_mass_run import AMPLITUDES, OSCILLATOR, PERIODS, POSITION_SIGMA_M, SETTLED_PERIODS
 
 STATES = (3, 15)
 """Lengths of the errors of the two modalities."""
@@ -38,43 +55,63 @@ def sigma_point_words() -> dict[str, Any]:
 
 
 def oscillator_words(found: Results) -> dict[str, Any]:
-    """What was found of the oscillator."""
-    usual = {row["dropout"]: row for row in found.records("dropout", group="usual")}
-    keen = {row["dropout"]: row for row in found.records("dropout", group="less process noise")}
-    own = {row["dropout"]: row for row in found.records("dropout", group=OWN_MODEL)}
-    low, high = usual["0.1"], usual["0.8"]
+    """What was found of the oscillator: typical runs, with their intervals."""
+    usual, keen, own = (
+        {row["dropout"]: row for row in found.records("dropout", group=group)}
+        for group in ("usual", "less process noise", OWN_MODEL)
+    )
     by_rate = {rate: {row["dropout"]: row for row in found.records("dropout", group=group_of(rate))} for rate in RATES}
+    few, sensors = by_rate[RATES[0]]["0.8"], found.records("dropout", group="position only")
+    high = usual["0.8"]
+    at_the_gap = [
+        interval_of(row, "error", "position")[0] / OSCILLATOR_AMPLITUDES["position"]
+        for rate, rows in by_rate.items()
+        for dropout, row in rows.items()
+        if dropout == f"{spring_mass.borne(rate):g}" and float(dropout) > 0
+    ]
     return {
-        "runs": low["runs"],
+        "runs": high["runs"],
+        "few_runs": few["runs"],
+        "sensor_runs": sensors[0]["runs"],
         "periods": PERIODS,
         "settled": SETTLED_PERIODS,
         "shown": SHOWN_PERIODS,
         "half": f"{100 * HALF:g}",
         "period_s": f"{period_s(OSCILLATOR):.2f}",
+        "noise": f"{100 * float(POSITION_SIGMA_M / AMPLITUDES[0]):g}",
         "error": {dropout: percent_of_amplitude(row, "position") for dropout, row in usual.items()},
-        "times": {dropout: over(row, low, "error m") for dropout, row in usual.items()},
-        "speed_times": over(high, low, "error m_s"),
-        "jerky_times": over(high, low, "error m_s2"),
-        "innovation": over(high, low, "innovation m"),
-        "felt": over(high, low, "innovation m_s2"),
-        "after": over(high, low, "after m"),
+        "times": {dropout: over(row, "error", "position") for dropout, row in usual.items()},
+        "speed_times": over(high, "error", "velocity"),
+        "jerky_times": over(high, "error", "acceleration"),
+        "innovation": over(high, "innovation", "position"),
+        "felt": over(high, "innovation", "acceleration"),
+        "after": over(high, "after", "position"),
         "reach": f"{spring_mass.reach():.2f}",
-        "borne": {rate: f"{100 * spring_mass.borne(rate):.0f}" for rate in RATES},
-        "rate_error": {rate: percent_of_amplitude(rows["0.8"], "position") for rate, rows in by_rate.items()},
-        "rate_times": {rate: over(rows["0.8"], rows["0.1"], "error m") for rate, rows in by_rate.items()},
+        "few": RATES[0],
+        "few_error": percent_of_amplitude(few, "position"),
+        "few_unlucky": percent_of_amplitude(few, "position", "unlucky"),
+        "still": f"{100 * float(few['still']):.0f}",
+        "least_times": significant(
+            min(interval_of(rows["0.8"], "error", "position", "times")[1] for rows in by_rate.values())
+        ),
+        "at_the_gap": [f"{100 * edge(at_the_gap):.1f}" for edge in (min, max)],
+        "fewer": f"{FEWER:g}",
+        "mean_of_fewer": f"{FEWER**0.5:.1f}",
         "gap": f"{spring_mass.BORNE:g}",
-        "nees": {name: rows["0.5"] for name, rows in (("usual", usual), ("keen", keen), ("own", own))},
-        "keen_high": keen["0.8"],
+        "nees": {name: nees_of(rows["0.5"]) for name, rows in (("usual", usual), ("own", own))},
         "keen_error": percent_of_amplitude(keen["0.8"], "position"),
-        "keen_late": keen["0.95"]["nees"],
+        "keen_high": nees_of(keen["0.8"]),
+        "keen_late": nees_of(keen["0.95"]),
     }
 
 
+FEWER = 4.5
+"""Times fewer measurements get through at 80 % dropout than at 10 %."""
 RATES = sorted({*spring_mass.RATES, spring_mass.USUAL.rate})
 
 
 def rocket_words(found: Results) -> dict[str, Any]:
-    """What was found of the rocket."""
+    """What was found of the rocket: typical flights, with their intervals."""
     errors = {row["case"]: row for row in found.records("rocket-errors")}
     base, lossy = errors[rocket.BASE.name], errors[CASES["95 %"]]
     apogee = found.columns("rocket-apogee")["apogee_m"]
@@ -88,30 +125,44 @@ def rocket_words(found: Results) -> dict[str, Any]:
         dropout: {row["reading"]: row for row in found.records("rocket-residuals", case=case)}
         for dropout, case in CASES.items()
     }
+    blind = errors["no accelerometer"]
     return {
         "flights": base["runs"],
         "few": len(rocket.FEW_SEEDS),
         "apogee": [f"{float(height):,.0f}" for height in (apogee.min(), apogee.max())],
         "burn": f"{BURN_S:g}",
         "claim": f"{rocket.CLAIM_PERCENT:g}",
-        "base": base,
-        "errors": errors,
-        "lossy": lossy,
-        "readings": readings,
+        "position": rocket_error(base, "position"),
+        "orientation": rocket_error(base, "orientation"),
+        "velocity": rocket_error(base, "velocity"),
+        "largest_angle": base["orientation largest"],
+        "blind_velocity": rocket_error(blind, "velocity"),
+        "blind_position": rocket_error(blind, "position"),
+        "lossy": rocket_error(lossy, "position"),
         "from_s": {
             dropout: {name: _time(row["holds from s"]) for name, row in of.items()} for dropout, of in readings.items()
         },
         "hold": {
-            dropout: {name: f"{float(row['runs hold']):.0f}" for name, row in of.items()}
-            for dropout, of in readings.items()
+            dropout: {name: share_that_holds(row) for name, row in of.items()} for dropout, of in readings.items()
         },
-        "onset": onset["mean"],
+        "onset": plus_minus(float(onset["mean"]), float(onset["se"])),
         "nees": {
-            dropout: {phase: significant(float(row["mean"])) for (of, phase), row in nees.items() if of == dropout}
+            dropout: {
+                phase: plus_minus(float(row["mean"]), float(row["se"]))
+                for (of, phase), row in nees.items()
+                if of == dropout
+            }
             for dropout in CASES
         },
-        "bounds": nees["0 %", "coast"],
+        "alike": f"{ceil(1000 * _largest_difference(errors)) / 10:g}",
     }
+
+
+def _largest_difference(errors: Mapping[str, Mapping[str, str]]) -> float:
+    """Of a typical flight's errors, between the extended and the unscented filter: as a share."""
+    pairs = ((rocket.EXTENDED.name, rocket.BASE.name), (rocket.EXTENDED_DROPOUT.name, CASES["95 %"]))
+    ratios = [float(errors[one][name]) / float(errors[other][name]) for one, other in pairs for name in OF_ROCKET]
+    return max(abs(ratio - 1) for ratio in ratios)
 
 
 def late_words(found: Results) -> dict[str, Any]:
@@ -120,7 +171,7 @@ def late_words(found: Results) -> dict[str, Any]:
     alone, both = late_measurements.SENSORS
 
     def percent(sensors: str, way: str, delay: int) -> str:
-        return significant(100 * float(of[sensors, way, delay]["error"]))
+        return late_error(of[sensors, way, delay])
 
     longest = {way: int(of[both, way, 10]["longest"]) for way in ("recalculate", "larsen", "as new")}
     return {
@@ -150,7 +201,7 @@ def cost_words(found: Results) -> dict[str, Any]:
 
     shown = (3, 15)
     return {
-        "machine": {name.removesuffix(" †"): value for name, value in machine.items()},
+        "legend": legend(machine[marked("timed on")]),
         "counted": {part: [ratio(OPERATIONS, part, states) for states in shown] for part in modular_costs.PARTS},
         "timed": {part: [ratio(SECONDS, part, states) for states in shown] for part in modular_costs.PARTS},
         "largest": of["unscented", "predict", 15][SECONDS],
@@ -158,16 +209,21 @@ def cost_words(found: Results) -> dict[str, Any]:
 
 
 def schedule_words(found: Results) -> dict[str, Any]:
-    """How the rocket's filter fares on slower processors; all of it by measured times."""
+    """How the rocket's filter fares on slower processors."""
     misses = miss_rows_of(found.records("schedule-misses"))
     at = compared_at(misses)
     urgent, preempted = "in the loop", "preempted"
-    there = {(row.way, row.urgency, row.job): row for row in misses if row.times_slower == at}
+    there = {(row.way, row.urgency, row.job): row for row in misses if row.clock_mhz == at}
     names = dict(zip(("unscented", "extended", "larsen"), (way.name for way in rocket_schedule.WAYS), strict=True))
     spent = {(row["late GPS fix"], row["its correction"]): row for row in found.records("schedule-shares")}
-    response = "GPS response, median (ms)"
+    response, loop = "GPS response, median (ms)", there[names["extended"], urgent, "loop"]
     return {
         "at": at,
+        "part": load_processor(rocket_schedule.PROCESSOR).title.partition(" at ")[0],
+        "spread": [f"{float(edge(rocket_schedule.SPREAD)):g}" for edge in (min, max)],
+        "clocks": ", ".join(map(str, sorted({row.clock_mhz for row in misses}))),
+        "steps": f"{rocket_schedule.STEPS:,}",
+        "fixes": f"{misses[0].cycles:,}",
         "rate": RATE_HZ,
         "fix_hz": RATE_HZ // rocket_schedule.GPS_EVERY,
         "delays": [f"{rocket_schedule.PERIOD_MS * delay:g}" for delay in (min(DELAYS), max(DELAYS))],
@@ -176,16 +232,26 @@ def schedule_words(found: Results) -> dict[str, Any]:
         "bearable": f"{100 * rocket_schedule.BEARABLE:g}",
         "holds": {
             short: {
-                urgency: rocket_schedule.slowest_that_holds(misses, name, urgency) or "none"
+                urgency: rocket_schedule.slowest_that_holds(misses, name, urgency) or "none of the clocks tried"
                 for urgency in (urgent, preempted)
             }
             for short, name in names.items()
         },
-        "loop": f"{100 * there[names['extended'], urgent, 'loop'].probability:.1f}",
-        "loop_late": f"{there[names['extended'], urgent, 'loop'].late_ms:.0f}",
-        "busy": f"{100 * there[names['extended'], urgent, 'loop'].utilization:.0f}",
+        "loop": missed_percent(loop),
+        "loop_late": f"{loop.late_ms:.0f}",
+        "busy": f"{100 * loop.utilization:.0f}",
+        "first": _first_late(misses, names["extended"], preempted),
         "response": {short: spent[name, preempted][response] for short, name in names.items()},
     }
+
+
+def _first_late(rows: Iterable[MissRow], way: str, urgency: str) -> str:
+    """Which job misses most on the fastest clock that does not hold."""
+    held = rocket_schedule.slowest_that_holds(rows, way, urgency)
+    slower = [row for row in rows if (row.way, row.urgency) == (way, urgency) and row.clock_mhz < (held or np.inf)]
+    clock_mhz = max(row.clock_mhz for row in slower)
+    job = max((row for row in slower if row.clock_mhz == clock_mhz), key=lambda row: row.probability).job
+    return {"loop": "the loop", "control": "the control task", "GPS": "the GPS correction itself"}[job]
 
 
 def _time(seconds: str) -> str:

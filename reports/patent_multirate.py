@@ -13,8 +13,9 @@ from reports.multirate_accuracy import Curve, Family, start_figure, steady_figur
 from reports.multirate_costs import Form, every, least_time_of, our_forms, patents_form, time_of
 from reports.multirate_figures import load_figure, rates_figure, two_rates_panel
 from reports.multirate_results import PERIODS, RECEIVER, SHOWN, Results
-from reports.multirate_words import decimal, percent, ratio_text, scenario_text, significant
+from reports.multirate_words import ratio_text, scenario_text
 from reports.render import csv_bytes, render
+from reports.written import decimal, percent, significant
 from sched_sim.fit import fit
 from sched_sim.load import load
 from sched_sim.processor import Processor, load_processor, on_processor, shipped_processors

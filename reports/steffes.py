@@ -8,6 +8,7 @@ from typing import Any
 from reports.comparisons import Speeds, cost_figure, table4_figure
 from reports.figures import achieved_figure, least_speed_figure
 from reports.gantt import gantt, image, method_panel
+from reports.machine import legend, marked, timed_on
 from reports.render import csv_bytes, render
 from reports.timelines import dual_rate_timeline, serial_costs, serial_timeline
 from sched_sim.analysis import BINDING_WORDS
@@ -41,10 +42,8 @@ def build(measured: CostTable) -> dict[str, bytes]:
         "steffes2014",
         TITLE,
         figures,
-        machine=about["machine"],
-        date=about["date"],
-        protocol=_protocol(about),
-        versions=", ".join(f"{name} {number}" for name, number in about["versions"].items()),
+        legend=legend(timed_on(about)),
+        form=about["update_form"],
         cells=len(cells),
         reached=sum(cell.reached for cell in cells),
         counted_deviation=f"{steffes.deviation(counted):.3f}",
@@ -93,13 +92,8 @@ def _least(table: CostTable, method: str, timing: Timing, options: Options = Opt
     return least_speed(select(table, method, options), timing, options).speed
 
 
-def _protocol(about: Any) -> str:
-    protocol = about["protocol"]
-    return f"{protocol['rounds']} rounds of {protocol['repetitions']} repetitions, {about['update_form']} update"
-
-
 def _entries(tables: dict[str, CostTable]) -> list[list[Any]]:
-    rows: list[list[Any]] = [["Table", "Step", "Work", "printed", "counted", "measured †"]]
+    rows: list[list[Any]] = [["Table", "Step", "Work", "printed", "counted", marked("measured")]]
     for entry in steffes.entries():
         found = [_number(entry.value(tables[name])) for name in ("counted", "measured")]
         rows.append([entry.table, entry.step, entry.column, _number(entry.printed, 2), *found])
@@ -108,7 +102,7 @@ def _entries(tables: dict[str, CostTable]) -> list[list[Any]]:
 
 def _table4(tables: dict[str, CostTable]) -> list[list[Any]]:
     heading = ["N", "M", "L", "Method", "printed", "analysis", "exactly", "from rounding", "reached", "counted"]
-    rows: list[list[Any]] = [[*heading, "measured †"]]
+    rows: list[list[Any]] = [[*heading, marked("measured")]]
     for cell in steffes.cells(tables["paper"]):
         N, M, L = cell.timing.N, cell.timing.M, cell.timing.L
         others = [_number(_least(tables[name], cell.method, cell.timing)) for name in ("counted", "measured")]

@@ -45,7 +45,7 @@ def finished_or_not(values: Sequence[float], unfinished: int) -> dict[str, float
     return {"minimum": known.minimum, "mean": known.mean, **quantiles, "maximum": known.maximum}
 
 
-def wilson(events: int, trials: int) -> tuple[float, float]:
+def wilson(events: float, trials: int) -> tuple[float, float]:
     """The 95 % interval of a probability by Wilson's score, for `events` in `trials` independent ones, at least one.
 
     Misses of a schedule come in a row, which makes them less than independent: the true interval is then wider.

@@ -23,7 +23,7 @@ from filters.modular.jobs import modular_jobs
 from filters.registry import ALL_METHODS
 from filters.systems.composed import composed_system
 from filters.systems.spring_mass import Instrument, frequency, tracker
-from studies.spring_mass import Rms, rms
+from studies.rms import Rms, rms
 from studies.spring_mass_run import (
     ACCELERATION_SIGMA,
     AMPLITUDES,

@@ -28,9 +28,10 @@ class Consistency(NamedTuple):
     """NEES of some runs beside its bounds.
 
     runs, n: their number, and the length of an error. mean (steps,): over the runs. overall: of all runs and steps,
-    n if the filter is consistent. inside, below, above: the share of steps in which the mean is there; inside is about
-    the confidence if the filter is consistent, but neighbouring steps are not independent of each other, so that it
-    varies more than a share of as many independent draws.
+    n if the filter is consistent; standard_error: of it, from the differences between the runs. inside, below, above:
+    the share of steps in which the mean is there; inside is about the confidence if the filter is consistent, but
+    neighbouring steps are not independent of each other, so that it varies more than a share of as many independent
+    draws.
     """
 
     runs: int
@@ -38,6 +39,7 @@ class Consistency(NamedTuple):
     mean: FloatArray
     bounds: Bounds
     overall: float
+    standard_error: float
     inside: float
     below: float
     above: float
@@ -71,7 +73,9 @@ def bounds(runs: int, n: int, confidence: float = CONFIDENCE) -> Bounds:
 def consistency(errors: FloatArray, P: FloatArray, confidence: float = CONFIDENCE) -> Consistency:
     """Of independent runs: errors (runs, steps, n) and P (runs, steps, n, n)."""
     runs, _steps, n = errors.shape
-    mean: FloatArray = nees(errors, P).mean(axis=0)
+    values = nees(errors, P)
+    mean: FloatArray = values.mean(axis=0)
     limits = bounds(runs, n, confidence)
     below, above = float(np.mean(mean < limits.low)), float(np.mean(mean > limits.high))
-    return Consistency(runs, n, mean, limits, float(mean.mean()), 1.0 - below - above, below, above)
+    spread = float(values.mean(axis=1).std(ddof=1) / np.sqrt(runs)) if runs > 1 else float("nan")
+    return Consistency(runs, n, mean, limits, float(mean.mean()), spread, 1.0 - below - above, below, above)

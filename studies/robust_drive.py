@@ -33,11 +33,12 @@ from filters.systems.drive import (
     wrap,
 )
 from filters.systems.position import PositionRows, position, position_scaling, position_uncertainty
+from studies.rms import rms as over_runs
 
 Record = TypeVar("Record", bound=tuple[Any, ...])
 
 SCALE_ERRORS = (0.02, 0.10)
-SEEDS = (0, 1, 2, 3, 4)
+SEEDS = tuple(range(20))
 SETTLED_S = 5.0
 """Errors count from here on: before, the filters learn the biases."""
 
@@ -94,7 +95,8 @@ class AttitudeResult(NamedTuple):
     """Root mean squares over all seeds, degrees.
 
     errors_deg (3,): of roll, pitch, yaw. yaw_from_gps_deg: from the fixes, when they come. yaw_from_imu_deg: from the
-    unit's own yaw. outage_yaw_deg: error of the yaw in ten seconds without GPS. yaw_by_seed_deg (seeds,): of the yaw.
+    unit's own yaw. outage_yaw_deg: error of the yaw in ten seconds without GPS. standard_errors_deg (6,): of all these.
+    yaw_by_seed_deg (seeds,): of the yaw.
     """
 
     method: str
@@ -103,6 +105,7 @@ class AttitudeResult(NamedTuple):
     yaw_from_gps_deg: float
     yaw_from_imu_deg: float
     outage_yaw_deg: float
+    standard_errors_deg: FloatArray
     yaw_by_seed_deg: FloatArray
 
 
@@ -111,6 +114,7 @@ class PositionResult(NamedTuple):
 
     after_fix_m, after_fix_velocity: of the first prediction that a fix is in. between_m, between_velocity: of the 39
     others before the next. outage_m: in ten seconds without GPS; outage_end_m: horizontal error at their end.
+    between_standard_error_m, outage_end_standard_error_m: of these two.
     """
 
     method: str
@@ -121,6 +125,8 @@ class PositionResult(NamedTuple):
     between_velocity: FloatArray
     outage_m: FloatArray
     outage_end_m: float
+    between_standard_error_m: FloatArray
+    outage_end_standard_error_m: float
 
 
 class RawResult(NamedTuple):
@@ -219,10 +225,12 @@ def attitude_result(method: AttitudeMethod, scale_error: float, seeds: Sequence[
         from_imu.append(np.degrees(wrap(yaw - drive.imu_attitude[:, 2]))[counted])
         blind = estimate_attitude(drive, method, outage_fixes(drive)).x[:, 2]
         outage.append(np.degrees(blind - drive.attitude[:, 2])[during(OUTAGE_S, drive.time_s)])
-    by_seed = np.array([rms(error) for error in errors])
+    found_deg = over_runs([*_columns(errors), from_gps, from_imu, outage])
+    from_gps_deg, from_imu_deg, outage_deg = map(float, found_deg.rms[3:])
+    yaw_by_seed_deg = np.array([float(_rms_of([error[:, 2]])) for error in errors])
     by_method = AttitudeResult(
-        method.name, scale_error, rms(by_seed), float(_rms_of(from_gps)), float(_rms_of(from_imu)),
-        float(_rms_of(outage)), by_seed[:, 2],
+        method.name, scale_error, found_deg.rms[:3], from_gps_deg, from_imu_deg, outage_deg, found_deg.standard_error,
+        yaw_by_seed_deg,
     )  # fmt: skip
     return frozen(by_method)
 
@@ -247,10 +255,11 @@ def position_result(method: PositionMethod, scale_error: float, seeds: Sequence[
         blind = estimate_position(drive, attitudes, method, available)
         error_m = position_to_metres(blind.x[:, :3] - drive.position)[during(OUTAGE_S, drive.time_s)]
         outage.append(error_m)
-        ends.append(np.hypot(*error_m[-1, :2]))
+        ends.append(np.hypot(error_m[-1:, 0], error_m[-1:, 1]))
+    found_m = over_runs([*_columns(between), ends])
     by_method = PositionResult(
-        method.name, scale_error, _rms_of(after), _rms_of(between),
-        _rms_of(after_velocity), _rms_of(between_velocity), _rms_of(outage), float(rms(np.array(ends))),
+        method.name, scale_error, _rms_of(after), found_m.rms[:3], _rms_of(after_velocity), _rms_of(between_velocity),
+        _rms_of(outage), float(found_m.rms[3]), found_m.standard_error[:3], float(found_m.standard_error[3]),
     )  # fmt: skip
     return frozen(by_method)
 
@@ -311,14 +320,15 @@ def during(interval_s: tuple[float, float], time_s: FloatArray) -> NDArray[np.bo
     return inside
 
 
-def rms(values: FloatArray) -> FloatArray:
-    """Root mean square along the first axis."""
-    root: FloatArray = np.sqrt(np.mean(values**2, axis=0))
+def _rms_of(parts: Sequence[FloatArray]) -> FloatArray:
+    """Along the first axis, of all parts together."""
+    root: FloatArray = np.sqrt(np.mean(np.concatenate(parts) ** 2, axis=0))
     return root
 
 
-def _rms_of(parts: Sequence[FloatArray]) -> FloatArray:
-    return rms(np.concatenate(parts))
+def _columns(by_run: Sequence[FloatArray]) -> list[list[FloatArray]]:
+    """For each column what every run has in it."""
+    return [[run[:, column] for run in by_run] for column in range(by_run[0].shape[1])]
 
 
 def _route_m(positions: FloatArray) -> FloatArray:

@@ -3,7 +3,10 @@
 The filter of `systems.rocket_filter` at 100 Hz: in every step it predicts and corrects by gyro and accelerometer, by
 barometer and camera when they measure. Its GPS measures at 5 Hz and is 50 to 200 ms late, so that at most one fix is on
 its way, for Larsen's method can wait for one only. A control task runs at 50 Hz, below the predictor, above corrections
-that may be preempted. Execution times are drawn from measured samples, `times_slower` on another processor.
+that may be preempted.
+
+Execution times are stated, not measured: the counted operations of each part in cycles of `PROCESSOR`, by its data
+sheet, times a factor drawn from `SPREAD` for each execution. So are delays and dropout. What comes out holds for these.
 
 Larsen's method needs F and H, so for it predictor and camera are extended, not unscented. To compare like with like,
 there are three ways: recalculate with the filter as it was, recalculate with the extended one, and Larsen with that.
@@ -15,6 +18,7 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
+from functools import cache
 from itertools import product
 from statistics import fmean, median
 from typing import NamedTuple, TypeAlias
@@ -37,17 +41,18 @@ from filters.systems.rocket_filter import (
 from sched_sim.distribution import wilson
 from sched_sim.draws import fates
 from sched_sim.jobs import HR, LR
+from sched_sim.processor import load_processor, seconds_for
 from sched_sim.sample_file import SampledCosts
 from sched_sim.scenario import Late, Scenario, Sensor
 from sched_sim.scenario_run import Outcome, run_scenario
 from sched_sim.schedule import Slice
 from sched_sim.tasks import Task
-from studies.measure_filter import timed_together
+from studies.measure_filter import measure_filter
 from studies.user_filter import UserFilter
 
 Progress: TypeAlias = Callable[[int, int, str], None]
 Costs: TypeAlias = Mapping[PredictorName, SampledCosts]
-"""Measured, in seconds."""
+"""In cycles of `PROCESSOR`."""
 
 NAME = "rocket-schedule"
 QUESTION = "Which processor does the rocket's filter need, if its GPS fix is late by a random time?"
@@ -56,8 +61,12 @@ GPS_EVERY, GPS_DELAYS, LAND_BY = 20, range(5, 21), 24
 """In steps of 10 ms; the correction must be in the state at the end of step k + 24, 250 ms after the measurement."""
 DROPOUT = 0.1
 CONTROL_EVERY, CONTROL_PRIORITY = 2, 15
-STEPS, CURVE_STEPS, SEED = 10_000, 3_400, 0
-"""Simulated of a chosen processor, and of each one on a curve."""
+STEPS, SEED = 20_000, 0
+"""Simulated on each processor."""
+PROCESSOR = "cortex-a53"
+"""Whose cycles the costs are; it runs at any clock."""
+SPREAD = tuple(Fraction(tenths, 10) for tenths in range(10, 16))
+"""Times the counted work: an execution takes any of these, equally likely."""
 PERIOD_MS = 1000 / RATE_HZ
 
 
@@ -87,15 +96,17 @@ JOBS = {"loop": f"correct {ACCELEROMETER}", "control": "task:control", "GPS": f"
 
 
 class MissRow(NamedTuple):
-    """How often one job missed its deadline. late_ms: by how much at worst, 0 if never; utilization: of the processor,
-    the same in all rows of one run."""
+    """How often one job missed its deadline. cycles: the fixes that were taken, in which misses of a row may come
+    together; late_ms: by how much at worst, 0 if never; utilization: of the processor, the same in all rows of one run.
+    """
 
     way: str
     urgency: str
-    times_slower: int
+    clock_mhz: int
     job: str
     misses: int
     decided: int
+    cycles: int
     late_ms: float
     utilization: float
 
@@ -105,8 +116,10 @@ class MissRow(NamedTuple):
 
     @property
     def interval(self) -> tuple[float, float]:
-        """95 %, see `wilson`."""
-        return wilson(self.misses, self.decided)
+        """95 %, by `wilson` of as many trials as there are cycles: all misses of one cycle may have one cause. It is
+        exact where they do, and too wide where they do not."""
+        trials = min(self.cycles, self.decided)
+        return wilson(self.probability * trials, trials)
 
 
 class Run(NamedTuple):
@@ -117,7 +130,7 @@ class Run(NamedTuple):
 
     way: str
     urgency: str
-    times_slower: int
+    clock_mhz: int
     responses_ms: Mapping[str, Sequence[float]]
     shares: Mapping[str, float]
     outcome: Outcome
@@ -129,10 +142,6 @@ class Run(NamedTuple):
 
 
 # ---------------------------------------------------------------------------------------------------- execution times
-
-SAMPLES, DISTURBED = 200, 10
-"""How many samples of each part are kept. One that took so many times the median was not measured alone: the operating
-system gave the machine to others for some milliseconds."""
 
 
 def filter_of(predictor: PredictorName) -> ModularFilter:
@@ -149,41 +158,30 @@ def filter_of(predictor: PredictorName) -> ModularFilter:
     return ModularFilter(built.predictor, sensors, built.dt, built.of)
 
 
-def measured(*, thorough: bool = False, progress: Progress = lambda _done, _total, _what: None) -> dict[
-    PredictorName, SampledCosts
-]:  # fmt: skip
-    """Both filters, timed on this machine; takes minutes if they were not compiled before."""
-    upright = np.eye(16)[12]
-    users = {}
+@cache
+def counted() -> Costs:
+    """Both filters: the operations of each part, exactly, as cycles of `PROCESSOR`, with their `SPREAD`."""
+    processor = load_processor(PROCESSOR)
+    assert processor.clock_hz is not None
+    upright, P0 = np.eye(16)[12], np.diag(START_SIGMAS**2)
+    found: dict[PredictorName, SampledCosts] = {}
     for predictor in PREDICTORS:
         composed = filter_of(predictor)
-        jobs = modular_jobs(composed, upright, np.diag(START_SIGMAS**2))
-        users[f"rocket-{predictor}"] = UserFilter(composed, jobs)
-    costs = timed_together(users, thorough=thorough, progress=progress)
-    return {predictor: thinned(costs[f"rocket-{predictor}"]) for predictor in PREDICTORS}
-
-
-def thinned(costs: SampledCosts) -> SampledCosts:
-    """The same distributions in `SAMPLES` samples a part at most, in ascending order, without the disturbed ones."""
-    kept, disturbed = {}, 0
-    for part, values in costs.samples.items():
-        middle = median(values)
-        sound = sorted(value for value in values if value < DISTURBED * middle)
-        disturbed += len(values) - len(sound)
-        count = min(SAMPLES, len(sound))
-        kept[part] = tuple(sound[len(sound) * (2 * number + 1) // (2 * count)] for number in range(count))
-    share = disturbed / sum(map(len, costs.samples.values()))
-    about = f"{100 * share:.1f} % took over {DISTURBED} times the median and were left out; quantiles of the others"
-    return replace(costs, samples=kept, provenance={**costs.provenance, "samples_are": about})
+        user = UserFilter(composed, modular_jobs(composed, upright, P0))
+        table = measure_filter(user, "counted", name=f"rocket-{predictor}")
+        cycles = {
+            part: processor.clock_hz * seconds_for(counts, processor, part) for part, counts in table.operations.items()
+        }
+        samples = {part: tuple(factor * work for factor in SPREAD) for part, work in cycles.items()}
+        found[predictor] = replace(table, unit="cycle", samples=samples)
+    return found
 
 
 # ------------------------------------------------------------------------------------------------------- the scenario
 
 
-def scenario(
-    costs: Costs, way: Way, urgency: str, times_slower: int, *, steps: int = STEPS, seed: int = SEED
-) -> Scenario:
-    """urgency: one of `URGENCIES`."""
+def scenario(costs: Costs, way: Way, urgency: str, clock_mhz: int, *, steps: int = STEPS, seed: int = SEED) -> Scenario:
+    """urgency: one of `URGENCIES`. Costs stay in cycles."""
     composed = rocket_filter(way.predictor, DROPOUT)
     late = Sensor(GPS, GPS_EVERY, GPS_DELAYS, LAND_BY, dropout=DROPOUT, priority=URGENCIES[urgency])
     on_time = [
@@ -191,47 +189,47 @@ def scenario(
         for sensor in composed.sensors
         if sensor.name != GPS
     ]
-    samples = costs[way.predictor].samples
     return Scenario(
-        f"{way.name}, {urgency}, {times_slower} times slower",
+        f"{way.name}, {urgency}, {clock_mhz} MHz",
         steps=steps,
-        speed=Fraction(1, RATE_HZ),
+        speed=Fraction(clock_mhz * 10**6, RATE_HZ),
         sensors=[late, *on_time],
-        costs={part: tuple(times_slower * value for value in values) for part, values in samples.items()},
+        costs=costs[way.predictor].samples,
         hr_hz=Fraction(RATE_HZ),
         seed=seed,
         late=way.late,
-        tasks=[control_task(costs, times_slower)],
+        tasks=[control_task(costs)],
     )
 
 
-def control_task(costs: Costs, times_slower: int) -> Task:
-    """It takes as long as an extended prediction usually does, whichever filter runs beside it."""
-    usual = median(costs["extended"].samples["predict"])
-    return Task("control", Fraction(CONTROL_EVERY), times_slower * usual, CONTROL_PRIORITY)
+def control_task(costs: Costs) -> Task:
+    """It takes as long as the median of an extended prediction, whichever filter runs beside it."""
+    usual = Fraction(median(costs["extended"].samples["predict"]))
+    return Task("control", Fraction(CONTROL_EVERY), usual, CONTROL_PRIORITY)
 
 
-def step_s(costs: SampledCosts, dropout: float) -> float:
-    """What a step's prediction and corrections take on average, in seconds, without late measurements."""
+def step_cycles(costs: SampledCosts, dropout: float) -> float:
+    """What a step's prediction and corrections take on average, without late measurements."""
     means = {part: fmean(map(float, values)) for part, values in costs.samples.items()}
     on_time = [sensor for sensor in rocket_filter().sensors if sensor.name != GPS]
     return means["predict"] + (1 - dropout) * sum(means[f"correct.{sensor.name}"] / sensor.every for sensor in on_time)
 
 
-def slowness_of_a_full_processor(costs: SampledCosts) -> float:
-    """How many times slower the processor is that is filled by the steps alone, if nothing drops out."""
-    return 1 / (RATE_HZ * step_s(costs, 0.0))
+def full_mhz(costs: SampledCosts) -> float:
+    """The clock of the processor that is filled by the steps alone, if nothing drops out."""
+    return RATE_HZ * step_cycles(costs, 0.0) / 10**6
 
 
-POINTS, SLOWEST, FASTEST = 14, 1.2, 0.02
-SURE = 0.95
-"""A curve ends with the processor on which every job misses so often: on still slower ones no simulation is needed."""
+POINTS, SLOWEST, FASTEST = 12, 1.0, 30.0
+FULL = 0.99
+"""A curve ends with the first processor that is so busy: with less time than is asked for, what is late depends on how
+long it is simulated."""
 
 
-def slownesses(costs: Costs) -> list[int]:
-    """From a processor on which nothing is late to one on which all is, to two digits."""
-    full = slowness_of_a_full_processor(costs["extended"])
-    return sorted({int(float(f"{value:.2g}")) for value in np.geomspace(FASTEST * full, SLOWEST * full, POINTS)} - {0})
+def clocks(costs: Costs) -> list[int]:
+    """In MHz, from a processor on which all is late to one on which nothing is, to two digits."""
+    full = full_mhz(costs["extended"])
+    return sorted({int(float(f"{value:.2g}")) for value in np.geomspace(SLOWEST * full, FASTEST * full, POINTS)})
 
 
 # ------------------------------------------------------------------------------------------------------------ answers
@@ -239,41 +237,40 @@ def slownesses(costs: Costs) -> list[int]:
 
 def miss_curves(
     costs: Costs,
-    times_slower: Sequence[int],
+    clocks_mhz: Sequence[int],
     *,
-    steps: int = CURVE_STEPS,
+    steps: int = STEPS,
     seed: int = SEED,
     progress: Progress = lambda _done, _total, _what: None,
 ) -> list[MissRow]:
-    """How often each job misses its deadline, each way, at each urgency, on each processor, from the fastest on.
-
-    Where a processor has less time than is asked for, misses also depend on how long it is simulated.
-    """
+    """How often each job misses its deadline, each way, at each urgency, on each processor, from the fastest on, until
+    one is full."""
     cases = list(product(WAYS, URGENCIES))
     rows: list[MissRow] = []
     for done, (way, urgency) in enumerate(cases):
         progress(done, len(cases), f"{way.name}, {urgency}")
-        for slower in sorted(times_slower):
-            of = scenario(costs, way, urgency, slower, steps=steps, seed=seed)
-            found = miss_rows(way, urgency, slower, run_scenario(of))
+        for clock_mhz in sorted(clocks_mhz, reverse=True):
+            of = scenario(costs, way, urgency, clock_mhz, steps=steps, seed=seed)
+            found = miss_rows(way, urgency, clock_mhz, run_scenario(of))
             rows += found
-            if all(row.probability > SURE for row in found):
+            if found[0].utilization > FULL:
                 break
     progress(len(cases), len(cases), "done")
     return rows
 
 
-def miss_rows(way: Way, urgency: str, times_slower: int, outcome: Outcome) -> list[MissRow]:
+def miss_rows(way: Way, urgency: str, clock_mhz: int, outcome: Outcome) -> list[MissRow]:
     """One for each job of `JOBS`."""
     ms_per_tick = PERIOD_MS / outcome.schedule.period
     return [
         MissRow(
             way.name,
             urgency,
-            times_slower,
+            clock_mhz,
             job,
             outcome.jobs[kind].misses,
             outcome.jobs[kind].decided,
+            outcome.sensors[GPS].taken,
             ms_per_tick * outcome.schedule.responses[kind].worst_lateness,
             float(outcome.schedule.utilization),
         )
@@ -281,7 +278,7 @@ def miss_rows(way: Way, urgency: str, times_slower: int, outcome: Outcome) -> li
     ]
 
 
-def chosen(costs: Costs, way: Way, urgency: str, times_slower: int, *, steps: int = STEPS, seed: int = SEED) -> Run:
+def chosen(costs: Costs, way: Way, urgency: str, clock_mhz: int, *, steps: int = STEPS, seed: int = SEED) -> Run:
     """One simulation, looked at closely."""
     ticks: Counter[str] = Counter()
 
@@ -289,12 +286,12 @@ def chosen(costs: Costs, way: Way, urgency: str, times_slower: int, *, steps: in
         for label, start, end in piece.pieces():
             ticks[_purpose(piece.kind, label)] += end - start
 
-    of = scenario(costs, way, urgency, times_slower, steps=steps, seed=seed)
+    of = scenario(costs, way, urgency, clock_mhz, steps=steps, seed=seed)
     outcome = run_scenario(of, on_slice=spent)
     whole = steps * outcome.schedule.period
     shares = {purpose: ticks[purpose] / whole for purpose in PURPOSES}
     responses = {job: sorted(PERIOD_MS * each for each in outcome.jobs[kind].responses) for job, kind in JOBS.items()}
-    return Run(way.name, urgency, times_slower, responses, shares, outcome)
+    return Run(way.name, urgency, clock_mhz, responses, shares, outcome)
 
 
 def arrivals(steps: int = STEPS, seed: int = SEED) -> Counter[int]:
@@ -315,17 +312,17 @@ def _purpose(kind: str, label: str) -> str:
 
 
 def slowest_that_holds(rows: Iterable[MissRow], way: str, urgency: str, limit: float = BEARABLE) -> int | None:
-    """The slowest of the processors tried up to which no job misses more than this share of its deadlines; None if some
-    job does on the fastest."""
+    """The slowest of the clocks tried, in MHz, down to which every job misses no more than this share of its deadlines
+    even at the upper end of its interval; None if some job does on the fastest."""
     held = None
-    by_speed: dict[int, list[MissRow]] = {}
+    by_clock: dict[int, list[MissRow]] = {}
     for row in rows:
         if (row.way, row.urgency) == (way, urgency):
-            by_speed.setdefault(row.times_slower, []).append(row)
-    for slower in sorted(by_speed):
-        if any(row.probability > limit for row in by_speed[slower]):
+            by_clock.setdefault(row.clock_mhz, []).append(row)
+    for clock_mhz in sorted(by_clock, reverse=True):
+        if any(row.interval[1] > limit for row in by_clock[clock_mhz]):
             break
-        held = slower
+        held = clock_mhz
     return held
 
 
@@ -333,4 +330,4 @@ def compared_at(rows: Sequence[MissRow]) -> int:
     """The slowest processor tried on which the extended filter, preempted while it replays, holds: there all others are
     looked at too. The fastest one if there is none."""
     held = slowest_that_holds(rows, WAYS[1].name, "preempted", BEARABLE)
-    return min(row.times_slower for row in rows) if held is None else held
+    return max(row.clock_mhz for row in rows) if held is None else held

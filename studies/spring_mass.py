@@ -55,46 +55,29 @@ LOWEST = 0.1
 BORNE = 0.05
 """The mean time between measurements that get through, in periods, from which on the error explodes."""
 
-SEEDS = tuple(range(100))
-OWN_MODEL_SEEDS = SEEDS[:50]
-FEW_SEEDS = SEEDS[:20]
-
-
-class Rms(NamedTuple):
-    """Root mean squares over all runs, and their standard errors, from the differences between the runs."""
-
-    rms: FloatArray
-    standard_error: FloatArray
+SEEDS = tuple(range(400))
+OWN_MODEL_SEEDS = SEEDS[:100]
+FEW_SEEDS = SEEDS[:200]
 
 
 class Row(NamedTuple):
     """One dropout.
 
     interval: mean time between measurements that get through, of a sensor that drops some, in periods.
-    error (3,): of the estimate from the truth, in all steps: m, m/s, m/s^2. relative (3,): its RMS over the amplitude.
-    still (3,): the same of an estimate that says that nothing moves.
-    innovation, after (2,): position and acceleration, measured less predicted, and less estimated with it.
+    All root mean squares, of each run: error (runs, 3), of the estimate from the truth, in m, m/s, m/s^2;
+    innovation, after (runs, 2), position and acceleration, measured less predicted, and less estimated with it, nan
+    where nothing was measured. still (3,): of an estimate that says that nothing moves, over the amplitude, all runs.
     """
 
     setting: Setting
     dropout: float
     runs: int
     interval: float
-    error: Rms
-    relative: FloatArray
     still: FloatArray
-    innovation: Rms
-    after: Rms
-    consistency: Consistency
-
-
-class Ratio(NamedTuple):
-    """One row over that of 10 % dropout, for the three readings of "residual"."""
-
-    dropout: float
     error: FloatArray
     innovation: FloatArray
     after: FloatArray
+    consistency: Consistency
 
 
 class History(NamedTuple):
@@ -156,35 +139,21 @@ def row(records: Sequence[Record], setting: Setting, dropout: float, backend: Ba
     found = [residuals(record, setting, dropout, backend) for record in records]
     errors = np.array([one.error for one in found])
     truths = np.array([record.truth[-errors.shape[1] :] for record in records])
-    error = rms([list(each) for each in errors.transpose(2, 0, 1)])
-    sensors = range(len(SENSORS))
     return Row(
         setting,
         dropout,
         len(records),
         1 / (setting.rate * (1 - dropout)),
-        error,
-        error.rms / AMPLITUDES,
         np.sqrt(np.mean(truths**2, axis=(0, 1))) / AMPLITUDES,
-        rms([[one.innovation[sensor] for one in found] for sensor in sensors]),
-        rms([[one.after[sensor] for one in found] for sensor in sensors]),
+        np.sqrt(np.mean(errors**2, axis=1)),
+        np.array([[_rms(sensor) for sensor in one.innovation] for one in found]),
+        np.array([[_rms(sensor) for sensor in one.after] for one in found]),
         consistency(errors, np.array([one.P for one in found])),
     )
 
 
-def ratios(found: Iterable[Row]) -> tuple[Ratio, ...]:
-    """The verdict on "mostly unaffected": each row of one setting over its row of 10 % dropout."""
-    by_dropout = {one.dropout: one for one in found}
-    base = by_dropout[LOWEST]
-    return tuple(
-        Ratio(
-            one.dropout,
-            one.error.rms / base.error.rms,
-            one.innovation.rms / base.innovation.rms,
-            one.after.rms / base.after.rms,
-        )
-        for one in by_dropout.values()
-    )
+def _rms(values: FloatArray) -> float:
+    return float(np.sqrt(np.mean(values**2))) if len(values) else np.nan
 
 
 def borne(rate: int) -> float:
@@ -213,21 +182,6 @@ def history_at(dropout: float, seed: int, setting: Setting = USUAL, backend: Bac
     sigma: FloatArray = np.sqrt(np.diagonal(found.P, axis1=1, axis2=2))
     time_s: FloatArray = dt_s * np.arange(float(len(found.x)))
     return History(time_s, record.truth, found.x, sigma, seen["position"], seen["acceleration"])
-
-
-def rms(by_run: Sequence[Sequence[FloatArray]]) -> Rms:
-    """For each quantity, of values of runs, each as many as it has. A ratio of sums, so that runs may have none.
-
-    Its standard error is that of the mean square, by the runs' deviations from it, over twice the root.
-    """
-    squares = np.array([[np.sum(run**2) for run in quantity] for quantity in by_run])
-    counts = np.array([[len(run) for run in quantity] for quantity in by_run])
-    runs, total = counts.shape[1], counts.sum(axis=1)
-    mean_square = squares.sum(axis=1) / total
-    spread = np.sum((squares - mean_square[:, np.newaxis] * counts) ** 2, axis=1)
-    deviation = np.sqrt(spread * runs / (runs - 1)) / total
-    root = np.sqrt(mean_square)
-    return Rms(root, deviation / (2 * root))
 
 
 def _each(settings: Iterable[tuple[Sequence[Record], Setting]]) -> tuple[Row, ...]:

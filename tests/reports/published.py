@@ -8,6 +8,7 @@ import re
 from collections.abc import Collection, Mapping
 from pathlib import Path
 
+from reports.machine import MARK
 from tests.command_line import Run
 
 FOLDER = Path(__file__).parents[2] / "reports" / "published"
@@ -46,9 +47,14 @@ def is_written(report: str, files: Files, sched_sim: Run, folder: Path) -> None:
     assert {path.name: path.read_bytes() for path in (folder / "here" / report).iterdir()} == files
 
 
-def differs_only_where_marked(files: Files, others: Files, figures: Collection[str], mark: str = "†") -> None:
-    """Between two machines: in tables only columns whose heading has the mark, in the text only paragraphs that have
-    it, and these figures. What is stored may differ as it likes."""
+def differs_only_where_marked(files: Files, others: Files, figures: Collection[str], mark: str = MARK) -> None:
+    """Between two machines: as `is_unchanged_where_unmarked`, and something does differ."""
+    assert is_unchanged_where_unmarked(files, others, figures, mark)
+
+
+def is_unchanged_where_unmarked(files: Files, others: Files, figures: Collection[str], mark: str = MARK) -> list[str]:
+    """Between two machines: in tables only columns whose heading has the mark differ, in the text only paragraphs that
+    have it, and these figures; the paragraphs that do. What is stored may differ as it likes."""
     for name, content in files.items():
         if name.endswith(".csv") and not name.startswith("stored-"):
             heading = next(csv.reader(io.StringIO(content.decode())))
@@ -58,8 +64,8 @@ def differs_only_where_marked(files: Files, others: Files, figures: Collection[s
             assert content == others[name]
     before, after = (re.split(r"\n\n", one["index.md"].decode()) for one in (files, others))
     changed = [one for one, two in zip(before, after, strict=True) if one != two]
-    assert changed
     assert all(mark in paragraph for paragraph in changed)
+    return changed
 
 
 def text(files: Files) -> str:

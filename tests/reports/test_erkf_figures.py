@@ -22,6 +22,7 @@ from reports.erkf_parallel import parallel_figure
 from reports.erkf_schedule import millions, one_period, speed_figure, two_rates
 from reports.erkf_singular import WAYS, singular_figure
 from reports.gantt import gantt
+from reports.intervals import jobs
 from sched_sim.costs import RobustCosts
 from sched_sim.least_speed import least_speed
 from sched_sim.timing import Timing
@@ -147,9 +148,11 @@ def test_least_speeds() -> None:
 
 
 def test_in_one_period_the_propagation_misses_what_two_rates_meet() -> None:
-    speed = least_speed(COSTS, Timing(40, 0, 10)).speed
-    apart = two_rates(COSTS, 40, speed, "Two rates", "slow")
+    timing = Timing(40, 0, 10)
+    speed = least_speed(COSTS, timing).speed
+    apart = two_rates(COSTS, timing, speed, "Two rates", "slow")
     together = one_period(COSTS, 40, speed, "In one period", "slow")
     assert list(apart.schedule.achieved) == [10]
+    assert [job.deadline for job in jobs(apart.schedule) if job.row.name == "LR"] == [10 * apart.schedule.period]
     assert (apart.schedule.misses, together.schedule.misses) == (0, 9)
     assert flaws(gantt([apart, together])) == []

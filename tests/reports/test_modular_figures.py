@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 
 from filters.arrays import FloatArray
@@ -50,7 +51,8 @@ def dropout_rows(rate: int = 100) -> list[dict[str, str]]:
         row = {"dropout": str(dropout), "interval": str(gap / rate), "still": "0.6", "nees": "2.5"}
         for what, names in (("error", QUANTITIES), ("innovation", SENSORS), ("after", SENSORS)):
             for name in names:
-                row |= {f"{what} {UNITS[name]}": str(0.1 * gap), f"{what} se {UNITS[name]}": str(0.01 * gap)}
+                ends = {"": 0.1, "low ": 0.09, "high ": 0.12}
+                row |= {f"{what} {end}{UNITS[name]}": str(factor * gap) for end, factor in ends.items()}
         found.append(row)
     return found
 
@@ -75,6 +77,9 @@ def test_residuals_against_dropout() -> None:
     for (across, up), amplitude in zip(errors, OSCILLATOR_AMPLITUDES.values(), strict=True):
         np.testing.assert_allclose(across, gaps)
         np.testing.assert_allclose(up, 10 * gaps / amplitude)
+    (bars, *_) = (drawn for drawn in figure.axes[0].collections if isinstance(drawn, LineCollection))
+    for (low, high), gap in zip(bars.get_segments(), gaps, strict=True):
+        np.testing.assert_allclose([low[1], high[1]], [9 * gap, 12 * gap])  # of the position, whose amplitude is 1
     for axes in (1, 2):
         for (_, up), noise in zip(curves(figure, axes, 4), NOISES.values(), strict=True):
             np.testing.assert_allclose(up, 0.1 * gaps / noise)

@@ -1,0 +1,33 @@
+"""Numbers as the reports write them."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+
+def percent(share: Fraction) -> str:
+    """Without the sign, which stands in the heading: two decimals, and four below 0.1 %."""
+    value = 100 * float(share)
+    return f"{value:.2f}" if abs(value) >= 0.1 else f"{value:.4f}"
+
+
+def decimal(value: Fraction) -> str:
+    return f"{float(value):.2f}"
+
+
+def significant(value: Fraction | float, digits: int = 3) -> str:
+    """So many digits, with commas between thousands; such as a rate in Hz."""
+    rounded = float(f"{float(value):.{digits}g}")
+    return f"{rounded:,.0f}" if rounded >= 10 ** (digits - 1) else f"{rounded:#.{digits}g}"
+
+
+def plus_minus(value: float, standard_error: float) -> str:
+    """Three digits, ± twice the standard error in one; in two where the first is 1."""
+    error = 2 * standard_error
+    digits = 2 if f"{error:e}".startswith("1") else 1
+    return f"{significant(value)} ± {significant(error, digits)}"
+
+
+def between(value: float, low: float, high: float) -> str:
+    """Three digits, and the interval in as many."""
+    return f"{significant(value)} ({significant(low)} to {significant(high)})"
