@@ -43,7 +43,7 @@ def _panel(costs: Costs, way: Way, urgency: str, clock_mhz: int) -> Panel:
     responses[ON_TIME] = _response(merged, outcome.schedule.responses[JOBS["loop"]])
     lands = f"lands at $l = k+{landed[0]}$" if landed else "does not land here"
     late_ms = PERIOD_MS / outcome.schedule.period * outcome.schedule.responses[JOBS["loop"]].worst_lateness
-    notes = [lands, f"loop late by {late_ms:.0f} ms" if late_ms else "loop never late"]
+    notes = [lands, f"loop late by {late_ms:.0f} ms" if late_ms else "loop in time"]
     schedule = replace(outcome.schedule, slices=shown, responses=responses)
     return Panel(f"{way.name}: {urgency}", schedule, notes, marks, first, steps)
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from math import ceil
 from typing import Any
 
 import numpy as np
@@ -13,7 +12,7 @@ from filters.systems.rocket import BURN_S, RATE_HZ
 from filters.systems.spring_mass import period_s
 from reports.machine import legend, marked
 from reports.modular_costs import OPERATIONS, SECONDS
-from reports.modular_oscillator import OSCILLATOR_AMPLITUDES
+from reports.modular_oscillator import OSCILLATOR_AMPLITUDES, QUANTITIES
 from reports.modular_results import HALF, OWN_MODEL, SHOWN_PERIODS, Results
 from reports.modular_rocket import QUANTITIES as OF_ROCKET
 from reports.modular_rocket_rows import CASES
@@ -78,6 +77,7 @@ def oscillator_words(found: Results) -> dict[str, Any]:
         "shown": SHOWN_PERIODS,
         "half": f"{100 * HALF:g}",
         "period_s": f"{period_s(OSCILLATOR):.2f}",
+        "inside": [f"{100 * share:.0f}" for share in _inside(found)],
         "noise": f"{100 * float(POSITION_SIGMA_M / AMPLITUDES[0]):g}",
         "error": {dropout: percent_of_amplitude(row, "position") for dropout, row in usual.items()},
         "times": {dropout: over(row, "error", "position") for dropout, row in usual.items()},
@@ -103,6 +103,15 @@ def oscillator_words(found: Results) -> dict[str, Any]:
         "keen_high": nees_of(keen["0.8"]),
         "keen_late": nees_of(keen["0.95"]),
     }
+
+
+def _inside(found: Results) -> list[float]:
+    """Of the run that is drawn: the share of steps whose error is within twice its standard deviation."""
+    run = found.columns("oscillator")
+    return [
+        float(np.mean(np.abs(run[f"{name} estimate"] - run[f"{name} true"]) <= 2 * run[f"{name} sigma"]))
+        for name in QUANTITIES
+    ]
 
 
 FEWER = 4.5
@@ -154,15 +163,16 @@ def rocket_words(found: Results) -> dict[str, Any]:
             }
             for dropout in CASES
         },
-        "alike": f"{ceil(1000 * _largest_difference(errors)) / 10:g}",
+        "alike": _alike(errors),
     }
 
 
-def _largest_difference(errors: Mapping[str, Mapping[str, str]]) -> float:
-    """Of a typical flight's errors, between the extended and the unscented filter: as a share."""
+def _alike(errors: Mapping[str, Mapping[str, str]]) -> str:
+    """How far the typical errors of the extended and of the unscented filter are apart, in words."""
     pairs = ((rocket.EXTENDED.name, rocket.BASE.name), (rocket.EXTENDED_DROPOUT.name, CASES["95 %"]))
     ratios = [float(errors[one][name]) / float(errors[other][name]) for one, other in pairs for name in OF_ROCKET]
-    return max(abs(ratio - 1) for ratio in ratios)
+    most = max(abs(ratio - 1) for ratio in ratios)
+    return f"differ by up to {100 * most:.1f} %" if most else "are the same to three digits"
 
 
 def late_words(found: Results) -> dict[str, Any]:

@@ -46,7 +46,12 @@ def markdown_table(rows: Sequence[Row]) -> str:
     heading, *body = rows
     numeric = [all(_is_number(row[column]) for row in body) for column in range(len(heading))]
     lines = [heading, ["---:" if right else "---" for right in numeric], *body]
-    return "\n".join("| " + " | ".join(str(cell) for cell in line) + " |" for line in lines)
+    return "\n".join("| " + " | ".join(_unbroken(str(cell)) for cell in line) + " |" for line in lines)
+
+
+def _unbroken(cell: str) -> str:
+    """A line may end before an interval, not in it."""
+    return re.sub(r"(?<=[\d.%]) (to|±) (?=[-\d])", "\N{NO-BREAK SPACE}\\1\N{NO-BREAK SPACE}", cell)
 
 
 def _is_number(cell: Any) -> bool:

@@ -18,7 +18,7 @@ Thorough = Annotated[
 
 
 def report(name: Name = "steffes2014", thorough: Thorough = False, output: Folder = Path("reports/published")) -> None:
-    """Regenerate a report: HTML, Markdown, figures (SVG) and tables (CSV). All but patent-multirate measure filters here.
+    """Regenerate a report: HTML, Markdown, figures (SVG), tables (CSV). All but patent-multirate measure filters here.
 
     sched-sim report --thorough
     sched-sim report patent-multirate

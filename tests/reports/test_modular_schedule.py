@@ -173,7 +173,7 @@ def test_charts_of_one_late_fix() -> None:
     landed = [panel.marks[-1].step for panel in panels]
     assert landed[0] > landed[1] > landed[2] == DELAY
     assert larsen.schedule.misses == 0
-    assert in_the_loop.notes[1] != "loop never late" == preempted.notes[1]
+    assert in_the_loop.notes[1] != "loop in time" == preempted.notes[1]
     assert [never_ran(panel.schedule) for panel in panels] == [0, 0, 0]
     assert {bar.style for bar in bars_of(preempted.schedule)} == {"PR", "CO", "RP", "CU", "task:control"}
     assert {bar.style for bar in bars_of(larsen.schedule)} == {"PR", "CO", "task:control"}
