@@ -123,6 +123,9 @@ class _Team(Generic[Task, Result]):
     def collect(self) -> tuple[list[Result], list[_Trial]]:
         """What has been computed since, and what was lost with a worker; waits for something, but not long."""
         done, _ = wait(self.under_way, CHECK_S, FIRST_COMPLETED)
+        if not done and any(process.exitcode is not None for process in self._pool._processes.values()):
+            self._abandon()
+            done, _ = wait(self.under_way)
         if any(_is_lost(future) for future in done):
             done, _ = wait(self.under_way)
         trials = [(future, self.under_way.pop(future)) for future in list(self.under_way) if future in done]
@@ -133,12 +136,18 @@ class _Team(Generic[Task, Result]):
         """What has been computed by now."""
         return [future.result() for future in self.under_way if future.done() and not future.exception()]
 
+    def _abandon(self) -> None:
+        """End the workers, and the wait for what one may have half sent.
+
+        To ask the pool for it may be in vain: one that was killed may have locked the queue by which they would hear.
+        """
+        self._held.close()
+        self._pool._result_queue._writer.close()  # type: ignore[attr-defined]
+
     def close(self) -> None:
         """No process is left when this returns; what is under way is dropped."""
-        if self.under_way:
-            self._held.close()
+        self._abandon()
         self._pool.shutdown(wait=True, cancel_futures=True)
-        self._held.close()
         self._watched.close()
 
 

@@ -3,14 +3,43 @@
 import errno
 import operator
 import os
+import signal
+from concurrent.futures.process import _ExecutorManagerThread
+from contextlib import suppress
 from functools import partial
-from multiprocessing import synchronize
+from multiprocessing import active_children, synchronize
+from threading import Thread
 
 import pytest
 
 from studies.workers import WorkerDeathError, compute
 
 SIZE = 5
+
+PATIENCE_S = 300
+"""Longer than any machine needs, however busy."""
+
+HALF_SENT = """
+import os
+from multiprocessing.connection import Connection
+
+def send_half(self, data):
+    os.write(self.fileno(), bytes(data)[: len(data) // 2])
+    os._exit(1)
+
+Connection._send = send_half
+"""
+
+
+def ends(work):
+    """Whether `work` ever ends; workers that it leaves are killed."""
+    thread = Thread(target=work, daemon=True)
+    thread.start()
+    thread.join(PATIENCE_S)
+    for worker in active_children():
+        with suppress(ProcessLookupError):
+            os.kill(worker.pid, signal.SIGKILL)
+    return not thread.is_alive()
 
 
 def spans(count):
@@ -45,6 +74,31 @@ def test_a_worker_that_dies_loses_no_span(tmp_path):
 
     found = compute(operator.call, spans(8), task, 2, lambda: False)
     assert sorted(point for part in found for point in part) == list(range(8 * SIZE))
+
+
+def test_a_worker_that_dies_as_it_sends_its_result_loses_no_span(tmp_path):
+    """The other one lives, and holds the queue of results open."""
+    mark = tmp_path / "died"
+    found = []
+
+    def task(span):
+        if 7 in span and not mark.exists():
+            mark.touch()
+            return partial(exec, HALF_SENT)
+        return partial(list, span)
+
+    assert ends(lambda: found.extend(compute(operator.call, spans(8), task, 2, lambda: False)))
+    assert sorted(point for part in found for point in part) == list(range(8 * SIZE))
+
+
+def test_workers_end_though_the_word_to_stop_does_not_reach_them(monkeypatch):
+    """As when one is killed, at the end of the work, while it has the queue of tasks locked."""
+    monkeypatch.setattr(_ExecutorManagerThread, "shutdown_workers", lambda _: None)
+    found = []
+    assert ends(
+        lambda: found.extend(compute(operator.call, spans(2), lambda span: partial(list, span), 2, lambda: False))
+    )
+    assert len(found) == 2
 
 
 def test_an_error_in_the_work_is_raised():
