@@ -102,7 +102,7 @@ def run_scenario(
             speed,
             scenario.context_switch,
             *(cost for part in parts for cost in scenario.costs[part]),
-            *(value for task in tasks for value in (task.cost, speed * task.period)),
+            *(value for task in tasks for value in (task.cost, speed * task.period, speed * task.offset)),
         ]
     )
     period = to_ticks(speed, resolution)

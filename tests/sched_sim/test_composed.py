@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from itertools import count
 
 import pytest
 
@@ -163,6 +164,22 @@ def test_larsen_other_sensors_accumulate_while_a_measurement_is_in_flight(priori
     of = scenario(10, entries | {"correct_late.gps": 3}, imu, gps, late="larsen", steps=4)
     assert [end - start for start, end in slices_of(of, "correct imu")] == imu_works
     assert slices_of(of, "correct gps") == ([(21, 24)] if priority == HR else [(23, 26)])
+
+
+def test_larsen_one_that_is_not_late_for_once_is_not_in_flight_in_its_own_step() -> None:
+    """It lands behind the more urgent imu of its step, and what the imu corrects is not carried anywhere."""
+    entries = {
+        "predict": 1,
+        "predict_accumulate": 1,
+        "correct.imu": 1,
+        "correct_accumulate.imu": 2,
+        "correct_late.gps": 3,
+    }
+    imu, gps = sensor("imu", 1, priority=HR), sensor("gps", 4, [0, 2])
+    seed = next(seed for seed in count() if gps.fates(1, seed) == [0])
+    of = scenario(10, entries, imu, gps, late="larsen", steps=1, seed=seed)
+    assert slices_of(of, "correct imu") == [(1, 2)]
+    assert slices_of(of, "correct gps") == [(2, 5)]
 
 
 def test_larsen_a_delay_as_long_as_the_time_between_measurements_is_one_flight_after_another() -> None:

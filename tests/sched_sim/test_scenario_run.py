@@ -67,6 +67,13 @@ def test_larsen_at_the_predictors_priority_is_larsen(M: int, accumulate: str, sp
     assert_same(single, M, speed, "larsen", entries, single.accumulate - single.propagate)
 
 
+def test_a_task_may_begin_within_a_step() -> None:
+    """Released at 10/3 of a period of 10, behind a predict job of 4 it ends at 5."""
+    task = Task("control", Fraction(2), Fraction(1), priority=30, offset=Fraction(1, 3))
+    found = run_scenario(scenario(10, {"predict": 4}, steps=2, tasks=[task]))
+    assert found.jobs["task:control"].responses == [pytest.approx((5 - 10 / 3) / 10)]
+
+
 @pytest.mark.parametrize("late", ["recalculate", "larsen"])
 def test_without_delay_both_are_the_standard_filter(late: Late) -> None:
     single = StandardCosts(Fraction("0.5"), Fraction("0.7"))
@@ -99,7 +106,9 @@ def test_the_probability_of_a_miss_is_that_of_the_sum_of_two_draws() -> None:
 def test_on_a_fast_processor_the_achieved_l_is_the_delay(priority: int) -> None:
     entries = {"predict": [1, 2], "correct.gps": 1}
     gps = sensor("gps", 2, [3, 3, 4, 6], priority=priority)
-    achieved = run_scenario(scenario(1000, entries, gps, steps=4_000)).sensors["gps"].achieved
+    found = run_scenario(scenario(1000, entries, gps, steps=4_000))
+    assert found.schedule.responses["correct gps"].worst_lateness == 0
+    achieved = found.sensors["gps"].achieved
     total = achieved.total()
     assert achieved.keys() == {3, 4, 6}
     assert near(achieved[3] / total, 1 / 2, total)
@@ -112,6 +121,7 @@ def test_dropout_of_all_or_nothing(dropout: float, arrived: int) -> None:
     found = run_scenario(scenario(10, {"predict": 1, "correct.gps": 1}, gps, steps=400))
     figures = found.sensors["gps"]
     assert (figures.taken, figures.dropped, figures.arrived) == (100, 100 - arrived, arrived)
+    assert figures.on_the_way == 0
     assert found.jobs["correct gps"].released == arrived
     assert (found.jobs["correct gps"].miss_probability is None) == (arrived == 0)
 
