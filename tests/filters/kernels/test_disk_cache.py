@@ -62,8 +62,8 @@ def increment(u):
 """
 
 
-def run(folder: Path, **helper: str) -> str:
-    """Cache hits, cache misses and the result, in a process of its own."""
+def started(folder: Path, **helper: str) -> subprocess.Popen[str]:
+    """A process that prints cache hits, cache misses and the result."""
     (folder / "program.py").write_text(PROGRAM)
     (folder / "model.py").write_text(MODEL)
     (folder / "helper.py").write_text(HELPER.format(**helper))
@@ -73,14 +73,27 @@ def run(folder: Path, **helper: str) -> str:
         "PYTHONPATH": os.pathsep.join([str(folder), os.getcwd()]),
         "PYTHONDONTWRITEBYTECODE": "1",
     }
-    command = [sys.executable, str(folder / "program.py")]
-    return subprocess.run(command, env=environment, check=True, capture_output=True, text=True).stdout.strip()
+    return subprocess.Popen(
+        [sys.executable, str(folder / "program.py")], env=environment, stdout=subprocess.PIPE, text=True
+    )
+
+
+def run(folder: Path, **helper: str) -> str:
+    return started(folder, **helper).communicate()[0].strip()
 
 
 def test_another_process_finds_the_machine_code_unless_a_callee_changed(tmp_path: Path) -> None:
     assert run(tmp_path, sign="+", step="10.0") == "0 1 12.0"
     assert run(tmp_path, sign="+", step="10.0") == "1 0 12.0"
     assert run(tmp_path, sign="-", step="10.0") == "0 1 -8.0"
+
+
+@pytest.mark.exhaust
+def test_processes_that_compile_the_same_at_once_leave_one_whole_file(tmp_path: Path) -> None:
+    processes = [started(tmp_path, sign="+", step="10.0") for _ in range(8)]
+    assert {process.communicate()[0].split()[-1] for process in processes} == {"12.0"}
+    assert len(list((tmp_path / "cache" / "sched_sim" / "numba").iterdir())) == 1
+    assert run(tmp_path, sign="+", step="10.0") == "1 0 12.0"
 
 
 @pytest.fixture
