@@ -28,8 +28,9 @@ SIMULATED_STEPS = 50_000
 LARGEST_TASK = 1_000
 """Points sent to a worker at a time, at most."""
 
-LEAST_SPEED_CYCLES = 120
-"""Measurement cycles simulated for one least speed by bisection, about."""
+SEARCH_RUNS, STEPS_TO_START = 50, 200
+"""About how many simulations, of a hyperperiod each, one least speed takes; and the HR steps that last as long as
+starting one of them."""
 
 
 @dataclass(frozen=True)
@@ -123,7 +124,7 @@ def _computed(sweep: Sweep, missing: list[range], workers: int, stopped: Callabl
         N = int(first.designs.N[0])
         steps = N * (cycles or 0)
         if not first.block.has_closed_form:
-            steps += LEAST_SPEED_CYCLES * hyperperiod_steps(Timing(N, 0, N), first.block.tasks)
+            steps += SEARCH_RUNS * (STEPS_TO_START + hyperperiod_steps(Timing(N, 0, N), first.block.tasks))
         return min(SIMULATED_STEPS // steps, LARGEST_TASK)
 
     smaller = chain.from_iterable(grid.spans(span, size) for span in simulated)

@@ -43,10 +43,11 @@ COMMANDS: dict[str, tuple[Options, Options]] = {
     "simulate --scenario scenario.toml": ([], [*FORMATS, *TRACES]),
     "processors": ([], [*DESIGN, *SETTINGS]),
     "sweep": (
-        options("-N=4:6 --results=out.sqlite"),
+        options("-N=4 --results=out.sqlite"),
         [*options("-M=1,2 --simulate --export=out.csv --export=out.parquet --results=other.sqlite"), *SETTINGS],
     ),
     "sweep grid.toml": (options("--results=out.sqlite"), [*options("-N=4 --export=out.csv"), *SETTINGS]),
+    "sweep parts.toml": (options("--results=out.sqlite"), [*options("--simulate --export=out.csv"), *SETTINGS]),
     COUNTED: (
         options("--states=2 --inputs=1 --measurements=1 --method=larsen"),
         [*options("--update=joseph --output=out.toml --robust=attitude --parallel=4 --thorough"), *FORMATS],
@@ -65,6 +66,8 @@ DRAWN: dict[str, tuple[Options, Options]] = {
 }
 """Those that make pictures, which take a hundred times as long."""
 
+NAMES = {"scenario.toml": ["samples.toml"], "parts.toml": ["part.toml", "tasks.toml"]}
+"""Files by those that name them."""
 INPUT_OPTIONS = {"--costs", "--processor", "--tasks", "--scenario"}
 OUTPUT_OPTIONS = {"--output", "--gantt", "--trace", "--histogram", "--results", "--export"}
 FUNCTION_OPTIONS = {"--system", "--filter"}
@@ -180,7 +183,7 @@ def _slip(draw: st.DrawFn, options: list[tuple[str, str]], words: list[str]) -> 
 def _files(draw: st.DrawFn, arguments: Sequence[str], slips: int) -> dict[str, bytes]:
     """Those that the arguments name, and that those name."""
     named = " ".join(arguments)
-    wanted = [name for name in DOCUMENTS if name in named] + ["samples.toml"] * ("scenario.toml" in named)
+    wanted = [name for name in DOCUMENTS if name in named or any(name in NAMES[by] for by in NAMES if by in named)]
     owned = [name for name in MODULES if f"{name.removesuffix('.py')}:" in named]
     slipping = draw(st.sampled_from([*wanted, *owned])) if wanted or owned else ""
     found = {}

@@ -60,9 +60,9 @@ TASKS: Document = {
     ]
 }
 GRID: Document = {
-    "N": "4:6",
+    "N": "4:5",
     "M": [1, 2],
-    "L": "all",
+    "L": [4],
     "speed": ["0.5:1.5:0.5"],
     "method": ["larsen", "dual-rate"],
     "costs": "steffes2014",
@@ -75,6 +75,14 @@ GRID: Document = {
     "context_switch": 0,
     "simulate": False,
     "cycles": 2,
+}
+GRID_OF_PARTS: Document = {
+    "N": 6,
+    "M": [1, 2],
+    "processor": ["part.toml", "leon3"],
+    "hr_hz": ["100:300:100", 400],
+    "method": "larsen",
+    "tasks": "tasks.toml",
 }
 SAMPLES: Document = {
     "name": "samples",
@@ -105,6 +113,7 @@ DOCUMENTS = {
     "part.toml": PART,
     "tasks.toml": TASKS,
     "grid.toml": GRID,
+    "parts.toml": GRID_OF_PARTS,
     "samples.toml": SAMPLES,
     "scenario.toml": SCENARIO,
 }
