@@ -193,6 +193,15 @@ def test_random_delays_and_dropout_weigh_by_probability(priority: int, dropout: 
     assert demand(asked) == [pytest.approx(float(run_scenario(asked).schedule.utilization), rel=0.02)]
 
 
+def test_larsen_waits_for_a_lost_one_until_the_next_is_taken() -> None:
+    """In 6 of 10 it flies 5 of 9 steps, else all 9; in the last the next is taken before the more urgent b corrects."""
+    a = sensor("a", 9, 5, dropout=0.4)
+    asked = case(1000, LARSEN, a, sensor("b", 1, priority=10), late="larsen", steps=18_000)
+    predicts, corrections = 0.6 * 5 / 9 + 0.4, 0.6 * 5 / 9 + 0.4 * 8 / 9
+    assert demand(asked)[0] * 1000 == pytest.approx(1 + predicts + 3 + corrections * 4 + 0.6 * 4 / 9)
+    assert demand(asked) == [pytest.approx(float(run_scenario(asked).schedule.utilization), rel=0.02)]
+
+
 def test_corrections_that_wait_for_one_another_go_together_and_pile_up_nothing() -> None:
     """Each for itself, 0.5 + 2 + 5 x 0.5 in each step, would take more than there is."""
     asked = case(4, {"predict": "0.5", "correct.a": "2"}, sensor("a", 1, 5), steps=1000)
