@@ -62,11 +62,14 @@ def increment(u):
 """
 
 
-def started(folder: Path, **helper: str) -> subprocess.Popen[str]:
-    """A process that prints cache hits, cache misses and the result."""
+def write(folder: Path, **helper: str) -> None:
     (folder / "program.py").write_text(PROGRAM)
     (folder / "model.py").write_text(MODEL)
     (folder / "helper.py").write_text(HELPER.format(**helper))
+
+
+def started(folder: Path) -> subprocess.Popen[str]:
+    """A process that prints cache hits, cache misses and the result."""
     environment = {
         **os.environ,
         "XDG_CACHE_HOME": str(folder / "cache"),
@@ -79,7 +82,8 @@ def started(folder: Path, **helper: str) -> subprocess.Popen[str]:
 
 
 def run(folder: Path, **helper: str) -> str:
-    return started(folder, **helper).communicate()[0].strip()
+    write(folder, **helper)
+    return started(folder).communicate()[0].strip()
 
 
 def test_another_process_finds_the_machine_code_unless_a_callee_changed(tmp_path: Path) -> None:
@@ -90,7 +94,8 @@ def test_another_process_finds_the_machine_code_unless_a_callee_changed(tmp_path
 
 @pytest.mark.exhaust
 def test_processes_that_compile_the_same_at_once_leave_one_whole_file(tmp_path: Path) -> None:
-    processes = [started(tmp_path, sign="+", step="10.0") for _ in range(8)]
+    write(tmp_path, sign="+", step="10.0")
+    processes = [started(tmp_path) for _ in range(8)]
     assert {process.communicate()[0].split()[-1] for process in processes} == {"12.0"}
     assert len(list((tmp_path / "cache" / "sched_sim" / "numba").iterdir())) == 1
     assert run(tmp_path, sign="+", step="10.0") == "1 0 12.0"
