@@ -128,12 +128,12 @@ def method_panel(
     speed: cost units per HR period; cycles: how many measurement cycles are shown.
     Raises InputError as `costs.select` and `simulate` do, and for more steps than a chart can show.
     """
-    check_simulation(cycles * timing.N, tasks, f"{cycles} cycles of N={timing.N}", MOST_JOBS)
     if cycles * timing.N > MOST_STEPS:
         raise InputError(
             f"a Gantt chart of {cycles} cycles with N={timing.N} has {cycles * timing.N} steps; at most {MOST_STEPS} "
             f"can be drawn: give fewer cycles, or write a trace"
         )
+    check_simulation(cycles * timing.N, tasks, f"{cycles} cycles of N={timing.N}", MOST_JOBS)
     landings: dict[int, int] = {}
     costs = select(table, method, options, statistic)
     schedule = simulate(costs, timing, speed, cycles, options, tasks, keep_slices=True, on_landing=landings.__setitem__)

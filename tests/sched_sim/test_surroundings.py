@@ -90,7 +90,7 @@ def test_the_folder_has_been_deleted(tmp_path: Path) -> None:
     gone.mkdir()
     result = shell('rmdir "$PWD"; $S gantt -N 4 -M 1', gone)
     assert result.returncode == 2
-    assert "current folder" in result.stderr
+    assert "gantt.svg" in result.stderr
     assert "Traceback" not in result.stderr
 
 
