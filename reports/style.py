@@ -14,6 +14,7 @@ from matplotlib.figure import Figure
 from matplotlib.font_manager import FontProperties, findfont, get_font
 from matplotlib.textpath import text_to_path
 
+from sched_sim.errors import InputError
 from sched_sim.text import visible
 
 WIDTH_MM = 170.0
@@ -53,6 +54,8 @@ SETTINGS = {
 }
 
 
+TALLEST_MM = 4000.0
+"""Some 400 lines of a Gantt chart. PNG ends at 65,536 dots, which are 5.5 m."""
 MOST_LETTERS = 500
 """Of a name: more are never set, however narrow."""
 
@@ -129,7 +132,12 @@ def drawing() -> Iterator[None]:
 
 
 def page(height_mm: float, width_mm: float = WIDTH_MM) -> Figure:
-    """An empty figure of a size in millimetres."""
+    """An empty figure of a size in millimetres. Raises InputError for one that nobody could look at or print."""
+    if height_mm > TALLEST_MM:
+        raise InputError(
+            f"the picture would be {height_mm / 1000:.3g} m high: at most {TALLEST_MM / 1000:g} m are drawn; leave out "
+            f"tasks, sensors or methods"
+        )
     return Figure(figsize=(width_mm / 25.4, height_mm / 25.4))
 
 

@@ -16,7 +16,7 @@ from sched_sim.jobs import HR, LR
 from sched_sim.processor import load_processor, seconds_for, shipped_processors
 from sched_sim.sample_file import SampledCosts, read_sampled_costs
 from sched_sim.scenario import Late, Samples, Scenario, Sensor, ends, needed_parts
-from sched_sim.task_file import TaskEntry, named_twice
+from sched_sim.task_file import TaskEntry, wrong_together
 from sched_sim.tasks import Task
 from sched_sim.ticks import exact, positive
 from sched_sim.toml_file import problems, read_toml
@@ -199,8 +199,8 @@ def read_scenario(path: Path) -> Scenario:
 
 def _scenario(checked: _ScenarioFile, folder: Path) -> Scenario:
     tasks = [Task(**dict(entry)) for entry in checked.task]
-    if twice := named_twice(tasks):
-        raise InputError("; ".join(twice))
+    if wrong := wrong_together(tasks):
+        raise InputError("; ".join(wrong))
     stated = {f"correct.{sensor.name}": sensor.cost for sensor in checked.sensor if sensor.cost is not None}
     if checked.predictor.cost is not None:
         stated["predict"] = checked.predictor.cost

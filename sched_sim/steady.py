@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import ceil, gcd, lcm
 
+from sched_sim.bounds import short
 from sched_sim.costs import JobCosts
 from sched_sim.errors import InputError
 from sched_sim.jobs import Job, RecurringSource, Source
@@ -25,6 +26,9 @@ from sched_sim.timing import Timing
 
 LONGEST = 200_000
 """HR periods until the last task has started, and from there until all repeats, that are simulated at the most."""
+
+MOST_NAMED = 10
+"""Tasks, in a message."""
 
 FEWEST = 20_000
 """HR periods that are simulated at the least before a schedule is said not to repeat."""
@@ -100,9 +104,12 @@ def longest_run(timing: Timing, tasks: Sequence[Task]) -> int:
             f"`sched-sim simulate --speed`"
         )
     if hyperperiod > LONGEST:
+        periods = [f"{task.name} {float(task.period):g}" for task in tasks]
+        if len(periods) > MOST_NAMED:
+            periods[MOST_NAMED:] = ["..."]
         raise InputError(
-            f"the tasks repeat together with the measurements only after {hyperperiod:.3g} HR periods: round their "
-            f"periods ({', '.join(f'{task.name} {float(task.period):g}' for task in tasks)}) down to a common grid "
+            f"the tasks repeat together with the measurements only after {short(hyperperiod)} HR periods: round their "
+            f"periods ({', '.join(periods)}) down to a common grid "
             f"with N={timing.N}, or look at one speed with `sched-sim simulate --speed`"
         )
     return started + max(6 * hyperperiod, FEWEST)

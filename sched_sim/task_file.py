@@ -10,6 +10,7 @@ from typing import Annotated, Any
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, ValidationError
 
+from sched_sim.bounds import MOST_TASKS
 from sched_sim.errors import InputError
 from sched_sim.tasks import Task
 from sched_sim.ticks import exact
@@ -57,12 +58,14 @@ def read_tasks(path: Path) -> list[Task]:
             f"--tasks {str(path)!r}: {wrong}; each [[task]] has name, period and offset in HR periods, cost "
             f"in the unit of the cost table, and priority (smaller is more urgent; HR jobs 10, LR jobs 20)"
         ) from None
-    if twice := named_twice(tasks):
-        raise InputError(f"--tasks {str(path)!r}: {'; '.join(twice)}")
+    if together := wrong_together(tasks):
+        raise InputError(f"--tasks {str(path)!r}: {'; '.join(together)}")
     return tasks
 
 
-def named_twice(tasks: Sequence[Task]) -> list[str]:
-    """What to say of the names that several tasks have."""
+def wrong_together(tasks: Sequence[Task]) -> list[str]:
+    """What to say of names that several tasks have, and of more tasks than anyone has."""
+    if len(tasks) > MOST_TASKS:
+        return [f"there are {len(tasks):,} tasks: give at most {MOST_TASKS:,}"]
     count = Counter(task.name for task in tasks)
     return [f"task name {name!r} is used twice; give each task its own" for name, times in count.items() if times > 1]

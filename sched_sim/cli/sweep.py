@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from studies.store import Store
     from studies.sweep import Outcome, Sweep
 
+MOST_WORKERS = 1_000
 SHOWN = 20
 """Rows of the table of best designs that people see; JSON and CSV have them all."""
 
@@ -107,7 +108,11 @@ Exports = Annotated[
 Workers = Annotated[
     int | None,
     typer.Option(
-        "--workers", min=1, help="Processes that simulate; by default one for each core.", rich_help_panel=opt.OUTPUT
+        "--workers",
+        min=1,
+        max=MOST_WORKERS,
+        help="Processes that simulate; by default one for each core.",
+        rich_help_panel=opt.OUTPUT,
     ),
 ]
 

@@ -87,3 +87,22 @@ def test_values_in_messages_are_short() -> None:
     assert len(short("x" * 5000)) < 70
     with pytest.raises(InputError, match="about -1e60"):
         exact(-(10**60), "--speed")
+
+
+@pytest.mark.parametrize(
+    ("command", "count", "said"),
+    [
+        ("minimum", 1001, ["1,001 tasks", "at most 1,000"]),
+        ("gantt", 1001, ["1,001 tasks"]),
+        ("gantt --speed 100", 400, ["m high", "leave out tasks"]),
+        ("minimum", 800, ["only after about 1e", "t9 10, ...)"]),
+    ],
+)
+def test_more_tasks_than_anyone_has(sched_sim: Run, tmp_path: Path, command: str, count: int, said: list[str]) -> None:
+    entry = '[[task]]\nname = "t{}"\ncost = 0.001\npriority = 5\nperiod = {}\n'
+    (tmp_path / "t.toml").write_text("".join(entry.format(number, number + 1) for number in range(count)))
+    is_refused(sched_sim(f"{command} -N 10 -M 4 --tasks t.toml"), said)
+
+
+def test_more_workers_than_any_machine_runs(sched_sim: Run) -> None:
+    is_refused(sched_sim("sweep -N 4 --workers 1000000000"), ["--workers", "1000"])
