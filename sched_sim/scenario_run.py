@@ -15,7 +15,7 @@ from sched_sim.methods import step_at
 from sched_sim.scenario import Scenario, needed_parts
 from sched_sim.schedule import Response, Schedule, Slice
 from sched_sim.simulate import OnSlice, Processor
-from sched_sim.tasks import TaskSource
+from sched_sim.tasks import TaskSource, work_and_times
 from sched_sim.ticks import ticks_per_unit, to_ticks
 
 
@@ -102,22 +102,14 @@ def run_scenario(
             speed,
             scenario.context_switch,
             *(cost for part in parts for cost in scenario.costs[part]),
-            *(value for task in tasks for value in (task.cost, speed * task.period, speed * task.offset)),
+            *(value for task in tasks for value in work_and_times(task, speed)),
         ]
     )
     period = to_ticks(speed, resolution)
     costs = {part: [to_ticks(cost, resolution) for cost in scenario.costs[part]] for part in parts}
     record = Record(scenario, on_slice)
     composed = ComposedFilter(scenario, costs, period, record.landed)
-    of_tasks = [
-        TaskSource(
-            task,
-            period=to_ticks(task.period * speed, resolution),
-            offset=to_ticks(task.offset * speed, resolution),
-            cost=to_ticks(task.cost, resolution),
-        )
-        for task in tasks
-    ]
+    of_tasks = [TaskSource(task, speed, resolution) for task in tasks]
     clock = [] if on_progress is None else [Clock(period, scenario.steps, on_progress)]
     context_switch = to_ticks(scenario.context_switch, resolution)
     horizon = scenario.steps * period

@@ -24,7 +24,7 @@ from sched_sim.jobs import Job, RecurringSource, Source
 from sched_sim.methods import OnLanding, method_source
 from sched_sim.options import Options
 from sched_sim.schedule import Response, Schedule, Slice
-from sched_sim.tasks import Task, TaskSource, check_cpus
+from sched_sim.tasks import Task, TaskSource, check_cpus, work_and_times
 from sched_sim.ticks import positive, ticks_per_unit, to_ticks
 from sched_sim.timing import Timing
 
@@ -100,20 +100,12 @@ def workload_in_ticks(
     positive(speed, "speed")
     check_cpus(tasks, options.cpus)
     work = [Fraction(value) for value in astuple(costs)]
-    times = [speed * time for task in tasks for time in (task.period, task.offset)]
-    resolution = ticks_per_unit([speed, options.context_switch, *work, *times, *(task.cost for task in tasks)])
+    of_tasks = chain.from_iterable(work_and_times(task, speed) for task in tasks)
+    resolution = ticks_per_unit([speed, options.context_switch, *work, *of_tasks])
     period = to_ticks(speed, resolution)
     tick_costs = type(costs)(*(to_ticks(value, resolution) for value in work))
-    task_sources = (
-        TaskSource(
-            task,
-            period=to_ticks(task.period * speed, resolution),
-            offset=to_ticks(task.offset * speed, resolution),
-            cost=to_ticks(task.cost, resolution),
-        )
-        for task in tasks
-    )
     source = method_source(tick_costs, timing, options, period, on_landing)
+    task_sources = (TaskSource(task, speed, resolution) for task in tasks)
     return Workload((source, *task_sources), period, to_ticks(options.context_switch, resolution))
 
 

@@ -8,6 +8,7 @@ from fractions import Fraction
 
 from sched_sim.errors import InputError
 from sched_sim.jobs import Job
+from sched_sim.ticks import to_ticks
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,14 +45,19 @@ def check_cpus(tasks: Sequence[Task], cpus: int) -> None:
             raise InputError(f"task {task.name!r}: cpu {task.cpu} is not there; give --cpus {task.cpu}, or cpu = 1")
 
 
-class TaskSource:
-    """Releases one task's jobs; all times in ticks."""
+def work_and_times(task: Task, speed: Fraction) -> tuple[Fraction, Fraction, Fraction]:
+    """Cost, period and offset in cost units: what is to be a whole number of ticks."""
+    return task.cost, task.period * speed, task.offset * speed
 
-    def __init__(self, task: Task, period: int, offset: int, cost: int) -> None:
+
+class TaskSource:
+    """Releases one task's jobs. speed: cost units per HR period; resolution: ticks per cost unit (`work_and_times`)."""
+
+    def __init__(self, task: Task, speed: Fraction, resolution: int) -> None:
         self.task = task
-        self.period = period
-        self.next_release = offset
-        self.cost = cost
+        self.cost, self.period, self.next_release = (
+            to_ticks(value, resolution) for value in work_and_times(task, speed)
+        )
         self.count = 0
 
     def release(self) -> tuple[Job, ...]:
