@@ -10,7 +10,7 @@ import typer
 
 from sched_sim.bounds import MOST_STATES
 from sched_sim.cli import options as opt
-from sched_sim.cli.measure_filter import OF_A_SYSTEM, measure_own_filter, refuse_with_filter
+from sched_sim.cli.measure_filter import OF_A_SYSTEM, SIZES, measure_own_filter, refuse_with_filter
 from sched_sim.cli.output import print_csv, print_json, print_table, say, units
 from sched_sim.cli.outputs import module_files, refuse_one_file_for_two
 from sched_sim.costs import SYSTEM_METHODS
@@ -153,6 +153,8 @@ def measure(
         raise InputError(
             f"--robust {robust} measures the methods robust-... on a system of its own: leave out {', '.join(given)}"
         )
+    if system is not None and (given := opt.given_options(context, lambda name: name in SIZES)):
+        raise InputError(f"--system {system!r}: leave out {', '.join(given)}: the system has its own")
     with progress_bar("Measuring") as progress:
         if robust is not None:
             table = _robust(robust, parallel, backend, thorough, progress)

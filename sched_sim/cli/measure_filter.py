@@ -20,7 +20,8 @@ from sched_sim.sample_file import SampledCosts, write_sampled_costs
 if TYPE_CHECKING:
     from sched_sim.scenario import Samples
 
-OF_A_SYSTEM = ("states", "inputs", "measurements", "system", "method", "update")
+SIZES = ("states", "inputs", "measurements")
+OF_A_SYSTEM = (*SIZES, "system", "method", "update")
 """Options of `measure` that say what a system's filters are; a robust and a composed filter are what they are."""
 
 

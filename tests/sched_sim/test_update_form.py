@@ -77,3 +77,8 @@ def test_measure_counts_what_the_line_below_the_table_names(sched_sim: Run) -> N
 def test_a_form_that_would_be_ignored_is_refused(sched_sim: Run) -> None:
     line = "measure --robust position --backend counted --update short --states 4"
     is_refused(sched_sim(line), ["--robust position", "leave out --states, --update"])
+
+
+def test_a_size_that_would_be_ignored_is_refused(sched_sim: Run) -> None:
+    line = "measure --system own_system:car --backend counted --states 4 --inputs 0"
+    is_refused(sched_sim(line), ["--system 'own_system:car'", "leave out --states, --inputs"])
