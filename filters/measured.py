@@ -38,7 +38,7 @@ def measured(p: int, every: int, measurements: Measurements) -> Measured:
     present = np.not_equal(rows, None).astype(np.bool_)  # type: ignore[call-overload]  # entry by entry
     try:
         y = np.where(present, rows, 0.0).astype(np.float64)
-    except (TypeError, ValueError) as error:
+    except (TypeError, ValueError, OverflowError) as error:
         raise ValueError(f"measurements holds a value that is no number: {error}") from error
     wrong = ~np.isfinite(y).all(axis=1)
     if wrong.any():

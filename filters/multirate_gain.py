@@ -23,6 +23,7 @@ from filters.records import Correction, new_correction
 from filters.systems.coarse import over
 from filters.systems.lossy import lossy
 from filters.systems.system import System
+from filters.systems.trial import first_input, try_functions
 from filters.update import update_error
 
 
@@ -138,6 +139,7 @@ def run(
             f"coarse has {coarse.states} states, {coarse.inputs} inputs and {coarse.measurements} measurements, the "
             f"system {system.states}, {system.inputs} and {system.measurements}; they must be the same"
         )
+    try_functions(coarse, given.start.x, first_input(moves))
     coarse = lossy(coarse, n, np.logical_or.reduceat(present, range(0, len(y), n)))
     for k in range(0, len(y), n):
         check_measurement_noise(coarse.R(k, coarse.parameters), k)

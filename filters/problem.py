@@ -12,6 +12,7 @@ from filters.measured import Measured, Measurements, measured
 from filters.records import Estimate
 from filters.systems.lossy import lossy
 from filters.systems.system import System
+from filters.systems.trial import first_input, try_functions
 
 
 class Problem(NamedTuple):
@@ -94,21 +95,48 @@ def check_measurement_noise(R: FloatArray, k: int) -> None:
 
 
 def _start_and_inputs(system: System, x0: ArrayLike, P0: ArrayLike, inputs: ArrayLike) -> tuple[Estimate, FloatArray]:
+    """The system is tried too, at x0."""
+    _check_sizes(system)
     n = system.states
     x, P = _numbers("x0", x0, (n,)), _numbers("P0", P0, (n, n))
     check_covariance("P0", P)
-    steps = np.shape(inputs)[0] if np.ndim(inputs) else 0
-    return Estimate(x, 0.5 * (P + P.T)), _numbers("inputs", inputs, (steps, system.inputs))
+    moves = _array("inputs", inputs)
+    moves = _numbers("inputs", moves, (len(moves) if moves.ndim else 0, system.inputs))
+    _check_system(system, x, moves)
+    return Estimate(x, 0.5 * (P + P.T)), moves
+
+
+def _check_sizes(system: System) -> None:
+    for name, least in (("states", 1), ("inputs", 0), ("measurements", 1)):
+        size = getattr(system, name)
+        if isinstance(size, bool) or not isinstance(size, int | np.integer) or size < least:
+            raise ValueError(f"{name}={size!r} of the system must be a whole number, at least {least}")
+
+
+def _check_system(system: System, x: FloatArray, inputs: FloatArray) -> None:
+    """Raises ValueError unless its functions give what they must, in step 0 at x (n,) with the first of the inputs.
+
+    Numbers that are not finite are left to the run, which says in which step they come.
+    """
+    try_functions(system, x, first_input(inputs))
+    for name, covariance in (("Q", system.Q(0, system.parameters)), ("R", system.R(0, system.parameters))):
+        if np.isfinite(covariance).all():
+            check_covariance(f"step 0: {name} of the system", covariance)
+
+
+def _array(name: str, value: ArrayLike) -> FloatArray:
+    """A contiguous copy."""
+    try:
+        if np.iscomplexobj(value):
+            raise TypeError("it is complex")
+        return np.array(value, dtype=np.float64, order="C")
+    except (TypeError, ValueError, OverflowError) as error:
+        raise ValueError(f"{name} is no array of numbers: {error}") from error
 
 
 def _numbers(name: str, value: ArrayLike, needed: tuple[int, ...]) -> FloatArray:
     """A contiguous copy of finite numbers."""
-    try:
-        if np.iscomplexobj(value):
-            raise TypeError("it is complex")
-        array = np.array(value, dtype=np.float64, order="C")
-    except (TypeError, ValueError) as error:
-        raise ValueError(f"{name} is no array of numbers: {error}") from error
+    array = _array(name, value)
     if array.shape != needed:
         raise ValueError(f"{name} has shape {array.shape}, the system needs {needed}")
     if not np.isfinite(array).all():

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from filters.arrays import FloatArray
 from filters.problem import check_measurement_noise
 from filters.systems.system import System
+from filters.systems.trial import check_result, trials
 from sched_sim.bounds import MOST_STATES, short
 from sched_sim.errors import InputError
 from studies.user_function import explained, returned_by
@@ -50,37 +49,30 @@ def load_system(name: str) -> tuple[System, FloatArray]:
 
 def _try_model(name: str, system: System, x: FloatArray) -> None:
     """Call each model function once and look at what it gives; R must be one that every filter can use."""
-    n, m, p = system.states, system.inputs, system.measurements
-    u, parameters = np.zeros(m), system.parameters
-    _expect(name, "the typical state", lambda: x, (n,))
-    _expect(name, "f(j, x, u, p, out)", lambda: _filled(n, lambda out: system.f(0, x, u, parameters, out)), (n,))
-    _expect(name, "F(j, x, u, p)", lambda: system.F(0, x, u, parameters), (n, n))
-    _expect(name, "Q(j, p)", lambda: system.Q(0, parameters), (n, n))
-    _expect(name, "h(k, x, p, out)", lambda: _filled(p, lambda out: system.h(0, x, parameters, out)), (p,))
-    _expect(name, "H(k, x, p)", lambda: system.H(0, x, parameters), (p, n))
-    _expect(name, "R(k, p)", lambda: system.R(0, parameters), (p, p))
-    least, most = np.linalg.eigvalsh(system.Q(0, parameters))[[0, -1]]
+    if x.shape != (system.states,):
+        raise InputError(f"--system {name!r}: the typical state has shape {x.shape}; needed is {(system.states,)}")
+    _check_finite(name, "the typical state", x)
+    for trial in trials(system, x, np.zeros(system.inputs)):
+        failed = f"--system {name!r}: {trial.signature} failed"
+        with explained(failed, " (p is the system's `parameters`)"), np.errstate(all="ignore"):
+            value = trial.call()
+        try:
+            check_result(trial, value)
+        except ValueError as error:
+            raise InputError(f"--system {name!r}: {error}") from error
+        _check_finite(name, trial.signature, value)
+    least, most = np.linalg.eigvalsh(system.Q(0, system.parameters))[[0, -1]]
     if least < -ROUNDING * most or most < 0:
         raise InputError(
             f"--system {name!r}: Q(j, p) is no covariance: its smallest eigenvalue is {least:.3g}; none may be negative"
         )
     try:
-        check_measurement_noise(system.R(0, parameters), 0)
+        check_measurement_noise(system.R(0, system.parameters), 0)
     except ValueError as error:
         raise InputError(f"--system {name!r}: {error}") from error
 
 
-def _filled(length: int, fill: Any) -> FloatArray:
-    out = np.full(length, np.nan)
-    fill(out)
-    return out
-
-
-def _expect(name: str, what: str, call: Any, shape: tuple[int, ...]) -> None:
-    with explained(f"--system {name!r}: {what} failed", " (p is the system's `parameters`)"), np.errstate(all="ignore"):
-        value = np.asarray(call(), dtype=np.float64)
-    if value.shape != shape:
-        raise InputError(f"--system {name!r}: {what} has shape {value.shape}; needed is {shape}")
+def _check_finite(name: str, what: str, value: FloatArray) -> None:
     if not np.isfinite(value).all():
         raise InputError(
             f"--system {name!r}: {what} is not finite at the typical state; return (system, x0) with a state where it "

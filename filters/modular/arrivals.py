@@ -138,7 +138,7 @@ def _stacked(measurements: list[Measurement], needed: int) -> FloatArray:
     """Their y (any, needed), nan for None; raises ValueError, naming the first that is not as many numbers."""
     try:
         values = np.array([one.y for one in measurements], dtype=np.float64)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         values = np.empty(0)
     if values.shape != (len(measurements), needed) and measurements:
         raise _misshapen(measurements, needed)
@@ -150,7 +150,7 @@ def _misshapen(measurements: list[Measurement], needed: int) -> ValueError:
     for one in measurements:
         try:
             shape = np.array(one.y, dtype=np.float64).shape
-        except (TypeError, ValueError):
+        except (TypeError, ValueError, OverflowError):
             return _unfit(one, f"y is {one.y!r:.60}; its corrector needs an array of {needed} numbers")
         if shape != (needed,):
             return _unfit(one, f"y has shape {shape}, its corrector needs {(needed,)}")

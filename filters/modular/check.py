@@ -17,7 +17,7 @@ def as_numbers(name: str, value: ArrayLike) -> FloatArray:
         if np.iscomplexobj(value):
             raise TypeError("complex numbers")
         return np.array(value, dtype=np.float64, order="C")
-    except (TypeError, ValueError) as error:
+    except (TypeError, ValueError, OverflowError) as error:
         shown = " ".join(repr(value).split())
         raise ValueError(f"{name} is {shown:.60}; needed is an array of real numbers ({error})") from None
 

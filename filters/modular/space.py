@@ -36,10 +36,11 @@ def space(numbers: int, attitudes: Sequence[int] = (), angles: Sequence[int] = (
     radians, whose differences come round at pi.
 
     Raises:
-        ValueError: an index does not fit, or two share a number.
+        ValueError: an index is not whole or does not fit, or two share a number.
     """
     taken = [at + i for at in attitudes for i in range(4)] + list(angles)
-    if numbers < 0 or len(set(taken)) < len(taken) or not all(0 <= i < numbers for i in taken):
+    fits = all(isinstance(i, int | np.integer) and 0 <= i < numbers for i in taken)
+    if numbers < 0 or len(set(taken)) < len(taken) or not fits:
         raise ValueError(
             f"space: {numbers} numbers cannot hold attitudes={list(attitudes)} (4 numbers each) and "
             f"angles={list(angles)}; give the index of each one's first number, from 0, without overlap"

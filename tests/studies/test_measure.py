@@ -33,6 +33,12 @@ def raising():
 def wrong_shape():
     return car()._replace(F=lambda j, x, u, p: np.eye(3))
 
+def returning():
+    return car()._replace(f=lambda j, x, u, p, out: 2.0 * x)
+
+def of_lists():
+    return car()._replace(Q=lambda j, p: [[1.0, 0.0], [0.0, 1.0]])
+
 def not_finite():
     return car()._replace(H=lambda k, x, p: np.array([[np.nan, 0.0]]))
 
@@ -130,6 +136,8 @@ def test_the_user_may_give_a_typical_state() -> None:
         ("own_system:number", "returned a int"),
         ("own_system:raising", r"raising\(\) failed: boom"),
         ("own_system:wrong_shape", r"F\(j, x, u, p\) has shape \(3, 3\); needed is \(2, 2\)"),
+        ("own_system:returning", r"f\(j, x, u, p, out\) does not write out\[0\]; it must write all of out"),
+        ("own_system:of_lists", r"Q\(j, p\) returns a list; needed is an array of numbers of shape \(2, 2\)"),
         ("own_system:not_finite", r"H\(k, x, p\) is not finite.*return \(system, x0\)"),
         ("own_system:noiseless", "R of step 0 is not positive definite: its smallest eigenvalue is 0; give each"),
         ("own_system:failing", r"Q\(j, p\) failed: IndexError"),

@@ -253,3 +253,8 @@ def test_without_inputs_the_measurements_say_how_many_steps(late: Late) -> None:
 
 def test_a_history_longer_than_the_run_is_no_longer_than_it() -> None:
     assert history([sensor_of("linear", [0])], [], "recalculate", history=10**15).x.shape == (STEPS + 1, 2)
+
+
+def test_a_number_too_large_for_a_float_is_named() -> None:
+    with pytest.raises(ValueError, match=r"sensor 's', measurement of step 0, .*y is .1000.*; its corrector needs"):
+        history([sensor_of("linear", [0])], [Measurement("s", 0, 0, [10**400])], "recalculate")

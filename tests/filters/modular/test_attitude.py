@@ -193,3 +193,9 @@ def test_a_point_moved_by_its_error_is_the_other_point(seed: int, spread: float)
     minus(ATTITUDE, a, b, error)
     plus(ATTITUDE, b, error, moved)
     assert abs(moved @ a) == pytest.approx(1.0, abs=1e-14)
+
+
+@pytest.mark.parametrize("wrong", [{"angles": [0.5]}, {"attitudes": [0.0]}, {"angles": [4]}, {"attitudes": [1]}])
+def test_a_space_needs_whole_indices_that_fit(wrong: dict[str, list[float]]) -> None:
+    with pytest.raises(ValueError, match=r"space: 4 numbers cannot hold .*; give the index of each one"):
+        space(4, **wrong)  # type: ignore[arg-type]  # what a user may give

@@ -1,0 +1,71 @@
+"""A function of a system that gives something of another shape is named before the run: it would go on with a part."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+from filters import dual_rate, larsen, multirate_gain, recalculate, standard
+from filters.systems.example import example_system
+from tests.strategies import problem
+
+GOOD = problem(example_system(3, 2, 2), 5, 2, 4, 12, seed=0)
+
+WRONG: list[tuple[str, Any, str]] = [
+    ("F", lambda _j, _x, _u, _p: np.eye(2), r"F\(j, x, u, p\) has shape \(2, 2\); needed is \(3, 3\)"),
+    ("Q", lambda _j, _p: np.eye(5), r"Q\(j, p\) has shape \(5, 5\); needed is \(3, 3\)"),
+    ("H", lambda _k, _x, _p: np.ones((1, 3)), r"H\(k, x, p\) has shape \(1, 3\); needed is \(2, 3\)"),
+    ("R", lambda _k, _p: np.eye(1), r"R\(k, p\) has shape \(1, 1\); needed is \(2, 2\)"),
+    ("R", lambda _k, _p: 1.0, r"R\(k, p\) returns a float; needed is an array of numbers of shape \(2, 2\)"),
+    ("F", lambda _j, _x, _u, _p: np.eye(3) + 0j, r"F\(j, x, u, p\) returns an array of complex128"),
+    ("f", lambda _j, x, _u, _p, _out: 2.0 * x, r"f\(j, x, u, p, out\) does not write out\[0\]; it must write all"),
+    ("h", lambda _k, x, _p, out: out.__setitem__(0, x[0]), r"h\(k, x, p, out\) does not write out\[1\]"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("backend", ["reference", "numpy", "compiled"])
+@pytest.mark.parametrize("run", [standard.run, recalculate.run, larsen.run, dual_rate.run])
+@pytest.mark.parametrize(("name", "function", "message"), WRONG)
+def test_functions_of_a_run(
+    run: Callable[..., Any], backend: str, name: str, function: Callable[..., Any], message: str
+) -> None:
+    with pytest.raises(ValueError, match=message):
+        run(*GOOD._replace(system=GOOD.system._replace(**{name: function})), backend=backend)
+
+
+@pytest.mark.parametrize("of", ["system", "coarse"])
+@pytest.mark.parametrize(("name", "function", "message"), WRONG)
+def test_functions_of_a_multirate_run(of: str, name: str, function: Callable[..., Any], message: str) -> None:
+    systems = {"system": GOOD.system, "coarse": GOOD.system}
+    systems[of] = GOOD.system._replace(**{name: function})
+    measurements = np.zeros((13, 2))
+    with pytest.raises(ValueError, match=message):
+        multirate_gain.run(
+            systems["system"], 1, GOOD.x0, GOOD.P0, GOOD.inputs, measurements, coarse=systems["coarse"], form="u-d"
+        )
+
+
+@pytest.mark.parametrize("name", ["Q", "R"])
+def test_a_noise_that_is_not_symmetric(name: str) -> None:
+    size = 3 if name == "Q" else 2
+    system = GOOD.system._replace(**{name: lambda _j, _p: np.tri(size)})
+    with pytest.raises(ValueError, match=f"step 0: {name} of the system is not symmetric"):
+        standard.run(*GOOD._replace(system=system))
+
+
+@pytest.mark.parametrize(("size", "value"), [("states", 3.0), ("states", 0), ("inputs", -1), ("measurements", 0)])
+def test_sizes_of_a_system(size: str, value: Any) -> None:
+    with pytest.raises(ValueError, match=f"{size}={value} of the system must be a whole number, at least"):
+        standard.run(*GOOD._replace(system=GOOD.system._replace(**{size: value})))
+
+
+def test_numbers_too_large_for_a_float() -> None:
+    with pytest.raises(ValueError, match="measurements holds a value that is no number: int too large"):
+        standard.run(*GOOD._replace(measurements=[[10**400, 1]]))
+    with pytest.raises(ValueError, match="x0 is no array of numbers: int too large"):
+        standard.run(*GOOD._replace(x0=[10**400, 1, 1]))
+    with pytest.raises(ValueError, match="inputs is no array of numbers: "):
+        standard.run(*GOOD._replace(inputs=[[1.0], [1.0, 2.0]]))
