@@ -69,13 +69,17 @@ class UnscentedView(NamedTuple):
     R: FloatArray
 
 
-def linear_corrector(H: ArrayLike, R: ArrayLike) -> Corrector:
+def linear_corrector(H: ArrayLike, R: ArrayLike, *, observed: Space | None = None) -> Corrector:
     """y = H x + v. H (p, n), n the length of the state's error; R (p, p), positive definite.
 
+    observed: what a measurement stands for, where it holds angles, which come round; plain quantities if not given.
+    Raises ValueError for a measured attitude, which is no linear function of the state.
     Of this and the other correctors: what is wrong with one is found when the filter is composed, which names the
     sensor.
     """
-    noise, seen = _noise_and_space(R, None)
+    noise, seen = _noise_and_space(R, observed)
+    if seen.attitudes.size:
+        raise ValueError("observed has attitudes, which no H x can be: give extended_corrector or unscented_corrector")
     matrix = as_numbers("H", H)
 
     def view(n: int) -> LinearView:

@@ -16,6 +16,7 @@ from filters.modular import (
     Sensor,
     extended_predictor,
     linear_corrector,
+    linear_predictor,
     run,
     space,
     unscented_corrector,
@@ -199,3 +200,18 @@ def test_a_point_moved_by_its_error_is_the_other_point(seed: int, spread: float)
 def test_a_space_needs_whole_indices_that_fit(wrong: dict[str, list[float]]) -> None:
     with pytest.raises(ValueError, match=r"space: 4 numbers cannot hold .*; give the index of each one"):
         space(4, **wrong)  # type: ignore[arg-type]  # what a user may give
+
+
+def test_a_heading_that_is_measured_as_it_is_comes_round() -> None:
+    """From pi - 0.1 to a measured -pi + 0.1 it is 0.2 further, not 2 pi - 0.2 back; R = P: half of it is taken."""
+    heading = space(1, angles=[0])
+    compass = Sensor("compass", linear_corrector([[1.0]], [[1.0]], observed=heading), every=1)
+    composed = ModularFilter(linear_predictor([[1.0]], Q=[[0.0]]), [compass], dt=1.0, of=heading)
+    seen = [Measurement("compass", taken=0, arrives=0, y=[-np.pi + 0.1])]
+    history = run(composed, [np.pi - 0.1], [[1.0]], None, seen)
+    assert np.cos(history.x[-1, 0]) == pytest.approx(-1, abs=1e-12)
+
+
+def test_an_attitude_is_no_linear_function_of_the_state() -> None:
+    with pytest.raises(ValueError, match=r"observed has attitudes.*extended_corrector or unscented_corrector"):
+        linear_corrector(np.eye(3), np.eye(3), observed=ATTITUDE)
