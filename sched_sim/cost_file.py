@@ -29,15 +29,17 @@ Entries = dict[str, Any]
 
 
 def _known_kinds(section: str) -> Callable[[dict[str, Entries]], dict[str, Entries]]:
-    """A check that a section's methods and job kinds exist."""
+    """A check that a section's methods and job kinds exist, and that no method is without any."""
 
     def check(methods: dict[str, Entries]) -> dict[str, Entries]:
         for method, entries in methods.items():
             if method not in KINDS:
                 raise ValueError(f"[{section}.{method}] is no method: choose from {', '.join(KINDS)}")
+            known = ", ".join(KINDS[method])
+            if not entries:
+                raise ValueError(f"[{section}.{method}] has no entry: give some of {known}, or delete it")
             for kind in entries:
                 if kind not in KINDS[method]:
-                    known = ", ".join(KINDS[method])
                     raise ValueError(f"[{section}.{method}] {kind} is no job kind: choose from {known}")
         return methods
 

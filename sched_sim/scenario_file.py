@@ -16,16 +16,10 @@ from sched_sim.jobs import HR, LR
 from sched_sim.processor import load_processor, seconds_for, shipped_processors
 from sched_sim.sample_file import SampledCosts, read_sampled_costs
 from sched_sim.scenario import Late, Samples, Scenario, Sensor, ends, needed_parts
-from sched_sim.task_file import TaskEntry, wrong_together
+from sched_sim.task_file import TaskEntry, Whole, whole, wrong_together
 from sched_sim.tasks import Task
 from sched_sim.ticks import exact, positive
 from sched_sim.toml_file import problems, read_toml
-
-
-def _whole(value: Any) -> int:
-    if isinstance(value, bool) or not isinstance(value, int):
-        raise ValueError("must be a whole number")
-    return value
 
 
 def _number(value: Any) -> Fraction:
@@ -59,13 +53,13 @@ def _cost(value: Any) -> tuple[Fraction, ...]:
 
 class _Range(BaseModel):
     model_config = ConfigDict(extra="forbid")
-    least: Annotated[int, BeforeValidator(_whole)]
-    most: Annotated[int, BeforeValidator(_whole)]
+    least: Whole
+    most: Whole
 
 
 def _delays(value: Any) -> Sequence[int]:
     if not isinstance(value, dict):
-        return _several(value, "number of steps", _whole)
+        return _several(value, "number of steps", whole)
     if lacking := [key for key in _Range.model_fields if key not in value]:
         raise ValueError(f"has no {' and no '.join(lacking)}: give both, as {{ least = 3, most = 5 }}, in whole steps")
     try:
@@ -87,7 +81,6 @@ def _late(value: Any) -> Any:
     return value
 
 
-_Whole = Annotated[int, BeforeValidator(_whole)]
 _Number = Annotated[Fraction, BeforeValidator(_number)]
 _Positive = Annotated[Fraction, BeforeValidator(_positive)]
 _Cost = Annotated[tuple[Fraction, ...], BeforeValidator(_cost)]
@@ -99,18 +92,18 @@ class _Entry(BaseModel):
 
 
 class _Predictor(_Entry):
-    priority: _Whole = HR
+    priority: Whole = HR
     cost: _Cost | None = None
 
 
 class _Sensor(_Entry):
     name: str
-    every: _Whole
+    every: Whole
     delay: _Delays = (0,)
-    offset: _Whole = 0
+    offset: Whole = 0
     dropout: _Number = Fraction(0)
-    priority: _Whole = LR
-    land_by: _Whole | None = None
+    priority: Whole = LR
+    land_by: Whole | None = None
     cost: _Cost | None = None
 
     @model_validator(mode="after")
@@ -135,8 +128,8 @@ class _Sensor(_Entry):
 
 class _ScenarioFile(_Entry):
     name: str
-    steps: _Whole
-    seed: _Whole = 0
+    steps: Whole
+    seed: Whole = 0
     late: Annotated[Late, BeforeValidator(_late)] = "recalculate"
     hr_hz: _Positive | None = None
     speed: _Positive | None = None
@@ -144,7 +137,7 @@ class _ScenarioFile(_Entry):
     processor: str | None = None
     times_slower: _Positive | None = None
     context_switch: _Number = Fraction(0)
-    cpus: Literal[1, 2] = 1
+    cpus: Annotated[Literal[1, 2], BeforeValidator(whole)] = 1
     predictor: _Predictor = _Predictor()
     sensor: list[_Sensor]
     task: list[TaskEntry] = []

@@ -17,6 +17,13 @@ from sched_sim.ticks import exact
 from sched_sim.toml_file import problems, read_toml
 
 
+def whole(value: Any) -> int:
+    """Raises ValueError for what is no whole number in the file, such as `true` or `"5"`."""
+    if isinstance(value, bool) or not isinstance(value, int):
+        raise ValueError("must be a whole number")
+    return value
+
+
 def _number(value: Any) -> Fraction:
     if isinstance(value, bool | list | dict | str):
         raise ValueError("must be a number")
@@ -30,6 +37,9 @@ def _positive(value: Any) -> Fraction:
     return number
 
 
+Whole = Annotated[int, BeforeValidator(whole)]
+
+
 class TaskEntry(BaseModel):
     """One [[task]]."""
 
@@ -37,9 +47,9 @@ class TaskEntry(BaseModel):
     name: str
     period: Annotated[Fraction, BeforeValidator(_positive)]
     cost: Annotated[Fraction, BeforeValidator(_positive)]
-    priority: int
+    priority: Whole
     offset: Annotated[Fraction, BeforeValidator(_number)] = Fraction(0)
-    cpu: int = 1
+    cpu: Whole = 1
 
 
 class _TaskFile(BaseModel):

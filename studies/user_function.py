@@ -6,7 +6,7 @@ import importlib
 import importlib.util
 import sys
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import chdir, contextmanager, redirect_stdout
 from importlib.machinery import PathFinder
 from pathlib import Path
 from types import ModuleType
@@ -34,7 +34,7 @@ def returned_by(name: str, option: str, how: str) -> Returned:
     module_name, colon, function_name = name.partition(":")
     if not (colon and module_name and function_name):
         raise InputError(f"{said}: {how}")
-    with _current_folder_last() as here:
+    with _current_folder_last() as here, chdir(here):
         with explained(f"{said}: module {module_name!r} cannot be imported", f"; {how}"):
             module = _imported(module_name, here)
         function: Any = getattr(module, function_name, None)
@@ -59,10 +59,14 @@ def _current_folder_last() -> Iterator[Path]:
 
 @contextmanager
 def explained(what: str, remedy: str = "") -> Iterator[None]:
-    """Whatever the user's code raises within, or that it would end the program, becomes an InputError."""
+    """Whatever the user's code raises within, or that it would end the program, becomes an InputError, but Ctrl-C. What
+    it prints goes to standard error: standard output is for results."""
     try:
-        yield
-    except (Exception, SystemExit, GeneratorExit) as error:
+        with redirect_stdout(sys.stderr):
+            yield
+    except KeyboardInterrupt:
+        raise
+    except BaseException as error:
         raise InputError(f"{what}: {_said(error)}{remedy}") from error
 
 

@@ -52,6 +52,7 @@ def _try_model(name: str, system: System, x: FloatArray) -> None:
     if x.shape != (system.states,):
         raise InputError(f"--system {name!r}: the typical state has shape {x.shape}; needed is {(system.states,)}")
     _check_finite(name, "the typical state", x)
+    values = {}
     for trial in trials(system, x, np.zeros(system.inputs)):
         failed = f"--system {name!r}: {trial.signature} failed"
         with explained(failed, " (p is the system's `parameters`)"), np.errstate(all="ignore"):
@@ -61,13 +62,14 @@ def _try_model(name: str, system: System, x: FloatArray) -> None:
         except ValueError as error:
             raise InputError(f"--system {name!r}: {error}") from error
         _check_finite(name, trial.signature, value)
-    least, most = np.linalg.eigvalsh(system.Q(0, system.parameters))[[0, -1]]
+        values[trial.signature] = value
+    least, most = np.linalg.eigvalsh(values["Q(j, p)"])[[0, -1]]
     if least < -ROUNDING * most or most < 0:
         raise InputError(
             f"--system {name!r}: Q(j, p) is no covariance: its smallest eigenvalue is {least:.3g}; none may be negative"
         )
     try:
-        check_measurement_noise(system.R(0, system.parameters), 0)
+        check_measurement_noise(values["R(k, p)"], 0)
     except ValueError as error:
         raise InputError(f"--system {name!r}: {error}") from error
 

@@ -269,10 +269,10 @@ def hr_rate(text: str | None) -> Fraction | None:
 def load_costs(name: str | None, processor: Processor | None) -> CostTable:
     """The cost table of this name or path, in seconds on the processor if there is one."""
     if processor is None:
-        return load(name or PAPERS)
+        return load(PAPERS if name is None else name)
     from sched_sim.processor import on_processor
 
-    return on_processor(load(name or COUNTED), processor)
+    return on_processor(load(COUNTED if name is None else name), processor)
 
 
 def make_processor(name: str | None) -> Processor | None:

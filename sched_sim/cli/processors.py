@@ -181,7 +181,7 @@ def _verdicts(
     from sched_sim.processor import on_processor
 
     rows, shown, reasons = [], [], []
-    counts = load(costs or COUNTED)
+    counts = load(COUNTED if costs is None else costs)
     for part in parts:
         table = on_processor(counts, part)
         for method, timing in designs.items():

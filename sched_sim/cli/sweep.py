@@ -35,7 +35,9 @@ Axis = list[str] | None
 GridFile = Annotated[
     Path | None,
     typer.Argument(
-        help="TOML file with the options below as keys (- becomes _); flags take precedence.", metavar="GRID"
+        help="TOML file with the options under Design and Processor, simulate and cycles as keys (- becomes _); flags "
+        "take precedence.",
+        metavar="GRID",
     ),
 ]
 Ns = Annotated[Axis, _values("-N", "HR steps between measurements: 10 or 1,2,5 or 10:90:10 (end included).")]

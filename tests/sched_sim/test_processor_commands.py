@@ -155,6 +155,12 @@ def test_processors_csv_has_a_column_for_each_figure(sched_sim: Run) -> None:
         ("minimum -N 5 -M 9 --method multirate --costs patent-multirate", ["-M 9", "no delay"]),
         ("simulate -N 10 -M 4 --processor cortex-m7 --hr-hz 400 --speed 1", ["--speed", "exclude", "--hr-hz"]),
         ("minimum -N 10 -M 4 --costs larsen.toml --processor patent --method dual-rate", ["[operations.dual-rate]"]),
+        ("minimum -N 10 -M 4 --processor leon3 --costs empty.toml", ["[operations.larsen] has no entry", "propagate"]),
+        ("gantt -N 10 -M 4 -o g.svg --processor leon3 --costs empty.toml", ["[operations.larsen] has no entry"]),
+        ("minimum -N 10 -M 4 --costs=", ["is a folder, not a file", "steffes2014"]),
+        ("simulate -N 10 -M 4 --processor leon3 --costs=", ["is a folder, not a file", "counted-9-3-3"]),
+        ("processors -N 10 -M 4 --hr-hz 400 --costs=", ["is a folder, not a file", "counted-9-3-3"]),
+        ("minimum -N 10 -M 4 --tasks urgent.toml", ["priority: must be a whole number", "cpu", "which is text"]),
         ("processors -M 20", ["-N", "missing"]),
         ("processors -N 10 -M 4", ["--hr-hz", "missing"]),
         ("processors --hr-hz 400", ["-N", "missing"]),
@@ -171,4 +177,6 @@ def test_wrong_input_ends_with_code_2_and_one_message(
     (tmp_path / "larsen.toml").write_text(
         'name = "l"\nunit = "operation"\n[operations.larsen]\npropagate = { add = 1 }\n'
     )
+    (tmp_path / "empty.toml").write_text('name = "e"\nunit = "operation"\n[operations.larsen]\n')
+    (tmp_path / "urgent.toml").write_text('[[task]]\nname = "t"\nperiod = 2\ncost = 0.1\npriority = true\ncpu = "1"\n')
     is_refused(sched_sim(line), said)

@@ -248,6 +248,7 @@ def test_each_of_two_processors_has_a_busy_share(sched_sim: Run, tmp_path: Path)
         (("steps = 40", "steps = 0"), ["steps 0", "at least 1"]),
         (("steps = 40", "steps = 40\nseed = -1"), ["seed -1", "0 or more"]),
         (("steps = 40", "steps = 40\ncpus = 3"), ["cpus", "1 or 2"]),
+        (("steps = 40", "steps = 40\ncpus = true"), ["cpus: must be a whole number"]),
         (("steps = 40", "steps = 40\ncontext_switch = -1"), ["context_switch -1", "0 or more"]),
         (("steps = 40", 'steps = 40\nlate = "newest"'), ["late", "'recalculate' or 'larsen'", "newest"]),
         (

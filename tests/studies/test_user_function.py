@@ -23,6 +23,7 @@ from studies.user_function import returned_by
         ("def made(): raise ValueError('a\\nb')", r"made\(\) failed: a b$"),
         ("def made(x): return x", r"made\(\) failed: TypeError"),
         ("class Mute(Exception):\n    def __str__(self): 1 / 0\ndef made(): raise Mute", r"made\(\) failed: Mute"),
+        ("class Own(BaseException): ...\ndef made(): raise Own", r"made\(\) failed: Own"),
         ("made = 3", "has no function 'made'"),
     ],
 )
@@ -31,6 +32,17 @@ def test_what_it_does_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, c
     monkeypatch.chdir(tmp_path)
     with pytest.raises(InputError, match=rf"--system 'own_function:made'.*{said}"):
         returned_by("own_function:made", "--system", "how")
+
+
+def test_what_it_prints_is_no_result_and_the_folder_stays(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    code = "import os\nprint('loading')\ndef made():\n    print('making')\n    os.chdir('..')\n    return 1"
+    (tmp_path / "own_function.py").write_text(code)
+    monkeypatch.chdir(tmp_path)
+    assert returned_by("own_function:made", "--system", "how").value == 1
+    assert capsys.readouterr() == ("", "loading\nmaking\n")
+    assert Path.cwd() == tmp_path
 
 
 def test_each_folder_has_its_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
