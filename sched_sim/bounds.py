@@ -24,6 +24,8 @@ MOST_STEPS = 10_000_000
 """HR steps of a design, a delay and a simulation: more than a day at 100 Hz."""
 MOST_JOBS = 20_000_000
 """Released in one simulation."""
+MOST_JOBS_TO_REPEAT = 1_000_000
+"""Released until all has begun and been seen once: a search for the least speed simulates that some thirty times."""
 MOST_STATES = 200
 """Of a system that is measured; inputs and measurements too. Its operations grow with the third power."""
 MOST_TASKS = 1_000
@@ -83,5 +85,5 @@ def check_simulation(steps: int, tasks: Sequence[Task], what: str, most: int = M
         shortest = min(tasks, key=lambda task: task.period)
         raise InputError(
             f"{what} release {short(jobs)} jobs, most of them of task {shortest.name!r} with period "
-            f"{float(shortest.period):g}: at most {most:,} are possible; give fewer steps, or check its period"
+            f"{float(shortest.period):g}: at most {most:,} are possible; check its period, or simulate fewer steps"
         )

@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import ceil, gcd, lcm
 
-from sched_sim.bounds import short
+from sched_sim.bounds import MOST_JOBS_TO_REPEAT, check_simulation, short
 from sched_sim.costs import JobCosts
 from sched_sim.errors import InputError
 from sched_sim.jobs import Job, RecurringSource, Source
@@ -89,7 +89,7 @@ def hyperperiod_steps(timing: Timing, tasks: Sequence[Task]) -> int:
 
 def longest_run(timing: Timing, tasks: Sequence[Task]) -> int:
     """HR periods to simulate before a schedule is said not to repeat: until the last task has started, and six
-    hyperperiods. Raises InputError where one of the two is longer than LONGEST."""
+    hyperperiods. Raises InputError where one of the two is longer than LONGEST, or they release too many jobs."""
     hyperperiod, started = hyperperiod_steps(timing, tasks), max((ceil(task.offset) for task in tasks), default=0)
     if started > LONGEST:
         last = max(tasks, key=lambda task: task.offset)
@@ -112,6 +112,8 @@ def longest_run(timing: Timing, tasks: Sequence[Task]) -> int:
             f"periods ({', '.join(periods)}) down to a common grid "
             f"with N={timing.N}, or look at one speed with `sched-sim simulate --speed`"
         )
+    once = started + hyperperiod
+    check_simulation(once, tasks, f"the {once} HR periods until the tasks repeat", MOST_JOBS_TO_REPEAT)
     return started + max(6 * hyperperiod, FEWEST)
 
 

@@ -75,10 +75,21 @@ def test_a_large_file_is_not_read(sched_sim: Run, tmp_path: Path) -> None:
     is_refused(sched_sim("minimum -N 10 -M 4 --costs c.toml"), ["c.toml", "1,000,000,000 bytes", "64,000,000"])
 
 
-@pytest.mark.parametrize("command", ["simulate", "gantt"])
+@pytest.mark.parametrize(
+    "command",
+    [
+        "simulate --speed 1",
+        "gantt --speed 1",
+        "minimum",
+        "simulate",
+        "gantt",
+        "sweep",
+        "processors --hr-hz 400 --processor leon3",
+    ],
+)
 def test_tasks_that_release_jobs_without_end(sched_sim: Run, tmp_path: Path, command: str) -> None:
     (tmp_path / "t.toml").write_text(TASK + "1e-18")
-    is_refused(sched_sim(f"{command} -N 10 -M 4 --speed 1 --tasks t.toml"), ["'t'", "1e-18", "check its period"])
+    is_refused(sched_sim(f"{command} -N 10 -M 4 --tasks t.toml"), ["'t'", "1e-18", "check its period"])
 
 
 def test_values_in_messages_are_short() -> None:
