@@ -253,7 +253,10 @@ def _show(title: str, document: dict[str, Any], rate: Fraction | None, multirate
     ]
     what = "Gains are in use from" if multirate else "Corrections land at"
     note = f"{landings(document['achieved_l'], what)}; processor busy {document['utilization']:.1%} of the time"
-    unfinished = "Jobs that have not finished count as missed, not in worst and mean, and are late by that much or more"
+    unfinished = (
+        "Jobs that have not finished are not in worst and mean; past their deadline they are missed, late by that much "
+        "or more"
+    )
     some = any(figures["max"] is None or figures["misses"] for figures in document["response"].values())
     print_table(f"{title}; response times in {unit}", rows, lines(note, unfinished if some else "", more))
 

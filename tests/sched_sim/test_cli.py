@@ -204,3 +204,11 @@ def test_wrong_input_ends_with_code_2_and_one_message(
     before = {path: path.read_bytes() for path in tmp_path.iterdir()}
     is_refused(sched_sim(line), said)
     assert {path: path.read_bytes() for path in tmp_path.iterdir()} == before
+
+
+def test_a_job_that_is_not_due_yet_is_not_said_to_be_missed(sched_sim: Run, tmp_path: Path) -> None:
+    (tmp_path / "t.toml").write_text('[[task]]\nname = "slow"\nperiod = 1000\ncost = 300\npriority = 30\n')
+    result = sched_sim("simulate -N 4 -M 0 --method larsen --speed 1.5 --tasks t.toml")
+    slow = next(line for line in result.out.splitlines() if "task:slow" in line)
+    assert slow.split()[:5] == ["task:slow", "1", "-", "-", "0"]
+    assert "past their deadline they are missed" in result.out
