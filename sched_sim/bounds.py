@@ -53,6 +53,8 @@ def check_digits(value: int | Decimal | str, what: str) -> None:
         long = len(value) > MOST_DIGITS and sum(map(str.isdigit, value)) > MOST_DIGITS
     else:
         long = value.is_finite() and max(len(value.as_tuple().digits), abs(value.adjusted())) > MOST_DIGITS
+        if long and len(value.as_tuple().digits) <= MOST_DIGITS:
+            check_size(value, what, value)
     if long:
         raise InputError(f"{what} is {short(value)}: give a number of at most {MOST_DIGITS} digits")
 

@@ -68,6 +68,8 @@ def read_tasks(path: Path) -> list[Task]:
             f"--tasks {str(path)!r}: {wrong}; each [[task]] has name, period and offset in HR periods, cost "
             f"in the unit of the cost table, and priority (smaller is more urgent; HR jobs 10, LR jobs 20)"
         ) from None
+    except InputError as error:
+        raise InputError(f"--tasks {str(path)!r}: {error}") from None
     if together := wrong_together(tasks):
         raise InputError(f"--tasks {str(path)!r}: {'; '.join(together)}")
     return tasks

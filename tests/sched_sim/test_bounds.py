@@ -117,3 +117,18 @@ def test_more_tasks_than_anyone_has(sched_sim: Run, tmp_path: Path, command: str
 
 def test_more_workers_than_any_machine_runs(sched_sim: Run) -> None:
     is_refused(sched_sim("sweep -N 4 --workers 1000000000"), ["--workers", "1000"])
+
+
+@pytest.mark.parametrize("cost", ["1e-300", "1e999999999"])
+def test_a_cost_that_no_unit_gives_is_told_the_range(sched_sim: Run, tmp_path: Path, cost: str) -> None:
+    (tmp_path / "mine.toml").write_text(f'name = "m"\nunit = "ms"\n[costs.standard]\npropagate = {cost}\nupdate = 1\n')
+    refused = sched_sim("minimum -N 4 -M 1 --costs mine.toml")
+    assert refused.code == 2
+    assert "give a number between 1e-18 and 1e18" in refused.err
+
+
+def test_whatever_is_wrong_with_a_task_the_file_is_named(sched_sim: Run, tmp_path: Path) -> None:
+    (tmp_path / "t.toml").write_text('[[task]]\nname = "a"\nperiod = 2\ncost = 1\npriority = 5\noffset = -1\n')
+    refused = sched_sim("minimum -N 4 -M 1 --tasks t.toml")
+    assert refused.code == 2
+    assert "--tasks 't.toml': task 'a': offset -1" in refused.err
