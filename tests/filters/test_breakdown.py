@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from filters import multirate_gain
@@ -223,6 +223,7 @@ def test_compiled_breaks_down_too() -> None:
 
 @each_case
 @each_form
+@settings(max_examples=25)
 @given(data=st.data())
 def test_a_singular_covariance_is_one(case: Case, form: str, data: st.DataObject) -> None:
     """States that are known exactly, that go together, and that no noise moves."""

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from filters import multirate_gain, standard
@@ -42,6 +42,7 @@ def losses(count: int, p: int, seed: int) -> FloatArray:
 
 @pytest.mark.parametrize("case", EVERY_CASE, ids=str)
 @pytest.mark.parametrize("form", COVARIANCE_FORMS)
+@settings(max_examples=25)
 @given(data=st.data())
 def test_every_method_is_the_filter_with_the_remaining_rows(case: Case, form: str, data: st.DataObject) -> None:
     whole = data.draw(case.problems())

@@ -24,7 +24,7 @@ def record(system: System, N: int) -> tuple[np.ndarray, ...]:
     return x0, P0, inputs, simulate_truth(system, N, x0, P0, inputs, seed=3).measurements
 
 
-@pytest.mark.parametrize("backend", ["reference", "numpy", pytest.param("compiled", marks=pytest.mark.slow)])
+@pytest.mark.parametrize("backend", ["reference", "numpy", pytest.param("compiled", marks=pytest.mark.exhaust)])
 @pytest.mark.parametrize("method", DELAYED_METHODS)
 def test_runs(method: str, backend: str) -> None:
     assert WITHOUT.inputs == 0

@@ -62,6 +62,7 @@ def test_the_oscillators_table_does_not_depend_on_the_last_digits() -> None:
     assert tables[0] == tables[1]
 
 
+@pytest.mark.exhaust
 @pytest.mark.parametrize("method", [robust_drive.EKF, robust_drive.MORE_ROBUST, robust_drive.LIMIT_ALL])
 def test_the_drives_errors_do_not_depend_on_the_last_digits(method: AttitudeMethod) -> None:
     drive = simulate_cargo_drive(1.0)

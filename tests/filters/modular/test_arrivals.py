@@ -155,7 +155,7 @@ def _attitude_run(corrector: Corrector, y: Any) -> ModularHistory:
     return run(case.composed, case.x0, case.P0, case.inputs(3), [Measurement("s", 1, 1, y)])
 
 
-@pytest.mark.slow
+@pytest.mark.exhaust
 def test_lost_numbers_in_compiled_code() -> None:
     sensor = sensor_of("linear", [0, 1, 2])
     measurements = taken([0.4, None, 0.9], [None, 0.3, None], [-0.6, 0.2, 0.1])
