@@ -234,7 +234,7 @@ def test_results_are_of_all_cases_and_readings() -> None:
     found = results()
     assert found.apogee_m.shape == (COUNT,)
     assert [row.case for row in found.errors] == list(COMPILED_CASES)
-    assert {row.runs for row in found.errors} == {COUNT}
+    assert {len(row.rms) for row in found.errors} == {COUNT}
     assert len(found.residuals) == len(COMPILED_CASES) * len(READINGS)
     assert len(found.nees) == len(COMPILED_CASES) * len(PHASES) * (1 + len(QUANTITIES))
     for series in found.series:
@@ -249,5 +249,5 @@ def test_progress_is_told_and_side_cases_fly_with_few_seeds() -> None:
         (0, 1), (0,), main=(BASE,), side=BLIND_CASES[:1], progress=lambda *state: told.append(state)
     )
     assert [state[:2] for state in told] == [(1, 2), (2, 2)]
-    assert [row.runs for row in found.errors] == [2, 1]
+    assert [len(row.rms) for row in found.errors] == [2, 1]
     assert len(found.series) == 1
