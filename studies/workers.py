@@ -142,7 +142,7 @@ class _Team(Generic[Task, Result]):
         To ask the pool for it may be in vain: one that was killed may have locked the queue by which they would hear.
         """
         self._held.close()
-        self._pool._result_queue._writer.close()  # type: ignore[attr-defined]
+        self._pool._result_queue._writer.close()  # type: ignore[attr-defined]  # the pool has no public way
 
     def close(self) -> None:
         """No process is left when this returns; what is under way is dropped."""

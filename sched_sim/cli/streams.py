@@ -98,7 +98,7 @@ def _open_streams() -> None:
         except OSError:
             os.open(os.devnull, os.O_RDWR)  # takes the lowest number that is free
     if sys.stderr is None:
-        sys.stderr = open(os.devnull, "w")  # noqa: SIM115
+        sys.stderr = open(os.devnull, "w")  # noqa: SIM115  # open for as long as the process
     if sys.stdout is None:
         sys.stdout = Closed()
     elif sys.stdout is sys.__stdout__ and isinstance(sys.stdout, TextIOWrapper):
