@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from filters.arrays import FloatArray
+from filters.normal import normal
 from filters.systems.system import System
 
 
@@ -29,15 +30,15 @@ def simulate_truth(system: System, N: int, x0: FloatArray, P0: FloatArray, input
     random = np.random.default_rng(seed)
     steps = len(inputs)
     x = np.empty((steps + 1, system.states))
-    x[0] = x0 + _draw(random, P0)
+    x[0] = x0 + normal(random, P0)
     for j in range(steps):
         system.f(j, x[j], inputs[j], system.parameters, x[j + 1])
-        x[j + 1] += _draw(random, system.Q(j, system.parameters))
+        x[j + 1] += normal(random, system.Q(j, system.parameters))
         _check_finite("f", j, x[j], x[j + 1])
     measurements = np.empty((steps // N + 1, system.measurements))
     for cycle, y in enumerate(measurements):
         system.h(cycle * N, x[cycle * N], system.parameters, y)
-        y += _draw(random, system.R(cycle * N, system.parameters))
+        y += normal(random, system.R(cycle * N, system.parameters))
         _check_finite("h", cycle * N, x[cycle * N], y)
     return Truth(x, measurements)
 
@@ -48,7 +49,3 @@ def _check_finite(function: str, j: int, x: FloatArray, value: FloatArray) -> No
             f"step {j}: {function} of the system gives a value that is not finite at the simulated state x = {x}; mend "
             f"the model there, or start elsewhere"
         )
-
-
-def _draw(random: np.random.Generator, covariance: FloatArray) -> FloatArray:
-    return random.multivariate_normal(np.zeros(len(covariance)), covariance, method="eigh")

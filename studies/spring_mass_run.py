@@ -13,6 +13,7 @@ import numpy as np
 from filters.arrays import FloatArray
 from filters.kernels.backends import BackendName
 from filters.modular import Measurement, ModularFilter, ModularHistory, observe, run
+from filters.normal import normal
 from filters.systems.spring_mass import (
     ACCELERATION,
     POSITION,
@@ -104,7 +105,7 @@ def own_model(setting: Setting, seed: int) -> Record:
     x0, P0 = start()
     F, Q = transition(composed.dt), white_jerk(composed.dt, setting.tuning * frequency(OSCILLATOR) ** 2.5)
     truth = np.empty((PERIODS * setting.rate + 1, 3))
-    truth[0] = random.multivariate_normal(x0, P0)
+    truth[0] = x0 + normal(random, P0)
     moves = random.multivariate_normal(np.zeros(3), Q, size=len(truth) - 1, method="cholesky")
     for j, move in enumerate(moves):
         truth[j + 1] = F @ truth[j] + move

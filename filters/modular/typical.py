@@ -20,6 +20,7 @@ from filters.modular.measurements import expected_by
 from filters.modular.space import Space, plus, space
 from filters.modular.trial import try_functions
 from filters.modular.workspace import new_workspace
+from filters.normal import normal
 from filters.records import Estimate
 
 WARM_UP = 12
@@ -77,7 +78,7 @@ def near(composed: ModularFilter, typical: Moment, seed: int, index: int) -> Mom
 def drawn(of: Space, point: FloatArray, covariance: FloatArray, random: np.random.Generator) -> FloatArray:
     """The point, moved by a normal error."""
     out = np.empty(of.numbers)
-    plus(of, point, random.multivariate_normal(np.zeros(of.errors), covariance, method="eigh"), out)
+    plus(of, point, normal(random, covariance), out)
     return out
 
 
