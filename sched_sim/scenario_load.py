@@ -54,6 +54,20 @@ def demand(scenario: Scenario) -> list[float]:
     return [sum(load.share for load in loads(scenario) if load.cpu == cpu) for cpu in range(scenario.cpus)]
 
 
+def switching(scenario: Scenario) -> list[float]:
+    """The share of each processor's time that context switches take beside `demand`, at the most.
+
+    A job that is released preempts one other at most, so there are two dispatches for each. What preempted corrections
+    do again because they take longer is not in it.
+    """
+    jobs = [0.0] * scenario.cpus
+    jobs[0] += 1
+    jobs[-1] += sum(rate(sensor) for sensor in scenario.sensors)
+    for task in scenario.tasks:
+        jobs[task.cpu - 1] += float(1 / task.period)
+    return [2 * each * float(scenario.context_switch / scenario.speed) for each in jobs]
+
+
 def catching_up(scenario: Scenario, sensor: Sensor) -> CatchingUp | None:
     """None if its corrections need not: nothing overtakes them, or they are carried to the step they land in.
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from sched_sim.composed import correct_kind
@@ -16,21 +17,22 @@ def causes(scenario: Scenario, outcome: Outcome) -> list[str]:
     return [*(_demand(scenario) if outcome.misses else ()), *_catching_up(scenario, outcome)]
 
 
-def _demand(scenario: Scenario) -> list[str]:
+def _demand(scenario: Scenario) -> Iterator[str]:
     from sched_sim.scenario_landing import ROUNDING
-    from sched_sim.scenario_load import demand, loads
+    from sched_sim.scenario_load import demand, loads, switching
 
     parts = loads(scenario)
-    lines = []
-    for cpu, share in enumerate(demand(scenario)):
+    for cpu, (share, switches) in enumerate(zip(demand(scenario), switching(scenario), strict=True)):
+        which = f"processor {cpu + 1}" if scenario.cpus > 1 else "the processor"
+        besides = f", and context switches up to {switches:.1%} more" if switches else ""
         here = [load for load in parts if load.cpu == cpu]
         if share > 1 + ROUNDING:
             shares = ", ".join(f"{load.name} {load.share:.0%}" for load in here)
-            which = f"processor {cpu + 1}" if scenario.cpus > 1 else "the processor"
             piles_up = sum(load.share for load in here if not load.gives_way) > 1 + ROUNDING
             follows = "work piles up" if piles_up else "corrections wait for one another and go back together"
-            lines.append(f"demand is {share:.1%} of {which}, so that {follows}: {shares}")
-    return lines
+            yield f"demand is {share:.1%} of {which}{besides}, so that {follows}: {shares}"
+        elif share + switches > 1 + ROUNDING:
+            yield f"demand is {share:.1%} of {which}{besides}, so that work may pile up"
 
 
 def _catching_up(scenario: Scenario, outcome: Outcome) -> list[str]:

@@ -7,14 +7,14 @@ from fractions import Fraction
 from pathlib import Path
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from sched_sim.cli.overload import causes
 from sched_sim.errors import InputError
 from sched_sim.scenario import Scenario, Sensor
 from sched_sim.scenario_file import read_scenario
-from sched_sim.scenario_load import catching_up, demand, loads
+from sched_sim.scenario_load import catching_up, demand, loads, switching
 from sched_sim.scenario_run import run_scenario
 from sched_sim.tasks import Task
 from tests.scenarios import HR, LR, sensor
@@ -243,6 +243,28 @@ def certain(draw: st.DrawFn) -> Scenario:
 def test_where_all_is_certain_the_simulation_is_never_busier_than_the_demand(asked: Scenario) -> None:
     busy = float(run_scenario(asked).schedule.utilization) * asked.cpus
     assert busy <= sum(min(share, 1) for share in demand(asked)) * 1.01
+
+
+def test_context_switches_are_named_where_they_may_be_too_many() -> None:
+    """0.3 + 0.3 + 2 x 0.25 in each step of 1: each job is dispatched once, after the other."""
+    asked = case(1, {"predict": "0.3", "correct.a": "0.3"}, sensor("a", 1, 0), context_switch=Fraction(1, 4), steps=400)
+    outcome = run_scenario(asked)
+    assert outcome.misses
+    assert outcome.schedule.utilization == 1
+    assert (demand(asked), switching(asked)) == ([pytest.approx(0.6)], [1.0])
+    assert causes(asked, outcome) == [
+        "demand is 60.0% of the processor, and context switches up to 100.0% more, so that work may pile up"
+    ]
+
+
+@settings(max_examples=60)
+@given(certain(), st.fractions(0, 1, max_denominator=8))
+def test_context_switches_take_no_more_than_is_said(asked: Scenario, switch: Fraction) -> None:
+    urgent = [replace(one, priority=min(one.priority, HR)) for one in asked.sensors]  # none is preempted by a step
+    asked = replace(asked, late="recalculate", cpus=1, sensors=urgent, context_switch=switch * asked.speed / 10)
+    shares = [a + b for a, b in zip(demand(asked), switching(asked), strict=True)]
+    assume(all(share < 1 for share in shares))
+    assert float(run_scenario(asked).schedule.utilization) <= sum(shares) * 1.01
 
 
 def test_a_pattern_of_any_length_is_soon_looked_through() -> None:
