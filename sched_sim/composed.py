@@ -38,7 +38,7 @@ is charged if nothing else runs in between.
 
 from __future__ import annotations
 
-from bisect import bisect_right, insort
+from bisect import bisect_left, bisect_right, insort
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import partial
@@ -92,7 +92,7 @@ OnLanding = Callable[[Measurement, int], None]
 class ComposedFilter(Source):
     """Releases the jobs; `period` (the HR period) and `costs`, by part, in ticks.
 
-    taken, dropped: measurements so far, by the number of the sensor; pending: arrived and not landed.
+    taken, dropped: measurements so far, by the number of the sensor; pending: arrived and not landed, sorted.
     """
 
     def __init__(
@@ -107,7 +107,7 @@ class ComposedFilter(Source):
         self.next_release = 0
         self.taken = [0] * len(self.sensors)
         self.dropped = [0] * len(self.sensors)
-        self.pending: dict[Measurement, None] = {}
+        self.pending: list[Measurement] = []
         self.corrector_cpu = scenario.cpus - 1
         self.larsen = scenario.late == "larsen"
         self.fates = [sensor.fates(scenario.steps, scenario.seed) for sensor in self.sensors]
@@ -178,7 +178,7 @@ class ComposedFilter(Source):
 
     def _arrive(self, together: Together, now: int) -> tuple[Job, ...]:
         for one in together:
-            self.pending[one] = None
+            insort(self.pending, one)
         sensor = self.sensors[together[0].sensor]
         if self.scenario.preempted(sensor):
             if sensor.priority in self.waiting:
@@ -205,28 +205,30 @@ class ComposedFilter(Source):
         if self._is_larsens(first):
             late = total(self.costs[f"correct_late.{sensor.name}"], draws)
             return self._job(first, (("CO", late),), partial(self._land, together))
-        aim, ahead = now // self.period, self._ahead_of(together)
-        kind = "correct_accumulate" if self._waits(aim, ahead) else "correct"
+        aim = now // self.period
+        kind = "correct_accumulate" if self._waits(aim, together) else "correct"
         work = sum(total(self.costs[f"{kind}.{self.sensors[one.sensor].name}"], draws) for one in together)
         back = min(one.step for one in together)
         after = back - 1 if back < aim else back  # from the prediction of step `back`, or from the state as it is
-        again = [one for one in ahead if one.step > after and not self._is_larsens(one)]
+        later = self.pending[bisect_right(self.pending, after, key=itemgetter(0)) :]
+        again = [one for one in later if self._is_ahead(one, together) and not self._is_larsens(one)]
         replay = self._replay(first, aim - back, [*again, *self._applied_after(after)])
         parts = (("CO", work), ("RP", replay)) if replay else (("CO", work),)
         if not self.scenario.preempted(sensor):
             return self._job(first, parts, partial(self._land, together))
+        ahead = frozenset(one for one in self.pending if self._is_ahead(one, together))
         return self._job(first, parts, partial(self._finish, Branch(together, aim, len(self.landed), ahead)))
 
-    def _ahead_of(self, together: Together) -> frozenset[Measurement]:
-        """Arrived corrections that land before these do; those that wait for them are not among them."""
+    def _is_ahead(self, one: Measurement, together: Together) -> bool:
+        """Whether the correction of one that has arrived lands before these do; those that wait for them do not."""
         sensor = self.sensors[together[0].sensor]
         limit = sensor.priority - self.scenario.preempted(sensor)
-        return frozenset(one for one in self.pending if self.sensors[one.sensor].priority <= limit) - {*together}
+        return self.sensors[one.sensor].priority <= limit and one not in together
 
-    def _waits(self, step: int, ahead: frozenset[Measurement]) -> bool:
+    def _waits(self, step: int, together: Together) -> bool:
         """Whether something taken before `step` will still be in flight when these have landed."""
         awaited = self.awaited is not None and self.awaited.step < step
-        return awaited or any(one.step < step and one not in ahead for one in self.carried)
+        return awaited or any(one.step < step and not self._is_ahead(one, together) for one in self.carried)
 
     def _is_larsens(self, one: Measurement) -> bool:
         """Whether it is carried to the step in which it lands, instead of being replayed from its own."""
@@ -264,7 +266,7 @@ class ComposedFilter(Source):
 
     def _land(self, together: Together, _job: Job, now: int) -> tuple[Job, ...]:
         for one in together:
-            del self.pending[one]
+            del self.pending[bisect_left(self.pending, one)]
             self.carried.pop(one, None)
             applied_to = step_at(now, self.period) if self._is_larsens(one) else one.step
             self.landed.append((applied_to, one))

@@ -1,15 +1,13 @@
-"""What a scenario asks of the processors on average: the sum of mean cost over mean period, and whether a late
-correction can catch up."""
+"""What a scenario asks of the processors on average, if each correction lands in the step in which it arrives, and
+whether corrections that take longer can catch up."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import NamedTuple
 
 from sched_sim.scenario import Scenario, Sensor
-from sched_sim.scenario_landing import landings, tasks_ahead
-from sched_sim.scenario_parts import correction, is_larsens, mean, rate, replays
-from sched_sim.scenario_pattern import in_flight
+from sched_sim.scenario_pattern import going_back, in_flight
+from sched_sim.tasks import Task
 
 
 class Load(NamedTuple):
@@ -36,99 +34,85 @@ class CatchingUp(NamedTuple):
 
 
 def loads(scenario: Scenario) -> list[Load]:
-    """Without context switches; each correction starts as it arrives. What preempted ones do because they take longer
-    than their step is the most that it can be, with delays and costs that are certain."""
+    """Mean work over time, without context switches and without what corrections do again to catch up."""
     speed, last = float(scenario.speed), scenario.cpus - 1
-    found = [Load("predict", 0, _predict(scenario) / speed)]
-    again = replays(scenario)
-    for sensor in scenario.sensors:
+    found = [Load("predict", 0, _mixed(scenario, "predict") / speed)]
+    for sensor, again in zip(scenario.sensors, _replays(scenario), strict=True):
         found.append(Load(f"correct {sensor.name}", last, _correct(scenario, sensor) / speed))
-        if work := again[sensor.name].work:
-            found.append(Load(f"replay for {sensor.name}", last, work / speed, scenario.preempted(sensor)))
-    found += [Load(task.name, task.cpu - 1, float(task.cost / task.period) / speed) for task in scenario.tasks]
-    return [*found, *_catching_up_loads(scenario)]
+        if again:
+            found.append(Load(f"replay for {sensor.name}", last, again / speed, scenario.preempted(sensor)))
+    return [*found, *(Load(task.name, task.cpu - 1, _mean_work(task) / speed) for task in scenario.tasks)]
 
 
 def demand(scenario: Scenario) -> list[float]:
-    """Of each processor: more than 1 is more than it can do at once."""
-    return [sum(load.share for load in loads(scenario) if load.cpu == cpu) for cpu in range(scenario.cpus)]
+    """The sum of the `loads` of each processor; more than 1 is more than it can do."""
+    shares = [0.0] * scenario.cpus
+    for load in loads(scenario):
+        shares[load.cpu] += load.share
+    return shares
 
 
-def switching(scenario: Scenario) -> list[float]:
-    """The share of each processor's time that context switches take beside `demand`, at the most.
-
-    A job that is released preempts one other at most, so there are two dispatches for each. What preempted corrections
-    do again because they take longer is not in it.
-    """
-    jobs = [0.0] * scenario.cpus
-    jobs[0] += 1
-    jobs[-1] += sum(rate(sensor) for sensor in scenario.sensors)
-    for task in scenario.tasks:
-        jobs[task.cpu - 1] += float(1 / task.period)
-    return [2 * each * float(scenario.context_switch / scenario.speed) for each in jobs]
-
-
-def catching_up(scenario: Scenario, sensor: Sensor) -> CatchingUp | None:
-    """None if its corrections need not: nothing overtakes them, or they are carried to the step they land in.
+def catching_up(scenario: Scenario) -> dict[str, CatchingUp]:
+    """Of each sensor whose corrections may have to: something overtakes them, and they are not carried along.
 
     needed: at the least; of the corrections made in that step, only more urgent ones have been.
     """
-    if not scenario.preempted(sensor) or is_larsens(scenario, sensor):
-        return None
-    urgent = [one for one in scenario.sensors if one.priority < sensor.priority]
-    again = replays(scenario)
-    needed = mean(scenario, "predict") + sum(rate(one) * correction(scenario, one) for one in urgent)
-    ahead = _predict(scenario) if scenario.cpus == 1 else 0.0
-    ahead += sum(_correct(scenario, one) + again[one.name].work for one in urgent)
-    ahead += sum(float(task.cost / task.period) for task in tasks_ahead(scenario, sensor.priority))
-    return CatchingUp(needed, float(scenario.speed) - ahead)
-
-
-def _catching_up_loads(scenario: Scenario) -> Iterator[Load]:
-    """Of the corrections of each priority that are preempted: at most all the time that is left to them."""
-    again = replays(scenario)
-    for priority, landing in landings(scenario).items():
-        sensors = [one for one in scenario.sensors if one.priority == priority and not is_larsens(scenario, one)]
-        found = catching_up(scenario, sensors[0]) if sensors else None
-        if found is None:
+    replays = dict(zip(scenario.sensors, _replays(scenario), strict=True))
+    predict = _mixed(scenario, "predict") if scenario.cpus == 1 else 0.0
+    found = {}
+    for sensor in scenario.sensors:
+        if not scenario.preempted(sensor) or _is_larsens(scenario, sensor):
             continue
-        work = found.left - sum(_correct(scenario, sensor) + again[sensor.name].work for sensor in sensors)
-        if landing is not None:
-            work = min(work, landing.again * sum(again[sensor.name].jobs for sensor in sensors))
-        if work > 0:
-            name = f"catching up for {', '.join(sensor.name for sensor in sensors)}"
-            yield Load(name, scenario.cpus - 1, work / float(scenario.speed), gives_way=True)
+        urgent = [one for one in scenario.sensors if one.priority < sensor.priority]
+        tasks = [task for task in scenario.tasks if task.cpu == scenario.cpus and task.priority <= sensor.priority]
+        needed = _mean(scenario, "predict") + sum(_rate(one) * _correction(scenario, one) for one in urgent)
+        ahead = predict + sum(_correct(scenario, one) + replays[one] for one in urgent) + sum(map(_mean_work, tasks))
+        found[sensor.name] = CatchingUp(needed, float(scenario.speed) - ahead)
+    return found
 
 
-def _predict(scenario: Scenario) -> float:
-    """Work in a step."""
-    return _mixed(scenario, "predict")
+def _replays(scenario: Scenario) -> list[float]:
+    """Work in a step, of each sensor, that its late corrections do again; those of Larsen's method do nothing again."""
+    if scenario.late == "larsen":
+        return [0.0] * len(scenario.sensors)
+    corrections = [_correction(scenario, sensor) for sensor in scenario.sensors]
+    return going_back(scenario.sensors, _mean(scenario, "predict"), corrections)
 
 
 def _correct(scenario: Scenario, sensor: Sensor) -> float:
     """Work in a step, without what is done again."""
-    if is_larsens(scenario, sensor):
-        return rate(sensor) * correction(scenario, sensor)
-    return rate(sensor) * _mixed(scenario, "correct", sensor)
+    if _is_larsens(scenario, sensor):
+        return _rate(sensor) * _correction(scenario, sensor)
+    return _rate(sensor) * _mixed(scenario, "correct", sensor)
+
+
+def _correction(scenario: Scenario, sensor: Sensor) -> float:
+    """One, made again."""
+    return _mean(scenario, f"{'correct_late' if _is_larsens(scenario, sensor) else 'correct'}.{sensor.name}")
 
 
 def _mixed(scenario: Scenario, part: str, of: Sensor | None = None) -> float:
     """The mean cost of a part that runs as "..._accumulate" while a measurement is in flight."""
     name = "" if of is None else f".{of.name}"
-    share = _in_flight(scenario, of)
-    accumulating = share * mean(scenario, f"{part}_accumulate{name}") if share else 0.0
-    return accumulating + (1 - share) * mean(scenario, f"{part}{name}")
+    share = in_flight(scenario.sensors, of) if scenario.late == "larsen" else 0.0
+    accumulating = share * _mean(scenario, f"{part}_accumulate{name}") if share else 0.0
+    return accumulating + (1 - share) * _mean(scenario, f"{part}{name}")
 
 
-def _in_flight(scenario: Scenario, of: Sensor | None) -> float:
-    if scenario.late == "recalculate":
-        return 0.0
-    until_landed = landings(scenario)
-    longer = {}
-    for sensor in scenario.sensors:
-        if sensor.delayed:
-            landing = until_landed[sensor.priority]
-            if landing is None:
-                return 1.0
-            longer[sensor.name] = landing.passed
-    return in_flight(scenario.sensors, longer, of)
+def _is_larsens(scenario: Scenario, sensor: Sensor) -> bool:
+    """Whether its late measurements are carried to the step in which they land."""
+    return scenario.late == "larsen" and sensor.delayed
+
+
+def _mean(scenario: Scenario, part: str) -> float:
+    costs = scenario.costs[part]
+    return float(sum(costs)) / len(costs)
+
+
+def _rate(sensor: Sensor) -> float:
+    """Arrivals in a step."""
+    return (1 - sensor.dropout) / sensor.every
+
+
+def _mean_work(task: Task) -> float:
+    return float(task.cost / task.period)

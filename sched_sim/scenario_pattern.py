@@ -3,9 +3,9 @@ in flight. On average over one whole pattern of the sensors; of a very long patt
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from math import lcm
-from typing import NamedTuple, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -18,20 +18,9 @@ Ints: TypeAlias = npt.NDArray[np.int64]
 MOST_DELAYS = 100_000
 """So many of a sensor's delays are looked at; of more, every second, third, ..."""
 MOST_CASES = 200_000
-"""So many pairs of a measurement and its delay are looked at."""
+"""So many pairs of a measurement and its delay are looked at, of all sensors."""
 RAREST = 1 << 40
 """HR steps between measurements; what is rarer meets nothing."""
-
-
-class GoingBack(NamedTuple):
-    """What a sensor's corrections do in an HR step, on average; late ones that go together count for the first of them.
-
-    jobs: how many start; work: to predict and correct again; most: of this in one job, with delays that are certain.
-    """
-
-    jobs: float
-    work: float
-    most: float
 
 
 class Arrivals:
@@ -80,8 +69,9 @@ def _arrivals(sensors: Sequence[Sensor]) -> list[Arrivals]:
     return [Arrivals(sensor, longest) for sensor in sensors]
 
 
-def going_back(sensors: Sequence[Sensor], predict: float, corrections: Sequence[float]) -> list[GoingBack]:
-    """Of each sensor, if late measurements are replayed and every correction lands in the step in which it arrives.
+def going_back(sensors: Sequence[Sensor], predict: float, corrections: Sequence[float]) -> list[float]:
+    """The work in an HR step that each sensor's late corrections do again, on average, if every correction lands in the
+    step in which it arrives.
 
     predict, corrections: the work of one, of each sensor. A late one that arrives in step m finds the corrections of
     its own step and of later ones that have arrived before, or arrive in m too and are more urgent. Late ones of its
@@ -91,11 +81,11 @@ def going_back(sensors: Sequence[Sensor], predict: float, corrections: Sequence[
     return [_going_back(number, arrivals, predict, corrections) for number in range(len(arrivals))]
 
 
-def _going_back(number: int, arrivals: Sequence[Arrivals], predict: float, corrections: Sequence[float]) -> GoingBack:
+def _going_back(number: int, arrivals: Sequence[Arrivals], predict: float, corrections: Sequence[float]) -> float:
     own = arrivals[number]
     delays = np.flatnonzero(own.at)
     late = delays > 0
-    taken = own.steps(arrivals, MOST_CASES // max(delays.size, 1))[:, np.newaxis]
+    taken = own.steps(arrivals, MOST_CASES // max(delays.size, 1) // len(arrivals))[:, np.newaxis]
     now = taken + delays
     first = np.broadcast_to(own.at[delays], now.shape)  # it arrives then, and no late one before it in the row does
     work = np.broadcast_to(delays * predict, now.shape)
@@ -109,16 +99,15 @@ def _going_back(number: int, arrivals: Sequence[Arrivals], predict: float, corre
                 of_step = (taken - one.offset) % one.every == 0
                 found = found + of_step * before * at / np.where(at < 1, 1 - at, np.inf)
         work = work + correction * found
-    jobs, again = (float(each.sum()) / taken.size / own.every for each in (first, first * late * work))
-    return GoingBack(jobs, again, float((work * late).max(initial=0, where=first > 0)))
+    return float((first * late * work).sum()) / taken.size / own.every
 
 
-def in_flight(sensors: Sequence[Sensor], longer: Mapping[str, int], of: Sensor | None = None) -> float:
+def in_flight(sensors: Sequence[Sensor], of: Sensor | None = None) -> float:
     """The share of steps at whose start Larsen's method has a measurement in flight; or, of the steps in which `of`
     takes its undelayed measurements, that in which one still is when their corrections have landed.
 
-    longer: steps from the arrival until the correction lands, by sensor. A lost measurement is waited for until the
-    next late one is taken. At most: one that is lost while another is in flight counts too.
+    A lost measurement is waited for until the next late one is taken. At most: one that is lost while another is in
+    flight counts too.
     """
     late = [one for one in _arrivals(sensors) if one.sensor.delayed]
     every, offset = (1, 0) if of is None else (min(of.every, RAREST), of.offset)
@@ -132,10 +121,9 @@ def in_flight(sensors: Sequence[Sensor], longer: Mapping[str, int], of: Sensor |
         for one in late:
             waits &= (steps - one.offset) % one.every > 0 if one.sensor.least_delay > 0 else True
     for one, lag in zip(late, lags, strict=True):
-        more = longer[one.sensor.name]
-        before = np.append(np.zeros(more), one.before)
-        at = np.append(np.zeros(more), one.at) if of is not None and one.priority <= of.priority else 0
-        there = 1 - one.sensor.dropout - before - at
+        there = 1 - one.sensor.dropout - one.before
+        if of is not None and one.priority <= of.priority:
+            there = there - one.at
         there[0] = 0
         flying += one.sums(there, steps, np.full(steps.size, there.size - 1))
         if one.sensor.dropout:

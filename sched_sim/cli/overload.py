@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from sched_sim.composed import correct_kind
@@ -12,42 +12,66 @@ if TYPE_CHECKING:
     from sched_sim.scenario_run import Outcome
 
 
-def causes(scenario: Scenario, outcome: Outcome) -> list[str]:
-    """Nothing if no deadline is missed and the corrections land."""
-    return [*(_demand(scenario) if outcome.misses else ()), *_catching_up(scenario, outcome)]
+SATURATED = 0.99
+"""The share of its time from which a processor counts as always busy."""
+
+ROUNDING = 1e-9
+"""Relative; of sums of means."""
 
 
-def _demand(scenario: Scenario) -> Iterator[str]:
-    from sched_sim.scenario_landing import ROUNDING
-    from sched_sim.scenario_load import demand, loads, switching
+def causes(scenario: Scenario, outcome: Outcome, busy: Sequence[float]) -> list[str]:
+    """busy: the share of each processor's simulated time. Nothing if no deadline is missed and the corrections land."""
+    return [*_overload(scenario, outcome, busy), *_catching_up(scenario, outcome)]
 
+
+def _overload(scenario: Scenario, outcome: Outcome, busy: Sequence[float]) -> Iterator[str]:
+    from sched_sim.scenario_load import loads
+
+    if not outcome.misses:
+        return
     parts = loads(scenario)
-    for cpu, (share, switches) in enumerate(zip(demand(scenario), switching(scenario), strict=True)):
+    for cpu, share in enumerate(busy):
         which = f"processor {cpu + 1}" if scenario.cpus > 1 else "the processor"
-        besides = f", and context switches up to {switches:.1%} more" if switches else ""
         here = [load for load in parts if load.cpu == cpu]
-        if share > 1 + ROUNDING:
+        demand = sum(load.share for load in here)
+        if demand > 1 + ROUNDING:
             shares = ", ".join(f"{load.name} {load.share:.0%}" for load in here)
             piles_up = sum(load.share for load in here if not load.gives_way) > 1 + ROUNDING
             follows = "work piles up" if piles_up else "corrections wait for one another and go back together"
-            yield f"demand is {share:.1%} of {which}{besides}, so that {follows}: {shares}"
-        elif share + switches > 1 + ROUNDING:
-            yield f"demand is {share:.1%} of {which}{besides}, so that work may pile up"
+            yield f"demand is {_percent(demand)} of {which}, so that {follows}: {shares}"
+        elif share > SATURATED:
+            besides = " and ".join(_besides(scenario, cpu))
+            comes = f", and besides comes {besides}" if besides else ""
+            yield f"{which} is busy {share:.1%} of the time: demand is {demand:.1%}{comes}"
 
 
-def _catching_up(scenario: Scenario, outcome: Outcome) -> list[str]:
+def _besides(scenario: Scenario, cpu: int) -> Iterator[str]:
+    """What a processor does that is not in its demand."""
+    late = [sensor.name for sensor in scenario.sensors if cpu == scenario.cpus - 1 and scenario.preempted(sensor)]
+    if late:
+        yield f"what corrections of {', '.join(late)} do again because they take longer than their step"
+    if scenario.context_switch:
+        yield "what context switches take"
+
+
+def _percent(share: float) -> str:
+    return f"{share:.1%}" if share < 1000 else f"{share:.2g} times the time"
+
+
+def _catching_up(scenario: Scenario, outcome: Outcome) -> Iterator[str]:
     from sched_sim.scenario_load import catching_up
 
-    lines = []
-    for sensor in scenario.sensors:
-        found = catching_up(scenario, sensor)
-        if found and found.never and _stay_away(outcome, sensor):
-            needed, left = (_work(scenario, work) for work in (found.needed, max(found.left, 0.0)))
-            lines.append(
+    away = [sensor for sensor in scenario.sensors if _stay_away(outcome, sensor)]
+    found = catching_up(scenario) if away else {}
+    for sensor in away:
+        if sensor.name in found and found[sensor.name].never:
+            needed, left = (
+                _work(scenario, work) for work in (found[sensor.name].needed, max(found[sensor.name].left, 0.0))
+            )
+            yield (
                 f"corrections of {sensor.name} never catch up: a step that passes meanwhile takes {needed} to do "
                 f"again, and more urgent jobs leave {left} in each"
             )
-    return lines
 
 
 def _stay_away(outcome: Outcome, sensor: Sensor) -> bool:

@@ -62,15 +62,20 @@ def simulate_scenario(
         from reports.scenario_panel import scenario_panel
 
         save(draw([scenario_panel(scenario, outcome)]), gantt)
+    schedule = outcome.schedule
+    shares = [float(schedule.utilization)]
+    if scenario.cpus > 1:
+        shares = [busy[cpu] / schedule.horizon for cpu in range(scenario.cpus)]
     if format == "json":
-        print_json(_document(scenario, outcome))
+        print_json(_document(scenario, outcome, shares))
     elif format == "csv":
         print_csv([_flat(kind, figures, scenario.harness) for kind, figures in outcome.jobs.items()])
     else:
-        _show(scenario, outcome, busy)
+        _show(scenario, outcome, shares)
 
 
-def _document(scenario: Scenario, outcome: Outcome) -> dict[str, Any]:
+def _document(scenario: Scenario, outcome: Outcome, busy: Sequence[float]) -> dict[str, Any]:
+    from sched_sim.cli.overload import causes
     from sched_sim.scenario_load import demand
 
     ms = None if scenario.hr_hz is None else float(1000 / scenario.hr_hz)
@@ -82,7 +87,9 @@ def _document(scenario: Scenario, outcome: Outcome) -> dict[str, Any]:
         "hr_hz": None if scenario.hr_hz is None else float(scenario.hr_hz),
         "misses": outcome.misses,
         "utilization": float(outcome.schedule.utilization),
+        "busy": busy,
         "demand": demand(scenario),
+        "causes": causes(scenario, outcome, busy),
         "note": WITHHELD if scenario.harness else None,
         "jobs": {kind: _job(figures, ms, scenario.harness) for kind, figures in outcome.jobs.items()},
         "sensors": {name: _sensor(figures) for name, figures in outcome.sensors.items()},
@@ -151,7 +158,7 @@ def _sensor(figures: SensorFigures) -> dict[str, Any]:
     }
 
 
-def _show(scenario: Scenario, outcome: Outcome, busy: Counter[int]) -> None:
+def _show(scenario: Scenario, outcome: Outcome, busy: Sequence[float]) -> None:
     ms = None if scenario.hr_hz is None else float(1000 / scenario.hr_hz)
     rate = f"at {float(scenario.speed):.6g} cost units a step" if ms is None else f"at {float(1000 / ms):g} Hz"
     unit = "HR periods" if ms is None else "ms"
@@ -167,14 +174,12 @@ def _show(scenario: Scenario, outcome: Outcome, busy: Counter[int]) -> None:
         )
 
 
-def _note(scenario: Scenario, outcome: Outcome, busy: Counter[int]) -> str:
+def _note(scenario: Scenario, outcome: Outcome, busy: Sequence[float]) -> str:
     """Below the table: how busy the processors were, what the figures are of, and why deadlines are missed."""
     from sched_sim.cli.overload import causes
 
-    lines = [f"Processor busy {float(outcome.schedule.utilization):.1%} of the time"]
-    if scenario.cpus > 1:
-        shares = [f"{busy[cpu] / outcome.schedule.horizon:.1%}" for cpu in range(scenario.cpus)]
-        lines = [f"Processors busy {' and '.join(shares)} of the time"]
+    processors = "Processors" if len(busy) > 1 else "Processor"
+    lines = [f"{processors} busy {' and '.join(f'{share:.1%}' for share in busy)} of the time"]
     if not all(figures.decided for figures in outcome.jobs.values()):
         lines[0] += "; -: nothing to tell it from"
     if any(figures.released > len(figures.responses) for figures in outcome.jobs.values()):
@@ -182,7 +187,7 @@ def _note(scenario: Scenario, outcome: Outcome, busy: Counter[int]) -> str:
             "Some jobs have not finished: min, mean and max are of those that have; median, p95 and p99 of all, "
             "- where the unfinished decide"
         )
-    return "\n".join([*lines, WITHHELD if scenario.harness else INTERVAL, *causes(scenario, outcome)])
+    return "\n".join([*lines, WITHHELD if scenario.harness else INTERVAL, *causes(scenario, outcome, busy)])
 
 
 def _job_words(kind: str, figures: JobFigures, unit: float, harness: bool) -> dict[str, Any]:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from fractions import Fraction
 from itertools import count
 
 import pytest
 
+from sched_sim.composed import ComposedFilter, Measurement
 from sched_sim.scenario_run import run_scenario
 from tests.scenarios import BY_HAND, HR, LR, scenario, sensor, slices_of
 
@@ -212,3 +214,21 @@ def test_on_two_processors_corrections_run_beside_the_predictor() -> None:
     found = run_scenario(of)
     assert found.sensors["gps"].achieved == {2: 1}
     assert set(found.jobs["predict"].responses) == {0.4}
+
+
+def test_a_backlog_of_urgent_corrections_is_not_looked_through_for_each_of_them(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """A fifth of the corrections is left behind; each of the others replays nothing."""
+    looks = Counter[str]()
+    is_ahead = ComposedFilter._is_ahead
+
+    def counted(self: ComposedFilter, one: Measurement, together: tuple[Measurement, ...]) -> bool:
+        looks["at"] += 1
+        return is_ahead(self, one, together)
+
+    monkeypatch.setattr(ComposedFilter, "_is_ahead", counted)
+    steps, costs = 2000, {"predict": "0.2", "correct.s": "0.3"}
+    outcome = run_scenario(scenario("0.4", costs, sensor("s", 1, priority=HR), steps=steps))
+    assert outcome.sensors["s"].not_landed == steps // 5
+    assert looks["at"] < steps
