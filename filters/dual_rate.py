@@ -12,6 +12,7 @@ import numpy as np
 
 from filters.arrays import FloatArray
 from filters.breakdown import check_history, sturdier
+from filters.choice import check_choice
 from filters.covariance_forms import CovarianceFormName, covariance_form
 from filters.covariance_forms.form import CovarianceForm
 from filters.high_rate import hr_restart, hr_update
@@ -20,7 +21,7 @@ from filters.kernels.backends import BackendName, arguments_for, function_for
 from filters.low_rate import lr_correct, lr_gain, lr_update
 from filters.low_rate_noise import NOISE_METHODS, LowRateNoise, NoiseMethod
 from filters.measured import Measurements
-from filters.problem import check_choice, check_problem
+from filters.problem import check_problem
 from filters.records import Correction, Estimate, new_correction, new_workspace
 from filters.systems.system import System
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
@@ -28,11 +28,17 @@ def measured(p: int, every: int, measurements: Measurements) -> Measured:
     """The record as arrays, p numbers a row; row c is of step c `every`.
 
     Raises:
-        ValueError: a row has the wrong length, or a value is no finite number.
+        ValueError: measurements is no sequence of rows, a row has the wrong length, or a value is no finite number.
     """
-    if isinstance(measurements, np.ndarray) and measurements.shape != (len(measurements), p):
-        raise ValueError(f"measurements has shape {measurements.shape}, the system needs {(len(measurements), p)}")
-    rows = measurements.tolist() if isinstance(measurements, np.ma.MaskedArray) else measurements
+    if isinstance(measurements, np.ndarray) and (measurements.ndim != 2 or measurements.shape[1] != p):
+        count = len(measurements) if measurements.ndim else "any"
+        raise ValueError(f"measurements has shape {measurements.shape}, the system needs ({count}, {p})")
+    rows: Any = measurements.tolist() if isinstance(measurements, np.ma.MaskedArray) else measurements
+    if not isinstance(rows, Iterable):
+        raise ValueError(
+            f"measurements is {rows!r:.60}; give a row for each, None in place of one that was lost, [] if there are "
+            f"none"
+        )
     if not isinstance(rows, np.ndarray):
         rows = np.array([_row(row, p, c * every) for c, row in enumerate(rows)], dtype=object).reshape(-1, p)
     present = np.not_equal(rows, None).astype(np.bool_)  # type: ignore[call-overload]  # entry by entry

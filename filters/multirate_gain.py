@@ -18,7 +18,7 @@ from filters.history import History, HistoryRecorder
 from filters.kernels.backends import BackendName, arguments_for, function_for
 from filters.kernels.dense import add_vectors
 from filters.measured import Measurements
-from filters.problem import check_measurement_noise, check_multirate_problem
+from filters.problem import check_measurement_noise, check_multirate_problem, check_system
 from filters.records import Correction, new_correction
 from filters.systems.coarse import over
 from filters.systems.lossy import lossy
@@ -134,6 +134,7 @@ def run(
     given = check_multirate_problem(system, n, L, x0, P0, inputs, measurements)
     moves, (y, present) = given.inputs, given.measured
     coarse = over(system, n) if coarse is None else coarse
+    check_system("coarse", coarse)
     if coarse[:3] != system[:3]:
         raise ValueError(
             f"coarse has {coarse.states} states, {coarse.inputs} inputs and {coarse.measurements} measurements, the "

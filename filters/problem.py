@@ -96,21 +96,30 @@ def check_measurement_noise(R: FloatArray, k: int) -> None:
 
 def _start_and_inputs(system: System, x0: ArrayLike, P0: ArrayLike, inputs: ArrayLike) -> tuple[Estimate, FloatArray]:
     """The system is tried too, at x0."""
-    _check_sizes(system)
+    check_system("system", system)
     n = system.states
     x, P = _numbers("x0", x0, (n,)), _numbers("P0", P0, (n, n))
     check_covariance("P0", P)
-    moves = _array("inputs", inputs)
+    moves = as_array("inputs", inputs)
     moves = _numbers("inputs", moves, (len(moves) if moves.ndim else 0, system.inputs))
     _check_system(system, x, moves)
     return Estimate(x, 0.5 * (P + P.T)), moves
 
 
-def _check_sizes(system: System) -> None:
-    for name, least in (("states", 1), ("inputs", 0), ("measurements", 1)):
-        size = getattr(system, name)
+def check_system(name: str, system: object) -> None:
+    """Raises ValueError, naming the argument, unless it is a `System` of whole sizes, made of functions."""
+    if not isinstance(system, System):
+        raise ValueError(
+            f"{name} is {system!r:.60}; give a filters.systems.system.System, as linear_system(...) returns one"
+        )
+    for function in ("f", "F", "Q", "h", "H", "R"):
+        given = getattr(system, function)
+        if not callable(given):
+            raise ValueError(f"{function} of the {name} is {given!r:.60}; give a function, see System")
+    for size_name, least in (("states", 1), ("inputs", 0), ("measurements", 1)):
+        size = getattr(system, size_name)
         if isinstance(size, bool) or not isinstance(size, int | np.integer) or size < least:
-            raise ValueError(f"{name}={size!r} of the system must be a whole number, at least {least}")
+            raise ValueError(f"{size_name}={size!r} of the {name} must be a whole number, at least {least}")
 
 
 def _check_system(system: System, x: FloatArray, inputs: FloatArray) -> None:
@@ -124,8 +133,8 @@ def _check_system(system: System, x: FloatArray, inputs: FloatArray) -> None:
             check_covariance(f"step 0: {name} of the system", covariance)
 
 
-def _array(name: str, value: ArrayLike) -> FloatArray:
-    """A contiguous copy."""
+def as_array(name: str, value: ArrayLike) -> FloatArray:
+    """A contiguous copy. Raises ValueError, naming it, unless it is an array of real numbers."""
     try:
         if np.iscomplexobj(value):
             raise TypeError("it is complex")
@@ -136,16 +145,10 @@ def _array(name: str, value: ArrayLike) -> FloatArray:
 
 def _numbers(name: str, value: ArrayLike, needed: tuple[int, ...]) -> FloatArray:
     """A contiguous copy of finite numbers."""
-    array = _array(name, value)
+    array = as_array(name, value)
     if array.shape != needed:
         raise ValueError(f"{name} has shape {array.shape}, the system needs {needed}")
     if not np.isfinite(array).all():
         at = ", ".join(map(str, np.argwhere(~np.isfinite(array))[0]))
         raise ValueError(f"{name} holds a value that is not finite, at [{at}]; give numbers")
     return array
-
-
-def check_choice(name: str, value: str, choices: tuple[str, ...]) -> None:
-    """Raises ValueError unless the value is one of the choices."""
-    if value not in choices:
-        raise ValueError(f"{name}={value!r} is unknown; give one of {', '.join(choices)}")

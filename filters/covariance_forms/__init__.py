@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from typing import Literal, TypeAlias
 
+from filters.choice import check_choice
 from filters.covariance_forms import joseph, short, textbook
 from filters.covariance_forms.form import CovarianceForm
 
@@ -25,6 +26,5 @@ def covariance_form(name: CovarianceFormName) -> CovarianceForm:
     Raises:
         ValueError: there is none.
     """
-    if name not in COVARIANCE_FORMS:
-        raise ValueError(f"covariance form {name!r} is unknown; give one of {', '.join(COVARIANCE_FORMS)}")
+    check_choice("update", name, COVARIANCE_FORMS)
     return COVARIANCE_FORMS[name]

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from typing import Literal, TypeAlias
 
+from filters.choice import check_choice
 from filters.covariance_forms import CovarianceFormName, covariance_form
 from filters.factored import conventional, square_root, u_d
 from filters.factored.form import FactoredForm
@@ -25,7 +26,6 @@ def factored_form(name: FactoredFormName, update: CovarianceFormName = "textbook
     Raises:
         ValueError: there is no form of that name, factored or covariance.
     """
-    if name not in FACTORED_FORMS:
-        raise ValueError(f"factored form {name!r} is unknown; give one of {', '.join(FACTORED_FORMS)}")
+    check_choice("form", name, FACTORED_FORMS)
     covariance_form(update)
     return conventional.FORMS[update] if name == "conventional" else _FACTORISATIONS[name]

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from types import FunctionType
 from typing import Any, Literal, NamedTuple, TypeAlias
 
+from filters.choice import check_choice
 from filters.kernels.bind import bind
 from filters.kernels.compiled import compiled, inlined
 from filters.kernels.vectorised import vectorised
@@ -53,6 +54,5 @@ def arguments_for(backend: BackendName, value: Any) -> Any:
 
 
 def _backend(name: BackendName) -> Backend:
-    if name not in BACKENDS:
-        raise ValueError(f"backend {name!r} is unknown; give one of {', '.join(BACKENDS)}")
+    check_choice("backend", name, BACKENDS)
     return BACKENDS[name]

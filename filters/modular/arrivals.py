@@ -10,11 +10,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from filters.arrays import Flags, FloatArray
+from filters.choice import check_choice
 from filters.kernels.place import IntArray
 from filters.modular.composition import ModularFilter, Sensor
 from filters.modular.measurements import Measurement
 from filters.modular.space import Space, numbers_of_errors
-from filters.problem import check_choice
 
 UNIT = 1e-2
 """How much the length of a quaternion may differ from one."""
@@ -67,10 +67,10 @@ def arrivals(
             old.
     """
     check_choice("too_old", too_old, ("refuse", "drop"))
-    found = _in_order(measurements)
+    found = in_order(measurements)
     names = {sensor.name: number for number, sensor in enumerate(composed.sensors)}
     for one in found:
-        if one.sensor not in names:
+        if not isinstance(one.sensor, str) or one.sensor not in names:
             raise ValueError(f"sensor {one.sensor!r} is none of the filter's: they are {', '.join(names) or 'none'}")
     sensor = np.array([names[one.sensor] for one in found], dtype=np.int64)
     taken, arrives = (np.array([one[which] for one in found], dtype=np.int64) for which in (1, 2))
@@ -93,14 +93,18 @@ def arrivals(
 
 def last_arrival(measurements: Iterable[Measurement]) -> int:
     """The step of the last arrival; 0 if there is none."""
-    return max((int(one.arrives) for one in _in_order(measurements)), default=0)
+    return max((int(one.arrives) for one in in_order(measurements)), default=0)
 
 
-def _in_order(measurements: Iterable[Measurement]) -> list[Measurement]:
+def in_order(measurements: Iterable[Measurement]) -> list[Measurement]:
+    """By arrival. Raises ValueError unless they are measurements with whole steps."""
+    wanted = "give a list of Measurement(sensor, taken, arrives, y)"
+    if not isinstance(measurements, Iterable):
+        raise ValueError(f"measurements is {measurements!r:.60}; {wanted}, [] if there are none")
     found = list(measurements)
     for one in found:
         if type(one) is not Measurement:
-            raise ValueError(f"measurements holds {one!r:.60}; give a list of Measurement(sensor, taken, arrives, y)")
+            raise ValueError(f"measurements holds {one!r:.60}; {wanted}")
         for step in one[1:3]:
             if not (isinstance(step, int | np.integer) and abs(int(step)) <= LAST):
                 raise _unfit(one, f"steps must be whole numbers below {LAST}")

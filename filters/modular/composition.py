@@ -6,11 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from filters.choice import check_choice
 from filters.modular.correctors import Corrector, check_noise
 from filters.modular.predictors import Predictor
-from filters.modular.space import Space, space
+from filters.modular.space import Space, as_space, space
 from filters.modular.updates import UPDATES, UpdateName
-from filters.problem import check_choice
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,6 +31,8 @@ class Sensor:
     dropout: float = 0.0
 
     def __post_init__(self) -> None:
+        if not isinstance(self.name, str):
+            raise ValueError(f"sensor {self.name!r:.60}: its name must be text, by which its measurements are known")
         if not isinstance(self.corrector, Corrector):
             raise ValueError(
                 f"sensor {self.name!r}: the corrector is a {type(self.corrector).__name__}; make one by "
@@ -93,7 +95,7 @@ class ModularFilter:
         if not isinstance(dt, int | float | np.integer | np.floating):
             raise ValueError(f"dt={dt!r} must be a number: it is the time of a step, in seconds")
         object.__setattr__(self, "dt", float(dt))
-        object.__setattr__(self, "of", space(predictor.states) if of is None else of)
+        object.__setattr__(self, "of", space(predictor.states) if of is None else as_space("of", of))
         check_choice("update", update, UPDATES)
         object.__setattr__(self, "update", update)
         self._check()
@@ -131,6 +133,12 @@ class ModularFilter:
                             f"sensor {sensor.name!r}: H of a linear one sees an attitude (columns {start - at} to "
                             f"{start - at + 2}); make it extended or unscented"
                         )
+
+
+def check_composed(composed: object) -> None:
+    """Raises ValueError unless it is a filter."""
+    if not isinstance(composed, ModularFilter):
+        raise ValueError(f"composed is {composed!r:.60}; give a ModularFilter(predictor, sensors, ...)")
 
 
 def unscented_parts(composed: ModularFilter) -> list[str]:

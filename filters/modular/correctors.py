@@ -15,7 +15,7 @@ from filters.kernels.solve import cholesky, solve_cholesky
 from filters.modular.check import as_matrix, as_noise, as_numbers
 from filters.modular.predictors import Kind, difference
 from filters.modular.sigma_points import USUAL, SigmaPoints, Weights, add_covariance, draw, mean, weights
-from filters.modular.space import Space, minus, plain, space
+from filters.modular.space import Space, as_space, minus, plain, space
 from filters.modular.workspace import Workspace
 from filters.records import Estimate
 
@@ -225,4 +225,4 @@ def _project(R: FloatArray, P: FloatArray, work: Workspace) -> None:
 
 def _noise_and_space(R: ArrayLike, observed: Space | None) -> tuple[FloatArray, Space]:
     noise = np.atleast_1d(as_numbers("R", R))
-    return noise, space(len(noise)) if observed is None else observed
+    return noise, space(len(noise)) if observed is None else as_space("observed", observed)

@@ -8,13 +8,13 @@ from typing import Literal, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike
 
+from filters.choice import check_choice
 from filters.kernels.backends import BackendName
 from filters.modular import dual_rate, larsen, recalculate
-from filters.modular.arrivals import TooOld, last_arrival
-from filters.modular.composition import ModularFilter
+from filters.modular.arrivals import TooOld, in_order, last_arrival
+from filters.modular.composition import ModularFilter, check_composed
 from filters.modular.history import ModularHistory
 from filters.modular.measurements import Measurement
-from filters.problem import check_choice
 
 Late: TypeAlias = Literal["recalculate", "larsen", "dual-rate"]
 
@@ -52,6 +52,7 @@ def run(
             a measurement does not fit (see `measurements.arrivals`), the way cannot do with the filter or a
             measurement, or an estimate breaks down; the predictor or sensor is named.
     """
+    check_composed(composed)
     check_choice("late", late, ("recalculate", "larsen", "dual-rate"))
     if history is not None and late != "recalculate":
         raise ValueError(
@@ -61,7 +62,7 @@ def run(
         raise ValueError(f"L={L} goes with late='dual-rate'; late={late!r} corrects on arrival, leave it out")
     if too_old != "refuse" and late == "larsen":
         raise ValueError(f"too_old={too_old!r}: for late='larsen' no measurement is too old, leave it out")
-    measurements = list(measurements)
+    measurements = in_order(measurements)
     if inputs is None:
         inputs = np.zeros((last_arrival(measurements), 0))
     if late == "larsen":

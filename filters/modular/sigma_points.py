@@ -61,8 +61,13 @@ def weights(points: SigmaPoints, n: int) -> Weights:
     """The weights for errors of length n.
 
     Raises:
-        ValueError: a number is not finite, alpha is zero, or the points have no spread.
+        ValueError: the points are none, a number is none or not finite, alpha is zero, or the points have no spread.
     """
+    if not isinstance(points, SigmaPoints):
+        raise ValueError(f"points is {points!r:.60}; give merwe(...) or maccormack(...)")
+    for name, value in zip(points._fields[1:], points[1:], strict=True):
+        if not isinstance(value, int | float | np.integer | np.floating):
+            raise ValueError(f"{points.form}: {name}={value!r:.60} must be a number")
     merwes = points.form == "merwe"
     scale = points.alpha**2 * (points.kappa + n if merwes else points.kappa)
     if not (np.isfinite([points.alpha, points.beta, points.kappa]).all() and scale > 0):

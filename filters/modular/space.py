@@ -6,7 +6,7 @@ rotation vector. Means, residuals and covariances are of errors; four numbers ar
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -38,9 +38,13 @@ def space(numbers: int, attitudes: Sequence[int] = (), angles: Sequence[int] = (
     Raises:
         ValueError: an index is not whole or does not fit, or two share a number.
     """
+    if not isinstance(numbers, int | np.integer):
+        raise ValueError(f"space: numbers={numbers!r:.60} must be a whole number: the length of a point")
+    for name, indices in (("attitudes", attitudes), ("angles", angles)):
+        if not (isinstance(indices, Iterable) and all(isinstance(i, int | np.integer) for i in indices)):
+            raise ValueError(f"space: {name}={indices!r:.60} must be a list of whole numbers, [] if there are none")
     taken = [at + i for at in attitudes for i in range(4)] + list(angles)
-    fits = all(isinstance(i, int | np.integer) and 0 <= i < numbers for i in taken)
-    if numbers < 0 or len(set(taken)) < len(taken) or not fits:
+    if numbers < 0 or len(set(taken)) < len(taken) or not all(0 <= i < numbers for i in taken):
         raise ValueError(
             f"space: {numbers} numbers cannot hold attitudes={list(attitudes)} (4 numbers each) and "
             f"angles={list(angles)}; give the index of each one's first number, from 0, without overlap"
@@ -50,6 +54,13 @@ def space(numbers: int, attitudes: Sequence[int] = (), angles: Sequence[int] = (
     return Space(
         numbers, numbers - len(starts), np.array(starts, dtype=np.int64), np.array(sorted(of_error), dtype=np.int64)
     )
+
+
+def as_space(name: str, of: object) -> Space:
+    """The space itself. Raises ValueError, naming the argument, unless it is one."""
+    if not isinstance(of, Space):
+        raise ValueError(f"{name} is {of!r:.60}; give space(numbers, attitudes=[...], angles=[...])")
+    return of
 
 
 def numbers_of_errors(of: Space) -> IntArray:

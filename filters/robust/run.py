@@ -10,9 +10,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from filters.arrays import FloatArray
 from filters.breakdown import breakdown, first_broken
+from filters.choice import check_choice
 from filters.kernels.backends import BackendName, arguments_for, function_for
 from filters.measured import Measurements, measured
-from filters.problem import check_choice
 from filters.robust.check import check_inputs, check_start
 from filters.robust.model import RobustModel, Weights, prepared, weights, without_measurement
 from filters.robust.records import Predicted

@@ -9,9 +9,9 @@ from typing import Any, Literal, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike
 
+from filters.choice import check_choice
 from filters.kernels.backends import BackendName, function_for
 from filters.kernels.definite import is_semidefinite
-from filters.problem import check_choice
 from filters.robust.block_step import BlockWorkspace, block_step, new_block_workspace
 from filters.robust.blocks import NATURAL, RECOMMENDED
 from filters.robust.check import check_inputs, check_start

@@ -13,7 +13,7 @@ from typing import Literal, NamedTuple, TypeAlias, get_args
 import numpy as np
 
 from filters.arrays import FloatArray
-from filters.problem import check_choice
+from filters.choice import check_choice
 from filters.systems.uncertain import Scaling, UncertainSystem, Uncertainty, no_uncertainty
 
 ROLL, PITCH, YAW, GYRO_BIAS = 0, 1, 2, slice(3, 6)

@@ -6,6 +6,7 @@ from typing import Literal, TypeAlias
 
 import numpy as np
 
+from filters.choice import check_choice
 from filters.systems.linear import LinearParameters, linear_system
 from filters.systems.system import System
 
@@ -28,8 +29,7 @@ def over(system: System, n: int, noise: CoarseNoise = "averaged") -> System:
     """
     if n < 1:
         raise ValueError(f"n={n} must be at least 1: it is the number of steps that the coarse model takes at once")
-    if noise not in ("averaged", "sampled"):
-        raise ValueError(f"noise={noise!r} is unknown; give one of averaged, sampled")
+    check_choice("noise", noise, ("averaged", "sampled"))
     if n == 1:
         return system
     matrices = system.parameters

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from filters.arrays import FloatArray
 from filters.kernels.dense import add_matvec, matvec
-from filters.problem import check_covariance
+from filters.problem import as_array, check_covariance
 from filters.systems.system import System
 
 
@@ -85,7 +85,7 @@ def _R(k: int, matrices: LinearParameters) -> FloatArray:
 
 def _by_step(name: str, value: ArrayLike) -> FloatArray:
     """A contiguous copy with the step as first index."""
-    matrix = np.array(value, dtype=np.float64, order="C")
+    matrix = as_array(f"linear_system: {name}", value)
     if matrix.ndim == 2:
         matrix = matrix[np.newaxis]
     if matrix.ndim != 3 or 0 in (matrix.shape if name != "B" else matrix.shape[:2]):

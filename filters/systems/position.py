@@ -14,7 +14,7 @@ from typing import Any, Literal, NamedTuple, TypeAlias, get_args
 import numpy as np
 
 from filters.arrays import FloatArray
-from filters.problem import check_choice
+from filters.choice import check_choice
 from filters.systems.attitude import wrapped
 from filters.systems.uncertain import Scaling, UncertainSystem, Uncertainty, no_uncertainty
 

@@ -30,6 +30,8 @@ MATRICES: dict[str, Any] = {
         ("Q", np.full((3, 3), np.nan), "Q holds a value that is not finite"),
         ("Q", np.diag([1.0, 1.0, -1.0]), "Q is no covariance: its smallest eigenvalue is -1"),
         ("R", [[-1.0]], "R is no covariance: its smallest eigenvalue is -1"),
+        ("Q", {}, "Q is no array of numbers"),
+        ("B", "none", "B is no array of numbers"),
     ],
 )
 def test_matrices_of_a_linear_system(name: str, value: Any, message: str) -> None:
@@ -74,6 +76,11 @@ GOOD = problem(example_system(3, 2, 1), 5, 2, 4, 12, seed=0)
         ({"P0": np.zeros((3, 2))}, r"P0 has shape \(3, 2\), the system needs \(3, 3\)"),
         ({"inputs": np.zeros((12, 3))}, r"inputs has shape \(12, 3\), the system needs \(12, 2\)"),
         ({"measurements": np.zeros(3)}, r"measurements has shape \(3,\), the system needs \(3, 1\)"),
+        ({"measurements": np.array(3.0)}, r"measurements has shape \(\), the system needs \(any, 1\)"),
+        ({"measurements": None}, r"measurements is None; give a row for each, .* \[\] if there are none"),
+        ({"measurements": 7}, "measurements is 7; give a row for each"),
+        ({"system": None}, "system is None; give a filters.systems.system.System"),
+        ({"system": example_system}, "system is <function example_system .*; give a filters.systems.system.System"),
     ],
 )
 def test_arguments_of_a_run(change: dict[str, Any], message: str) -> None:
@@ -90,13 +97,26 @@ def test_arguments_of_a_run(change: dict[str, Any], message: str) -> None:
         ({}, {"feedback": "never"}, "feedback='never' is unknown; give one of next-step, same-step"),
         ({}, {"gain": "later"}, "gain='later' is unknown"),
         ({}, {"low_rate_noise": "none"}, "low_rate_noise='none' is unknown"),
-        ({}, {"update": "fast"}, "covariance form 'fast' is unknown; give one of textbook, joseph, short"),
-        ({}, {"backend": "gpu"}, "backend 'gpu' is unknown; give one of reference, compiled, numpy"),
+        ({}, {"update": "fast"}, "update='fast' is unknown; give one of textbook, joseph, short"),
+        ({}, {"backend": "gpu"}, "backend='gpu' is unknown; give one of reference, compiled, numpy"),
     ],
 )
 def test_options_of_the_dual_rate_filter(change: dict[str, Any], options: dict[str, Any], message: str) -> None:
     with pytest.raises(ValueError, match=message):
         dual_rate.run(*GOOD._replace(**change), **options)
+
+
+@pytest.mark.parametrize("value", [None, ["textbook"], {}, np.zeros(3)])
+@pytest.mark.parametrize("option", ["update", "backend", "low_rate_noise", "gain", "feedback"])
+def test_an_option_that_is_no_name(option: str, value: Any) -> None:
+    with pytest.raises(ValueError, match=f"{option}=.* is unknown; give one of"):
+        dual_rate.run(*GOOD, **{option: value})
+
+
+@pytest.mark.parametrize("function", ["f", "F", "Q", "h", "H", "R"])
+def test_a_system_is_made_of_functions(function: str) -> None:
+    with pytest.raises(ValueError, match=rf"(?s){function} of the system is array\(.*; give a function"):
+        larsen.run(*GOOD._replace(system=GOOD.system._replace(**{function: np.eye(3)})))
 
 
 def test_only_plain_functions_can_be_run_by_a_backend() -> None:

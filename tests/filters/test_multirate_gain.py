@@ -221,9 +221,10 @@ NOISELESS = np.array([[1.0, 1.0], [1.0, 1.0]])
         (3, {"P0": np.zeros((3, 2))}, {}, r"P0 has shape \(3, 2\), the system needs \(3, 3\)"),
         (3, {"inputs": np.zeros((12, 3))}, {}, r"inputs has shape \(12, 3\), the system needs \(12, 2\)"),
         (3, {"measurements": np.zeros((12, 2))}, {}, r"measurements has shape \(12, 2\), the system needs \(13, 2\)"),
-        (3, {}, {"form": "cholesky"}, "factored form 'cholesky' is unknown"),
-        (3, {}, {"update": "fast"}, "covariance form 'fast' is unknown"),
-        (3, {}, {"backend": "gpu"}, "backend 'gpu' is unknown"),
+        (3, {}, {"coarse": 7}, "coarse is 7; give a filters.systems.system.System"),
+        (3, {}, {"form": "cholesky"}, "form='cholesky' is unknown"),
+        (3, {}, {"update": "fast"}, "update='fast' is unknown"),
+        (3, {}, {"backend": "gpu"}, "backend='gpu' is unknown"),
         (3, {}, {"coarse": example_system(3, 2, 1)}, "coarse has 3 states, 2 inputs and 1 measurements, the system"),
         (3, {"system": example_system(3, 2, 2)}, {}, r"the model over n=3 steps is not known.*give it as coarse="),
         (

@@ -170,7 +170,7 @@ def test_an_indefinite_matrix_is_not_taken_for_a_covariance(name: FactoredFormNa
 
 def test_names() -> None:
     assert get_args(FactoredFormName) == FACTORED_FORMS
-    with pytest.raises(ValueError, match="'sqrt' is unknown; give one of conventional, square-root, u-d"):
+    with pytest.raises(ValueError, match="form='sqrt' is unknown; give one of conventional, square-root, u-d"):
         factored_form("sqrt")
-    with pytest.raises(ValueError, match="covariance form 'shrot' is unknown"):
+    with pytest.raises(ValueError, match="update='shrot' is unknown"):
         factored_form("conventional", "shrot")

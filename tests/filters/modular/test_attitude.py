@@ -196,9 +196,15 @@ def test_a_point_moved_by_its_error_is_the_other_point(seed: int, spread: float)
     assert abs(moved @ a) == pytest.approx(1.0, abs=1e-14)
 
 
-@pytest.mark.parametrize("wrong", [{"angles": [0.5]}, {"attitudes": [0.0]}, {"angles": [4]}, {"attitudes": [1]}])
-def test_a_space_needs_whole_indices_that_fit(wrong: dict[str, list[float]]) -> None:
+@pytest.mark.parametrize("wrong", [{"angles": [4]}, {"attitudes": [1]}, {"attitudes": [0], "angles": [3]}])
+def test_a_space_needs_indices_that_fit(wrong: dict[str, list[int]]) -> None:
     with pytest.raises(ValueError, match=r"space: 4 numbers cannot hold .*; give the index of each one"):
+        space(4, **wrong)
+
+
+@pytest.mark.parametrize("wrong", [{"angles": [0.5]}, {"attitudes": [0.0]}])
+def test_a_space_needs_whole_indices(wrong: dict[str, list[float]]) -> None:
+    with pytest.raises(ValueError, match=r"space: .*=\[0\..\] must be a list of whole numbers"):
         space(4, **wrong)  # type: ignore[arg-type]  # what a user may give
 
 

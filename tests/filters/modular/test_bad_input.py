@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -18,6 +19,7 @@ from filters.modular import (
     extended_predictor,
     linear_corrector,
     linear_predictor,
+    maccormack,
     merwe,
     observe,
     run,
@@ -139,6 +141,9 @@ Y = np.zeros(1)
         ([Measurement("gps", 0, 2, [1j])], "sensor 'gps', .* y is .1j.; its corrector needs an array of 1 numbers"),
         (Measurement("gps", 0, 2, Y), "measurements holds 'gps'; give a list of Measurement"),
         ([("gps", 0, 2, Y)], "measurements holds .'gps', .*; give a list of Measurement"),
+        ([Measurement(["gps"], 0, 2, Y)], "sensor .'gps'. is none of the filter's: they are gps, other"),
+        (None, r"measurements is None; give a list of Measurement\(.*\), \[\] if there are none"),
+        (7, "measurements is 7; give a list of Measurement"),
     ],
 )
 def test_measurements(measurements: list[Measurement], message: str) -> None:
@@ -170,18 +175,22 @@ def test_measurements(measurements: list[Measurement], message: str) -> None:
         ({"inputs": 1j * np.ones((6, 1))}, "inputs is array.*; needed is an array of real numbers"),
         ({"inputs": None}, "predictor: B has 1 columns, but the input has 0 numbers"),
         ({"L": 3}, "L=3 goes with late='dual-rate'; late='recalculate' corrects on arrival"),
-        ({"backend": "gpu"}, "backend 'gpu' is unknown"),
+        ({"backend": "gpu"}, "backend='gpu' is unknown"),
+        ({"backend": ["compiled"]}, "backend=.'compiled'. is unknown"),
+        ({"composed": None}, r"composed is None; give a ModularFilter\(predictor, sensors, ...\)"),
+        ({"composed": (GPS.composed,)}, "composed is .ModularFilter.*; give a ModularFilter"),
     ],
 )
 def test_arguments_of_a_run(change: dict[str, Any], message: str) -> None:
     good = {
+        "composed": GPS.composed,
         "x0": GPS.x0,
         "P0": GPS.P0,
         "inputs": GPS.inputs(6),
         "measurements": [Measurement("gps", 0, 3, Y)],
         "backend": "reference",
     }
-    refused(message, lambda: run(GPS.composed, **{**good, **change}))
+    refused(message, lambda: run(**{**good, **change}))
 
 
 def test_a_quaternion_to_start_from_has_unit_length() -> None:
@@ -197,6 +206,21 @@ def test_the_truth_that_is_observed_has_the_state_s_shape() -> None:
         r"truth has shape \(5, 3\), the filter's states need \(any, 2\)",
         lambda: observe(GPS.composed, np.zeros((5, 3)), 1),
     )
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"composed": None}, "composed is None; give a ModularFilter"),
+        ({"truth": None}, "truth .*; needed is an array of real numbers|truth has shape"),
+        ({"seed": None}, "seed=None must be a whole number, at least 0"),
+        ({"seed": -1}, "seed=-1 must be a whole number, at least 0"),
+        ({"seed": [1, 2]}, "seed=.1, 2. must be a whole number, at least 0"),
+    ],
+)
+def test_what_is_observed(change: dict[str, Any], message: str) -> None:
+    good = {"composed": GPS.composed, "truth": np.zeros((5, 2)), "seed": 1}
+    refused(message, lambda: observe(**{**good, **change}))
 
 
 def filtered(case: Case, late: str, *measurements: Measurement, **options: Any) -> Callable[[], Any]:
@@ -290,6 +314,32 @@ def test_parts_are_made_by_the_functions_that_make_them() -> None:
     refused("the predictor is a function; make one by linear_predictor", lambda: ModularFilter(cases.height, []))
     refused("sensors is .'gps'.; give a list of Sensor", lambda: ModularFilter(predictor, ["gps"]))
     refused("sensors is Sensor.*; give a list of Sensor", lambda: ModularFilter(predictor, Sensor("gps", POSITION)))
+
+
+def test_spaces_are_made_by_the_function_that_makes_them() -> None:
+    predictor = linear_predictor(cases.F, cases.Q)
+    refused(r"of is 7; give space\(numbers, attitudes=", lambda: ModularFilter(predictor, [], of=7))
+    for corrector in (linear_corrector, extended_corrector, unscented_corrector):
+        refused(r"observed is 7; give space\(numbers", lambda make=corrector: make(np.eye(1), [[1.0]], observed=7))
+    refused("space: numbers=None must be a whole number", lambda: space(None))
+    refused("space: numbers=2.5 must be a whole number", lambda: space(2.5))
+    refused(r"space: attitudes=0 must be a list of whole numbers, \[\] if there are none", lambda: space(4, 0))
+    refused("space: attitudes='x' must be a list of whole numbers", lambda: space(4, "x"))
+    refused("space: angles=.0.5. must be a list of whole numbers", lambda: space(4, angles=[0.5]))
+
+
+def test_sigma_points_are_made_by_the_functions_that_make_them() -> None:
+    refused("points is 'merwe'; give merwe", lambda: unscented_predictor(cases.pendulum, cases.Q, "merwe"))
+    corrector = unscented_corrector(cases.height, [[1.0]], None)
+    refused("sensor 'gps': points is None; give merwe", lambda: linear_case(Sensor("gps", corrector)))
+    for make in (merwe, maccormack):
+        for name in ("alpha", "beta", "kappa"):
+            spread = partial(unscented_predictor, cases.pendulum, cases.Q, make(**{name: None}))
+            refused(f"{make.__name__}: {name}=None must be a number", spread)
+
+
+def test_a_sensor_has_a_name() -> None:
+    refused("sensor None: its name must be text", lambda: Sensor(None, POSITION))
 
 
 FIELD = np.array([0.6, 0.0, 0.8])
