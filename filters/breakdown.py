@@ -16,7 +16,8 @@ from filters.factored import FactoredFormName
 from filters.history import History
 from filters.kernels.backends import BackendName, function_for
 from filters.kernels.definite import is_semidefinite
-from filters.problem import Problem, check_covariance
+from filters.noises import check_noises
+from filters.problem import Problem
 from filters.systems.system import System
 
 
@@ -39,7 +40,8 @@ def first_broken(x: FloatArray, P: FloatArray, every: int, backend: BackendName)
 def check_history(
     history: History, given: Problem, every: int, remedy: str, backend: BackendName, coarse: System | None = None
 ) -> History:
-    """The history, if its estimates are finite and its covariances are some; innovations of what was lost become nan.
+    """The history, if its estimates are finite, and its covariances, Q and R are some; innovations of what was lost
+    become nan.
 
     every: steps between the P_reference. remedy: what to do about rounding. coarse: what P comes from, if not from the
     system of the run.
@@ -47,6 +49,12 @@ def check_history(
     Raises:
         ValueError: they are not; the step is named, and the function of the system that is to blame, or the remedy.
     """
+    steps, rows = len(given.inputs), len(given.measured.y)
+    R = range(0, min(steps + 1, rows * every), every)
+    if coarse is None:
+        check_noises(given.system, range(steps), R, backend)
+    else:
+        check_noises(coarse, range(0, steps + 1 - every, every), R, backend)
     broken = first_broken(history.x, history.P_reference, every, backend)
     if broken is None:
         lost = ~given.measured.present[: len(history.innovations)]
@@ -72,7 +80,7 @@ def sturdier(update: CovarianceFormName, form: FactoredFormName = "conventional"
 
 
 def _check_model(given: Problem, coarse: System | None, every: int, steps: range, x: FloatArray) -> None:
-    """Raises ValueError that names the function of the system that gives no finite numbers, or no covariance."""
+    """Raises ValueError that names the function of the system that gives no finite numbers."""
     system, slow = given.system, given.system if coarse is None else coarse
     state = x[steps[0]]
     for j in steps:
@@ -84,18 +92,14 @@ def _check_model(given: Problem, coarse: System | None, every: int, steps: range
             system.h(j, state, system.parameters, expected)
             _check_finite(j, state, h=expected)
         if at_k:
-            R = slow.R(j, slow.parameters)
-            _check_finite(j, state, H=slow.H(j, state, slow.parameters), R=R)
-            check_covariance(f"step {j}: R of the system", R)
+            _check_finite(j, state, H=slow.H(j, state, slow.parameters))
         if not sound or j == len(given.inputs):
             return
         following, u = np.empty(system.states), given.inputs[j]
         system.f(j, state, u, system.parameters, following)
         _check_finite(j, state, f=following)
         if at_k or coarse is None:
-            Q = slow.Q(j, slow.parameters)
-            _check_finite(j, state, F=slow.F(j, state, u, slow.parameters), Q=Q)
-            check_covariance(f"step {j}: Q of the system", Q)
+            _check_finite(j, state, F=slow.F(j, state, u, slow.parameters))
 
 
 def _check_finite(j: int, x: FloatArray, **values: FloatArray) -> None:

@@ -82,8 +82,15 @@ def check_covariance(name: str, P: FloatArray) -> None:
         raise ValueError(f"{name} is no covariance: its smallest eigenvalue is {smallest:.3g}, which is negative")
 
 
+def check_noise(name: str, noise: FloatArray, step: int) -> None:
+    """Raises ValueError unless the Q or R that a system gives in this step is a covariance."""
+    _check_noise_is_finite(name, noise, step)
+    check_covariance(f"step {step}: {name} of the system", noise)
+
+
 def check_measurement_noise(R: FloatArray, k: int) -> None:
-    """Raises ValueError unless R (p, p) of step k is symmetric and positive definite beyond rounding."""
+    """Raises ValueError unless R (p, p) of step k is finite, symmetric and positive definite beyond rounding."""
+    _check_noise_is_finite("R", R, k)
     if not np.allclose(R, R.T, rtol=1e-9, atol=0.0):
         raise ValueError(f"R of step {k} is not symmetric; it is the covariance of the measurement noise")
     eigenvalues = np.linalg.eigvalsh(R)
@@ -92,6 +99,12 @@ def check_measurement_noise(R: FloatArray, k: int) -> None:
             f"R of step {k} is not positive definite: its smallest eigenvalue is {eigenvalues[0]:.3g}; give each "
             f"measurement noise of its own (a positive variance), or leave out those that follow from the others"
         )
+
+
+def _check_noise_is_finite(name: str, noise: FloatArray, step: int) -> None:
+    if not np.isfinite(noise).all():
+        lost = ", and None in place of a measurement, or of a number of one, that says nothing" if name == "R" else ""
+        raise ValueError(f"step {step}: {name} of the system gives a value that is not finite; give numbers{lost}")
 
 
 def _start_and_inputs(system: System, x0: ArrayLike, P0: ArrayLike, inputs: ArrayLike) -> tuple[Estimate, FloatArray]:
@@ -125,12 +138,11 @@ def check_system(name: str, system: object) -> None:
 def _check_system(system: System, x: FloatArray, inputs: FloatArray) -> None:
     """Raises ValueError unless its functions give what they must, in step 0 at x (n,) with the first of the inputs.
 
-    Numbers that are not finite are left to the run, which says in which step they come.
+    Numbers that are not finite and depend on the estimate are left to the run, which says in which step they come.
     """
     try_functions(system, x, first_input(inputs))
     for name, covariance in (("Q", system.Q(0, system.parameters)), ("R", system.R(0, system.parameters))):
-        if np.isfinite(covariance).all():
-            check_covariance(f"step 0: {name} of the system", covariance)
+        check_noise(name, covariance, 0)
 
 
 def as_array(name: str, value: ArrayLike) -> FloatArray:

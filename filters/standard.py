@@ -123,7 +123,8 @@ def run(
 
     Raises:
         ValueError: N, M, L or a shape is wrong, a name is unknown, or a number is not finite; the system gives one that
-            is not; or a covariance is no longer one, see `breakdown`. The step is named, and what to do.
+            is not, or a Q or R that is no covariance; or a covariance is no longer one, see `breakdown`. The step is
+            named, and what to do.
     """
     given = check_problem(system, N, M, L, x0, P0, inputs, measurements)
     steps, cycles = len(given.inputs), len(given.inputs) // N + 1

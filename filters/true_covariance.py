@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from filters.arrays import FloatArray
+from filters.noises import check_noises
 from filters.problem import check_covariance
 from filters.systems.system import System
 
@@ -27,7 +28,8 @@ def true_covariance(system: System, P0: FloatArray, gains: FloatArray) -> TrueCo
     Joseph's form, P+ = (I - K H) P- (I - K H)^T + K R K^T, holds for any K; Gelb, Applied Optimal Estimation, 1974.
 
     Raises:
-        ValueError: a shape is wrong, or P0, the gains or what the system gives are not finite, or P0 is no covariance.
+        ValueError: a shape is wrong, P0, the gains or what the system gives are not finite, or P0, Q or R of some step
+            is no covariance.
     """
     n, m, p = system.states, system.inputs, system.measurements
     if np.shape(P0) != (n, n) or gains.ndim < 3 or gains.shape[-2:] != (n, p):
@@ -38,9 +40,11 @@ def true_covariance(system: System, P0: FloatArray, gains: FloatArray) -> TrueCo
     check_covariance("true_covariance: P0", P0)
     if not np.isfinite(gains).all():
         raise ValueError("true_covariance: gains holds a value that is not finite")
+    steps = gains.shape[-3] - 1
+    check_noises(system, range(steps), range(steps + 1))
     x, u = np.zeros(n), np.zeros(m)
     before, after = np.empty((*gains.shape[:-1], n)), np.empty((*gains.shape[:-1], n))
-    for j in range(gains.shape[-3]):
+    for j in range(steps + 1):
         if j == 0:
             before[..., 0, :, :] = P0
         else:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from filters.arrays import FloatArray
-from filters.problem import check_measurement_noise
+from filters.problem import check_covariance, check_measurement_noise
 from filters.systems.system import System
 from filters.systems.trial import check_result, trials
 from sched_sim.bounds import MOST_STATES, short
@@ -16,10 +16,6 @@ HOW = (
     "name a function without arguments that returns a filters.systems.system.System, as in --system mymodule:my_system "
     "for a file mymodule.py in this folder"
 )
-
-
-ROUNDING = 1e-9
-"""Of a covariance: so far below zero, in parts of the largest, may its eigenvalues lie."""
 
 
 def load_system(name: str) -> tuple[System, FloatArray]:
@@ -63,12 +59,8 @@ def _try_model(name: str, system: System, x: FloatArray) -> None:
             raise InputError(f"--system {name!r}: {error}") from error
         _check_finite(name, trial.signature, value)
         values[trial.signature] = value
-    least, most = np.linalg.eigvalsh(values["Q(j, p)"])[[0, -1]]
-    if least < -ROUNDING * most or most < 0:
-        raise InputError(
-            f"--system {name!r}: Q(j, p) is no covariance: its smallest eigenvalue is {least:.3g}; none may be negative"
-        )
     try:
+        check_covariance("Q(j, p)", values["Q(j, p)"])
         check_measurement_noise(values["R(k, p)"], 0)
     except ValueError as error:
         raise InputError(f"--system {name!r}: {error}") from error

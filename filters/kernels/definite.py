@@ -14,6 +14,23 @@ SINGULAR = 1e-14
 """A variance so small, as a share of that before the others were known, is what rounding has made of zero."""
 
 
+SYMMETRIC = 1e-9
+"""By so much of the largest entry may two differ, of which one is the other's mirror image."""
+
+
+def is_covariance(P: FloatArray, scratch: FloatArray) -> bool:
+    """Whether P (n, n) is finite, symmetric and has no negative eigenvalue, up to rounding; scratch is (n, n)."""
+    largest = 0.0
+    for i in range(P.shape[0]):
+        for j in range(P.shape[0]):
+            largest = max(largest, abs(P[i, j]))
+    for i in range(P.shape[0]):
+        for j in range(i):
+            if not abs(P[i, j] - P[j, i]) <= SYMMETRIC * largest < np.inf:
+                return False
+    return is_semidefinite(P, scratch)
+
+
 def is_semidefinite(P: FloatArray, scratch: FloatArray) -> bool:
     """Whether P (n, n), symmetric, is finite and has no negative eigenvalue, up to rounding; scratch is (n, n).
 

@@ -1,4 +1,4 @@
-"""What replaces the kernels of `triangular`, `u_d` and `sequential` where NumPy is to do the work."""
+"""What replaces the kernels of `triangular`, `u_d`, `sequential` and `definite` where NumPy is to do the work."""
 
 from __future__ import annotations
 
@@ -8,7 +8,15 @@ from typing import Any
 import numpy as np
 
 from filters.arrays import FloatArray
-from filters.kernels import sequential, triangular, u_d
+from filters.kernels import definite, sequential, triangular, u_d
+from filters.kernels.vectorised_blocks import or_nan
+
+
+def _is_covariance(P: FloatArray, scratch: FloatArray) -> bool:
+    if not (np.isfinite(P).all() and (np.abs(P - P.T) <= definite.SYMMETRIC * np.abs(P).max()).all()):
+        return False
+    root = or_nan(np.linalg.cholesky, P + definite.ROUNDING * np.diag(np.diag(P)))
+    return bool(np.isfinite(root).all()) or definite.is_semidefinite(P, scratch)
 
 
 def _unit_lower_factors(R: FloatArray, L: FloatArray, variances: FloatArray) -> None:
@@ -110,7 +118,8 @@ def _carlson_update(S: FloatArray, H: FloatArray, noise: FloatArray, row: int, g
     gains[row] = gain / variances[-1]
 
 
-FACTOR_VERSIONS: tuple[tuple[Callable[..., None], Any], ...] = (
+FACTOR_VERSIONS: tuple[tuple[Callable[..., Any], Any], ...] = (
+    (definite.is_covariance, _is_covariance),
     (sequential.unit_lower_factors, _unit_lower_factors),
     (sequential.solve_unit_lower, _solve_unit_lower),
     (sequential.solve_unit_lower_transposed, _solve_unit_lower_transposed),

@@ -44,8 +44,9 @@ def linear_system(Phi: ArrayLike, B: ArrayLike, H: ArrayLike, Q: ArrayLike, R: A
     _check_shape("Q", matrices.Q, (n, n))
     _check_shape("R", matrices.R, (p, p))
     for name in ("Q", "R"):
-        for matrix in getattr(matrices, name):
-            check_covariance(f"linear_system: {name}", matrix)
+        by_step = getattr(matrices, name)
+        for j, matrix in enumerate(by_step):
+            check_covariance(f"linear_system: {name}{f' of step {j}' if len(by_step) > 1 else ''}", matrix)
     return System(n, m, p, _f, _F, _Q, _h, _H, _R, matrices)
 
 

@@ -30,6 +30,12 @@ MATRICES: dict[str, Any] = {
         ("Q", np.full((3, 3), np.nan), "Q holds a value that is not finite"),
         ("Q", np.diag([1.0, 1.0, -1.0]), "Q is no covariance: its smallest eigenvalue is -1"),
         ("R", [[-1.0]], "R is no covariance: its smallest eigenvalue is -1"),
+        ("Q", [np.eye(3), np.tri(3)], "linear_system: Q of step 1 is not symmetric"),
+        (
+            "R",
+            [[[1.0]], [[1.0]], [[-1.0]]],
+            "linear_system: R of step 2 is no covariance: its smallest eigenvalue is -1",
+        ),
         ("Q", {}, "Q is no array of numbers"),
         ("B", "none", "B is no array of numbers"),
     ],

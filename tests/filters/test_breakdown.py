@@ -120,7 +120,7 @@ def broken_system(name: str, value: float) -> System:
 @each_backend
 @pytest.mark.parametrize("name", ["f", "F", "Q", "h", "H", "R"])
 def test_the_function_of_the_system_is_named(method: str, backend: str, name: str) -> None:
-    for value in (np.nan, np.inf) if name != "R" else (np.nan,):  # an infinite R: what it is of has no weight
+    for value in (np.nan, np.inf):
         data = GOOD._replace(system=broken_system(name, value))
         with pytest.raises(ValueError, match=rf"step 10: {name} of the system gives a value that is not finite"):
             DELAYED_METHODS[method].run(*data, backend=backend)
@@ -133,7 +133,7 @@ def test_the_function_of_a_multirate_gains_system_is_named(name: str) -> None:
     for n in (1, 5):
         broken = broken_system(name, np.nan)
         coarse = GOOD.system if name in "fh" else broken
-        with pytest.raises(ValueError, match=rf"step 10: {name} of the system gives|R of step 10 is not"):
+        with pytest.raises(ValueError, match=rf"step 10: {name} of the system gives"):
             multirate_gain.run(broken, n, *start, coarse=coarse)
 
 

@@ -45,6 +45,12 @@ def not_finite():
 def noiseless():
     return car()._replace(R=lambda k, p: np.zeros((1, 1)))
 
+def lopsided():
+    return car()._replace(Q=lambda j, p: np.array([[1.0, 0.5], [0.0, 1.0]]))
+
+def negative():
+    return car()._replace(Q=lambda j, p: np.diag([1.0, -1.0]))
+
 def failing():
     return car()._replace(Q=lambda j, p: p[9][9])
 
@@ -140,6 +146,8 @@ def test_the_user_may_give_a_typical_state() -> None:
         ("own_system:of_lists", r"Q\(j, p\) returns a list; needed is an array of numbers of shape \(2, 2\)"),
         ("own_system:not_finite", r"H\(k, x, p\) is not finite.*return \(system, x0\)"),
         ("own_system:noiseless", "R of step 0 is not positive definite: its smallest eigenvalue is 0; give each"),
+        ("own_system:lopsided", r"Q\(j, p\) is not symmetric, so it is no covariance"),
+        ("own_system:negative", r"Q\(j, p\) is no covariance: its smallest eigenvalue is -1"),
         ("own_system:failing", r"Q\(j, p\) failed: IndexError"),
         ("own_system:wrong", r"wrong\(\) failed: linear_system: Phi"),
     ],

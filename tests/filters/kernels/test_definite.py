@@ -7,7 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from filters.kernels.definite import ROUNDING, covariance_root, is_semidefinite
+from filters.kernels.backends import BACKENDS, BackendName, function_for
+from filters.kernels.definite import ROUNDING, SYMMETRIC, covariance_root, is_covariance, is_semidefinite
 
 
 def found(P: object) -> bool:
@@ -71,3 +72,27 @@ def test_the_root_of_a_singular_covariance(n: int, rank: int, seed: int) -> None
     assert (np.abs(root @ root.T - P) <= 1e-7 * np.outer(deviations, deviations)).all()
     if rank == n:
         np.testing.assert_allclose(root, np.linalg.cholesky(P), rtol=1e-6, atol=1e-9)
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+@pytest.mark.parametrize(
+    ("P", "expected"),
+    [
+        ([[0.0]], True),
+        ([[1.0, 1.0], [1.0, 1.0]], True),
+        ([[1.0, 0.5 + 0.9 * SYMMETRIC], [0.5, 1.0]], True),
+        ([[1.0, 0.5 + 1.1 * SYMMETRIC], [0.5, 1.0]], False),
+        ([[1.0, 0.5], [0.5 + 1.1 * SYMMETRIC, 1.0]], False),
+        ([[0.0, 0.0, 0.0], [0.0, 4.0, 2.0], [0.0, 2.0, 1.0]], True),
+        ([[1.0, 2.0], [2.0, 1.0]], False),
+        ([[np.nan]], False),
+        ([[np.inf]], False),
+        ([[1.0, np.nan], [0.0, 1.0]], False),
+        ([[1.0, np.inf], [0.0, 1.0]], False),
+        ([[1.0, np.inf], [np.inf, 1.0]], False),
+    ],
+)
+def test_a_covariance_is_symmetric_finite_and_nowhere_negative(backend: BackendName, P: object, expected: bool) -> None:
+    matrix = np.array(P, dtype=np.float64)
+    with np.errstate(all="ignore"):
+        assert function_for(backend, is_covariance)(matrix, np.empty_like(matrix)) == expected
