@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from filters.arrays import FloatArray
+from filters.kernels.definite import is_semidefinite
 from filters.modular.space import Space
 from filters.problem import check_covariance
 from filters.robust.check import check_positive_definite
@@ -58,8 +59,8 @@ def check_start(of: Space, x0: ArrayLike, P0: ArrayLike) -> tuple[FloatArray, Fl
     """Copies of the estimate and covariance to start from; the covariance is symmetric to the last digit.
 
     Raises:
-        ValueError: a shape does not fit the space, x0 is not finite, an attitude in it has no length, or P0 is not
-            positive definite.
+        ValueError: a shape does not fit the space, x0 is not finite, an attitude in it has no length, or P0 is no
+            covariance. It may be singular: of states that are known exactly, or go together.
     """
     x = as_numbers("x0", x0)
     if x.shape != (of.numbers,) or not np.isfinite(x).all():
@@ -70,5 +71,11 @@ def check_start(of: Space, x0: ArrayLike, P0: ArrayLike) -> tuple[FloatArray, Fl
                 f"x0: the attitude at {start} has length {np.linalg.norm(x[start : start + 4]):.6g}; divide by it"
             )
     P = as_matrix("P0", P0, (of.errors, of.errors))
-    check_positive_definite("P0", P, "give each state a positive variance")
-    return x, 0.5 * (P + P.T)
+    check_covariance("P0", P)
+    P = 0.5 * (P + P.T)
+    if not is_semidefinite(P, np.empty_like(P)):
+        raise ValueError(
+            f"P0 is no covariance: beside variances of {np.diag(P).min():.3g} to {np.diag(P).max():.3g} a state, or a "
+            f"combination of them, has a negative one; give each a variance of its own, zero if it is known exactly"
+        )
+    return x, P

@@ -48,7 +48,7 @@ def run(
     backend: "compiled" takes ten seconds or more the first time and is then some hundred times as fast as "reference".
 
     Raises:
-        ValueError: a shape is wrong, P0 is not positive definite, a function does not do what it should (see `trial`),
+        ValueError: a shape is wrong, P0 is no covariance, a function does not do what it should (see `trial`),
             a measurement does not fit (see `measurements.arrivals`), the way cannot do with the filter or a
             measurement, or an estimate breaks down; the predictor or sensor is named.
     """

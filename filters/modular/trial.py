@@ -112,6 +112,7 @@ def _try(
 def _compare(what: str, given: FloatArray, differences: FloatArray, at: Estimate, values: FloatArray) -> None:
     """Raises ValueError if two Jacobians differ in what a typical error does; values: of the function itself."""
     deviations = np.sqrt(np.diag(at.P))
+    deviations[deviations == 0.0] = deviations.min(where=deviations > 0.0, initial=1.0)
     effects, wrong = np.abs(differences) * deviations, np.abs(given - differences) * deviations
     excess = wrong - TOLERANCE * effects.max(axis=1, keepdims=True) - ROUNDING * np.abs(values).max()
     row, column = np.unravel_index(np.argmax(excess), excess.shape)

@@ -49,7 +49,7 @@ def typical_moment(
     empty one for others.
 
     Raises:
-        ValueError: a shape is wrong, P0 is not positive definite, a function does not do what it should (see `trial`),
+        ValueError: a shape is wrong, P0 is no covariance, a function does not do what it should (see `trial`),
             or an estimate breaks down; it names the part.
     """
     of, random = composed.of, np.random.default_rng(seed)

@@ -47,8 +47,8 @@ def far_off_radar():
 def short_start():
     return cart(), [1.0]
 
-def flat_start():
-    return cart(), [1.0, 2.0], np.zeros((2, 2))
+def negative_start():
+    return cart(), [1.0, 2.0], -np.eye(2)
 
 def blind():
     return ModularFilter(unscented_predictor(move, Q), [], 0.1)
@@ -209,7 +209,7 @@ def test_a_function_that_cannot_be_compiled_is_named_with_its_line(sched_sim: Ru
         ("own_filter:radar", r"sensor 'radar': h\(x, out\).*finite.*x = \[0.0, 0.0\].*return \(filter, x0, P0, u\)"),
         ("own_filter:far_off_radar", r"sensor 'radar': h\(x, out\).*finite.*x = \[-100.0, 2.0\].*tried with your x0"),
         ("own_filter:short_start", r"x0 has shape \(1,\), the filter needs \(2,\)"),
-        ("own_filter:flat_start", "P0 is not positive definite"),
+        ("own_filter:negative_start", "P0 is no covariance"),
         ("own_filter:without_input", r"predictor: f\(x, u, dt, out\) failed: IndexError.*u \(0,\).*no input"),
         ("own_filter:two_inputs", "predictor: B has 2 columns, but the input has 1 numbers"),
         (

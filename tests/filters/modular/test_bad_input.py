@@ -156,8 +156,12 @@ def test_measurements(measurements: list[Measurement], message: str) -> None:
         ({"x0": np.zeros(3)}, r"x0 has shape \(3,\), the filter needs \(2,\)"),
         ({"x0": np.array([0.0, np.nan])}, "x0 .*finite numbers"),
         ({"P0": np.eye(3)}, r"P0 has shape \(3, 3\); needed is \(2, 2\)"),
-        ({"P0": NOT_DEFINITE}, "P0 is not positive definite .*give each state a positive variance"),
-        ({"P0": np.zeros((2, 2))}, "P0 is not positive definite"),
+        ({"P0": NOT_DEFINITE}, "P0 is no covariance: its smallest eigenvalue is -1"),
+        ({"P0": [[1.0, 0.5], [0.0, 1.0]]}, "P0 is not symmetric, so it is no covariance"),
+        (
+            {"P0": np.diag([1e12, -1.0])},
+            r"P0 is no covariance: beside variances of -1 to 1e\+12 a state, .* negative one; give each a variance",
+        ),
         ({"P0": np.full((2, 2), np.nan)}, "P0 holds a value that is not finite"),
         ({"inputs": np.zeros(6)}, r"inputs has shape \(6,\); needed is \(steps, inputs of the predictor\)"),
         ({"inputs": np.zeros((6, 2))}, "predictor: B has 1 columns, but the input has 2 numbers"),
@@ -379,6 +383,16 @@ def test_a_jacobian_with_a_wrong_sign_is_found() -> None:
     refused(
         r"predictor: jacobian\(x, u, dt, out\) gives 0.14 in \[1, 0\], where differences", filtered(wrong, "larsen")
     )
+
+
+def test_a_wrong_jacobian_is_found_where_states_are_known_exactly() -> None:
+    def slope(_x: FloatArray, _u: FloatArray, _dt: float, out: FloatArray) -> None:
+        out[:] = [[1.0, 0.2], [0.14, 1.0]]
+
+    case = pendulum_case(extended_predictor)
+    wrong = case._replace(composed=ModularFilter(extended_predictor(cases.pendulum, cases.Q, slope), [], 0.2))
+    for known in (np.zeros((2, 2)), np.diag([0.0, 1e-6]), np.diag([1e6, 0.0])):
+        refused(r"jacobian\(x, u, dt, out\) gives 0.14 in \[1, 0\]", filtered(wrong._replace(P0=known), "recalculate"))
 
 
 def test_what_numba_cannot_compile_is_said_in_a_line() -> None:
