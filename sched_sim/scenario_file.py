@@ -71,6 +71,12 @@ def _delays(value: Any) -> Sequence[int]:
     return range(between.least, between.most + 1)
 
 
+def _file(value: Any) -> Any:
+    if value == "":
+        raise ValueError("the name is empty: give the path of a TOML file, or delete the key")
+    return value
+
+
 def _late(value: Any) -> Any:
     if value == "dual-rate":
         ways = " or ".join(repr(way) for way in get_args(Late))
@@ -133,8 +139,8 @@ class _ScenarioFile(_Entry):
     late: Annotated[Late, BeforeValidator(_late)] = "recalculate"
     hr_hz: _Positive | None = None
     speed: _Positive | None = None
-    costs: str | None = None
-    processor: str | None = None
+    costs: Annotated[str | None, BeforeValidator(_file)] = None
+    processor: Annotated[str | None, BeforeValidator(_file)] = None
     times_slower: _Positive | None = None
     context_switch: _Number = Fraction(0)
     cpus: Annotated[Literal[1, 2], BeforeValidator(whole)] = 1

@@ -53,7 +53,7 @@ def _works(given: Any, info: ValidationInfo) -> tuple[Fraction, ...]:
 def _names_of(what: str) -> PlainValidator:
     def validated(given: Any, info: ValidationInfo) -> tuple[str, ...]:
         items = [given] if isinstance(given, str) else given
-        if not isinstance(items, list) or not items or not all(isinstance(item, str) for item in items):
+        if not isinstance(items, list) or not items or not all(isinstance(item, str) and item for item in items):
             raise InputError(
                 f"{_called(info)} {short(repr(given))}: give the name of a shipped {what}, or the path of a TOML file"
             )

@@ -8,9 +8,10 @@ from importlib.metadata import version
 from typing import Annotated, Any
 
 import typer
-from typer.core import TyperGroup
+from typer.core import TyperCommand, TyperGroup
 
 from sched_sim.cli import gantt, measure, minimum, processors, report, simulate, sweep
+from sched_sim.errors import InputError
 from sched_sim.text import visible_lines
 
 
@@ -24,6 +25,19 @@ def _shown_safely() -> Iterator[None]:
         if hasattr(usage, "format_message"):
             usage.message = visible_lines(usage.message)
         raise
+
+
+class Command(TyperCommand):
+    """A command none of whose values is empty: typer would make the current folder of an empty path."""
+
+    def parse_args(self, context: Any, arguments: list[str]) -> list[str]:
+        given, _, _ = self.make_parser(context).parse_args(list(arguments))
+        for parameter in self.params:
+            value = given.get(parameter.name)
+            if value == "" or (isinstance(value, list | tuple) and "" in value):
+                name = parameter.opts[0] if parameter.opts[0].startswith("-") else str(parameter.name).upper()
+                raise InputError(f"{name} is empty: give a value, or leave it out")
+        return super().parse_args(context, arguments)
 
 
 class Commands(TyperGroup):
@@ -66,10 +80,10 @@ def sched_sim(
     correction reach the output?"""
 
 
-app.command("minimum")(minimum.minimum)
-app.command("simulate")(simulate.simulate)
-app.command("gantt")(gantt.gantt)
-app.command("sweep")(sweep.sweep)
-app.command("processors")(processors.processors)
-app.command("measure")(measure.measure)
-app.command("report")(report.report)
+app.command("minimum", cls=Command)(minimum.minimum)
+app.command("simulate", cls=Command)(simulate.simulate)
+app.command("gantt", cls=Command)(gantt.gantt)
+app.command("sweep", cls=Command)(sweep.sweep)
+app.command("processors", cls=Command)(processors.processors)
+app.command("measure", cls=Command)(measure.measure)
+app.command("report", cls=Command)(report.report)

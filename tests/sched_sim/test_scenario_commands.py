@@ -259,6 +259,7 @@ def test_each_of_two_processors_has_a_busy_share(sched_sim: Run, tmp_path: Path)
             (REST, REST.replace("costs =", 'late = "larsen"\ncosts =').replace("delay = 2", "delay = 12")),
             ["sensor 'gps', steps 0 to 12 and sensor 'gps', steps 10 to 22", 'late = "recalculate"'],
         ),
+        (('costs = "costs.toml"', 'costs = ""'), ["costs: the name is empty: give the path"]),
         (('costs = "costs.toml"', 'costs = ".."'), ["'..' is a folder, not a file: give the path"]),
         (
             ("priority = 10\n", 'priority = 10\n[[task]]\nname = "t"\nperiod = -1\ncost = 1\npriority = 5'),

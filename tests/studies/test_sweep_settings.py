@@ -153,6 +153,8 @@ def test_flags_beside_a_grid_file_and_bare_values_in_it(sched_sim: Run, tmp_path
     [
         ("gain = 3", ["gain", "'3'", "at-update"]),
         ("cpus = true", ["cpus", "'True'", "1, 2"]),
+        ('costs = ""', ["costs", "give the name of a shipped cost table, or the path"]),
+        ('tasks = ""', ["tasks", "give the path of a TOML file"]),
         ("feedback = []", ["feedback", "empty", "next-step"]),
         ("method = { larsen = 1 }", ["method", "larsen"]),
         ("lr_propagate_by = [[]]", ["lr_propagate_by", "'[]'"]),
