@@ -17,13 +17,13 @@ from sched_sim.text import visible_lines
 
 @contextmanager
 def _shown_safely() -> Iterator[None]:
-    """What typer says of wrong arguments repeats them: as `visible` text."""
+    """What typer says of wrong arguments repeats them: as `visible` text, without its word for what it caught."""
     try:
         yield
     except Exception as error:
         usage: Any = error
         if hasattr(usage, "format_message"):
-            usage.message = visible_lines(usage.message)
+            usage.message = visible_lines(usage.message.removeprefix("Value error, "))
         raise
 
 

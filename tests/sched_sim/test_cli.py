@@ -217,6 +217,21 @@ def test_wrong_input_ends_with_code_2_and_one_message(
     assert {path: path.read_bytes() for path in tmp_path.iterdir()} == before
 
 
+@pytest.mark.parametrize(
+    "line",
+    [
+        "measure --update u-d",
+        "measure --robust u-d",
+        "simulate -N 10 -M 4 --gain u-d",
+        "report u-d",
+    ],
+)
+def test_a_value_that_is_none_of_the_choices_is_refused_in_words(sched_sim: Run, line: str) -> None:
+    result = sched_sim(line)
+    is_refused(result, ["Invalid value for '", "': 'u-d' is not one of"])
+    assert "Value error" not in result.err
+
+
 def test_a_job_that_is_not_due_yet_is_not_said_to_be_missed(sched_sim: Run, tmp_path: Path) -> None:
     (tmp_path / "t.toml").write_text('[[task]]\nname = "slow"\nperiod = 1000\ncost = 300\npriority = 30\n')
     result = sched_sim("simulate -N 4 -M 0 --method larsen --speed 1.5 --tasks t.toml")
