@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from sched_sim.costs import CostTable
 
 SYSTEM = "System"
+WITHOUT_SYSTEM = "Not with --system, --filter or --robust, which have their own."
+WITHOUT_FILTER = "Not with --filter or --robust."
 
 
 def _size(text: str) -> int:
@@ -41,17 +43,19 @@ UpdateForm = Annotated[
     typer.Option(
         "--update",
         help="Covariance update: textbook (Eq. 11, that of the shipped counts), joseph (the safest) or short, "
-        "P - K (P H')' (the cheapest: with few measurements a small part of the textbook's).",
+        f"P - K (P H')' (the cheapest: with few measurements a small part of the textbook's). {WITHOUT_FILTER}",
     ),
 ]
 Size = Annotated[
     int,
-    typer.Option(help="Size of the example system.", parser=_size, metavar="COUNT", rich_help_panel=SYSTEM),
+    typer.Option(
+        help=f"Size of the example system. {WITHOUT_SYSTEM}", parser=_size, metavar="COUNT", rich_help_panel=SYSTEM
+    ),
 ]
 Inputs = Annotated[
     int,
     typer.Option(
-        help="Size of the example system; 0: it has none.",
+        help=f"Size of the example system; 0: it has none. {WITHOUT_SYSTEM}",
         parser=opt.none_or_more,
         metavar="COUNT",
         rich_help_panel=SYSTEM,
@@ -61,7 +65,8 @@ Wanted = Annotated[
     list[str] | None,
     typer.Option(
         "--method",
-        help=f"{', '.join(SYSTEM_METHODS)}; repeatable; by default all. standard is the unit and always among them.",
+        help=f"{', '.join(SYSTEM_METHODS)}; repeatable; by default all. standard is the unit and always among them. "
+        f"{WITHOUT_FILTER}",
         rich_help_panel=opt.DESIGN,
     ),
 ]
@@ -69,7 +74,8 @@ OwnSystem = Annotated[
     str | None,
     typer.Option(
         "--system",
-        help="Your own: package.module:function that returns a System, or a System and a typical state.",
+        help="Your own: package.module:function that returns a System, or a System and a typical state. "
+        f"{WITHOUT_FILTER}",
         rich_help_panel=SYSTEM,
     ),
 ]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import json
+import re
 from pathlib import Path
 
 import pytest
@@ -215,6 +216,23 @@ def test_wrong_input_ends_with_code_2_and_one_message(
     before = {path: path.read_bytes() for path in tmp_path.iterdir()}
     is_refused(sched_sim(line), said)
     assert {path: path.read_bytes() for path in tmp_path.iterdir()} == before
+
+
+@pytest.mark.parametrize(
+    ("other", "excluded"),
+    [
+        ("--system nowhere:system", "--states --inputs --measurements"),
+        ("--filter nowhere:filter", "--states --inputs --measurements --system --method --update"),
+        ("--robust position", "--states --inputs --measurements --system --method --update"),
+    ],
+)
+def test_the_help_of_measure_says_which_options_exclude_each_other(sched_sim: Run, other: str, excluded: str) -> None:
+    values = {"--system": "nowhere:system", "--method": "larsen", "--update": "short"}
+    said = " ".join(sched_sim("measure --help").out.replace("│", " ").split())
+    for option in excluded.split():
+        is_refused(sched_sim(f"measure {other} {option} {values.get(option, 2)}"), [f"leave out {option}"])
+        (not_with,) = re.findall(rf" {option} (?:COUNT|<[^>]*>) .*?Not with ([^.]*)\.", said)
+        assert other.split()[0] in not_with
 
 
 @pytest.mark.parametrize(
