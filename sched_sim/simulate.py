@@ -44,7 +44,8 @@ def simulate(
     on_landing: OnLanding | None = None,
     on_progress: OnProgress | None = None,
 ) -> Schedule:
-    """Run one filter, and the user's tasks beside it, for `cycles` measurement cycles.
+    """Run one filter, and the user's tasks beside it, for `cycles` measurement cycles; where recalculate or Larsen's
+    method has M = N, for a step more, in which the last measurement arrives.
 
     costs: from `costs.select`; speed: cost units the processor does per HR period.
     keep_slices: return every `Slice`; without it memory does not grow with `cycles`.
@@ -86,7 +87,11 @@ def simulate(
 
 
 class Workload(NamedTuple):
-    """What a processor has to do, in ticks: the filter first, then the user's tasks. period: of the HR loop."""
+    """What a processor has to do, in ticks. period: of the HR loop.
+
+    sources: the filter's, then the user's tasks; of jobs of one priority, released at one instant, the filter's goes
+    first.
+    """
 
     sources: tuple[RecurringSource, ...]
     period: int

@@ -62,6 +62,15 @@ def test_equal_priorities_run_in_order_of_release_and_do_not_preempt() -> None:
     assert ran(*jobs) == [("first", 0, 5), ("second", 5, 10), ("third", 10, 15)]
 
 
+def test_of_equal_priorities_released_at_one_instant_the_filter_goes_first() -> None:
+    task = Task("control", Fraction(1), Fraction(1), priority=10)
+    schedule = simulate(StandardCosts(4, 6), Timing(4, 0, 4), Fraction(20), 1, tasks=[task], keep_slices=True)
+    assert [(piece.kind, piece.start) for piece in schedule.slices if piece.end > piece.start] == [
+        ("hr", 0), ("task:control", 10), ("hr", 20), ("task:control", 24),
+        ("hr", 40), ("task:control", 44), ("hr", 60), ("task:control", 64),
+    ]  # fmt: skip
+
+
 def test_a_preempted_job_stays_ahead_of_a_later_one_of_its_priority() -> None:
     jobs = job("early", 20, 0, 5), job("high", 10, 2, 4), job("late", 20, 3, 5)
     assert ran(*jobs) == [("early", 0, 2), ("high", 2, 6), ("early", 6, 9), ("late", 9, 14)]
@@ -125,6 +134,27 @@ def test_with_m_equal_n_the_measurement_of_the_old_k_is_still_used() -> None:
         schedule = simulate(costs, Timing(4, 4, 4), Fraction(work), cycles=3)
         assert (schedule.misses, schedule.achieved) == (0, {4: 3})
         assert schedule.responses["hr"].worst == work
+
+
+@pytest.mark.parametrize(("M", "steps"), [(3, 8), (4, 9)])
+@pytest.mark.parametrize("costs", [RecalculateCosts(1, 1, 1), LarsenCosts(1, 1, 1)])
+def test_with_m_equal_n_it_is_a_step_longer(costs: RecalculateCosts | LarsenCosts, M: int, steps: int) -> None:
+    schedule = simulate(costs, Timing(4, M, 4), Fraction(9), cycles=2)
+    assert schedule.horizon == steps * schedule.period
+    assert schedule.achieved == {M: 2}
+
+
+def test_lr_propagate_is_released_when_the_hr_job_of_step_k_finishes() -> None:
+    schedule = simulate(DUAL_RATE, Timing(4, 2, 4), Fraction(10), cycles=2, keep_slices=True)
+    finish = {piece.step: piece.end for piece in schedule.slices if piece.kind == "hr"}
+    released = {piece.step: piece.release for piece in schedule.slices if piece.kind == "lr_propagate"}
+    assert released == {k: finish[k] for k in (0, 4)}
+
+
+def test_the_hr_job_of_step_k_plus_1_is_the_restart() -> None:
+    schedule = simulate(DUAL_RATE, Timing(4, 2, 4), Fraction(10), cycles=2, keep_slices=True)
+    work = {piece.step: piece.parts[0][1] for piece in schedule.slices if piece.kind == "hr"}
+    assert [j for j in sorted(work) if work[j] == DUAL_RATE.hr_restart] == [1, 5]
 
 
 def test_the_standard_filter_ignores_the_delay() -> None:
