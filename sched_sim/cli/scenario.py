@@ -9,6 +9,7 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from sched_sim import shares
 from sched_sim.cli.output import Format, print_csv, print_json, print_table
 from sched_sim.cli.outputs import Named, refuse_one_file_for_two
 from sched_sim.cli.progress import progress_bar
@@ -63,15 +64,15 @@ def simulate_scenario(
 
         save(draw([scenario_panel(scenario, outcome)]), gantt)
     schedule = outcome.schedule
-    shares = [float(schedule.utilization)]
+    busy_shares = [float(schedule.utilization)]
     if scenario.cpus > 1:
-        shares = [busy[cpu] / schedule.horizon for cpu in range(scenario.cpus)]
+        busy_shares = [busy[cpu] / schedule.horizon for cpu in range(scenario.cpus)]
     if format == "json":
-        print_json(_document(scenario, outcome, shares))
+        print_json(_document(scenario, outcome, busy_shares))
     elif format == "csv":
         print_csv([_flat(kind, figures, scenario.harness) for kind, figures in outcome.jobs.items()])
     else:
-        _show(scenario, outcome, shares)
+        _show(scenario, outcome, busy_shares)
 
 
 def _document(scenario: Scenario, outcome: Outcome, busy: Sequence[float]) -> dict[str, Any]:
@@ -179,7 +180,7 @@ def _note(scenario: Scenario, outcome: Outcome, busy: Sequence[float]) -> str:
     from sched_sim.cli.overload import causes
 
     processors = "Processors" if len(busy) > 1 else "Processor"
-    lines = [f"{processors} busy {' and '.join(f'{share:.1%}' for share in busy)} of the time"]
+    lines = [f"{processors} busy {' and '.join(map(shares.percent, busy))} of the time"]
     if not all(figures.decided for figures in outcome.jobs.values()):
         lines[0] += "; -: nothing to tell it from"
     if any(figures.released > len(figures.responses) for figures in outcome.jobs.values()):
@@ -207,8 +208,8 @@ def _job_words(kind: str, figures: JobFigures, unit: float, harness: bool) -> di
     if harness:
         return words
     return words | {
-        "P(miss)": None if probability is None else f"{probability:.3g}",
-        "95 % interval": None if interval is None else f"{interval[0]:.2g} to {interval[1]:.2g}",
+        "P(miss)": None if probability is None else shares.probability(probability),
+        "95 % interval": None if interval is None else shares.interval(*interval),
     }
 
 
@@ -232,5 +233,5 @@ def _sensor_words(name: str, figures: SensorFigures) -> dict[str, Any]:
         "median": int(achieved.median),
         "p95": int(achieved.p95),
         "max": int(achieved.maximum),
-        "most often": f"{often} ({count / figures.achieved.total():.1%})",
+        "most often": f"{often} ({shares.percent(count / figures.achieved.total())})",
     }

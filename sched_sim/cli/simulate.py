@@ -15,6 +15,7 @@ from sched_sim.cli.output import lines, print_csv, print_json, print_table, say
 from sched_sim.cli.outputs import refuse_one_file_for_two
 from sched_sim.cli.progress import progress_bar
 from sched_sim.errors import InputError
+from sched_sim.shares import percent
 
 if TYPE_CHECKING:
     from sched_sim.costs import JobCosts
@@ -252,7 +253,7 @@ def _show(title: str, document: dict[str, Any], rate: Fraction | None, multirate
         for kind, figures in document["response"].items()
     ]
     what = "Gains are in use from" if multirate else "Corrections land at"
-    note = f"{landings(document['achieved_l'], what)}; processor busy {document['utilization']:.1%} of the time"
+    note = f"{landings(document['achieved_l'], what)}; processor busy {percent(document['utilization'])} of the time"
     unfinished = (
         "Jobs that have not finished are not in worst and mean; past their deadline they are missed, late by that much "
         "or more"

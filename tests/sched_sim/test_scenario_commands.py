@@ -185,6 +185,20 @@ def run_json(sched_sim: Run) -> str:
     return sched_sim("simulate --scenario s.toml --format json").out
 
 
+def row_of(name: str, table: str) -> list[str]:
+    """The cells of the one row that begins with this."""
+    (row,) = [line for line in table.splitlines() if line.split()[:1] == [name]]
+    return row.split()
+
+
+def test_all_but_one_is_not_all(sched_sim: Run, tmp_path: Path) -> None:
+    """Predict fills its step; from step 1 on a task has made it late."""
+    late = '[[task]]\nname = "t"\noffset = 1\nperiod = 10000\ncost = 0.001\npriority = 1\n'
+    write(tmp_path, SHORT.replace("speed = 10\nsteps = 40", "speed = 3\nsteps = 1199").replace("10", "5000") + late)
+    row = row_of("predict", sched_sim("simulate --scenario s.toml").out)
+    assert row[-5:] == ["1198", "0.999166", "0.9952", "to", "0.99986"]
+
+
 def test_each_of_two_processors_has_a_busy_share(sched_sim: Run, tmp_path: Path) -> None:
     write(tmp_path, SHORT.replace("speed = 10", "speed = 10\ncpus = 2"))
     assert "Processors busy 30.0% and 9.0% of the time" in sched_sim("simulate --scenario s.toml").out
