@@ -4,7 +4,7 @@ missed."""
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -15,7 +15,7 @@ from sched_sim.cli.outputs import Named, refuse_one_file_for_two
 from sched_sim.cli.progress import progress_bar
 
 if TYPE_CHECKING:
-    from sched_sim.scenario import Scenario
+    from sched_sim.scenario import Scenario, Sensor
     from sched_sim.scenario_run import JobFigures, Outcome, SensorFigures
     from sched_sim.schedule import Slice
 
@@ -93,7 +93,7 @@ def _document(scenario: Scenario, outcome: Outcome, busy: Sequence[float]) -> di
         "causes": causes(scenario, outcome, busy),
         "note": WITHHELD if scenario.harness else None,
         "jobs": {kind: _job(figures, ms, scenario.harness) for kind, figures in outcome.jobs.items()},
-        "sensors": {name: _sensor(figures) for name, figures in outcome.sensors.items()},
+        "sensors": {sensor.name: _sensor(sensor, outcome.sensors[sensor.name]) for sensor in scenario.sensors},
     }
 
 
@@ -146,16 +146,17 @@ def _flat(kind: str, figures: JobFigures, harness: bool) -> dict[str, Any]:
     }
 
 
-def _sensor(figures: SensorFigures) -> dict[str, Any]:
-    landed = figures.achieved.total()
+def _sensor(sensor: Sensor, figures: SensorFigures) -> dict[str, Any]:
+    """achieved_l: shares of all that arrived, so that those which have not landed are what is left to 1."""
     return {
         "taken": figures.taken,
         "dropped": figures.dropped,
         "arrived": figures.arrived,
         "on_the_way": figures.on_the_way,
-        "landed": landed,
+        "landed": figures.achieved.total(),
         "not_landed": figures.not_landed,
-        "achieved_l": {str(L): count / landed for L, count in sorted(figures.achieved.items())},
+        "land_by": sensor.land_by,
+        "achieved_l": {str(L): count / figures.arrived for L, count in sorted(figures.achieved.items())},
     }
 
 
@@ -171,7 +172,8 @@ def _show(scenario: Scenario, outcome: Outcome, busy: Sequence[float]) -> None:
     if outcome.sensors:
         print_table(
             "Measurements, and the step l = k + ... in which their corrections landed",
-            [_sensor_words(name, figures) for name, figures in outcome.sensors.items()],
+            [_sensor_words(sensor, outcome.sensors[sensor.name]) for sensor in scenario.sensors],
+            _sensor_note(outcome.sensors.values()),
         )
 
 
@@ -217,21 +219,31 @@ def _four_digits(value: float | None) -> str | None:
     return None if value is None else f"{value:.4g}"
 
 
-def _sensor_words(name: str, figures: SensorFigures) -> dict[str, Any]:
-    from sched_sim.distribution import Distribution
+def _sensor_words(sensor: Sensor, figures: SensorFigures) -> dict[str, Any]:
+    from sched_sim.distribution import finished_or_not
 
-    row = _sensor(figures)
-    words = {key.replace("_", " "): row[key] for key in ("taken", "dropped", "on_the_way", "landed", "not_landed")}
+    row = _sensor(sensor, figures)
+    shown = ("taken", "dropped", "on_the_way", "landed", "not_landed", "land_by")
+    words = {"sensor": sensor.name} | {key.replace("_", " "): row[key] for key in shown}
     if not figures.achieved:
-        return {"sensor": name, **words} | dict.fromkeys(("min", "median", "p95", "max", "most often"))
-    achieved = Distribution.of(list(figures.achieved.elements()))
+        return words | dict.fromkeys(("min", "median", "p95", "max", "most often"))
+    achieved = finished_or_not(list(figures.achieved.elements()), figures.not_landed)
     ((often, count),) = figures.achieved.most_common(1)
-    return {
-        "sensor": name,
-        **words,
-        "min": int(achieved.minimum),
-        "median": int(achieved.median),
-        "p95": int(achieved.p95),
-        "max": int(achieved.maximum),
-        "most often": f"{often} ({shares.percent(count / figures.achieved.total())})",
+    return words | {
+        "min": achieved["minimum"],
+        "median": achieved["median"],
+        "p95": achieved["p95"],
+        "max": achieved["maximum"],
+        "most often": f"{often} ({shares.percent(count / figures.arrived)})",
     }
+
+
+def _sensor_note(all_figures: Iterable[SensorFigures]) -> str:
+    """Below the second table, as `_note` below the first."""
+    note = "land by: the last step that meets the deadline"
+    if any(figures.not_landed for figures in all_figures):
+        note += (
+            "\nSome corrections have not landed: min and max are of those that have; median, p95 and the share of the "
+            "most often of all that arrived, - where the others decide"
+        )
+    return note
