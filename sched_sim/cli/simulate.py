@@ -43,8 +43,9 @@ ScenarioFile = Annotated[
     typer.Option(
         "--scenario",
         help="TOML file of a predictor and several sensors, several measurements on their way at once, dropout, random "
-        "delay and measured costs; instead of the options for one filter. At least: name, steps, speed, \\[predictor] "
-        "cost, \\[\\[sensor]] name, every, delay, cost.",
+        "delay and measured costs; instead of the options for one filter. At least: name, steps, hr_hz (costs are then "
+        "in seconds) or speed (cost units per HR period), \\[predictor] cost, \\[\\[sensor]] name, every, cost; a "
+        "sensor's delay is 0 by default, its deadline land_by the longest delay + every - 1.",
         rich_help_panel=opt.DESIGN,
     ),
 ]

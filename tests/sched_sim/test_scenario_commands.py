@@ -163,6 +163,13 @@ def test_pictures_and_traces_are_written(sched_sim: Run, tmp_path: Path) -> None
     )
 
 
+def test_help_says_in_which_unit_costs_are_and_what_a_sensor_has_by_default(sched_sim: Run) -> None:
+    words = " ".join(sched_sim("simulate --help").out.replace("│", " ").split())
+    assert "hr_hz (costs are then in seconds) or speed (cost units per HR period)" in words
+    assert "[[sensor]] name, every, cost; a sensor's delay is 0 by default" in words
+    assert "land_by the longest delay + every - 1" in words
+
+
 def test_what_unfinished_jobs_hide_is_not_claimed(sched_sim: Run, tmp_path: Path) -> None:
     """At speed 3, predict fills every step and no correction starts; the deadlines are beyond the end."""
     slow = SHORT.replace("speed = 10", "speed = 3").replace("priority = 10", "priority = 20\nland_by = 99")
