@@ -14,6 +14,7 @@ from sched_sim.errors import InputError
 from sched_sim.in_flight import Flight, first_overlap
 from sched_sim.jobs import HR, LR
 from sched_sim.tasks import Task
+from sched_sim.toml_text import toml_key
 
 Late = Literal["recalculate", "larsen"]
 """What a late measurement does: the filter rolls back to it and replays, or Larsen's method carries it forward."""
@@ -207,8 +208,19 @@ def _lacking(scenario: Scenario) -> list[str]:
     larsens = [part for part in parts if part.startswith(LARSENS)]
     if larsens:
         said.append(
-            f'no costs of {", ".join(larsens)}: late = "larsen" needs linear or extended parts, and of a filter with '
-            f'unscented ones `sched-sim measure --filter` writes no such costs; choose late = "recalculate", or give '
-            f"costs of a filter of linear and extended parts"
+            f'no costs of {", ".join(larsens)}: late = "larsen" takes them from a costs file, not from `cost`: write '
+            f'there {_entries(larsens)}, beside its name and unit, and costs = "FILE.toml" in the scenario; '
+            f"`sched-sim measure --filter` writes them for a filter of linear and extended parts, not of unscented "
+            f'ones; or choose late = "recalculate"'
         )
     return said
+
+
+def _entries(parts: Sequence[str]) -> str:
+    """How samples of these parts stand in a costs file."""
+    written = []
+    for part in parts:
+        kind, of_sensor, sensor = part.partition(".")
+        table, key = (f"samples.{kind}", toml_key(sensor)) if of_sensor else ("samples", kind)
+        written.append(f"[{table}] {key} = [...]")
+    return " and ".join([", ".join(written[:-1]), written[-1]] if written[1:] else written)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
@@ -54,6 +55,9 @@ def test_a_scenario_of_more_steps_than_anyone_waits_for_is_refused_at_once(delay
 
 
 def test_larsen_needs_costs_of_its_own() -> None:
-    said = r'no costs of predict_accumulate, correct_late\.gps: late = "larsen" needs linear or extended parts'
-    with pytest.raises(InputError, match=said):
+    said = (
+        'costs of predict_accumulate, correct_late.gps: late = "larsen" takes them from a costs file, not from `cost`: '
+        "write there [samples] predict_accumulate = [...] and [samples.correct_late] gps = [...], beside its name"
+    )
+    with pytest.raises(InputError, match=re.escape(said)):
         scenario(10, BY_HAND, sensor("gps", 20, 2), steps=8, late="larsen")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import json
+import re
 from fractions import Fraction
 from pathlib import Path
 
@@ -140,6 +141,16 @@ def test_no_probability_of_a_miss_from_samples_of_measure_filter(
     assert ("95 % interval" in people) == given
     assert ("no P(miss): samples of `measure --filter`" in " ".join(people.split())) != given
     assert (document["note"] is None) == given
+
+
+def test_what_larsen_lacks_is_written_as_the_message_says(sched_sim: Run, tmp_path: Path) -> None:
+    stated = SHORT.replace('costs = "costs.toml"', 'late = "larsen"').replace("[predictor]", "[predictor]\ncost = 3")
+    (tmp_path / "s.toml").write_text(f"{stated}cost = 3\n")
+    (entries,) = re.findall(r"write there (\[.*), beside", sched_sim("simulate --scenario s.toml").err)
+    samples = entries.replace(" and ", "\n").replace("] ", "]\n").replace("...", "4")
+    (tmp_path / "costs.toml").write_text(f'name = "c"\nunit = "ms"\n{samples}\n')
+    (tmp_path / "s.toml").write_text(f'costs = "costs.toml"\n{stated}cost = 3\n')
+    assert sched_sim("simulate --scenario s.toml").code == 0
 
 
 def test_larsen_in_overload(sched_sim: Run, tmp_path: Path) -> None:
