@@ -1,10 +1,9 @@
 """Reading a scenario from TOML: [predictor], [[sensor]], [[task]] and how they run. Numbers are read as exact
-decimals."""
+decimals, or as quotients in quotes."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from decimal import Decimal
 from fractions import Fraction
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self, get_args
@@ -16,20 +15,10 @@ from sched_sim.jobs import HR, LR
 from sched_sim.processor import load_processor, seconds_for, shipped_processors
 from sched_sim.sample_file import SampledCosts, read_sampled_costs
 from sched_sim.scenario import Late, Samples, Scenario, Sensor, ends, needed_parts
-from sched_sim.task_file import TaskEntry, Whole, whole, wrong_together
+from sched_sim.task_file import TaskEntry, wrong_together
 from sched_sim.tasks import Task
-from sched_sim.ticks import exact, positive
 from sched_sim.toml_file import problems, read_toml
-
-
-def _number(value: Any) -> Fraction:
-    if isinstance(value, bool) or not isinstance(value, int | Decimal):
-        raise ValueError("must be a number")
-    return exact(value, "the number")
-
-
-def _positive(value: Any) -> Fraction:
-    return positive(_number(value), "the number")
+from sched_sim.toml_numbers import Number, Positive, Whole, above_zero, whole
 
 
 def _several(value: Any, what: str, one: Callable[[Any], Any]) -> tuple[Any, ...]:
@@ -48,7 +37,7 @@ def _several(value: Any, what: str, one: Callable[[Any], Any]) -> tuple[Any, ...
 
 
 def _cost(value: Any) -> tuple[Fraction, ...]:
-    return _several(value, "execution time", _positive)
+    return _several(value, "execution time", above_zero)
 
 
 class _Range(BaseModel):
@@ -87,8 +76,6 @@ def _late(value: Any) -> Any:
     return value
 
 
-_Number = Annotated[Fraction, BeforeValidator(_number)]
-_Positive = Annotated[Fraction, BeforeValidator(_positive)]
 _Cost = Annotated[tuple[Fraction, ...], BeforeValidator(_cost)]
 _Delays = Annotated[Any, BeforeValidator(_delays)]
 
@@ -107,7 +94,7 @@ class _Sensor(_Entry):
     every: Whole
     delay: _Delays = (0,)
     offset: Whole = 0
-    dropout: _Number = Fraction(0)
+    dropout: Number = Fraction(0)
     priority: Whole = LR
     land_by: Whole | None = None
     cost: _Cost | None = None
@@ -137,12 +124,12 @@ class _ScenarioFile(_Entry):
     steps: Whole
     seed: Whole = 0
     late: Annotated[Late, BeforeValidator(_late)] = "recalculate"
-    hr_hz: _Positive | None = None
-    speed: _Positive | None = None
+    hr_hz: Positive | None = None
+    speed: Positive | None = None
     costs: Annotated[str | None, BeforeValidator(_file)] = None
     processor: Annotated[str | None, BeforeValidator(_file)] = None
-    times_slower: _Positive | None = None
-    context_switch: _Number = Fraction(0)
+    times_slower: Positive | None = None
+    context_switch: Number = Fraction(0)
     cpus: Annotated[Literal[1, 2], BeforeValidator(whole)] = 1
     predictor: _Predictor = _Predictor()
     sensor: list[_Sensor]

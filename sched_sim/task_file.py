@@ -6,38 +6,14 @@ from collections import Counter
 from collections.abc import Sequence
 from fractions import Fraction
 from pathlib import Path
-from typing import Annotated, Any
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, ValidationError
+from pydantic import BaseModel, ConfigDict, ValidationError
 
 from sched_sim.bounds import MOST_TASKS
 from sched_sim.errors import InputError
 from sched_sim.tasks import Task
-from sched_sim.ticks import exact
 from sched_sim.toml_file import problems, read_toml
-
-
-def whole(value: Any) -> int:
-    """Raises ValueError for what is no whole number in the file, such as `true` or `"5"`."""
-    if isinstance(value, bool) or not isinstance(value, int):
-        raise ValueError("must be a whole number")
-    return value
-
-
-def _number(value: Any) -> Fraction:
-    if isinstance(value, bool | list | dict | str):
-        raise ValueError("must be a number")
-    return exact(value, "the number")
-
-
-def _positive(value: Any) -> Fraction:
-    number = _number(value)
-    if number <= 0:
-        raise ValueError("must be greater than 0")
-    return number
-
-
-Whole = Annotated[int, BeforeValidator(whole)]
+from sched_sim.toml_numbers import Number, Positive, Whole
 
 
 class TaskEntry(BaseModel):
@@ -45,10 +21,10 @@ class TaskEntry(BaseModel):
 
     model_config = ConfigDict(extra="forbid", arbitrary_types_allowed=True)
     name: str
-    period: Annotated[Fraction, BeforeValidator(_positive)]
-    cost: Annotated[Fraction, BeforeValidator(_positive)]
+    period: Positive
+    cost: Positive
     priority: Whole
-    offset: Annotated[Fraction, BeforeValidator(_number)] = Fraction(0)
+    offset: Number = Fraction(0)
     cpu: Whole = 1
 
 

@@ -16,7 +16,7 @@ from sched_sim.errors import InputError
 
 def exact(value: int | str | float | Decimal | Fraction, what: str) -> Fraction:
     """The exact fraction that `value` writes: "0.78" is 78/100, "77/100" too; a float stands for its
-    shortest decimal.
+    shortest decimal. A Decimal comes from a file, where a quotient has quotes.
 
     Raises InputError, naming `what`, for text that is no number, for NaN and infinities, and for a number that is out
     of bounds (`sched_sim.bounds`).
@@ -28,6 +28,8 @@ def exact(value: int | str | float | Decimal | Fraction, what: str) -> Fraction:
     except InputError:
         raise
     except (ArithmeticError, ValueError):
+        if isinstance(value, Decimal):
+            raise InputError(f'{what} is {value}: give a finite number such as 0.78 or "77/100"') from None
         raise InputError(f"{what} is {short(value)!r}: give a finite number such as 0.78 or 77/100") from None
     check_size(number, what, value)
     return number

@@ -69,6 +69,8 @@ def _values(given: Scalar | Sequence[Scalar], what: str, value: Callable[[str], 
     for item in items:
         if isinstance(item, bool):
             raise InputError(f"{what} {item!r}: give numbers, such as 5, 1,2,5 or 10:100:10")
+        if isinstance(item, Decimal):
+            exact(item, what)
         for part in str(item).split(","):
             found.update(_range(part.strip(), what, value))
             if len(found) > LONGEST_RANGE:

@@ -67,6 +67,16 @@ def test_costs_come_from_the_file_beside_it_and_from_the_scenario_first(tmp_path
     assert (found["predict"], found["correct.gps"]) == ((Fraction(4), Fraction(11, 2)), (Fraction(3),))
 
 
+def test_quotients_in_quotes_are_numbers(tmp_path: Path) -> None:
+    quotients = SHORT.replace("speed = 10", 'speed = "1000/77"').replace(
+        "[predictor]", '[predictor]\ncost = ["1/3", 2]'
+    )
+    write(tmp_path, quotients.replace("delay = 2", 'delay = 2\ndropout = "1/3"'))
+    found = read_scenario(tmp_path / "s.toml")
+    assert (found.speed, found.costs["predict"]) == (Fraction(1000, 77), (Fraction(1, 3), Fraction(2)))
+    assert found.sensors[0].dropout == 1 / 3
+
+
 def test_counts_are_seconds_on_a_processor(tmp_path: Path) -> None:
     (tmp_path / "mine.toml").write_text(
         'name = "mine"\ntitle = "mine"\nprecision = "double"\nclock_mhz = 100\nlogic_per_arithmetic = 0\n'
