@@ -21,7 +21,8 @@ from sched_sim.costs import (
 )
 from sched_sim.errors import InputError
 from sched_sim.files import write
-from sched_sim.toml_file import problems, read_toml
+from sched_sim.toml_file import read_toml
+from sched_sim.toml_problems import problems
 from sched_sim.toml_text import toml_number, toml_tables, toml_value
 
 Entries = dict[str, Any]
@@ -119,7 +120,7 @@ def read_cost_table(path: Path, shown: str = "") -> CostTable:
     try:
         checked = _CostFile.model_validate(document)
     except ValidationError as error:
-        raise InputError(f"cost table {shown!r}: {problems(error, model=_CostFile)}") from None
+        raise InputError(f"cost table {shown!r}: {problems(error, _CostFile)}") from None
     costs = {
         method: {kind: Cost(entry.minimum, entry.median, entry.p95) for kind, entry in entries.items()}
         for method, entries in checked.costs.items()

@@ -277,5 +277,6 @@ def load(name_or_path: str | Path) -> CostTable:
 def positive_cost(value: Any, where: str) -> Fraction:
     """`value` as an exact cost; raises InputError that names `where` unless it is a number above 0."""
     if isinstance(value, bool | list | dict):
-        raise InputError(f"{where} is {value!r}: a cost is a number greater than 0")
+        shown = "no number" if isinstance(value, list | dict) else repr(value)
+        raise InputError(f"{where} is {shown}: a cost is a number greater than 0")
     return positive(value, where)

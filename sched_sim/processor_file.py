@@ -13,7 +13,8 @@ from sched_sim.costs import OPERATION_KINDS
 from sched_sim.errors import InputError
 from sched_sim.processor import Processor, shipped_processors
 from sched_sim.ticks import exact, positive
-from sched_sim.toml_file import problems, read_toml
+from sched_sim.toml_file import read_toml
+from sched_sim.toml_problems import problems
 
 HERTZ_PER_MHZ = 10**6
 MICROSECONDS_PER_SECOND = 10**6
@@ -119,7 +120,7 @@ def read_processor(path: Path, shown: str = "") -> Processor:
     try:
         checked = _ProcessorFile.model_validate(document)
     except ValidationError as error:
-        raise InputError(f"processor {shown!r}: {problems(error, model=_ProcessorFile)}") from None
+        raise InputError(f"processor {shown!r}: {problems(error, _ProcessorFile)}") from None
     clock_hz = checked.clock_mhz.value * HERTZ_PER_MHZ if checked.clock_mhz else None
     per_second = clock_hz or Fraction(MICROSECONDS_PER_SECOND)
     named = {**checked.figures, "logic_per_arithmetic": checked.logic_per_arithmetic}

@@ -15,7 +15,8 @@ from sched_sim.cost_file import CountsOfJob, Number
 from sched_sim.costs import Counts, arithmetic
 from sched_sim.errors import InputError
 from sched_sim.files import write
-from sched_sim.toml_file import problems, read_toml
+from sched_sim.toml_file import read_toml
+from sched_sim.toml_problems import problems
 from sched_sim.toml_text import toml_key, toml_number, toml_tables, toml_value
 
 PREDICT = ("predict", "predict_accumulate")
@@ -115,7 +116,7 @@ def read_sampled_costs(path: Path, shown: str = "") -> SampledCosts:
     try:
         checked = _SampleFile.model_validate(document)
     except ValidationError as error:
-        raise InputError(f"costs {shown!r}: {problems(error, model=_SampleFile)}") from None
+        raise InputError(f"costs {shown!r}: {problems(error, _SampleFile)}") from None
     samples = {part: tuple(values) for part, values in _flat(checked.samples).items()}
     operations = _flat(checked.operations)
     samples = samples or {part: (Fraction(arithmetic(counts)),) for part, counts in operations.items()}

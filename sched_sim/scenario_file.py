@@ -10,6 +10,7 @@ from typing import Annotated, Any, Literal, Self, get_args
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, ValidationError, model_validator
 
+from sched_sim.bounds import short
 from sched_sim.errors import InputError
 from sched_sim.jobs import HR, LR
 from sched_sim.processor import load_processor, seconds_for, shipped_processors
@@ -17,26 +18,30 @@ from sched_sim.sample_file import SampledCosts, read_sampled_costs
 from sched_sim.scenario import Late, Samples, Scenario, Sensor, ends, needed_parts
 from sched_sim.task_file import TaskEntry, wrong_together
 from sched_sim.tasks import Task
-from sched_sim.toml_file import problems, read_toml
+from sched_sim.toml_file import read_toml
 from sched_sim.toml_numbers import Number, Positive, Whole, above_zero, whole
+from sched_sim.toml_problems import problems
 
 
 def _several(value: Any, what: str, one: Callable[[Any], Any]) -> tuple[Any, ...]:
     """A number, or a list of at least one."""
-    values = value if isinstance(value, list) else [value]
-    if not values:
+    if not isinstance(value, list):
+        return (one(value),)
+    if not value:
         raise ValueError(f"is an empty list: give at least one {what}")
     found = []
-    for number, item in enumerate(values):
+    for number, item in enumerate(value):
         try:
             found.append(one(item))
         except ValueError as error:
-            where = f"entry {number} is {item}: " if isinstance(value, list) else ""
-            raise ValueError(f"{where}{error}") from None
+            shown = "" if isinstance(item, dict | list) else f" is {short(item)}"
+            raise ValueError(f"entry {number}{shown}: {error}") from None
     return tuple(found)
 
 
 def _cost(value: Any) -> tuple[Fraction, ...]:
+    if isinstance(value, dict):
+        raise ValueError("must be a number, or a list to draw from, such as [0.3, 0.5]")
     return _several(value, "execution time", above_zero)
 
 
@@ -54,16 +59,26 @@ def _delays(value: Any) -> Sequence[int]:
     try:
         between = _Range.model_validate(value)
     except ValidationError as error:
-        raise ValueError(f"{{ least = ..., most = ... }} in whole steps: {problems(error, model=_Range)}") from None
+        raise ValueError(f"{{ least = ..., most = ... }} in whole steps: {problems(error, _Range)}") from None
     if between.least > between.most:
         raise ValueError(f"least = {between.least} is above most = {between.most}: exchange them")
     return range(between.least, between.most + 1)
 
 
-def _file(value: Any) -> Any:
-    if value == "":
+def _file(value: Any, what: str) -> str:
+    if not isinstance(value, str):
+        raise ValueError(f"must be the path of a file, {what}")
+    if not value:
         raise ValueError("the name is empty: give the path of a TOML file, or delete the key")
     return value
+
+
+def _cost_file(value: Any) -> str:
+    return _file(value, 'costs = "costs.toml"; what a part costs is `cost` of [predictor] and of each [[sensor]]')
+
+
+def _processor(value: Any) -> str:
+    return _file(value, f"or one of {', '.join(shipped_processors())}")
 
 
 def _late(value: Any) -> Any:
@@ -126,8 +141,8 @@ class _ScenarioFile(_Entry):
     late: Annotated[Late, BeforeValidator(_late)] = "recalculate"
     hr_hz: Positive | None = None
     speed: Positive | None = None
-    costs: Annotated[str | None, BeforeValidator(_file)] = None
-    processor: Annotated[str | None, BeforeValidator(_file)] = None
+    costs: Annotated[str | None, BeforeValidator(_cost_file)] = None
+    processor: Annotated[str | None, BeforeValidator(_processor)] = None
     times_slower: Positive | None = None
     context_switch: Number = Fraction(0)
     cpus: Annotated[Literal[1, 2], BeforeValidator(whole)] = 1
@@ -178,7 +193,7 @@ def read_scenario(path: Path) -> Scenario:
         checked = _ScenarioFile.model_validate(document)
         return _scenario(checked, path.parent)
     except ValidationError as error:
-        raise InputError(f"{what}: {problems(error, document, _ScenarioFile)}") from None
+        raise InputError(f"{what}: {problems(error, _ScenarioFile, document)}") from None
     except InputError as error:
         raise InputError(f"{what}: {error}") from None
 

@@ -12,8 +12,9 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 from sched_sim.bounds import MOST_TASKS
 from sched_sim.errors import InputError
 from sched_sim.tasks import Task
-from sched_sim.toml_file import problems, read_toml
+from sched_sim.toml_file import read_toml
 from sched_sim.toml_numbers import Number, Positive, Whole
+from sched_sim.toml_problems import problems
 
 
 class TaskEntry(BaseModel):
@@ -39,7 +40,7 @@ def read_tasks(path: Path) -> list[Task]:
     try:
         tasks = [Task(**dict(entry)) for entry in _TaskFile.model_validate(document).task]
     except ValidationError as error:
-        wrong = problems(error, model=_TaskFile)
+        wrong = problems(error, _TaskFile)
         raise InputError(
             f"--tasks {str(path)!r}: {wrong}; each [[task]] has name, period and offset in HR periods, cost "
             f"in the unit of the cost table, and priority (smaller is more urgent; HR jobs 10, LR jobs 20)"

@@ -12,11 +12,11 @@ from pydantic import BaseModel
 
 def table_at(model: type[BaseModel], path: Sequence[int | str]) -> type[BaseModel] | None:
     """The model of the table at this place of a document of `model`; None if that is not a table with known keys."""
-    at: Any = model
-    for part in path:
-        if not str(part).startswith("function-"):
-            at = _within(at, part)
-    return _model(at)
+    return _model(_type_at(model, path))
+
+
+def is_text_at(model: type[BaseModel], path: Sequence[int | str]) -> bool:
+    return str in _choices(_type_at(model, path))
 
 
 def keys_of(table: type[BaseModel]) -> list[str]:
@@ -39,6 +39,13 @@ def no_such_key(key: str, table: type[BaseModel]) -> str:
 def entries_at(model: type[BaseModel], path: Sequence[int | str]) -> type[BaseModel] | None:
     """The model of each entry where the document has a list of tables, [[key]]; None if it has none there."""
     return table_at(model, [*path, 0]) if table_at(model, path) is None else None
+
+
+def _type_at(model: type[BaseModel], path: Sequence[int | str]) -> Any:
+    at: Any = model
+    for part in path:
+        at = _within(at, part)
+    return at
 
 
 def _within(annotation: Any, part: int | str) -> Any:

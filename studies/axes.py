@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from decimal import Decimal
 from fractions import Fraction
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from sched_sim.bounds import check_whole, short
 from sched_sim.errors import InputError
@@ -55,6 +55,8 @@ def words(given: Scalar | Sequence[Scalar], what: str, known: Sequence[str]) -> 
     Raises InputError for a name that is not `known`, and where there is none.
     """
     items = given if isinstance(given, list | tuple) else [given]
+    if any(isinstance(item, dict | list) for item in items):
+        raise InputError(f"{what} must be text, or a list of it: choose from {', '.join(known)}")
     found = {part.strip() for item in items for part in str(item).split(",")}
     if not found:
         raise InputError(f"{what} is empty: give at least one of {', '.join(known)}")
@@ -64,9 +66,11 @@ def words(given: Scalar | Sequence[Scalar], what: str, known: Sequence[str]) -> 
 
 
 def _values(given: Scalar | Sequence[Scalar], what: str, value: Callable[[str], Value]) -> tuple[Value, ...]:
-    items: Iterable[Scalar] = given if isinstance(given, Sequence) and not isinstance(given, str) else [given]
+    items: Sequence[Any] = given if isinstance(given, Sequence) and not isinstance(given, str) else [given]
     found: set[Value] = set()
     for item in items:
+        if isinstance(item, dict | list):
+            raise InputError(f"{what} must be a number or a list of them, such as 5, 1,2,5 or 10:100:10")
         if isinstance(item, bool):
             raise InputError(f"{what} {item!r}: give numbers, such as 5, 1,2,5 or 10:100:10")
         if isinstance(item, Decimal):

@@ -17,7 +17,8 @@ from sched_sim.options import Gain, LowRateNoise, Options
 from sched_sim.processor import load_processor, on_processor, shipped_processors
 from sched_sim.task_file import read_tasks
 from sched_sim.timing import Feedback
-from sched_sim.toml_file import problems, read_toml
+from sched_sim.toml_file import read_toml
+from sched_sim.toml_problems import problems
 from studies.axes import numbers, whole_numbers, words
 from studies.grid import Grid
 from studies.sweep import Sweep
@@ -187,7 +188,5 @@ def _validated(given: Mapping[str, Any], kind: Literal["flags", "file"], prefix:
         return Settings.model_validate(given, context=kind)
     except ValidationError as error:
         if kind == "file":
-            unknown = any(item["type"] == "extra_forbidden" for item in error.errors())
-            keys = f"; the keys are {', '.join(Settings.model_fields)}" if unknown else ""
-            raise InputError(prefix + problems(error) + keys) from None
+            raise InputError(prefix + problems(error, Settings)) from None
         raise InputError("; ".join(item["msg"].removeprefix("Value error, ") for item in error.errors())) from None

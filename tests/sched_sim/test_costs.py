@@ -88,10 +88,10 @@ def test_normalised_costs_have_the_standard_step_as_unit() -> None:
         ("0.21", "inf", ["costs.larsen.propagate", "Infinity"]),
         ("0.21", '"fast"', ["costs.larsen.propagate", "fast", "number"]),
         ("0.21", "true", ["costs.larsen.propagate", "True"]),
-        ("median = 0.41, ", "", ["costs.larsen.update.median", "required"]),
+        ("median = 0.41, ", "", ["costs.larsen.update.median: is missing: write `median = ...`"]),
         ("update =", "updat =", ["costs.larsen", "updat", "propagate_accumulate"]),
         ("costs.larsen", "costs.larson", ["larson", "larsen", "dual-rate"]),
-        ('unit = "ms"', "", ["unit", "required"]),
+        ('unit = "ms"', "", ['unit: is missing: write `unit = "..."`']),
         ("[costs.larsen]", "[costs.larsen", ["not valid TOML"]),
     ],
 )

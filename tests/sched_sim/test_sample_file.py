@@ -65,7 +65,7 @@ def test_counts_alone_are_one_sample_of_their_arithmetic(tmp_path: Path) -> None
     ("wrong", "said"),
     [
         ("predict = [1.21e-6, -1]", r"samples\.predict\.1: .*greater than 0"),
-        ("predict = []", r"samples\.predict: .*at least 1"),
+        ("predict = []", r"samples\.predict: .*at least one"),
         ("predict = 3", r"samples\.predict: .*list"),
         ("predikt = [1]", r"samples\.predikt: .*not permitted"),
         ('predict = ["fast"]', r"samples\.predict\.0: .*fast"),

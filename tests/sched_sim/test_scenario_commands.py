@@ -256,7 +256,7 @@ def test_each_of_two_processors_has_a_busy_share(sched_sim: Run, tmp_path: Path)
     [
         (("every = 10", "every = 0"), ["sensor 'gps'", "every 0 must be at least 1"]),
         (("every = 10", "every = 1.5"), ["sensor 'gps'.every", "whole number", "1.5"]),
-        (("every = 10\n", ""), ["sensor 'gps'.every", "required"]),
+        (("every = 10\n", ""), ["sensor 'gps'.every: is missing: write `every = ...`"]),
         (("every = 10", "every = 10\ndropout = 1.5"), ["sensor 'gps'", "dropout 1.5", "from 0 to 1"]),
         (("delay = 2", "delay = -2"), ["sensor 'gps'", "delay -2", "0 or more"]),
         (("delay = 2", "delay = []"), ["sensor 'gps'.delay", "empty"]),
@@ -281,7 +281,7 @@ def test_each_of_two_processors_has_a_busy_share(sched_sim: Run, tmp_path: Path)
         (("[predictor]", "[predictor]\ncosts = 3"), ["predictor.costs", "did you mean cost?", "are priority, cost"]),
         (
             ("steps = 40", "step = 40"),
-            ["step: this key is not permitted; did you mean steps?", "steps: Field required"],
+            ["step: this key is not permitted; did you mean steps?", "steps: is missing: write `steps = ...`"],
         ),
         (("[[sensor]]", "[sensor]"), ["sensor: this is one table", "write [[sensor]], in two pairs of brackets"]),
         ((SHORT[SHORT.index("[[sensor]]") :], ""), ["sensor: there is none", "[[sensor]], with name and every"]),
@@ -296,6 +296,23 @@ def test_each_of_two_processors_has_a_busy_share(sched_sim: Run, tmp_path: Path)
         (("[[sensor]]", '[[sensor]]\nname = "gps"\nevery = 3\n[[sensor]]'), ["sensor 'gps'", "2 times", "own name"]),
         (("[predictor]", '[predictor]\npriority = "high"'), ["predictor.priority", "high"]),
         (("[predictor]", "[predictor]\ncost = []"), ["predictor.cost", "empty"]),
+        (
+            ("[predictor]", "[predictor]\ncost = { minimum = 1, median = 2, p95 = 3 }"),
+            ["predictor.cost: must be a number, or a list to draw from, such as [0.3, 0.5]"],
+        ),
+        (
+            ("[predictor]", "predictor = 1"),
+            ["predictor: must be a table: write [predictor], which may have priority, cost (given: 1)"],
+        ),
+        (("[predictor]", "[[predictor]]"), ["predictor: this is a list", "write [predictor], in one pair of brackets"]),
+        (
+            (SHORT[SHORT.index("[predictor]") :], "sensor = [1, 2]"),
+            ["sensor.0: must be a table: write [[sensor]] for each, with name and every (given: 1)", "sensor.1"],
+        ),
+        (('costs = "costs.toml"', "costs = 0.3"), ["costs: must be the path", "`cost` of [predictor]", "(given: 0.3)"]),
+        (('costs = "costs.toml"', "[costs]\npredict = 1"), ["costs: must be the path of a file"]),
+        (('costs = "costs.toml"', 'processor = ""'), ["processor: the name is empty: give the path"]),
+        (('costs = "costs.toml"', "processor = 7"), ["processor: must be the path of a file, or one of "]),
         (("speed = 10", ""), ["neither is given of hr_hz and speed"]),
         (("speed = 10", "speed = 10\nhr_hz = 400"), ["both are given of hr_hz and speed"]),
         (("speed = 10", "speed = 0"), ["speed", "greater than 0"]),
