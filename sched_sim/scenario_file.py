@@ -122,6 +122,14 @@ class _Sensor(_Entry):
             raise ValueError(str(error).removeprefix(f"sensor {self.name!r}: ")) from None
         return self
 
+    @property
+    def first(self) -> str:
+        """The earliest step in which one arrives, as the subject of a sentence."""
+        least = ends(self.delay)[0]
+        if self.offset and least:
+            return f"offset {self.offset} and the least delay {least} together are"
+        return f"the offset {self.offset} is" if self.offset else f"the least delay {least} is"
+
     def sensor(self) -> Sensor:
         return Sensor(
             name=self.name,
@@ -170,10 +178,9 @@ class _ScenarioFile(_Entry):
     @model_validator(mode="after")
     def _something_arrives(self) -> Self:
         too_late = [
-            f"sensor {sensor.name!r}: the least delay {ends(sensor.delay)[0]} is not less than steps = {self.steps}: "
-            f"none arrives; give more steps"
+            f"sensor {sensor.name!r}: {sensor.first} not less than steps = {self.steps}: none arrives; give more steps"
             for sensor in self.sensor
-            if ends(sensor.delay)[0] >= self.steps > 0
+            if sensor.offset + ends(sensor.delay)[0] >= self.steps > 0
         ]
         if too_late:
             raise ValueError("; ".join(too_late))

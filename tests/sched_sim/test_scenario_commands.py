@@ -270,6 +270,11 @@ def test_each_of_two_processors_has_a_busy_share(sched_sim: Run, tmp_path: Path)
         ),
         (("delay = 2", "delay = { least = 0, most = 10000000000 }"), ["sensor 'gps'", "delay 10000000000 is above"]),
         (("delay = 2", "delay = [50, 40]"), ["sensor 'gps': the least delay 40", "steps = 40", "none arrives"]),
+        (("delay = 2", "offset = 40"), ["sensor 'gps': the offset 40 is not less than steps = 40: none arrives; give"]),
+        (
+            ("delay = 2", "offset = 30\ndelay = [20, 10]"),
+            ["sensor 'gps': offset 30 and the least delay 10 together are not less than steps = 40: none arrives"],
+        ),
         (("delay = 2", "delay = 2\nland_by = 1"), ["sensor 'gps'", "land_by 1", "least delay 2"]),
         (("delay = 2", "delay = 2\ncost = 0"), ["sensor 'gps'.cost", "greater than 0"]),
         (("delay = 2", "delay = 2\ncost = [1, -1]"), ["sensor 'gps'.cost", "entry 1", "-1"]),
