@@ -8,7 +8,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self, get_args
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, ValidationError, model_validator
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, model_validator
 
 from sched_sim.bounds import short
 from sched_sim.errors import InputError
@@ -155,7 +155,7 @@ class _ScenarioFile(_Entry):
     context_switch: Number = Fraction(0)
     cpus: Annotated[Literal[1, 2], BeforeValidator(whole)] = 1
     predictor: _Predictor = _Predictor()
-    sensor: list[_Sensor]
+    sensor: Annotated[list[_Sensor], Field(min_length=1)]
     task: list[TaskEntry] = []
 
     @model_validator(mode="after")

@@ -6,8 +6,9 @@ from collections import Counter
 from collections.abc import Sequence
 from fractions import Fraction
 from pathlib import Path
+from typing import Annotated
 
-from pydantic import BaseModel, ConfigDict, ValidationError
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from sched_sim.bounds import MOST_TASKS
 from sched_sim.errors import InputError
@@ -31,7 +32,7 @@ class TaskEntry(BaseModel):
 
 class _TaskFile(BaseModel):
     model_config = ConfigDict(extra="forbid")
-    task: list[TaskEntry]
+    task: Annotated[list[TaskEntry], Field(min_length=1)]
 
 
 def read_tasks(path: Path) -> list[Task]:

@@ -290,6 +290,10 @@ def test_each_of_two_processors_has_a_busy_share(sched_sim: Run, tmp_path: Path)
         ),
         (("[[sensor]]", "[sensor]"), ["sensor: this is one table", "write [[sensor]], in two pairs of brackets"]),
         ((SHORT[SHORT.index("[[sensor]]") :], ""), ["sensor: there is none", "[[sensor]], with name and every"]),
+        (
+            (SHORT[SHORT.index("[predictor]") :], "sensor = []"),
+            ["sensor: there is none: give at least one [[sensor]], with name and every"],
+        ),
         ((SHORT[SHORT.index("[[sensor]]") :], "sensor = 3"), ["predictor.sensor: this key is not permitted"]),
         (("priority = 10\n", "[task]"), ["task: this is one table", "write [[task]], in two pairs of brackets"]),
         (('name = "short"', 'name = ""'), ["the name is empty"]),

@@ -124,6 +124,12 @@ def test_no_message_speaks_of_what_is_inside_the_program(kind: str, tmp_path: Pa
     assert refused > 30
 
 
+@pytest.mark.parametrize("text", ["", "task = []"])
+def test_a_file_of_no_tasks_is_refused_either_way(text: str, tmp_path: Path) -> None:
+    (tmp_path / "t.toml").write_text(text)
+    assert "task: there is none: give at least one [[task]], with name and" in refusal(read_tasks, tmp_path / "t.toml")
+
+
 def refusal(read: Read, path: Path) -> str:
     try:
         read(path)
