@@ -30,6 +30,8 @@ MOST_STATES = 200
 """Of a system that is measured; inputs and measurements too. Its operations grow with the third power."""
 MOST_TASKS = 1_000
 """Of the user's, beside the filter."""
+MOST_SENSORS = 100
+"""Of a scenario: each is drawn, and compared with every other."""
 MOST_BYTES = 64_000_000
 """Of an input file."""
 MOST_SHOWN = 60

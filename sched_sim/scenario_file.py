@@ -10,7 +10,7 @@ from typing import Annotated, Any, Literal, Self, get_args
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, model_validator
 
-from sched_sim.bounds import short
+from sched_sim.bounds import MOST_SENSORS, short
 from sched_sim.errors import InputError
 from sched_sim.jobs import HR, LR
 from sched_sim.processor import load_processor, seconds_for, shipped_processors
@@ -95,6 +95,12 @@ _Cost = Annotated[tuple[Fraction, ...], BeforeValidator(_cost)]
 _Delays = Annotated[Any, BeforeValidator(_delays)]
 
 
+def _not_too_many(sensors: Any) -> Any:
+    if isinstance(sensors, list) and len(sensors) > MOST_SENSORS:
+        raise ValueError(f"there are {len(sensors):,} sensors: give at most {MOST_SENSORS}")
+    return sensors
+
+
 class _Entry(BaseModel):
     model_config = ConfigDict(extra="forbid", arbitrary_types_allowed=True)
 
@@ -155,7 +161,7 @@ class _ScenarioFile(_Entry):
     context_switch: Number = Fraction(0)
     cpus: Annotated[Literal[1, 2], BeforeValidator(whole)] = 1
     predictor: _Predictor = _Predictor()
-    sensor: Annotated[list[_Sensor], Field(min_length=1)]
+    sensor: Annotated[list[_Sensor], Field(min_length=1), BeforeValidator(_not_too_many)]
     task: list[TaskEntry] = []
 
     @model_validator(mode="after")

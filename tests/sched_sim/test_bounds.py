@@ -9,6 +9,7 @@ import pytest
 
 from sched_sim.bounds import short
 from sched_sim.errors import InputError
+from sched_sim.scenario_file import read_scenario
 from sched_sim.ticks import exact
 from tests.command_line import Run, is_refused
 
@@ -113,6 +114,15 @@ def test_more_tasks_than_anyone_has(sched_sim: Run, tmp_path: Path, command: str
     entry = '[[task]]\nname = "t{}"\ncost = 0.001\npriority = 5\nperiod = {}\n'
     (tmp_path / "t.toml").write_text("".join(entry.format(number, number + 1) for number in range(count)))
     is_refused(sched_sim(f"{command} -N 10 -M 4 --tasks t.toml"), said)
+
+
+def test_more_sensors_than_any_filter_has(sched_sim: Run, tmp_path: Path) -> None:
+    head = 'name = "s"\nsteps = 9\nspeed = 1000\n[predictor]\ncost = 1\n'
+    entries = [f'[[sensor]]\nname = "s{number}"\nevery = 3\ncost = 1\n' for number in range(101)]
+    (tmp_path / "s.toml").write_text(head + "".join(entries))
+    is_refused(sched_sim("simulate --scenario s.toml"), ["s.toml", "there are 101 sensors: give at most 100"])
+    (tmp_path / "s.toml").write_text(head + "".join(entries[:100]))
+    assert len(read_scenario(tmp_path / "s.toml").sensors) == 100
 
 
 def test_more_workers_than_any_machine_runs(sched_sim: Run) -> None:
