@@ -3,21 +3,20 @@ decimals, or as quotients in quotes."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self, get_args
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, model_validator
 
-from sched_sim.bounds import MOST_SENSORS, short
+from sched_sim.bounds import MOST_SENSORS, MOST_STEPS, short
 from sched_sim.errors import InputError
 from sched_sim.jobs import HR, LR
 from sched_sim.processor import load_processor, seconds_for, shipped_processors
 from sched_sim.sample_file import SampledCosts, read_sampled_costs
 from sched_sim.scenario import Late, Samples, Scenario, Sensor, ends, needed_parts
 from sched_sim.task_file import TaskEntry, wrong_together
-from sched_sim.tasks import Task
 from sched_sim.toml_file import read_toml
 from sched_sim.toml_numbers import Number, Positive, Whole, above_zero, whole
 from sched_sim.toml_problems import problems
@@ -149,48 +148,49 @@ class _Sensor(_Entry):
 
 
 class _ScenarioFile(_Entry):
-    name: str
-    steps: Whole
-    seed: Whole = 0
+    name: Annotated[str, Field(min_length=1)]
+    steps: Annotated[Whole, Field(ge=1, le=MOST_STEPS)]
+    seed: Annotated[Whole, Field(ge=0)] = 0
     late: Annotated[Late, BeforeValidator(_late)] = "recalculate"
     hr_hz: Positive | None = None
     speed: Positive | None = None
     costs: Annotated[str | None, BeforeValidator(_cost_file)] = None
     processor: Annotated[str | None, BeforeValidator(_processor)] = None
     times_slower: Positive | None = None
-    context_switch: Number = Fraction(0)
+    context_switch: Annotated[Number, Field(ge=0)] = Fraction(0)
     cpus: Annotated[Literal[1, 2], BeforeValidator(whole)] = 1
     predictor: _Predictor = _Predictor()
     sensor: Annotated[list[_Sensor], Field(min_length=1), BeforeValidator(_not_too_many)]
     task: list[TaskEntry] = []
 
     @model_validator(mode="after")
-    def _one_unit(self) -> Self:
+    def _together(self) -> Self:
+        if wrong := [*self._no_unit(), *self._never_arrive()]:
+            raise ValueError("; ".join(wrong))
+        return self
+
+    def _no_unit(self) -> Iterator[str]:
         if (self.hr_hz is None) == (self.speed is None):
             given = "neither is given" if self.speed is None else "both are given"
-            raise ValueError(
+            yield (
                 f"{given} of hr_hz and speed: give hr_hz (steps per second) where costs are in seconds, else speed "
                 f"(cost units per HR period)"
             )
+        elif self.processor and self.hr_hz is None:
+            yield f"processor {self.processor!r} makes seconds of operations: give hr_hz instead of speed"
         if self.costs is None and (self.processor or self.times_slower):
             key = "processor" if self.processor else "times_slower"
-            raise ValueError(f"{key} has no meaning without a costs file: give costs, or delete it")
-        if self.processor and self.times_slower:
-            raise ValueError("times_slower is for measured costs, processor for counted ones: give one of them")
-        if self.processor and self.hr_hz is None:
-            raise ValueError(f"processor {self.processor!r} makes seconds of operations: give hr_hz instead of speed")
-        return self
+            yield f"{key} has no meaning without a costs file: give costs, or delete it"
+        elif self.processor and self.times_slower:
+            yield "times_slower is for measured costs, processor for counted ones: give one of them"
 
-    @model_validator(mode="after")
-    def _something_arrives(self) -> Self:
-        too_late = [
-            f"sensor {sensor.name!r}: {sensor.first} not less than steps = {self.steps}: none arrives; give more steps"
-            for sensor in self.sensor
-            if sensor.offset + ends(sensor.delay)[0] >= self.steps > 0
-        ]
-        if too_late:
-            raise ValueError("; ".join(too_late))
-        return self
+    def _never_arrive(self) -> Iterator[str]:
+        for sensor in self.sensor:
+            if sensor.offset + ends(sensor.delay)[0] >= self.steps:
+                yield (
+                    f"sensor {sensor.name!r}: {sensor.first} not less than steps = {self.steps}: none arrives; give "
+                    f"more steps"
+                )
 
 
 def read_scenario(path: Path) -> Scenario:
@@ -212,7 +212,7 @@ def read_scenario(path: Path) -> Scenario:
 
 
 def _scenario(checked: _ScenarioFile, folder: Path) -> Scenario:
-    tasks = [Task(**dict(entry)) for entry in checked.task]
+    tasks = [entry.task() for entry in checked.task]
     if wrong := wrong_together(tasks):
         raise InputError("; ".join(wrong))
     stated = {f"correct.{sensor.name}": sensor.cost for sensor in checked.sensor if sensor.cost is not None}

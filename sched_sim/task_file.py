@@ -6,9 +6,9 @@ from collections import Counter
 from collections.abc import Sequence
 from fractions import Fraction
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Self
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
 from sched_sim.bounds import MOST_TASKS
 from sched_sim.errors import InputError
@@ -29,6 +29,17 @@ class TaskEntry(BaseModel):
     offset: Number = Fraction(0)
     cpu: Whole = 1
 
+    @model_validator(mode="after")
+    def _possible(self) -> Self:
+        try:
+            self.task()
+        except InputError as error:
+            raise ValueError(str(error).removeprefix(f"task {self.name!r}: ")) from None
+        return self
+
+    def task(self) -> Task:
+        return Task(**dict(self))
+
 
 class _TaskFile(BaseModel):
     model_config = ConfigDict(extra="forbid")
@@ -39,15 +50,13 @@ def read_tasks(path: Path) -> list[Task]:
     """The tasks in `path`; raises InputError that lists every wrong entry with its value."""
     document = read_toml(path, f"--tasks {str(path)!r}", "give the path of a TOML file with [[task]] entries")
     try:
-        tasks = [Task(**dict(entry)) for entry in _TaskFile.model_validate(document).task]
+        tasks = [entry.task() for entry in _TaskFile.model_validate(document).task]
     except ValidationError as error:
-        wrong = problems(error, _TaskFile)
+        wrong = problems(error, _TaskFile, document)
         raise InputError(
             f"--tasks {str(path)!r}: {wrong}; each [[task]] has name, period and offset in HR periods, cost "
             f"in the unit of the cost table, and priority (smaller is more urgent; HR jobs 10, LR jobs 20)"
         ) from None
-    except InputError as error:
-        raise InputError(f"--tasks {str(path)!r}: {error}") from None
     if together := wrong_together(tasks):
         raise InputError(f"--tasks {str(path)!r}: {'; '.join(together)}")
     return tasks

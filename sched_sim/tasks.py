@@ -18,6 +18,7 @@ class Task:
     period, offset: in HR periods; cost: in the unit of the cost table;
     priority: smaller is more urgent; the filter's HR jobs run at 10, its LR jobs at 20;
     cpu: 1 or 2, where there are two.
+    Raises InputError that names the task and lists all that is wrong with it.
     """
 
     name: str
@@ -28,14 +29,17 @@ class Task:
     cpu: int = 1
 
     def __post_init__(self) -> None:
+        wrong = []
         if self.period <= 0:
-            raise InputError(f"task {self.name!r}: period {self.period} must be greater than 0 HR periods")
+            wrong.append(f"period {self.period} must be greater than 0 HR periods")
         if self.cost <= 0:
-            raise InputError(f"task {self.name!r}: cost {self.cost} must be greater than 0")
+            wrong.append(f"cost {self.cost} must be greater than 0")
         if self.offset < 0:
-            raise InputError(f"task {self.name!r}: offset {self.offset} must be 0 or more HR periods")
+            wrong.append(f"offset {self.offset} must be 0 or more HR periods")
         if self.cpu not in (1, 2):
-            raise InputError(f"task {self.name!r}: cpu {self.cpu} must be 1 or 2")
+            wrong.append(f"cpu {self.cpu} must be 1 or 2")
+        if wrong:
+            raise InputError(f"task {self.name!r}: {'; '.join(wrong)}")
 
 
 def check_cpus(tasks: Sequence[Task], cpus: int) -> None:

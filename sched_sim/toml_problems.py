@@ -57,10 +57,12 @@ def _message(item: ErrorDetails, path: At, model: type[BaseModel]) -> str:
             return "must be a whole number"
         case "bool_type":
             return "must be true or false"
+        case "string_too_short":
+            return f'is empty: write {path[-1]} = "..."'
         case "greater_than_equal":
-            return f"must be at least {limits['ge']}"
+            return f"must be at least {limits['ge']:,}"
         case "less_than_equal":
-            return f"must be at most {limits['le']}"
+            return f"must be at most {limits['le']:,}"
         case "literal_error":
             return f"choose {limits['expected']}"
     return item["msg"].removeprefix("Value error, ")

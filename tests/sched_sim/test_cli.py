@@ -177,7 +177,7 @@ def test_help_and_version(sched_sim: Run) -> None:
         ("minimum -N 10 -M 4 --cpus 3", ["--cpus", "3"]),
         ("minimum -N 10 -M 4 --format xml", ["--format", "xml"]),
         ("minimum -N 10 -M 4 --tasks none.toml", ["--tasks", "none.toml"]),
-        ("minimum -N 10 -M 4 --tasks bad-tasks.toml", ["bad-tasks.toml", "task.0.period", "-2"]),
+        ("minimum -N 10 -M 4 --tasks bad-tasks.toml", ["bad-tasks.toml", "task 't'.period", "(given: -2)"]),
         ("simulate -N 10 -M 4 --speed 0", ["--speed", "0", "greater than 0"]),
         ("simulate -N 10 -M 4 --speed fast", ["--speed", "fast", "0.78"]),
         ("simulate -N 10 -M 4 --cycles 0", ["--cycles", "0"]),

@@ -296,10 +296,10 @@ def test_each_of_two_processors_has_a_busy_share(sched_sim: Run, tmp_path: Path)
         ),
         ((SHORT[SHORT.index("[[sensor]]") :], "sensor = 3"), ["predictor.sensor: this key is not permitted"]),
         (("priority = 10\n", "[task]"), ["task: this is one table", "write [[task]], in two pairs of brackets"]),
-        (('name = "short"', 'name = ""'), ["the name is empty"]),
+        (('name = "short"', 'name = ""'), ['name: is empty: write name = "..."']),
         (("steps = 40", 'steps = "40"'), ["steps: must be a whole number", '"40", which is text: write 40, without']),
         (("speed = 10", 'speed = "1.5"'), ['speed: must be a number (given: "1.5", which is text: write 1.5, without']),
-        (("steps = 40", "steps = 99999999999"), ["steps 99999999999 is above 10,000,000"]),
+        (("steps = 40", "steps = 99999999999"), ["steps: must be at most 10,000,000 (given: 99999999999)"]),
         (('name = "gps"', 'name = ""'), ["sensor", "name is empty"]),
         (('name = "gps"', 'name = "radar"'), ["no costs of correct.radar", "give sensor 'radar' a cost"]),
         (("[[sensor]]", '[[sensor]]\nname = "gps"\nevery = 3\n[[sensor]]'), ["sensor 'gps'", "2 times", "own name"]),
@@ -332,11 +332,11 @@ def test_each_of_two_processors_has_a_busy_share(sched_sim: Run, tmp_path: Path)
         (('costs = "costs.toml"', "times_slower = 2"), ["times_slower", "without a costs file"]),
         (('costs = "costs.toml"', 'costs = "none.toml"'), ["none.toml", "not found", "measure --filter"]),
         (('costs = "costs.toml"', ""), ["no costs of predict", "give [predictor] a cost"]),
-        (("steps = 40", "steps = 0"), ["steps 0", "at least 1"]),
-        (("steps = 40", "steps = 40\nseed = -1"), ["seed -1", "0 or more"]),
+        (("steps = 40", "steps = 0"), ["steps: must be at least 1 (given: 0)"]),
+        (("steps = 40", "steps = 40\nseed = -1"), ["seed: must be at least 0 (given: -1)"]),
         (("steps = 40", "steps = 40\ncpus = 3"), ["cpus", "1 or 2"]),
         (("steps = 40", "steps = 40\ncpus = true"), ["cpus: must be a whole number"]),
-        (("steps = 40", "steps = 40\ncontext_switch = -1"), ["context_switch -1", "0 or more"]),
+        (("steps = 40", "steps = 40\ncontext_switch = -1"), ["context_switch: must be at least 0 (given: -1)"]),
         (("steps = 40", 'steps = 40\nlate = "newest"'), ["late", "'recalculate' or 'larsen'", "newest"]),
         (
             ("steps = 40", 'steps = 40\nlate = "dual-rate"'),
@@ -371,6 +371,33 @@ def test_every_wrong_entry_is_listed(sched_sim: Run, tmp_path: Path) -> None:
         tmp_path, SHORT.replace("delay = 2", "delay = -2\ndropout = 2").replace("steps = 40", "steps = 4.5\nseeds = 1")
     )
     said = ["steps: must be a whole number (given: 4.5)", "seeds", "dropout 2 must be", "delay -2 must be"]
+    is_refused(sched_sim("simulate --scenario s.toml"), said)
+
+
+def test_entries_out_of_bounds_are_listed_with_those_that_cannot_be_read(sched_sim: Run, tmp_path: Path) -> None:
+    task = '[[task]]\nname = "t"\nperiod = 2\ncost = 1\npriority = 5\noffset = -1\ncpu = 3\n'
+    wrong = SHORT.replace("every = 10", "every = 0").replace("steps = 40", "steps = -1\nseed = -3\ncontext_switch = -1")
+    write(tmp_path, wrong.replace('"short"', '""') + task)
+    said = [
+        "name: is empty",
+        "steps: must be at least 1",
+        "seed: must be at least 0",
+        "context_switch: must be at least 0",
+    ]
+    said += ["sensor 'gps': every 0 must", "task 't': offset -1 must be 0 or more HR periods; cpu 3 must be 1 or 2"]
+    is_refused(sched_sim("simulate --scenario s.toml"), said)
+
+
+def test_all_that_does_not_go_together_is_listed(sched_sim: Run, tmp_path: Path) -> None:
+    write(
+        tmp_path,
+        SHORT.replace("speed = 10", "times_slower = 2\nprocessor = 'leon3'").replace("delay = 2", "delay = 40"),
+    )
+    said = [
+        "neither is given of hr_hz and speed",
+        "times_slower is for measured costs",
+        "the least delay 40 is not less",
+    ]
     is_refused(sched_sim("simulate --scenario s.toml"), said)
 
 
