@@ -27,22 +27,22 @@ def image(figure: Figure, kind: str) -> bytes:
     return buffer.getvalue()
 
 
-def check_picture(path: Path) -> str:
-    """The format that the suffix of `path` names. Raises InputError for another one, and for a path that cannot be
-    written: to be called before the work that makes the picture."""
+def check_picture(path: Path, what: str = "picture") -> str:
+    """The format that the suffix of `path` names. what: the option that the path is for. Raises InputError for another
+    suffix, and for a path that cannot be written: to be called before the work that makes the picture."""
     kind = path.suffix.lower().removeprefix(".")
     if kind not in METADATA:
         raise InputError(
-            f"picture {str(path)!r}: suffix {path.suffix!r} is no picture format; end the name in .svg, .pdf or .png"
+            f"{what} {str(path)!r}: suffix {path.suffix!r} is no picture format; end the name in .svg, .pdf or .png"
         )
-    check_writable(path, "picture")
+    check_writable(path, what)
     return kind
 
 
-def save(figure: Figure, path: str | Path) -> None:
-    """Write the figure to `path`, in the format that its suffix names.
+def save(figure: Figure, path: str | Path, what: str = "picture") -> None:
+    """Write the figure to `path`, in the format that its suffix names. what: the option that the path is for.
 
     Raises InputError for another suffix and for a path that cannot be written.
     """
     path = Path(path)
-    write(path, image(figure, check_picture(path)), "picture")
+    write(path, image(figure, check_picture(path, what)), what)

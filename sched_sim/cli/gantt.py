@@ -54,7 +54,7 @@ def gantt(
     from sched_sim.costs import select
     from sched_sim.least_speed import least_speed
 
-    check_picture(output)
+    check_picture(output, "--output")
     inputs = [("--costs", costs), ("--processor", processor), ("--tasks", tasks)]
     refuse_one_file_for_two([("--output", output)], inputs)
     options = opt.make_options(lr_propagate_by, feedback, gain, low_rate_noise, cpus, context_switch)
@@ -66,7 +66,7 @@ def gantt(
         work = select(table, name, options, statistic)
         pace = opt.pace(speed, rate, part, partial(least_speed, work, timing, options, others))
         panels.append(method_panel(table, name, timing, pace, cycles, options, others, statistic=statistic))
-    save(draw(panels), output)
+    save(draw(panels), output, "--output")
     say(f"Wrote {output}")
 
 

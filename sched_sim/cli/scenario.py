@@ -29,12 +29,12 @@ def simulate_scenario(
     from sched_sim.scenario_run import run_scenario
     from sched_sim.trace import check_trace, open_trace
 
-    pictures = [picture for picture in (gantt, histogram) if picture is not None]
-    if pictures:
+    if gantt is not None or histogram is not None:
         from reports.picture import check_picture
 
-        for picture in pictures:
-            check_picture(picture)
+        for option, picture in (("--gantt", gantt), ("--histogram", histogram)):
+            if picture is not None:
+                check_picture(picture, option)
     for trace in traces:
         check_trace(trace)
     scenario = read_scenario(path)
@@ -56,13 +56,13 @@ def simulate_scenario(
         from reports.distributions import distributions_figure
         from reports.picture import save
 
-        save(distributions_figure(scenario, outcome), histogram)
+        save(distributions_figure(scenario, outcome), histogram, "--histogram")
     if gantt is not None:
         from reports.gantt import gantt as draw
         from reports.gantt import save
         from reports.scenario_panel import scenario_panel
 
-        save(draw([scenario_panel(scenario, outcome)]), gantt)
+        save(draw([scenario_panel(scenario, outcome)]), gantt, "--gantt")
     schedule = outcome.schedule
     busy_shares = [float(schedule.utilization)]
     if scenario.cpus > 1:

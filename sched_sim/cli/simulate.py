@@ -119,7 +119,7 @@ def simulate(
     if gantt is not None:
         from reports.picture import check_picture
 
-        check_picture(gantt)
+        check_picture(gantt, "--gantt")
     for path in trace or ():
         check_trace(path)
     options = opt.make_options(lr_propagate_by, feedback, gain, low_rate_noise, cpus, context_switch)
@@ -157,7 +157,8 @@ def simulate(
         from reports.gantt import gantt as draw
         from reports.gantt import method_panel, save
 
-        save(draw([method_panel(table, method, timing, pace, cycles, options, others, statistic=statistic)]), gantt)
+        panel = method_panel(table, method, timing, pace, cycles, options, others, statistic=statistic)
+        save(draw([panel]), gantt, "--gantt")
     if not schedule.misses and (note := unseen(work, timing, pace, cycles, options, others)):
         say(f"Note: {note}")
     response = {kind: _response(figures, schedule.period) for kind, figures in schedule.responses.items()}
