@@ -43,7 +43,7 @@ def read_toml(path: Path, what: str, remedy: str) -> dict[str, Any]:
 
 
 def _read(path: Path, what: str, remedy: str) -> str:
-    """Of a regular file: a device or a pipe may have no end."""
+    """Of a regular file: a device or a pipe may have no end. Some editors begin one with a byte order mark."""
     try:
         about = path.stat()
         if not stat.S_ISREG(about.st_mode):
@@ -52,7 +52,7 @@ def _read(path: Path, what: str, remedy: str) -> str:
         if about.st_size > MOST_BYTES:
             raise InputError(f"{what} has {about.st_size:,} bytes: at most {MOST_BYTES:,} are read; give a smaller one")
         with path.open("rb") as file:
-            return file.read(MOST_BYTES).decode("utf-8")
+            return file.read(MOST_BYTES).decode("utf-8-sig")
     except InputError:
         raise
     except (FileNotFoundError, NotADirectoryError):
