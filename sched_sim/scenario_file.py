@@ -10,7 +10,7 @@ from typing import Annotated, Any, Literal, Self, get_args
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, model_validator
 
-from sched_sim.bounds import MOST_SENSORS, MOST_STEPS, short
+from sched_sim.bounds import MOST_SENSORS, MOST_STEPS, check_simulation, short
 from sched_sim.errors import InputError
 from sched_sim.jobs import HR, LR
 from sched_sim.processor import load_processor, seconds_for, shipped_processors
@@ -215,6 +215,7 @@ def _scenario(checked: _ScenarioFile, folder: Path) -> Scenario:
     tasks = [entry.task() for entry in checked.task]
     if wrong := wrong_together(tasks):
         raise InputError("; ".join(wrong))
+    check_simulation(checked.steps, tasks, f"steps = {checked.steps}")
     stated = {f"correct.{sensor.name}": sensor.cost for sensor in checked.sensor if sensor.cost is not None}
     if checked.predictor.cost is not None:
         stated["predict"] = checked.predictor.cost

@@ -356,6 +356,14 @@ def test_each_of_two_processors_has_a_busy_share(sched_sim: Run, tmp_path: Path)
             ("priority = 10\n", 'priority = 10\n[[task]]\nname = "t"\nperiod = 1\ncost = 1\npriority = 5\ncpu = 2'),
             ["cpus = 2"],
         ),
+        (
+            ("priority = 10\n", 'priority = 10\n[[task]]\nname = "t"\nperiod = 1e-10\ncost = 1\npriority = 5'),
+            [
+                "--scenario 's.toml': steps = 40 release 400000000040 jobs",
+                "task 't' with period 1e-10",
+                "check its period",
+            ],
+        ),
         (("steps = 40", "steps ="), ["s.toml", "not valid TOML"]),
     ],
 )
