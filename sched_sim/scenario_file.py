@@ -221,10 +221,16 @@ def _scenario(checked: _ScenarioFile, folder: Path) -> Scenario:
         stated["predict"] = checked.predictor.cost
     costs: dict[str, Sequence[Fraction]] = {}
     sensors, harness = [sensor.sensor() for sensor in checked.sensor], False
+    needed = needed_parts(sensors, checked.late)
+    if unused := [part.partition(".")[2] for part in stated if part not in needed]:
+        raise InputError(
+            f'the cost of sensor {", ".join(unused)} has no meaning with late = "larsen": its late corrections are '
+            f"another part, whose costs are under [samples.correct_late] of a costs file; delete the cost"
+        )
     if checked.costs is not None:
         sampled = read_sampled_costs(folder / checked.costs)
         costs |= _from_file(sampled, checked, folder)
-        harness = sampled.harness and not set(needed_parts(sensors, checked.late)) <= set(stated)
+        harness = sampled.harness and not set(needed) <= set(stated)
     costs |= stated
     speed = checked.speed if checked.hr_hz is None else 1 / checked.hr_hz
     assert speed is not None  # see _one_unit

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from sched_sim.composed import correct_kind
+from sched_sim.shares import percent
 
 if TYPE_CHECKING:
     from sched_sim.scenario import Scenario, Sensor
@@ -42,7 +43,7 @@ def _overload(scenario: Scenario, outcome: Outcome, busy: Sequence[float]) -> It
         elif share > SATURATED:
             besides = " and ".join(_besides(scenario, cpu))
             comes = f", and besides comes {besides}" if besides else ""
-            yield f"{which} is busy {share:.1%} of the time: demand is {demand:.1%}{comes}"
+            yield f"{which} is busy {percent(share)} of the time: demand is {demand:.1%}{comes}"
 
 
 def _besides(scenario: Scenario, cpu: int) -> Iterator[str]:

@@ -155,12 +155,14 @@ def test_no_probability_of_a_miss_from_samples_of_measure_filter(
 
 def test_what_larsen_lacks_is_written_as_the_message_says(sched_sim: Run, tmp_path: Path) -> None:
     stated = SHORT.replace('costs = "costs.toml"', 'late = "larsen"').replace("[predictor]", "[predictor]\ncost = 3")
-    (tmp_path / "s.toml").write_text(f"{stated}cost = 3\n")
+    (tmp_path / "s.toml").write_text(stated)
     (entries,) = re.findall(r"write there (\[.*), beside", sched_sim("simulate --scenario s.toml").err)
     samples = entries.replace(" and ", "\n").replace("] ", "]\n").replace("...", "4")
     (tmp_path / "costs.toml").write_text(f'name = "c"\nunit = "ms"\n{samples}\n')
-    (tmp_path / "s.toml").write_text(f'costs = "costs.toml"\n{stated}cost = 3\n')
+    (tmp_path / "s.toml").write_text(f'costs = "costs.toml"\n{stated}')
     assert sched_sim("simulate --scenario s.toml").code == 0
+    (tmp_path / "s.toml").write_text(f'costs = "costs.toml"\n{stated}cost = 3\n')
+    assert "the cost of sensor gps has no meaning with late = " in sched_sim("simulate --scenario s.toml").err
 
 
 def test_larsen_in_overload(sched_sim: Run, tmp_path: Path) -> None:
