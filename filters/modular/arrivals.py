@@ -86,7 +86,7 @@ def arrivals(
     old = arrives - taken > history
     _refuse(found, (taken < 0) | (taken > arrives), "it must be taken in step 0 or later, and before it arrives")
     if too_old == "refuse":
-        _refuse(found, old, f"the history goes back {history} steps: give a longer history=, or too_old='drop'")
+        _refuse(found, old & here, f"the history goes back {history} steps: give a longer history=, or too_old='drop'")
     dropped = tuple(found[row] for row in np.flatnonzero(old & here))
     return chosen(Arrivals(sensor, taken, arrives, y, lost), here & ~old), dropped
 

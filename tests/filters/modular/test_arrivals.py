@@ -242,6 +242,18 @@ def test_dual_rate_drops_what_comes_when_the_correction_has_landed() -> None:
 
 
 @pytest.mark.parametrize("late", WAYS)
+@pytest.mark.parametrize("arrives", [STEPS + 1, 99])
+def test_what_arrives_after_the_last_step_is_left_out_however_old_it_is(late: Late, arrives: int) -> None:
+    sensor = sensor_of("linear", [0, 1, 2])
+    good, never = taken([0.4, -0.2, 0.9]), Measurement("s", 4, arrives, [7.0, 7.0, 7.0])
+    found = history([sensor], [*good, never], late)
+    np.testing.assert_array_equal(found.x, history([sensor], good, late).x)
+    assert found.dropped == ()
+    composed = ModularFilter(linear_predictor(cases.F, cases.Q), [sensor])
+    assert len(run(composed, X0, P0, np.zeros((0, 0)), [Measurement("s", 0, 5, [7.0] * 3)], late=late).x) == 1
+
+
+@pytest.mark.parametrize("late", WAYS)
 def test_without_inputs_the_measurements_say_how_many_steps(late: Late) -> None:
     composed = ModularFilter(linear_predictor(cases.F, cases.Q), [sensor_of("linear", [0, 1, 2])])
     measurements = taken([0.4, -0.2, 0.9], [0.1, 0.3, 0.5])
