@@ -18,11 +18,18 @@ from filters.records import Estimate
 from filters.systems.system import System
 
 
+class Scratch(NamedTuple):
+    """What Jacobians by differences are taken with."""
+
+    moved: Estimate
+    predicting: Workspace
+    correcting: Workspace
+
+
 class ComposedParameters(NamedTuple):
     """motion, view: the models of predictor and corrector. dt: of a step.
 
-    Where Jacobians are taken by differences, the deviations of P0 (n, n) give their steps; moved and the workspaces
-    are scratch memory.
+    Where Jacobians are taken by differences, the deviations of P0 (n, n) give their steps.
     """
 
     motion: Any
@@ -31,9 +38,7 @@ class ComposedParameters(NamedTuple):
     of: Space
     observed: Space
     P0: FloatArray
-    moved: Estimate
-    predicting: Workspace
-    correcting: Workspace
+    scratch: Scratch
 
 
 def composed_system(composed: ModularFilter, P0: FloatArray, inputs: int) -> System:
@@ -51,9 +56,11 @@ def composed_system(composed: ModularFilter, P0: FloatArray, inputs: int) -> Sys
         composed.of,
         observed,
         P0,
-        Estimate(np.zeros(n), np.zeros((n, n))),
-        new_workspace(composed.of, space(0)),
-        new_workspace(composed.of, observed),
+        Scratch(
+            Estimate(np.zeros(n), np.zeros((n, n))),
+            new_workspace(composed.of, space(0)),
+            new_workspace(composed.of, observed),
+        ),
     )
     f, F = _MOTIONS[type(motion)]
     h, H = _VIEWS[type(observation)]
@@ -81,9 +88,10 @@ def _F(_j: int, x: FloatArray, u: FloatArray, parts: ComposedParameters) -> Floa
 
 
 def _F_numeric(_j: int, x: FloatArray, u: FloatArray, parts: ComposedParameters) -> FloatArray:
-    predict_numeric(parts.motion, parts.of, Estimate(x, parts.P0), u, parts.dt, parts.moved, parts.predicting)
+    work = parts.scratch.predicting
+    predict_numeric(parts.motion, parts.of, Estimate(x, parts.P0), u, parts.dt, parts.scratch.moved, work)
     out = np.empty((len(x), len(x)))
-    copy(parts.predicting.F, out)
+    copy(work.F, out)
     return out
 
 
@@ -112,9 +120,10 @@ def _H(_k: int, x: FloatArray, parts: ComposedParameters) -> FloatArray:
 
 
 def _H_numeric(_k: int, x: FloatArray, parts: ComposedParameters) -> FloatArray:
-    expect_numeric(parts.observation, parts.observed, parts.of, Estimate(x, parts.P0), parts.correcting)
+    work = parts.scratch.correcting
+    expect_numeric(parts.observation, parts.observed, parts.of, Estimate(x, parts.P0), work)
     out = np.empty((parts.observed.errors, len(x)))
-    copy(parts.correcting.H, out)
+    copy(work.H, out)
     return out
 
 

@@ -23,7 +23,8 @@ class System(NamedTuple):
     h(k, x, parameters, out): writes the measurement expected at x into out (p,).
     H(k, x, parameters): dh/dx (p, n).
     R(k, parameters): covariance of nu_k (p, p).
-    parameters: passed to all of them; a named tuple of arrays and floats.
+    parameters: passed to all of them; a named tuple of arrays and floats. No function changes them, nor x or u; what it
+        needs memory for may be a field named scratch, whose content means nothing to the next call.
 
     The functions are plain Python that numba can compile: module-level, positional arguments, NumPy for sin and sqrt.
     f and h fill an array that they are given, because at step k + 1 the dual-rate filter does little else than f and

@@ -19,29 +19,42 @@ UNWRITTEN = np.finfo(np.float64).max
 
 
 class Trial(NamedTuple):
-    """One function of a system, to be called once. signature: its name and arguments; shape: of what it must give."""
+    """One function of a system, to be called once.
+
+    signature: its name and arguments; shape: of what it must give. given: what it must leave as it is; kept: as it was.
+    """
 
     signature: str
     call: Callable[[], Any]
     shape: tuple[int, ...]
+    given: dict[str, Any]
+    kept: dict[str, list[Any]]
 
 
 def trials(system: System, x: FloatArray, u: FloatArray) -> tuple[Trial, ...]:
     """All functions, in step 0, at the state x (n,) with the input u (m,)."""
     n, p, parameters = system.states, system.measurements, system.parameters
-    return (
-        Trial("f(j, x, u, p, out)", lambda: _filled(n, lambda out: system.f(0, x, u, parameters, out)), (n,)),
-        Trial("F(j, x, u, p)", lambda: system.F(0, x, u, parameters), (n, n)),
-        Trial("Q(j, p)", lambda: system.Q(0, parameters), (n, n)),
-        Trial("h(k, x, p, out)", lambda: _filled(p, lambda out: system.h(0, x, parameters, out)), (p,)),
-        Trial("H(k, x, p)", lambda: system.H(0, x, parameters), (p, n)),
-        Trial("R(k, p)", lambda: system.R(0, parameters), (p, p)),
+    given = {"x": x, "u": u, "p": parameters}
+    kept = {name: _leaves(value) for name, value in given.items()}
+    wanted: tuple[tuple[str, Callable[[], Any], tuple[int, ...]], ...] = (
+        ("f(j, x, u, p, out)", lambda: _filled(n, lambda out: system.f(0, x, u, parameters, out)), (n,)),
+        ("F(j, x, u, p)", lambda: system.F(0, x, u, parameters), (n, n)),
+        ("Q(j, p)", lambda: system.Q(0, parameters), (n, n)),
+        ("h(k, x, p, out)", lambda: _filled(p, lambda out: system.h(0, x, parameters, out)), (p,)),
+        ("H(k, x, p)", lambda: system.H(0, x, parameters), (p, n)),
+        ("R(k, p)", lambda: system.R(0, parameters), (p, p)),
     )
+    return tuple(Trial(*each, given, kept) for each in wanted)
 
 
 def check_result(trial: Trial, value: Any) -> None:
-    """Raises ValueError, naming the function, unless it gave an array of real numbers of its shape, all written."""
+    """Raises ValueError, naming the function, unless it gave an array of real numbers of its shape, all written, and
+    left what it was given as it was."""
     said = trial.signature
+    for name, now in trial.given.items():
+        if _leaves(now) != trial.kept[name]:
+            instead = "a copy, or on memory in a field of p named scratch" if name == "p" else f"a copy, {name}.copy()"
+            raise ValueError(f"{said} changes {name}, which is not its own; let it work on {instead}")
     if not isinstance(value, np.ndarray) or value.dtype.kind not in "fiu":
         kind = f"an array of {value.dtype}" if isinstance(value, np.ndarray) else f"a {type(value).__name__}"
         raise ValueError(f"{said} returns {kind}; needed is an array of numbers of shape {trial.shape}")
@@ -56,7 +69,7 @@ def try_functions(system: System, x: FloatArray, u: FloatArray) -> None:
     """Call each function once, as `trials` do. What one raises comes through.
 
     Raises:
-        ValueError: one gives no array of real numbers of its shape, or does not write it.
+        ValueError: one gives no array of real numbers of its shape, does not write it, or changes what it is given.
     """
     for trial in trials(system, x, u):
         check_result(trial, trial.call())
@@ -71,3 +84,13 @@ def _filled(length: int, fill: Callable[[FloatArray], None]) -> FloatArray:
     out = np.full(length, UNWRITTEN)
     fill(out)
     return out
+
+
+def _leaves(value: Any) -> list[Any]:
+    """The arrays in it as bytes, and all else in it but fields named scratch."""
+    if isinstance(value, np.ndarray):
+        return [value.tobytes()]
+    if isinstance(value, tuple | list):
+        names = getattr(value, "_fields", range(len(value)))
+        return [leaf for name, item in zip(names, value, strict=True) if name != "scratch" for leaf in _leaves(item)]
+    return [value]

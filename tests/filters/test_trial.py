@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
 
 from filters import dual_rate, larsen, multirate_gain, recalculate, standard
+from filters.arrays import FloatArray
 from filters.systems.example import example_system
-from tests.strategies import problem
+from filters.systems.system import System
+from tests.strategies import Problem, problem
 
 GOOD = problem(example_system(3, 2, 2), 5, 2, 4, 12, seed=0)
 
@@ -46,6 +48,97 @@ def test_functions_of_a_multirate_run(of: str, name: str, function: Callable[...
         multirate_gain.run(
             systems["system"], 1, GOOD.x0, GOOD.P0, GOOD.inputs, measurements, coarse=systems["coarse"], form="u-d"
         )
+
+
+def moved(array: Any) -> None:
+    array[(0,) * array.ndim] += 0.1
+
+
+def changing(name: str, what: int) -> System:
+    """GOOD's, but a function of it changes one of its arguments, and gives what it would have given before."""
+    whole = getattr(GOOD.system, name)
+
+    def function(*given: Any) -> Any:
+        result = whole(*given)
+        moved(given[what].Phi if hasattr(given[what], "Phi") else given[what])
+        return result
+
+    return GOOD.system._replace(**{name: function})
+
+
+@pytest.mark.parametrize("run", [standard.run, recalculate.run, larsen.run, dual_rate.run])
+@pytest.mark.parametrize(
+    ("name", "what", "said"),
+    [
+        ("f", 1, r"f\(j, x, u, p, out\) changes x, .*copy, x.copy\(\)"),
+        ("f", 2, r"f\(j, x, u, p, out\) changes u, "),
+        ("f", 3, r"f\(j, x, u, p, out\) changes p, .* a field of p named scratch"),
+        ("F", 1, r"F\(j, x, u, p\) changes x, "),
+        ("F", 2, r"F\(j, x, u, p\) changes u, "),
+        ("F", 3, r"F\(j, x, u, p\) changes p, "),
+        ("Q", 1, r"Q\(j, p\) changes p, "),
+        ("h", 1, r"h\(k, x, p, out\) changes x, "),
+        ("h", 2, r"h\(k, x, p, out\) changes p, "),
+        ("H", 1, r"H\(k, x, p\) changes x, "),
+        ("H", 2, r"H\(k, x, p\) changes p, "),
+        ("R", 1, r"R\(k, p\) changes p, "),
+    ],
+)
+def test_a_function_that_changes_what_it_is_given(run: Callable[..., Any], name: str, what: int, said: str) -> None:
+    with pytest.raises(ValueError, match=said):
+        run(*fresh(changing(name, what)))
+
+
+def fresh(system: System) -> Problem:
+    """GOOD with a system whose parameters may be changed."""
+    return GOOD._replace(system=system._replace(parameters=type(system.parameters)(*map(np.copy, system.parameters))))
+
+
+def test_a_coarse_system_that_changes_what_it_is_given() -> None:
+    coarse = fresh(changing("H", 1)).system
+    with pytest.raises(ValueError, match=r"H\(k, x, p\) changes x, "):
+        multirate_gain.run(GOOD.system, 1, GOOD.x0, GOOD.P0, GOOD.inputs, np.zeros((13, 2)), coarse=coarse)
+
+
+class WithMemory(NamedTuple):
+    noise: FloatArray
+    scratch: tuple[FloatArray]
+
+
+def remembering(_k: int, p: WithMemory) -> FloatArray:
+    p.scratch[0][:] += 1.0
+    return p.noise
+
+
+def test_memory_of_its_own_is_a_function_s_to_change() -> None:
+    system = System(
+        1, 0, 1, _still, _one, remembering, _seen, _one_seen, remembering, WithMemory(np.eye(1), (np.eye(1),))
+    )
+    standard.run(system, 1, 0, 0, np.ones(1), np.eye(1), np.zeros((2, 0)), np.ones((3, 1)))
+    unnamed = system._replace(parameters=Unnamed(*system.parameters), Q=lambda _j, p: p.memory[0].__iadd__(1.0))
+    with pytest.raises(ValueError, match=r"Q\(j, p\) changes p, "):
+        standard.run(unnamed, 1, 0, 0, np.ones(1), np.eye(1), np.zeros((2, 0)), np.ones((3, 1)))
+
+
+class Unnamed(NamedTuple):
+    noise: FloatArray
+    memory: tuple[FloatArray]
+
+
+def _still(_j: int, x: FloatArray, _u: FloatArray, _p: Any, out: FloatArray) -> None:
+    out[:] = x
+
+
+def _one(_j: int, _x: FloatArray, _u: FloatArray, _p: Any) -> FloatArray:
+    return np.eye(1)
+
+
+def _seen(_k: int, x: FloatArray, _p: Any, out: FloatArray) -> None:
+    out[:] = x
+
+
+def _one_seen(_k: int, _x: FloatArray, _p: Any) -> FloatArray:
+    return np.eye(1)
 
 
 @pytest.mark.parametrize("name", ["Q", "R"])

@@ -57,6 +57,9 @@ def failing():
 def wrong():
     return linear_system(Phi=[[1.0, 0.1]], B=[[0.005], [0.1]], H=[[1.0, 0.0]], Q=np.eye(2), R=[[1.0]])
 
+def moving():
+    return car()._replace(h=lambda k, x, p, out: (x.__iadd__(0.1), out.fill(x[0] - 0.1)))
+
 def free():
     return linear_system(Phi=np.eye(2), B=np.zeros((2, 0)), H=[[1.0, 0.0]], Q=0.01 * np.eye(2), R=[[1.0]])
 
@@ -149,6 +152,7 @@ def test_the_user_may_give_a_typical_state() -> None:
         ("own_system:lopsided", r"Q\(j, p\) is not symmetric, so it is no covariance"),
         ("own_system:negative", r"Q\(j, p\) is no covariance: its smallest eigenvalue is -1"),
         ("own_system:failing", r"Q\(j, p\) failed: IndexError"),
+        ("own_system:moving", r"h\(k, x, p, out\) changes x, which is not its own"),
         ("own_system:wrong", r"wrong\(\) failed: linear_system: Phi"),
     ],
 )
