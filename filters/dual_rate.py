@@ -23,6 +23,7 @@ from filters.low_rate_noise import NOISE_METHODS, LowRateNoise, NoiseMethod
 from filters.measured import Measurements
 from filters.problem import check_problem
 from filters.records import Correction, Estimate, new_correction, new_workspace
+from filters.running import running
 from filters.systems.system import System
 
 GainTime: TypeAlias = Literal["at-update", "precomputed"]
@@ -134,7 +135,7 @@ class LowRateTask:
         return self._correction
 
 
-@np.errstate(all="ignore")
+@running("system")
 def run(
     system: System,
     N: int,

@@ -20,6 +20,7 @@ from filters.robust.check import check_start
 from filters.robust.model import RobustModel, Weights, prepared, weights, without_measurement
 from filters.robust.records import Predicted
 from filters.robust.step import JOBS, REMEDY, STUDIED, StepJob
+from filters.running import running
 from filters.systems.uncertain import Scaling, UncertainSystem, Uncertainty, linearised
 
 
@@ -133,7 +134,7 @@ def filter_all(
         store_vector(work.next_x, history.x, i + 1)
 
 
-@np.errstate(all="ignore")
+@running("system")
 def run(
     system: UncertainSystem,
     scaling: Scaling,

@@ -14,6 +14,7 @@ from filters.kernels.dense import add_vectors, matvec
 from filters.measured import Measurements
 from filters.problem import check_problem
 from filters.records import Correction, Estimate, Workspace, new_correction, new_estimate, new_workspace
+from filters.running import running
 from filters.standard import propagate
 from filters.standard import update as update_at_once
 from filters.systems.system import System
@@ -61,7 +62,7 @@ def extrapolated_update(
     form.delayed_covariance(Phi_from_k, reference.P, H, R, correction.K, before.P, after.P, work)
 
 
-@np.errstate(all="ignore")
+@running("system")
 def run(
     system: System,
     N: int,

@@ -20,6 +20,7 @@ from filters.kernels.dense import add_vectors
 from filters.measured import Measurements
 from filters.problem import check_measurement_noise, check_multirate_problem, check_system
 from filters.records import Correction, new_correction
+from filters.running import running
 from filters.systems.coarse import over
 from filters.systems.lossy import lossy
 from filters.systems.system import System
@@ -97,7 +98,7 @@ def cycle_in_use(j: int, n: int, L: int) -> int:
     return max(j - L, 0) // n
 
 
-@np.errstate(all="ignore")
+@running("system")
 def run(
     system: System,
     n: int,

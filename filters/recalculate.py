@@ -6,8 +6,6 @@ followed by M propagations. Nothing is done twice in other steps.
 
 from __future__ import annotations
 
-import numpy as np
-
 from filters import standard
 from filters.arrays import FloatArray
 from filters.breakdown import check_history, sturdier
@@ -17,10 +15,11 @@ from filters.kernels.backends import BackendName, arguments_for, function_for
 from filters.measured import Measurements
 from filters.problem import check_problem
 from filters.records import Estimate, new_correction, new_estimate, new_workspace
+from filters.running import running
 from filters.systems.system import System
 
 
-@np.errstate(all="ignore")
+@running("system")
 def run(
     system: System,
     N: int,

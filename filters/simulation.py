@@ -8,6 +8,7 @@ import numpy as np
 
 from filters.arrays import FloatArray
 from filters.normal import normal
+from filters.running import running
 from filters.systems.system import System
 
 
@@ -18,7 +19,7 @@ class Truth(NamedTuple):
     measurements: FloatArray
 
 
-@np.errstate(all="ignore")
+@running("system")
 def simulate_truth(system: System, N: int, x0: FloatArray, P0: FloatArray, inputs: FloatArray, seed: int) -> Truth:
     """Draw an initial state from N(x0, P0), then process and measurement noise as the model has them.
 

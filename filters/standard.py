@@ -27,6 +27,7 @@ from filters.records import (
     new_estimate,
     new_workspace,
 )
+from filters.running import running
 from filters.systems.system import System
 from filters.update import update_covariance, update_error
 
@@ -95,7 +96,7 @@ def filter_all(
         store_vector(corrected.x, history.x, j)
 
 
-@np.errstate(all="ignore")
+@running("system")
 def run(
     system: System,
     N: int,

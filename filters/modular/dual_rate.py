@@ -28,9 +28,9 @@ from filters.modular.history import ModularHistory, new_estimates
 from filters.modular.measurements import Measurement
 from filters.modular.predictors import propagate
 from filters.modular.problem import check_linearised, check_problem
-from filters.modular.running import running
 from filters.modular.workspace import Workspace, new_workspace
 from filters.records import Estimate, Transition
+from filters.running import running
 
 
 def lr_propagate(P: FloatArray, transition: Transition, P_next: FloatArray, work: Workspace) -> None:
@@ -75,7 +75,7 @@ def run(
     high_rate = HighRateTask(system, N, x, NOISE_METHODS["exact"], covariance_form("short"), backend)
     found = new_estimates(composed.of, len(moves))
     following, scratch = 0, np.empty_like(P)
-    with running():
+    with running("filter"):
         for j in range(len(moves) + 1):
             if j > 0:
                 high_rate.step(j - 1, moves[j - 1])

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
 from filters.arrays import FloatArray
 from filters.kernels.backends import BackendName, arguments_for, function_for
-from filters.kernels.numba_error import gist, is_numbas
 from filters.modular.arrivals import Arrivals
 from filters.modular.breakdown import PREDICTOR, SOUND, breakdown, new_failure
 from filters.modular.chain import chain
@@ -21,6 +19,7 @@ from filters.modular.kept import kept_by
 from filters.modular.prediction import prediction
 from filters.modular.space import space
 from filters.modular.workspace import new_workspace
+from filters.running import running
 
 
 def run_kernel(
@@ -43,7 +42,7 @@ def run_kernel(
     """
     chained, kept = chain(job_of, composed), kept_by(composed)
     found, failure = new_estimates(composed.of, len(inputs)), new_failure(composed.of)
-    with running():
+    with running("filter"):
         culprit, step = function_for(backend, kernel)(
             arguments_for(backend, prediction(composed)),
             arguments_for(backend, chained.use),
@@ -66,22 +65,3 @@ def run_kernel(
     for P in found.P:
         covariance(P.copy(), P)
     return found
-
-
-@contextmanager
-def running() -> Iterator[None]:
-    """Without warnings, for a breakdown is found by what it leaves.
-
-    Raises:
-        ValueError: numba cannot compile a function; it says which line and why.
-    """
-    try:
-        with np.errstate(all="ignore"):
-            yield
-    except Exception as error:
-        if is_numbas(error):
-            raise ValueError(
-                f"backend='compiled': numba cannot compile the filter: {gist(error)}; mend that line, or use "
-                f"backend='reference'"
-            ) from error
-        raise
