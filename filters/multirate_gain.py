@@ -23,6 +23,7 @@ from filters.records import Correction, new_correction
 from filters.running import running
 from filters.systems.coarse import over
 from filters.systems.lossy import lossy
+from filters.systems.shaped import shaped
 from filters.systems.system import System
 from filters.systems.trial import first_input, try_functions
 from filters.update import update_error
@@ -142,7 +143,7 @@ def run(
             f"system {system.states}, {system.inputs} and {system.measurements}; they must be the same"
         )
     try_functions(coarse, given.start.x, first_input(moves))
-    coarse = lossy(coarse, n, np.logical_or.reduceat(present, range(0, len(y), n)))
+    coarse = lossy(shaped(coarse), n, np.logical_or.reduceat(present, range(0, len(y), n)))
     for k in range(0, len(y), n):
         check_measurement_noise(coarse.R(k, coarse.parameters), k)
     kept = factored_form(form, update)
@@ -150,7 +151,7 @@ def run(
     run_correct = function_for(backend, state_correct)
     run_covariance_gain = function_for(backend, covariance_gain)
     run_divided_gain = function_for(backend, divided_gain)
-    model, coarse_model, bound = (arguments_for(backend, value) for value in (system, coarse, kept))
+    model, coarse_model, bound = (arguments_for(backend, value) for value in (given.system, coarse, kept))
     work = new_factored_workspace(system)
     recorder = HistoryRecorder(system)
 

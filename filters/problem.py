@@ -11,6 +11,7 @@ from filters.arrays import FloatArray
 from filters.measured import Measured, Measurements, measured
 from filters.records import Estimate
 from filters.systems.lossy import lossy
+from filters.systems.shaped import shaped
 from filters.systems.system import System
 from filters.systems.trial import first_input, try_functions
 
@@ -48,7 +49,7 @@ def check_problem(
         raise ValueError(f"M={M}, L={L}, N={N} must satisfy 0 <= M <= L <= N")
     start, moves = _start_and_inputs(system, x0, P0, inputs)
     found = measured(system.measurements, N, measurements)
-    return Problem(lossy(system, N, found.present), start, moves, found)
+    return Problem(lossy(shaped(system), N, found.present), start, moves, found)
 
 
 def check_multirate_problem(
@@ -64,7 +65,7 @@ def check_multirate_problem(
     if len(found.y) != len(moves) + 1:
         needed = len(moves) + 1, system.measurements
         raise ValueError(f"measurements has shape {found.y.shape}, the system needs {needed}")
-    return Problem(system, start, moves, found)
+    return Problem(shaped(system), start, moves, found)
 
 
 def check_covariance(name: str, P: FloatArray) -> None:

@@ -9,6 +9,7 @@ from typing import Literal
 import numpy as np
 
 from filters.kernels.numba_error import gist, is_numbas
+from filters.systems.shaped import misshapen
 
 
 @contextmanager
@@ -16,10 +17,11 @@ def running(what: Literal["filter", "system"]) -> Iterator[None]:
     """Without warnings, for a breakdown is found by what it leaves. what: whose functions they are.
 
     Raises:
-        ValueError: numba cannot compile a function, and it says which line and why.
+        ValueError: numba cannot compile a function, and it says which line and why; or a `shaped` system gives a matrix
+            of another shape.
     """
     try:
-        with np.errstate(all="ignore"):
+        with np.errstate(all="ignore"), misshapen():
             yield
     except Exception as error:
         if is_numbas(error):

@@ -9,6 +9,7 @@ import numpy as np
 from filters.arrays import FloatArray
 from filters.normal import normal
 from filters.running import running
+from filters.systems.shaped import shaped
 from filters.systems.system import System
 
 
@@ -28,7 +29,7 @@ def simulate_truth(system: System, N: int, x0: FloatArray, P0: FloatArray, input
     Raises:
         ValueError: f or h of the system gives a value that is not finite; the step is named.
     """
-    random = np.random.default_rng(seed)
+    random, system = np.random.default_rng(seed), shaped(system)
     steps = len(inputs)
     x = np.empty((steps + 1, system.states))
     x[0] = x0 + normal(random, P0)

@@ -9,6 +9,8 @@ import numpy as np
 from filters.arrays import FloatArray
 from filters.noises import check_noises
 from filters.problem import check_covariance
+from filters.running import running
+from filters.systems.shaped import shaped
 from filters.systems.system import System
 
 
@@ -19,6 +21,7 @@ class TrueCovariance(NamedTuple):
     after: FloatArray
 
 
+@running("system")
 def true_covariance(system: System, P0: FloatArray, gains: FloatArray) -> TrueCovariance:
     """The covariance of x - x_true where step j used y_j with the gain K_j, x = x^- + K_j (y_j - H_j x^-).
 
@@ -40,7 +43,7 @@ def true_covariance(system: System, P0: FloatArray, gains: FloatArray) -> TrueCo
     check_covariance("true_covariance: P0", P0)
     if not np.isfinite(gains).all():
         raise ValueError("true_covariance: gains holds a value that is not finite")
-    steps = gains.shape[-3] - 1
+    steps, system = gains.shape[-3] - 1, shaped(system)
     check_noises(system, range(steps), range(steps + 1))
     x, u = np.zeros(n), np.zeros(m)
     before, after = np.empty((*gains.shape[:-1], n)), np.empty((*gains.shape[:-1], n))

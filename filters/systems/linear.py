@@ -50,6 +50,16 @@ def linear_system(Phi: ArrayLike, B: ArrayLike, H: ArrayLike, Q: ArrayLike, R: A
     return System(n, m, p, _f, _F, _Q, _h, _H, _R, matrices)
 
 
+def is_linear(system: System) -> bool:
+    """Whether it is as `linear_system` makes them: its functions, and matrices whose shapes fit it."""
+    n, m, p, *functions, matrices = system
+    return (
+        functions == [_f, _F, _Q, _h, _H, _R]
+        and isinstance(matrices, LinearParameters)
+        and [np.shape(matrix)[1:] for matrix in matrices] == [(n, n), (n, m), (p, n), (n, n), (p, p)]
+    )
+
+
 def _row(j: int, steps: int) -> int:
     """Which matrix step j uses. Constant matrices are spared the division, for it takes longer than a small product."""
     return j % steps if steps > 1 else 0

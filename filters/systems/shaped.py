@@ -1,0 +1,80 @@
+"""A system whose matrices are looked at each time: one of another size than in step 0 ends the run.
+
+Neither compiled code nor loops over what there is would notice: they go on with a part of it, or with whatever lies
+behind it. Only runs look: the jobs that are measured are given the system itself.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import NamedTuple
+
+import numpy as np
+
+from filters.arrays import FloatArray
+from filters.systems.system import System
+
+
+class ShapedParameters(NamedTuple):
+    """The system as it was given."""
+
+    system: System
+
+
+def shaped(system: System) -> System:
+    """The system; where F, Q, H or R have another shape than they should, it raises what `misshapen` explains.
+
+    One that `linear_system` made is known to have the right ones, and stays as it is.
+    """
+    from filters.systems.linear import is_linear  # which is made of checks that know this module
+
+    if is_linear(system):
+        return system
+    return System(*system[:3], _f, _F, _Q, _h, _H, _R, ShapedParameters(system))
+
+
+@contextmanager
+def misshapen() -> Iterator[None]:
+    """Raises ValueError, naming function, step and shapes, where a `shaped` system has found another shape."""
+    try:
+        yield
+    except LookupError as error:
+        match error.args:
+            case (str(signature), step, tuple(shape), tuple(needed)):
+                raise ValueError(f"step {step}: {signature} has shape {shape}; needed is {needed}") from None
+        raise
+
+
+def _f(j: int, x: FloatArray, u: FloatArray, given: ShapedParameters, out: FloatArray) -> None:
+    given.system.f(j, x, u, given.system.parameters, out)
+
+
+def _F(j: int, x: FloatArray, u: FloatArray, given: ShapedParameters) -> FloatArray:
+    n = given.system.states
+    return _of_shape(n, n, given.system.F(j, x, u, given.system.parameters), "F(j, x, u, p)", j)
+
+
+def _Q(j: int, given: ShapedParameters) -> FloatArray:
+    n = given.system.states
+    return _of_shape(n, n, given.system.Q(j, given.system.parameters), "Q(j, p)", j)
+
+
+def _h(k: int, x: FloatArray, given: ShapedParameters, out: FloatArray) -> None:
+    given.system.h(k, x, given.system.parameters, out)
+
+
+def _H(k: int, x: FloatArray, given: ShapedParameters) -> FloatArray:
+    n, p = given.system.states, given.system.measurements
+    return _of_shape(p, n, given.system.H(k, x, given.system.parameters), "H(k, x, p)", k)
+
+
+def _R(k: int, given: ShapedParameters) -> FloatArray:
+    p = given.system.measurements
+    return _of_shape(p, p, given.system.R(k, given.system.parameters), "R(k, p)", k)
+
+
+def _of_shape(rows: int, columns: int, matrix: FloatArray, signature: str, step: int) -> FloatArray:
+    if np.shape(matrix) != (rows, columns):
+        raise LookupError(signature, step, np.shape(matrix), (rows, columns))
+    return matrix
