@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from filters.arrays import FloatArray
+from filters.noises import check_noises
 from filters.normal import normal
 from filters.running import running
 from filters.systems.shaped import shaped
@@ -27,10 +28,11 @@ def simulate_truth(system: System, N: int, x0: FloatArray, P0: FloatArray, input
     inputs (steps, m): the noise-free inputs that the filter will be given too.
 
     Raises:
-        ValueError: f or h of the system gives a value that is not finite; the step is named.
+        ValueError: f or h of the system gives a value that is not finite, or Q or R is no covariance; the step is named.
     """
     random, system = np.random.default_rng(seed), shaped(system)
     steps = len(inputs)
+    check_noises(system, range(steps), range(0, steps + 1, N), "numpy")
     x = np.empty((steps + 1, system.states))
     x[0] = x0 + normal(random, P0)
     for j in range(steps):

@@ -12,6 +12,7 @@ from filters.arrays import FloatArray
 from filters.covariance_forms import COVARIANCE_FORMS
 from filters.factored import FACTORED_FORMS
 from filters.registry import DELAYED_METHODS
+from filters.simulation import simulate_truth
 from filters.systems.example import example_system
 from filters.systems.system import System
 from filters.true_covariance import true_covariance
@@ -110,3 +111,11 @@ def test_the_true_covariance(name: str) -> None:
     gains = np.zeros((STEPS + 1, 4, 2))
     with pytest.raises(ValueError, match=f"step 10: {name} of the system is not symmetric"):
         true_covariance(added(name, 10, 1e-3), GOOD.P0, gains)
+
+
+@each_noise
+def test_a_simulated_truth(name: str) -> None:
+    """Draws would leave out what has a negative variance."""
+    with pytest.raises(ValueError, match=f"step 10: {name} of the system is no covariance: its smallest eigenvalue"):
+        simulate_truth(added(name, 10, -10.0, 1, 1), 5, *GOOD[4:7], seed=0)
+    simulate_truth(added("R", 9, np.nan), 5, *GOOD[4:7], seed=0)
