@@ -2,10 +2,29 @@
 
 from __future__ import annotations
 
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 FloatArray: TypeAlias = NDArray[np.float64]
 Flags: TypeAlias = NDArray[np.bool_]
+
+
+def check_unmasked(name: str, value: Any) -> None:
+    """Raises ValueError, naming it, where a number of an array, or of a list of them, is masked: as an array of floats
+    it would be what it is under the mask."""
+    if isinstance(value, list | tuple):
+        for at, item in enumerate(value):
+            if isinstance(item, np.ma.MaskedArray):
+                check_unmasked(f"{name}[{at}]", item)
+    if np.ma.is_masked(value):
+        where = ", ".join(map(str, np.argwhere(np.ma.getmaskarray(value))[0]))
+        raise ValueError(f"{name} is masked at [{where}]; give a number there")
+
+
+def without_mask(values: Any) -> Any:
+    """None in place of each masked number, in an array or in a list of numbers; what else there is stays as it is."""
+    if isinstance(values, np.ma.MaskedArray):
+        return values.tolist()
+    return [without_mask(value) for value in values] if isinstance(values, list | tuple) else values

@@ -8,12 +8,12 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from filters.arrays import FloatArray
+from filters.arrays import FloatArray, without_mask
 
 Measurements: TypeAlias = FloatArray | Sequence[Any]
 """One row (p,) a measurement, as an array or a sequence; None in place of a row, or of a number, that was lost.
 
-A masked array of NumPy's says the same by its mask.
+A masked array of NumPy's, of all rows or of one, says the same by its mask.
 """
 
 
@@ -57,6 +57,7 @@ def measured(p: int, every: int, measurements: Measurements) -> Measured:
 
 
 def _row(row: Any, p: int, k: int) -> list[Any]:
+    row = without_mask(row)
     if row is None:
         return [None] * p
     if np.shape(row) != (p,):

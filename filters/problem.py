@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from filters.arrays import FloatArray
+from filters.arrays import FloatArray, check_unmasked
 from filters.measured import Measured, Measurements, measured
 from filters.records import Estimate
 from filters.systems.lossy import lossy
@@ -147,7 +147,8 @@ def _check_system(system: System, x: FloatArray, inputs: FloatArray) -> None:
 
 
 def as_array(name: str, value: ArrayLike) -> FloatArray:
-    """A contiguous copy. Raises ValueError, naming it, unless it is an array of real numbers."""
+    """A contiguous copy. Raises ValueError, naming it, unless it is an array of real numbers, none of them masked."""
+    check_unmasked(name, value)
     try:
         if np.iscomplexobj(value):
             raise TypeError("it is complex")

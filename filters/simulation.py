@@ -28,7 +28,8 @@ def simulate_truth(system: System, N: int, x0: FloatArray, P0: FloatArray, input
     inputs (steps, m): the noise-free inputs that the filter will be given too.
 
     Raises:
-        ValueError: f or h of the system gives a value that is not finite, or Q or R is no covariance; the step is named.
+        ValueError: f or h of the system gives a value that is not finite, or Q or R is no covariance; the step is
+            named.
     """
     random, system = np.random.default_rng(seed), shaped(system)
     steps = len(inputs)

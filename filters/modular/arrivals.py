@@ -9,7 +9,7 @@ from typing import Literal, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike
 
-from filters.arrays import Flags, FloatArray
+from filters.arrays import Flags, FloatArray, without_mask
 from filters.choice import check_choice
 from filters.kernels.place import IntArray
 from filters.modular.composition import ModularFilter, Sensor
@@ -114,6 +114,7 @@ def in_order(measurements: Iterable[Measurement]) -> list[Measurement]:
 def _read(measurements: list[Measurement], sensor: Sensor) -> tuple[FloatArray, Flags]:
     """Of measurements of one sensor y (any, numbers), without gaps, and of what their errors have no number."""
     observed = sensor.corrector.observed
+    measurements = [one._replace(y=without_mask(one.y)) for one in measurements]
     values = _stacked(measurements, observed.numbers)
     gone = np.zeros(values.shape, dtype=np.bool_)
     for row in np.flatnonzero(~np.isfinite(values).all(axis=1)):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from filters.arrays import FloatArray
+from filters.arrays import FloatArray, check_unmasked
 from filters.kernels.definite import is_semidefinite
 from filters.modular.space import Space
 from filters.problem import check_covariance
@@ -14,6 +14,7 @@ from filters.robust.check import check_positive_definite
 
 def as_numbers(name: str, value: ArrayLike) -> FloatArray:
     """A contiguous copy. Raises ValueError, naming it, unless it is an array of real numbers, finite or not."""
+    check_unmasked(name, value)
     try:
         if np.iscomplexobj(value):
             raise TypeError("complex numbers")

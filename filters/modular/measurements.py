@@ -16,7 +16,7 @@ from filters.modular.space import Space, plain, plus
 class Measurement(NamedTuple):
     """One measurement of the sensor of this name: y (numbers,), taken in one step, available from another on.
 
-    y: None in place of a number that is lost; the others are used.
+    y: None in place of a number that is lost, or a masked array of NumPy's; the others are used.
     """
 
     sensor: str

@@ -13,6 +13,7 @@ from filters.breakdown import breakdown, first_broken
 from filters.choice import check_choice
 from filters.kernels.backends import BackendName, arguments_for, function_for
 from filters.measured import Measurements, measured
+from filters.problem import as_array
 from filters.robust.check import check_inputs, check_start
 from filters.robust.model import RobustModel, Weights, prepared, weights, without_measurement
 from filters.robust.records import Predicted
@@ -95,7 +96,7 @@ def run(
     check_choice("way", way, WAYS)
     ready = [prepared(model, mu, xi) for model in ([models] if isinstance(models, RobustModel) else models)]
     found = measured(len(ready[0].H), 1, measurements)
-    added = np.zeros((len(found.y), len(ready[0].F))) if c is None else np.array(c, dtype=np.float64)
+    added = np.zeros((len(found.y), len(ready[0].F))) if c is None else as_array("c", c)
     if len(ready) not in (1, len(found.y)) or len(added) != len(found.y):
         raise ValueError(f"there are {len(found.y)} measurements, but {len(ready)} models and {len(added)} rows of c")
     if len({tuple(matrix.shape for matrix in model) for model in ready}) > 1:
@@ -104,7 +105,7 @@ def run(
         )
     n = len(ready[0].F)
     history = RobustHistory(np.empty((len(found.y) + 1, n)), np.empty((len(found.y) + 1, n, n)))
-    start = Predicted(np.array(x0, dtype=np.float64), np.array(P0, dtype=np.float64))
+    start = Predicted(as_array("x0", x0), as_array("P0", P0))
     check_start(ready[0], start.x, start.P)
     check_inputs(ready[0], found.y, added)
     history.x[0], history.P[0] = start

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from filters.arrays import FloatArray
+from filters.arrays import FloatArray, check_unmasked
 from filters.systems.system import System
 
 UNWRITTEN = np.finfo(np.float64).max
@@ -58,6 +58,7 @@ def check_result(trial: Trial, value: Any) -> None:
     if not isinstance(value, np.ndarray) or value.dtype.kind not in "fiu":
         kind = f"an array of {value.dtype}" if isinstance(value, np.ndarray) else f"a {type(value).__name__}"
         raise ValueError(f"{said} returns {kind}; needed is an array of numbers of shape {trial.shape}")
+    check_unmasked(said, value)
     if value.shape != trial.shape:
         raise ValueError(f"{said} has shape {value.shape}; needed is {trial.shape}")
     if (value == UNWRITTEN).any():

@@ -94,6 +94,33 @@ def test_arguments_of_a_run(change: dict[str, Any], message: str) -> None:
         larsen.run(*GOOD._replace(**change))
 
 
+MASKED = np.ma.array(np.eye(3), mask=np.eye(3) == 1.0)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"x0": MASKED[1]}, r"x0 is masked at \[1\]; give a number there"),
+        ({"x0": [0.0, np.ma.masked, 0.0]}, r"x0\[1\] is masked"),
+        ({"P0": MASKED}, r"P0 is masked at \[0, 0\]"),
+        ({"P0": list(MASKED)}, r"P0\[0\] is masked at \[0\]"),
+        ({"inputs": MASKED[:, :2]}, r"inputs is masked at \[0, 0\]"),
+        (
+            {"system": GOOD.system._replace(R=lambda _k, _p: np.ma.array([[1.0]], mask=[[True]]))},
+            r"R\(k, p\) is masked at \[0, 0\]",
+        ),
+    ],
+)
+def test_masked_numbers(change: dict[str, Any], message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        larsen.run(*GOOD._replace(**change))
+
+
+def test_masked_matrices_of_a_linear_system() -> None:
+    with pytest.raises(ValueError, match=r"linear_system: Q is masked at \[0, 0\]; give a number there"):
+        linear_system(**{**MATRICES, "Q": MASKED})
+
+
 @pytest.mark.parametrize(
     ("change", "options", "message"),
     [

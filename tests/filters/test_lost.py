@@ -155,3 +155,17 @@ def test_the_robust_filter(way: str) -> None:
         before = step(of, before, measured, np.zeros(3), mu=4.0, way=way)
         np.testing.assert_allclose(found.x[i + 1], before.x, rtol=1e-12)
         np.testing.assert_allclose(found.P[i + 1], before.P, rtol=1e-12)
+
+
+def test_a_masked_row_in_a_list_is_lost_too() -> None:
+    data = problem(example_system(3, 2, 2), 5, 2, 4, 17, seed=0)
+    y = data.measurements
+    masks = [[True, False], [True, True], [False, False], [False, True]]
+    gaps = [[None, y[0, 1]], None, y[2], [y[3, 0], None]]
+    rows = [np.ma.array(row, mask=mask) for row, mask in zip(y, masks, strict=True)]
+    scalars = [[np.ma.masked, y[0, 1]], np.ma.masked, y[2], [y[3, 0], np.ma.masked]]
+    expected = standard.run(*data._replace(measurements=gaps))
+    for masked in (rows, scalars, np.ma.array(y, mask=masks)):
+        found = standard.run(*data._replace(measurements=masked))
+        np.testing.assert_array_equal(found.x, expected.x)
+        np.testing.assert_array_equal(found.innovations, expected.innovations)

@@ -85,6 +85,15 @@ def test_lost_numbers_are_as_if_the_sensor_had_no_such_rows(rows: list[int], kin
 
 
 @pytest.mark.parametrize("late", WAYS)
+def test_a_masked_number_is_lost(late: Late) -> None:
+    sensor = sensor_of("linear", [0, 1, 2])
+    expected = history([sensor], taken([0.4, None, 0.9], [None, None, None]), late)
+    masked = [np.ma.array([0.4, -0.2, 0.9], mask=[0, 1, 0]), np.ma.masked_all(3)]
+    for ys in (masked, [[0.4, np.ma.masked, 0.9], [np.ma.masked] * 3]):
+        np.testing.assert_array_equal(history([sensor], taken(*ys), late).x, expected.x)
+
+
+@pytest.mark.parametrize("late", WAYS)
 def test_a_measurement_that_has_lost_all_is_none(late: Late) -> None:
     sensor = sensor_of("linear", [0, 1, 2])
     found = history([sensor], taken([None, None, None], [0.1, 0.3, 0.5]), late)
