@@ -16,6 +16,7 @@ from filters.breakdown import breakdown, first_broken
 from filters.choice import check_choice
 from filters.kernels.backends import BackendName, arguments_for, function_for
 from filters.kernels.dense import store_vector
+from filters.kind import check_kind
 from filters.robust.check import check_start
 from filters.robust.model import RobustModel, Weights, prepared, weights, without_measurement
 from filters.robust.records import Predicted
@@ -165,6 +166,7 @@ def run(
             (such as a pitch of 90 degrees), a name is unknown, or P ceases to be a covariance: the step is named.
     """
     jobs: dict[str, StepJob] = dict([*JOBS.items(), *STUDIED.items()])
+    check_kind("system", system, UncertainSystem, "an UncertainSystem")
     check_choice("way", way, tuple(jobs))
     cycles = -(-len(inputs) // N) if N >= 1 else 0
     given = np.ones(cycles, dtype=np.bool_) if available is None else available

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from filters.arrays import FloatArray, check_unmasked
+from filters.kind import check_kind
 from filters.measured import Measured, Measurements, measured
 from filters.records import Estimate
 from filters.systems.lossy import lossy
@@ -122,10 +123,7 @@ def _start_and_inputs(system: System, x0: ArrayLike, P0: ArrayLike, inputs: Arra
 
 def check_system(name: str, system: object) -> None:
     """Raises ValueError, naming the argument, unless it is a `System` of whole sizes, made of functions."""
-    if not isinstance(system, System):
-        raise ValueError(
-            f"{name} is {system!r:.60}; give a filters.systems.system.System, as linear_system(...) returns one"
-        )
+    check_kind(name, system, System, "a filters.systems.system.System, as linear_system(...) returns one")
     for function in ("f", "F", "Q", "h", "H", "R"):
         given = getattr(system, function)
         if not callable(given):

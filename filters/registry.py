@@ -30,6 +30,7 @@ from filters.low_rate_noise import (
     hr_propagate_sum,
     lr_propagate_euler,
 )
+from filters.problem import check_system
 from filters.records import (
     Transition,
     new_correction,
@@ -80,6 +81,7 @@ def _jobs(
     def jobs(
         system: System, update: CovarianceFormName = "textbook", seed: int = 0, x0: FloatArray | None = None
     ) -> dict[str, Job]:
+        check_system("system", system)
         form = form_named(update)
 
         def arguments_of(make: Callable[[System, Form, Sample], tuple[Any, ...]]) -> Callable[[int], tuple[Any, ...]]:

@@ -9,7 +9,9 @@ import numpy as np
 from filters.arrays import FloatArray
 from filters.noises import check_noises
 from filters.normal import normal
+from filters.problem import check_system
 from filters.running import running
+from filters.seed import check_seed
 from filters.systems.shaped import shaped
 from filters.systems.system import System
 
@@ -28,9 +30,11 @@ def simulate_truth(system: System, N: int, x0: FloatArray, P0: FloatArray, input
     inputs (steps, m): the noise-free inputs that the filter will be given too.
 
     Raises:
-        ValueError: f or h of the system gives a value that is not finite, or Q or R is no covariance; the step is
-            named.
+        ValueError: system is none, or the seed no whole number; f or h of the system gives a value that is not finite,
+            or Q or R is no covariance, and the step is named.
     """
+    check_system("system", system)
+    check_seed(seed)
     random, system = np.random.default_rng(seed), shaped(system)
     steps = len(inputs)
     check_noises(system, range(steps), range(0, steps + 1, N), "numpy")

@@ -8,7 +8,7 @@ import numpy as np
 
 from filters.arrays import FloatArray
 from filters.noises import check_noises
-from filters.problem import check_covariance
+from filters.problem import check_covariance, check_system
 from filters.running import running
 from filters.systems.shaped import shaped
 from filters.systems.system import System
@@ -34,6 +34,7 @@ def true_covariance(system: System, P0: FloatArray, gains: FloatArray) -> TrueCo
         ValueError: a shape is wrong, P0, the gains or what the system gives are not finite, or P0, Q or R of some step
             is no covariance.
     """
+    check_system("system", system)
     n, m, p = system.states, system.inputs, system.measurements
     if np.shape(P0) != (n, n) or gains.ndim < 3 or gains.shape[-2:] != (n, p):
         raise ValueError(

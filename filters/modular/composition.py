@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from filters.choice import check_choice
+from filters.kind import check_kind
 from filters.modular.correctors import Corrector, check_noise
 from filters.modular.predictors import Predictor
 from filters.modular.space import Space, as_space, space
@@ -137,8 +138,7 @@ class ModularFilter:
 
 def check_composed(composed: object) -> None:
     """Raises ValueError unless it is a filter."""
-    if not isinstance(composed, ModularFilter):
-        raise ValueError(f"composed is {composed!r:.60}; give a ModularFilter(predictor, sensors, ...)")
+    check_kind("composed", composed, ModularFilter, "a ModularFilter(predictor, sensors, ...)")
 
 
 def unscented_parts(composed: ModularFilter) -> list[str]:

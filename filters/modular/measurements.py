@@ -11,6 +11,7 @@ from filters.arrays import FloatArray
 from filters.modular.check import as_numbers
 from filters.modular.composition import ModularFilter, Sensor, check_composed
 from filters.modular.space import Space, plain, plus
+from filters.seed import check_seed
 
 
 class Measurement(NamedTuple):
@@ -35,8 +36,7 @@ def observe(composed: ModularFilter, truth: FloatArray, seed: int) -> list[Measu
         ValueError: composed is no filter, the seed no whole number, or the truth has a wrong shape or is not finite.
     """
     check_composed(composed)
-    if not isinstance(seed, int | np.integer) or seed < 0:
-        raise ValueError(f"seed={seed!r:.60} must be a whole number, at least 0: the same draws the same")
+    check_seed(seed)
     truth = as_numbers("truth", truth)
     if truth.ndim != 2 or truth.shape[1] != composed.of.numbers:
         raise ValueError(f"truth has shape {truth.shape}, the filter's states need (any, {composed.of.numbers})")

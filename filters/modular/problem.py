@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike
 
 from filters.arrays import FloatArray
 from filters.modular.check import as_numbers, check_start
-from filters.modular.composition import ModularFilter, unscented_parts
+from filters.modular.composition import ModularFilter, check_composed, unscented_parts
 from filters.modular.trial import try_functions
 from filters.records import Estimate
 
@@ -22,6 +22,7 @@ def check_problem(
     Raises:
         ValueError: as `check.check_start` and `trial.try_functions`; the inputs are no matrix, or not finite.
     """
+    check_composed(composed)
     x, P = check_start(composed.of, x0, P0)
     rows = as_numbers("inputs", inputs)
     if rows.ndim != 2:
@@ -38,6 +39,7 @@ def check_linearised(composed: ModularFilter, late: str) -> None:
 
     So does update='u-d', for `late` needs the covariance itself.
     """
+    check_composed(composed)
     if composed.update == "u-d":
         raise ValueError(
             f"update='u-d' keeps factors of the covariance, and late={late!r} works on the covariance; use "

@@ -13,7 +13,7 @@ from filters.kernels.place import IntArray
 from filters.modular.arrivals import whole
 from filters.modular.breakdown import PREDICTOR, Failure, breakdown
 from filters.modular.check import as_numbers, check_start
-from filters.modular.composition import ModularFilter, Sensor
+from filters.modular.composition import ModularFilter, Sensor, check_composed
 from filters.modular.correction import correction
 from filters.modular.estimate import empty, is_sound
 from filters.modular.measurements import expected_by
@@ -22,6 +22,7 @@ from filters.modular.trial import try_functions
 from filters.modular.workspace import new_workspace
 from filters.normal import normal
 from filters.records import Estimate
+from filters.seed import check_seed
 
 WARM_UP = 12
 """Steps with a measurement of each sensor, after which the covariance is far from its start."""
@@ -52,6 +53,8 @@ def typical_moment(
         ValueError: a shape is wrong, P0 is no covariance, a function does not do what it should (see `trial`),
             or an estimate breaks down; it names the part.
     """
+    check_composed(composed)
+    check_seed(seed)
     of, random = composed.of, np.random.default_rng(seed)
     x, P = check_start(of, _origin(of) if x0 is None else x0, np.eye(of.errors) if P0 is None else P0)
     given = np.zeros(_inputs(composed)) if u is None else as_numbers("u", u)

@@ -7,6 +7,7 @@ from typing import Literal, TypeAlias
 import numpy as np
 
 from filters.choice import check_choice
+from filters.problem import check_system
 from filters.systems.linear import LinearParameters, linear_system
 from filters.systems.system import System
 
@@ -27,8 +28,11 @@ def over(system: System, n: int, noise: CoarseNoise = "averaged") -> System:
     Raises:
         ValueError: n is less than 1, noise is unknown, or for n > 1 the system is not linear or its Phi or Q change.
     """
-    if n < 1:
-        raise ValueError(f"n={n} must be at least 1: it is the number of steps that the coarse model takes at once")
+    check_system("system", system)
+    if not isinstance(n, int | np.integer) or n < 1:
+        raise ValueError(
+            f"n={n!r} must be a whole number, at least 1: it is the number of steps that the coarse model takes at once"
+        )
     check_choice("noise", noise, ("averaged", "sampled"))
     if n == 1:
         return system

@@ -9,7 +9,7 @@ import numpy as np
 
 from filters.arrays import FloatArray
 from filters.kernels.dense import add_matvec, copy, matvec
-from filters.modular.composition import ModularFilter
+from filters.modular.composition import ModularFilter, check_composed
 from filters.modular.correctors import ExtendedView, LinearView, NumericView, expect_numeric
 from filters.modular.predictors import ExtendedMotion, LinearMotion, NumericMotion, predict_numeric
 from filters.modular.space import Space, space
@@ -46,6 +46,7 @@ def composed_system(composed: ModularFilter, P0: FloatArray, inputs: int) -> Sys
 
     P0 (n, n): the covariance to start from. inputs: how many numbers an input has.
     """
+    check_composed(composed)
     (sensor,) = composed.sensors
     n, observed = composed.of.errors, sensor.corrector.observed
     motion, observation = composed.predictor.motion, sensor.corrector.view(n)

@@ -86,7 +86,8 @@ GOOD = problem(example_system(3, 2, 1), 5, 2, 4, 12, seed=0)
         ({"measurements": None}, r"measurements is None; give a row for each, .* \[\] if there are none"),
         ({"measurements": 7}, "measurements is 7; give a row for each"),
         ({"system": None}, "system is None; give a filters.systems.system.System"),
-        ({"system": example_system}, "system is <function example_system .*; give a filters.systems.system.System"),
+        ({"system": example_system}, r"system is the function example_system, .* call it: system = example_system\("),
+        ({"system": (GOOD.system, np.zeros(3))}, "system is a tuple with the System in it; unpack it: system, x0 ="),
     ],
 )
 def test_arguments_of_a_run(change: dict[str, Any], message: str) -> None:

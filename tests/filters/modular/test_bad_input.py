@@ -186,7 +186,9 @@ def test_measurements(measurements: list[Measurement], message: str) -> None:
         ({"backend": "gpu"}, "backend='gpu' is unknown"),
         ({"backend": ["compiled"]}, "backend=.'compiled'. is unknown"),
         ({"composed": None}, r"composed is None; give a ModularFilter\(predictor, sensors, ...\)"),
-        ({"composed": (GPS.composed,)}, "composed is .ModularFilter.*; give a ModularFilter"),
+        ({"composed": (GPS.composed,)}, "composed is a tuple with the ModularFilter in it; give item 0 of it"),
+        ({"composed": (GPS.composed, GPS.x0, GPS.P0)}, "in it; unpack it: composed, x0, P0 = "),
+        ({"composed": linear_case}, r"composed is the function linear_case, .*; call it: composed = linear_case\("),
     ],
 )
 def test_arguments_of_a_run(change: dict[str, Any], message: str) -> None:
