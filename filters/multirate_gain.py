@@ -122,8 +122,8 @@ def run(
     measurements (steps + 1, measurements): row j is used in step j. None in place of a row, or of a number in it, says
         that it was lost: it corrects nothing. A gain is computed with the numbers of which at least one came in its n
         steps, k to k + n - 1; for n = 1 that is the standard filter.
-    coarse: the system over n steps, `over(system, n)` if not given; its functions get the steps of `system`, and the
-        estimate and input at the start of an interval.
+    coarse: the system over n steps, `over(system, n)` if not given, which is known of a `linear_system` whose Phi and
+        Q do not change; its functions get the steps of `system`, and estimate and input at the start of an interval.
     form: how the covariance is kept. update: the covariance form by which the conventional one multiplies.
 
     In the result, P_reference is what the gains of k = 0, n, 2n, ... were computed from, innovations and gains have one
