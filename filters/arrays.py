@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -9,6 +10,16 @@ from numpy.typing import NDArray
 
 FloatArray: TypeAlias = NDArray[np.float64]
 Flags: TypeAlias = NDArray[np.bool_]
+
+
+def as_floats(value: Any) -> FloatArray:
+    """A contiguous copy. Raises TypeError, ValueError or OverflowError for what is no array of real numbers."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", np.exceptions.ComplexWarning)
+        try:
+            return np.array(value, dtype=np.float64, order="C")
+        except np.exceptions.ComplexWarning:
+            raise TypeError("it is complex") from None
 
 
 def check_unmasked(name: str, value: Any) -> None:

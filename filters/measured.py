@@ -8,7 +8,7 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from filters.arrays import FloatArray, without_mask
+from filters.arrays import FloatArray, as_floats, without_mask
 
 Measurements: TypeAlias = FloatArray | Sequence[Any]
 """One row (p,) a measurement, as an array or a sequence; None in place of a row, or of a number, that was lost.
@@ -43,7 +43,7 @@ def measured(p: int, every: int, measurements: Measurements) -> Measured:
         rows = np.array([_row(row, p, c * every) for c, row in enumerate(rows)], dtype=object).reshape(-1, p)
     present = np.not_equal(rows, None).astype(np.bool_)  # type: ignore[call-overload]  # entry by entry
     try:
-        y = np.where(present, rows, 0.0).astype(np.float64)
+        y = as_floats(np.where(present, rows, 0.0))
     except (TypeError, ValueError, OverflowError) as error:
         raise ValueError(f"measurements holds a value that is no number: {error}") from error
     wrong = ~np.isfinite(y).all(axis=1)

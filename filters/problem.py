@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from filters.arrays import FloatArray, check_unmasked
+from filters.arrays import FloatArray, as_floats, check_unmasked
 from filters.kind import check_kind
 from filters.measured import Measured, Measurements, measured
 from filters.records import Estimate
@@ -116,7 +116,11 @@ def _start_and_inputs(system: System, x0: ArrayLike, P0: ArrayLike, inputs: Arra
     x, P = _numbers("x0", x0, (n,)), _numbers("P0", P0, (n, n))
     check_covariance("P0", P)
     moves = as_array("inputs", inputs)
-    moves = _numbers("inputs", moves, (len(moves) if moves.ndim else 0, system.inputs))
+    if moves.ndim != 2:
+        without = "" if system.inputs else ", np.empty((steps, 0)) for a system without inputs"
+        given = "is None" if inputs is None else f"has shape {moves.shape}"
+        raise ValueError(f"inputs {given}; give a row of {system.inputs} numbers for each step{without}")
+    moves = _numbers("inputs", moves, (len(moves), system.inputs))
     _check_system(system, x, moves)
     return Estimate(x, 0.5 * (P + P.T)), moves
 
@@ -148,9 +152,7 @@ def as_array(name: str, value: ArrayLike) -> FloatArray:
     """A contiguous copy. Raises ValueError, naming it, unless it is an array of real numbers, none of them masked."""
     check_unmasked(name, value)
     try:
-        if np.iscomplexobj(value):
-            raise TypeError("it is complex")
-        return np.array(value, dtype=np.float64, order="C")
+        return as_floats(value)
     except (TypeError, ValueError, OverflowError) as error:
         raise ValueError(f"{name} is no array of numbers: {error}") from error
 

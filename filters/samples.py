@@ -11,6 +11,7 @@ from filters.arrays import FloatArray
 from filters.covariance_forms import COVARIANCE_FORMS
 from filters.high_rate import hr_propagate, hr_restart
 from filters.kernels.backends import arguments_for, function_for
+from filters.problem import as_array
 from filters.records import (
     Correction,
     Estimate,
@@ -54,7 +55,7 @@ def sample(system: System, seed: int, index: int, x0: FloatArray | None = None) 
     k = WARM_UP + index
     m = k + DELAY
     random = np.random.default_rng([seed, index])
-    start = np.zeros(system.states) if x0 is None else np.array(x0, dtype=np.float64)
+    start = np.zeros(system.states) if x0 is None else as_array("x0", x0)
     P0 = np.eye(system.states)
     inputs = random.normal(size=(m + 1, system.inputs))
     truth = simulate_truth(system, 1, start, P0, inputs, int(random.integers(2**31)))

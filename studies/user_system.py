@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from filters.arrays import FloatArray
-from filters.problem import check_covariance, check_measurement_noise
+from filters.problem import as_array, check_covariance, check_measurement_noise
 from filters.systems.system import System
 from filters.systems.trial import check_result, trials
 from sched_sim.bounds import MOST_STATES, short
@@ -37,8 +37,8 @@ def load_system(name: str) -> tuple[System, FloatArray]:
             raise InputError(
                 f"--system {name!r}: {what}={short(repr(size))} must be a whole number from {least} to {MOST_STATES}"
             )
-    with explained(f"--system {name!r}: the typical state is no array of numbers"):
-        state = np.zeros(system.states) if x0 is None else np.array(x0, dtype=np.float64)
+    with explained(f"--system {name!r}"):
+        state = np.zeros(system.states) if x0 is None else as_array("the typical state", x0)
     _try_model(name, system, state)
     return system, state
 

@@ -9,7 +9,7 @@ from typing import Literal, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike
 
-from filters.arrays import Flags, FloatArray, without_mask
+from filters.arrays import Flags, FloatArray, as_floats, without_mask
 from filters.choice import check_choice
 from filters.kernels.place import IntArray
 from filters.modular.composition import ModularFilter, Sensor
@@ -142,7 +142,7 @@ def _read(measurements: list[Measurement], sensor: Sensor) -> tuple[FloatArray, 
 def _stacked(measurements: list[Measurement], needed: int) -> FloatArray:
     """Their y (any, needed), nan for None; raises ValueError, naming the first that is not as many numbers."""
     try:
-        values = np.array([one.y for one in measurements], dtype=np.float64)
+        values = as_floats([one.y for one in measurements])
     except (TypeError, ValueError, OverflowError):
         values = np.empty(0)
     if values.shape != (len(measurements), needed) and measurements:
@@ -154,7 +154,7 @@ def _misshapen(measurements: list[Measurement], needed: int) -> ValueError:
     """Names the first of them whose y is not as many numbers."""
     for one in measurements:
         try:
-            shape = np.array(one.y, dtype=np.float64).shape
+            shape = as_floats(one.y).shape
         except (TypeError, ValueError, OverflowError):
             return _unfit(one, f"y is {one.y!r:.60}; its corrector needs an array of {needed} numbers")
         if shape != (needed,):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from filters.arrays import FloatArray, check_unmasked
+from filters.arrays import FloatArray, as_floats, check_unmasked
 from filters.kernels.definite import is_semidefinite
 from filters.modular.space import Space
 from filters.problem import check_covariance
@@ -16,9 +16,7 @@ def as_numbers(name: str, value: ArrayLike) -> FloatArray:
     """A contiguous copy. Raises ValueError, naming it, unless it is an array of real numbers, finite or not."""
     check_unmasked(name, value)
     try:
-        if np.iscomplexobj(value):
-            raise TypeError("complex numbers")
-        return np.array(value, dtype=np.float64, order="C")
+        return as_floats(value)
     except (TypeError, ValueError, OverflowError) as error:
         shown = " ".join(repr(value).split())
         raise ValueError(f"{name} is {shown:.60}; needed is an array of real numbers ({error})") from None
@@ -67,10 +65,10 @@ def check_start(of: Space, x0: ArrayLike, P0: ArrayLike) -> tuple[FloatArray, Fl
     if x.shape != (of.numbers,) or not np.isfinite(x).all():
         raise ValueError(f"x0 has shape {x.shape}, the filter needs {(of.numbers,)}, and finite numbers")
     for start in of.attitudes:
-        if not np.isclose(np.linalg.norm(x[start : start + 4]), 1.0, rtol=0, atol=1e-6):
-            raise ValueError(
-                f"x0: the attitude at {start} has length {np.linalg.norm(x[start : start + 4]):.6g}; divide by it"
-            )
+        length = np.linalg.norm(x[start : start + 4])
+        if not np.isclose(length, 1.0, rtol=0, atol=1e-6):
+            remedy = "divide by it" if 0 < length < np.inf else "give a unit quaternion, 1, 0, 0, 0 if it turns nothing"
+            raise ValueError(f"x0: the attitude at {start} has length {length:.6g}; {remedy}")
     P = as_matrix("P0", P0, (of.errors, of.errors))
     check_covariance("P0", P)
     P = 0.5 * (P + P.T)

@@ -34,6 +34,14 @@ def test_runs(method: str, backend: str) -> None:
         np.testing.assert_allclose(one, other, rtol=1e-13, atol=1e-15)
 
 
+@pytest.mark.parametrize("method", DELAYED_METHODS)
+def test_inputs_that_are_none_are_told_the_steps(method: str) -> None:
+    x0, P0, _, measurements = record(WITHOUT, 5)
+    said = r"inputs is None; give a row of 0 numbers for each step, np.empty\(\(steps, 0\)\) for a system without"
+    with pytest.raises(ValueError, match=said):
+        DELAYED_METHODS[method].run(WITHOUT, 5, 2, 4, x0, P0, None, measurements)
+
+
 @pytest.mark.parametrize("method", MULTIRATE_METHODS)
 def test_multirate_runs(method: str) -> None:
     run = MULTIRATE_METHODS[method].run

@@ -69,6 +69,9 @@ def breaking():
 def bursting():
     return car()._replace(f=lambda j, x, u, p, out: out.fill(1e200 + 1e200 * x[0] ** 2))
 
+def imaginary():
+    return car(), np.array([1.0, 2.0j])
+
 def number():
     return 9
 """
@@ -153,6 +156,7 @@ def test_the_user_may_give_a_typical_state() -> None:
         ("own_system:negative", r"Q\(j, p\) is no covariance: its smallest eigenvalue is -1"),
         ("own_system:failing", r"Q\(j, p\) failed: IndexError"),
         ("own_system:moving", r"h\(k, x, p, out\) changes x, which is not its own"),
+        ("own_system:imaginary", "the typical state is no array of numbers: it is complex"),
         ("own_system:wrong", r"wrong\(\) failed: linear_system: Phi"),
     ],
 )

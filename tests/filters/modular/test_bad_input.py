@@ -177,6 +177,7 @@ def test_measurements(measurements: list[Measurement], message: str) -> None:
         ),
         ({"x0": ["here", 1.0]}, "x0 is .'here', 1.0.; needed is an array of real numbers"),
         ({"inputs": 1j * np.ones((6, 1))}, "inputs is array.*; needed is an array of real numbers"),
+        ({"measurements": [Measurement("gps", 0, 3, Y + 1j)]}, "sensor 'gps', .*y is array.*; its corrector needs"),
         ({"x0": np.ma.array([0.0, 1.0], mask=[0, 1])}, r"x0 is masked at \[1\]; give a number there"),
         ({"P0": np.ma.array(np.eye(2), mask=np.eye(2))}, r"P0 is masked at \[0, 0\]"),
         ({"inputs": np.ma.masked_all((6, 1))}, r"inputs is masked at \[0, 0\]"),
@@ -201,6 +202,13 @@ def test_arguments_of_a_run(change: dict[str, Any], message: str) -> None:
         "backend": "reference",
     }
     refused(message, lambda: run(**{**good, **change}))
+
+
+def test_an_attitude_without_length_is_given_one() -> None:
+    refused(
+        "x0: the attitude at 0 has length 0; give a unit quaternion, 1, 0, 0, 0 if it turns nothing",
+        lambda: run(ATTITUDE.composed, np.zeros(7), ATTITUDE.P0, ATTITUDE.inputs(1), [], backend="reference"),
+    )
 
 
 def test_a_quaternion_to_start_from_has_unit_length() -> None:
