@@ -10,7 +10,7 @@ from filters.arrays import FloatArray
 from filters.modular.composition import ModularFilter, unscented_parts
 from filters.modular.estimate import copy_estimate, empty
 from filters.modular.kept import with_covariance
-from filters.modular.space import Space, is_point, space
+from filters.modular.space import NOTHING, Space, is_point
 from filters.modular.workspace import Workspace, new_workspace
 from filters.records import Estimate
 
@@ -62,7 +62,7 @@ def breakdown(composed: ModularFilter, part: int, step: int, failure: Failure, u
 
 def _of_predictor(composed: ModularFilter, failure: Failure, u: FloatArray) -> Cause:
     predictor, of = composed.predictor, composed.of
-    work, after = new_workspace(of, space(0)), empty(of)
+    work, after = new_workspace(of, NOTHING), empty(of)
     predictor.predict(predictor.motion, of, failure.at, u, composed.dt, after, work)
     if predictor.kind == "extended":
         return (

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from types import FunctionType
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -52,6 +54,17 @@ def as_noise(name: str, value: ArrayLike) -> FloatArray:
     matrix = as_covariance(name, value)
     check_positive_definite(name, matrix, "give each measurement noise of its own, a positive variance")
     return matrix
+
+
+def check_functions(part: str, model: object, arguments: str) -> None:
+    """Raises ValueError, naming the part, unless the functions of its model are plain ones."""
+    for name in ("f", "h", "jacobian"):
+        function = getattr(model, name, None)
+        if hasattr(model, name) and not isinstance(function, FunctionType):
+            raise ValueError(
+                f"{part}: {name}({arguments}) is a {type(function).__name__}; give a plain function, made by def or "
+                f"lambda"
+            )
 
 
 def check_start(of: Space, x0: ArrayLike, P0: ArrayLike) -> tuple[FloatArray, FloatArray]:

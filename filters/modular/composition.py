@@ -8,6 +8,7 @@ import numpy as np
 
 from filters.choice import check_choice
 from filters.kind import check_kind
+from filters.modular.check import check_functions
 from filters.modular.correctors import Corrector, check_noise
 from filters.modular.predictors import Predictor
 from filters.modular.space import Space, as_space, space
@@ -32,8 +33,10 @@ class Sensor:
     dropout: float = 0.0
 
     def __post_init__(self) -> None:
-        if not isinstance(self.name, str):
-            raise ValueError(f"sensor {self.name!r:.60}: its name must be text, by which its measurements are known")
+        if not (isinstance(self.name, str) and self.name.strip()):
+            raise ValueError(
+                f"Sensor: name={self.name!r:.60} must be text, and not empty: its measurements are known by it"
+            )
         if not isinstance(self.corrector, Corrector):
             raise ValueError(
                 f"sensor {self.name!r}: the corrector is a {type(self.corrector).__name__}; make one by "
@@ -41,12 +44,12 @@ class Sensor:
             )
         if not isinstance(self.every, int | np.integer) or self.every < 1:
             raise ValueError(
-                f"sensor {self.name!r}: every={self.every} must be a whole number, at least 1: the steps between "
+                f"sensor {self.name!r}: every={self.every!r} must be a whole number, at least 1: the steps between "
                 f"measurements"
             )
         if not isinstance(self.delay, int | np.integer) or self.delay < 0:
             raise ValueError(
-                f"sensor {self.name!r}: delay={self.delay} must be a whole number, at least 0: the steps until a "
+                f"sensor {self.name!r}: delay={self.delay!r} must be a whole number, at least 0: the steps until a "
                 f"measurement is available"
             )
         if not (isinstance(self.dropout, int | float) and 0 <= self.dropout <= 1):
@@ -90,7 +93,7 @@ class ModularFilter:
                 f"unscented_predictor"
             )
         if not (isinstance(sensors, list | tuple) and all(isinstance(sensor, Sensor) for sensor in sensors)):
-            raise ValueError(f"sensors is {sensors!r}; give a list of Sensor(name, corrector, ...)")
+            raise ValueError(f"sensors is {sensors!r:.60}; give a list of Sensor(name, corrector, ...)")
         object.__setattr__(self, "predictor", predictor)
         object.__setattr__(self, "sensors", tuple(sensors))
         if not isinstance(dt, int | float | np.integer | np.floating):
@@ -110,6 +113,7 @@ class ModularFilter:
                 f"predictor: its Q has shape {(n, n)}, but an error of the state has {self.of.errors} numbers (an "
                 f"attitude has 3)"
             )
+        check_functions("predictor", self.predictor.motion, "x, u, dt, out")
         if self.predictor.kind == "linear" and len(self.of.attitudes):
             raise ValueError("predictor: a linear one cannot turn an attitude; make it extended or unscented")
         if self.update == "u-d":
@@ -127,6 +131,7 @@ class ModularFilter:
                 view = sensor.corrector.view(n)
             except ValueError as error:
                 raise ValueError(f"sensor {sensor.name!r}: {error}") from None
+            check_functions(f"sensor {sensor.name!r}", view, "x, out")
             if sensor.corrector.kind == "linear":
                 for at, start in enumerate(self.of.attitudes):
                     if np.any(view.H[:, start - at : start - at + 3]):

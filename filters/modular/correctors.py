@@ -225,4 +225,4 @@ def _project(R: FloatArray, P: FloatArray, work: Workspace) -> None:
 
 def _noise_and_space(R: ArrayLike, observed: Space | None) -> tuple[FloatArray, Space]:
     noise = np.atleast_1d(as_numbers("R", R))
-    return noise, space(len(noise)) if observed is None else as_space("observed", observed)
+    return noise, space(max(len(noise), 1)) if observed is None else as_space("observed", observed)

@@ -21,7 +21,7 @@ from filters.modular.larsen_jobs import (
     larsen_correction_from,
 )
 from filters.modular.prediction import prediction
-from filters.modular.space import space
+from filters.modular.space import NOTHING
 from filters.modular.typical import Moment, near, typical_moment
 from filters.modular.workspace import new_workspace
 from filters.registry import Job
@@ -67,7 +67,7 @@ def modular_jobs(
 
 def _predict(composed: ModularFilter, at: Moment) -> tuple[Any, ...]:
     of, motion = composed.of, composed.predictor.motion
-    return motion, of, keep(composed, at.estimate), at.u, composed.dt, empty(of), new_workspace(of, space(0))
+    return motion, of, keep(composed, at.estimate), at.u, composed.dt, empty(of), new_workspace(of, NOTHING)
 
 
 def _correct(composed: ModularFilter, number: int, at: Moment) -> tuple[Any, ...]:

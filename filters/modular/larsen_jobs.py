@@ -15,7 +15,7 @@ from filters.modular.arrivals import whole
 from filters.modular.composition import ModularFilter
 from filters.modular.estimate import empty
 from filters.modular.larsen import Flight, Given, accumulate
-from filters.modular.space import Space, space
+from filters.modular.space import NOTHING, Space
 from filters.modular.typical import Moment
 from filters.modular.workspace import Workspace, new_workspace
 from filters.records import Estimate
@@ -58,7 +58,7 @@ def arguments_of_prediction(composed: ModularFilter, at: Moment) -> tuple[Any, .
     """Of `predict_accumulate`."""
     of, predictor = composed.of, composed.predictor
     flight = _flight(composed, at)
-    work, after = new_workspace(of, space(0)), empty(of)
+    work, after = new_workspace(of, NOTHING), empty(of)
     M_next = flight.M.copy()
     return predictor.motion, of, at.estimate, at.u, composed.dt, after, flight.M, M_next, work
 
@@ -74,6 +74,6 @@ def arguments_of_correction(composed: ModularFilter, number: int, late: bool, at
 
 def _flight(composed: ModularFilter, at: Moment) -> Flight:
     """A measurement taken in the step before, as far as the covariance goes: M = F."""
-    of, work = composed.of, new_workspace(composed.of, space(0))
+    of, work = composed.of, new_workspace(composed.of, NOTHING)
     composed.predictor.predict(composed.predictor.motion, of, at.estimate, at.u, composed.dt, empty(of), work)
     return Flight(Estimate(at.estimate.x.copy(), at.estimate.P.copy()), work.F)

@@ -17,7 +17,7 @@ from filters.modular.correctors import Corrector
 from filters.modular.history import Estimates, new_estimates
 from filters.modular.kept import kept_by
 from filters.modular.prediction import prediction
-from filters.modular.space import space
+from filters.modular.space import NOTHING
 from filters.modular.workspace import new_workspace
 from filters.running import running
 
@@ -56,7 +56,7 @@ def run_kernel(
             arrived,
             found,
             failure,
-            new_workspace(composed.of, space(0)),
+            new_workspace(composed.of, NOTHING),
             *own,
         )
     if culprit != SOUND:

@@ -25,6 +25,25 @@ class SigmaPoints(NamedTuple):
     kappa: float
 
 
+def _checked(points: SigmaPoints) -> SigmaPoints:
+    """The points. Raises ValueError unless they are of numbers that spread some for one state or another."""
+    for name, value in zip(points._fields[1:], points[1:], strict=True):
+        if not isinstance(value, int | float | np.integer | np.floating):
+            raise ValueError(f"{points.form}: {name}={value!r:.60} must be a number")
+    nowhere = points.alpha == 0 or (points.form == "maccormack" and points.kappa <= 0)
+    if nowhere or not np.isfinite([points.alpha, points.beta, points.kappa]).all():
+        raise _without_spread(points, "any number of states")
+    return points
+
+
+def _without_spread(points: SigmaPoints, states: str) -> ValueError:
+    return ValueError(
+        f"{points.form}: alpha={points.alpha}, beta={points.beta}, kappa={points.kappa} spread no sigma points for "
+        f"{states}: alpha^2 times {'(n + kappa)' if points.form == 'merwe' else 'kappa'} must be greater than 0, and "
+        f"all finite"
+    )
+
+
 class Weights(NamedTuple):
     """Point 0 is the mean, points i and n + i lie `spread` times column i of the root of P from it.
 
@@ -42,8 +61,10 @@ def merwe(alpha: float = 1.0, beta: float = 2.0, kappa: float = 0.0) -> SigmaPoi
 
     W_m0 = 1 - n / (alpha^2 (n + kappa)), W_c0 = W_m0 + 1 - alpha^2 + beta. Wan and van der Merwe, The unscented Kalman
     filter for nonlinear estimation, 2000. beta = 2 is best for a normal distribution.
+
+    Raises ValueError for numbers that are none, or spread no points for any n.
     """
-    return SigmaPoints("merwe", alpha, beta, kappa)
+    return _checked(SigmaPoints("merwe", alpha, beta, kappa))
 
 
 USUAL = merwe()
@@ -53,28 +74,25 @@ def maccormack(alpha: float = 1.0, beta: float = 2.0, kappa: float = 3.0) -> Sig
     """The points of MacCormack and Rubinstein's modular filter: spread alpha sqrt(kappa), kappa in place of n + kappa.
 
     W_m0 = (alpha^2 kappa - n) / (alpha^2 kappa), W_c0 = W_m0 - alpha^2 + beta: 1 less than `merwe`'s.
+
+    Raises ValueError as that does.
     """
-    return SigmaPoints("maccormack", alpha, beta, kappa)
+    return _checked(SigmaPoints("maccormack", alpha, beta, kappa))
 
 
 def weights(points: SigmaPoints, n: int) -> Weights:
     """The weights for errors of length n.
 
     Raises:
-        ValueError: the points are none, a number is none or not finite, alpha is zero, or the points have no spread.
+        ValueError: the points are none, or have no spread for this n.
     """
     if not isinstance(points, SigmaPoints):
         raise ValueError(f"points is {points!r:.60}; give merwe(...) or maccormack(...)")
-    for name, value in zip(points._fields[1:], points[1:], strict=True):
-        if not isinstance(value, int | float | np.integer | np.floating):
-            raise ValueError(f"{points.form}: {name}={value!r:.60} must be a number")
+    _checked(points)
     merwes = points.form == "merwe"
-    scale = points.alpha**2 * (points.kappa + n if merwes else points.kappa)
-    if not (np.isfinite([points.alpha, points.beta, points.kappa]).all() and scale > 0):
-        raise ValueError(
-            f"{points.form}: alpha={points.alpha}, beta={points.beta}, kappa={points.kappa} spread no sigma points for "
-            f"{n} states: alpha^2 times {'(n + kappa)' if merwes else 'kappa'} must be greater than 0"
-        )
+    scale = points.alpha * points.alpha * (points.kappa + n if merwes else points.kappa)
+    if not 0 < scale < np.inf:
+        raise _without_spread(points, f"{n} states")
     mean_0 = 1.0 - n / scale
     covariance_0 = mean_0 - points.alpha**2 + points.beta + (1.0 if merwes else 0.0)
     return Weights(float(np.sqrt(scale)), mean_0, covariance_0, 0.5 / scale)

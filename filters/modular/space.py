@@ -18,6 +18,9 @@ from filters.kernels.quaternion import rotation_between, turn
 SHORTEST = 1e-200
 """The squared length of a quaternion that is as good as none."""
 
+MOST = 100_000
+"""The length of a point of which a covariance is 80 GB."""
+
 
 class Space(NamedTuple):
     """numbers, errors: the lengths of a point and of an error; attitudes: where their quaternions begin in a point,
@@ -29,6 +32,10 @@ class Space(NamedTuple):
     angles: IntArray
 
 
+NOTHING = Space(0, 0, np.zeros(0, dtype=np.int64), np.zeros(0, dtype=np.int64))
+"""What a predictor observes."""
+
+
 def space(numbers: int, attitudes: Sequence[int] = (), angles: Sequence[int] = ()) -> Space:
     """The space of points with so many numbers.
 
@@ -38,13 +45,15 @@ def space(numbers: int, attitudes: Sequence[int] = (), angles: Sequence[int] = (
     Raises:
         ValueError: an index is not whole or does not fit, or two share a number.
     """
-    if not isinstance(numbers, int | np.integer):
-        raise ValueError(f"space: numbers={numbers!r:.60} must be a whole number: the length of a point")
+    if isinstance(numbers, bool) or not isinstance(numbers, int | np.integer) or not 1 <= numbers <= MOST:
+        raise ValueError(
+            f"space: numbers={numbers!r:.60} must be a whole number from 1 to {MOST}: the length of a point"
+        )
     for name, indices in (("attitudes", attitudes), ("angles", angles)):
         if not (isinstance(indices, Iterable) and all(isinstance(i, int | np.integer) for i in indices)):
             raise ValueError(f"space: {name}={indices!r:.60} must be a list of whole numbers, [] if there are none")
     taken = [at + i for at in attitudes for i in range(4)] + list(angles)
-    if numbers < 0 or len(set(taken)) < len(taken) or not all(0 <= i < numbers for i in taken):
+    if len(set(taken)) < len(taken) or not all(0 <= i < numbers for i in taken):
         raise ValueError(
             f"space: {numbers} numbers cannot hold attitudes={list(attitudes)} (4 numbers each) and "
             f"angles={list(angles)}; give the index of each one's first number, from 0, without overlap"
@@ -52,7 +61,10 @@ def space(numbers: int, attitudes: Sequence[int] = (), angles: Sequence[int] = (
     starts = sorted(attitudes)
     of_error = [at - sum(start < at for start in starts) for at in angles]
     return Space(
-        numbers, numbers - len(starts), np.array(starts, dtype=np.int64), np.array(sorted(of_error), dtype=np.int64)
+        int(numbers),
+        int(numbers) - len(starts),
+        np.array(starts, dtype=np.int64),
+        np.array(sorted(of_error), dtype=np.int64),
     )
 
 

@@ -7,7 +7,6 @@ whatever lies behind it.
 from __future__ import annotations
 
 from collections.abc import Callable
-from types import FunctionType
 from typing import Any
 
 import numpy as np
@@ -16,7 +15,7 @@ from filters.arrays import FloatArray
 from filters.modular.composition import ModularFilter, Sensor
 from filters.modular.correctors import NumericView, expect_numeric
 from filters.modular.predictors import NumericMotion, predict_numeric
-from filters.modular.space import Space, is_point, space
+from filters.modular.space import NOTHING, Space, is_point
 from filters.modular.workspace import new_workspace
 from filters.records import Estimate
 
@@ -53,7 +52,7 @@ def _try_predictor(composed: ModularFilter, at: Estimate, u: FloatArray) -> None
         if hasattr(motion, "jacobian"):
             what = "predictor: jacobian(x, u, dt, out)"
             F = _try(what, motion.jacobian, (x, u, dt), (n, n), 0.0)
-            work = new_workspace(of, space(0))
+            work = new_workspace(of, NOTHING)
             after = Estimate(np.empty_like(x), np.empty((n, n)))
             predict_numeric(NumericMotion(motion.f, motion.Q), of, at, u, dt, after, work)
             _compare(what, F, work.F, at, after.x)
@@ -83,8 +82,6 @@ def _try(
     what: str, function: Callable[..., Any], given: tuple[Any, ...], shape: tuple[int, ...], unwritten: float
 ) -> FloatArray:
     """What the function wrote. unwritten: what out holds beforehand; a Jacobian may leave its zeros as they are."""
-    if not isinstance(function, FunctionType):
-        raise ValueError(f"{what} is a {type(function).__name__}; give a plain function, made by def or lambda")
     before = [np.copy(value) for value in given]
     out = np.full(shape, unwritten)
     sizes = ", ".join(f"{name} {np.shape(value)}" for name, value in zip("xu", given[:2], strict=False))

@@ -17,7 +17,7 @@ from filters.modular.composition import ModularFilter, Sensor, check_composed
 from filters.modular.correction import correction
 from filters.modular.estimate import empty, is_sound
 from filters.modular.measurements import expected_by
-from filters.modular.space import Space, plus, space
+from filters.modular.space import NOTHING, Space, plus
 from filters.modular.trial import try_functions
 from filters.modular.workspace import new_workspace
 from filters.normal import normal
@@ -123,7 +123,7 @@ def _evolved(composed: ModularFilter, x: FloatArray, u: FloatArray) -> FloatArra
 def _predicted(composed: ModularFilter, at: Estimate, u: FloatArray) -> Estimate:
     of, after = composed.of, empty(composed.of)
     predict, motion = composed.predictor.predict, composed.predictor.motion
-    predict(motion, of, at, u, composed.dt, after, new_workspace(of, space(0)))
+    predict(motion, of, at, u, composed.dt, after, new_workspace(of, NOTHING))
     return after
 
 

@@ -12,7 +12,7 @@ from filters.kernels.dense import add_matvec, copy, matvec
 from filters.modular.composition import ModularFilter, check_composed
 from filters.modular.correctors import ExtendedView, LinearView, NumericView, expect_numeric
 from filters.modular.predictors import ExtendedMotion, LinearMotion, NumericMotion, predict_numeric
-from filters.modular.space import Space, space
+from filters.modular.space import NOTHING, Space
 from filters.modular.workspace import Workspace, new_workspace
 from filters.records import Estimate
 from filters.systems.system import System
@@ -59,7 +59,7 @@ def composed_system(composed: ModularFilter, P0: FloatArray, inputs: int) -> Sys
         P0,
         Scratch(
             Estimate(np.zeros(n), np.zeros((n, n))),
-            new_workspace(composed.of, space(0)),
+            new_workspace(composed.of, NOTHING),
             new_workspace(composed.of, observed),
         ),
     )

@@ -204,6 +204,55 @@ def test_arguments_of_a_run(change: dict[str, Any], message: str) -> None:
     refused(message, lambda: run(**{**good, **change}))
 
 
+@pytest.mark.parametrize("name", [3, None, ["gps"], "", "  "])
+def test_a_sensor_s_name(name: Any) -> None:
+    refused("Sensor: name=.* must be text, and not empty: its measurements are", lambda: Sensor(name, POSITION))
+
+
+@pytest.mark.parametrize("make", [merwe, maccormack])
+@pytest.mark.parametrize(
+    ("numbers", "message"),
+    [
+        ({"alpha": 0}, "alpha=0, .* spread no sigma points for any number of states: alpha.2 times"),
+        ({"alpha": np.nan}, "alpha=nan, .* spread no sigma points for any number of states"),
+        ({"kappa": np.inf}, "kappa=inf spread no sigma points for any number of states"),
+        ({"alpha": "a"}, "alpha='a' must be a number"),
+        ({"beta": None}, "beta=None must be a number"),
+        ({"kappa": 1j}, "kappa=1j must be a number"),
+    ],
+)
+def test_sigma_points_are_refused_as_they_are_made(
+    make: Callable[..., Any], numbers: dict[str, Any], message: str
+) -> None:
+    refused(f"{make.__name__}: .*{message}", lambda: make(**numbers))
+
+
+def test_sigma_points_of_no_state_or_beyond_all_numbers() -> None:
+    refused("maccormack: .* any number of states: alpha.2 times kappa must be", lambda: maccormack(kappa=0.0))
+    refused(
+        "merwe: alpha=1e.200, .* for 2 states", lambda: unscented_predictor(cases.pendulum, cases.Q, merwe(alpha=1e200))
+    )
+    refused("points is <function merwe.*; give merwe", lambda: unscented_predictor(cases.pendulum, cases.Q, merwe))
+
+
+@pytest.mark.parametrize("numbers", ["2", None, 0, -1, 2.0, True, 10**9])
+def test_the_length_of_a_point(numbers: Any) -> None:
+    refused("space: numbers=.* must be a whole number from 1 to 100000", lambda: space(numbers))
+
+
+@pytest.mark.parametrize("function", [None, 3, "f", np.sin])
+def test_functions_are_looked_at_when_a_filter_is_composed(function: Any) -> None:
+    said = "is a (NoneType|int|str|ufunc); give a plain function, made by def or lambda"
+    Q, R = cases.Q, [[1.0]]
+    for predictor in (extended_predictor(function, Q), unscented_predictor(function, Q)):
+        refused(rf"predictor: f\(x, u, dt, out\) {said}", lambda predictor=predictor: ModularFilter(predictor, []))
+    for corrector in (extended_corrector(function, R), unscented_corrector(function, R)):
+        refused(rf"sensor 's': h\(x, out\) {said}", lambda corrector=corrector: linear_case(Sensor("s", corrector)))
+    if function is not None:
+        with_jacobian = extended_corrector(cases.height, R, function)
+        refused(rf"sensor 's': jacobian\(x, out\) {said}", lambda: linear_case(Sensor("s", with_jacobian)))
+
+
 def test_an_attitude_without_length_is_given_one() -> None:
     refused(
         "x0: the attitude at 0 has length 0; give a unit quaternion, 1, 0, 0, 0 if it turns nothing",
@@ -352,12 +401,7 @@ def test_sigma_points_are_made_by_the_functions_that_make_them() -> None:
     refused("sensor 'gps': points is None; give merwe", lambda: linear_case(Sensor("gps", corrector)))
     for make in (merwe, maccormack):
         for name in ("alpha", "beta", "kappa"):
-            spread = partial(unscented_predictor, cases.pendulum, cases.Q, make(**{name: None}))
-            refused(f"{make.__name__}: {name}=None must be a number", spread)
-
-
-def test_a_sensor_has_a_name() -> None:
-    refused("sensor None: its name must be text", lambda: Sensor(None, POSITION))
+            refused(f"{make.__name__}: {name}=None must be a number", partial(make, **{name: None}))
 
 
 FIELD = np.array([0.6, 0.0, 0.8])
