@@ -19,6 +19,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from filters.kernels.installed import is_foreign
+
 # What comes from these is known by its name and the library's version; numba has its own code for it.
 _LIBRARIES = frozenset({*sys.stdlib_module_names, "numba", "numpy"})
 _LIBRARY_FOLDERS = tuple(
@@ -127,7 +129,7 @@ class _Walk:
         kind = type(value)
         if kind in _PLAIN:
             self._put(kind.__name__, hex(value) if kind is int else repr(value))  # repr has a limit of digits
-        elif isinstance(value, FunctionType) and not is_of_library(value):
+        elif isinstance(value, FunctionType) and not (is_of_library(value) or is_foreign(value, self._function)):
             self.function(value)
         elif isinstance(value, CodeType):
             self._put(_code_digest(value))

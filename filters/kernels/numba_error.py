@@ -5,6 +5,10 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
+UNKNOWN = re.compile(
+    r"^(?:Unknown attribute '(?P<attribute>\w+)' of type Module\(<module '(?P<module>[\w.]+)'|"
+    r"Untyped global name '(?P<name>\w+)': Cannot determine Numba type of <class '(?:function|numpy\.ufunc)'>)"
+)
 WHERE = re.compile(r'^File "(?P<file>[^"]+)", line (?P<line>\d+):$')
 
 
@@ -20,11 +24,17 @@ def gist(error: Exception) -> str:
     reason = lines[0]
     if reason.endswith("signature:"):
         reason = " ".join([reason.removesuffix(" found for signature:"), *_starting(">>>", lines)[:1]])
+    if unknown := UNKNOWN.match(reason):
+        function = unknown["name"] or f"{unknown['module']}.{unknown['attribute']}"
+        return f"it has no code for {function}{_place(lines)}; compute that with functions of NumPy or in loops"
+    return f"{reason.rstrip('.')}{place}" if (place := _place(lines)) else reason
+
+
+def _place(lines: list[str]) -> str:
     places = [found for line in lines if (found := WHERE.match(line))]
     if not places or "^" not in lines:
-        return reason
-    file = Path(places[0]["file"]).name
-    return f"{reason.rstrip('.')}, in {file}, line {places[0]['line']}: {lines[lines.index('^') - 1]}"
+        return ""
+    return f", in {Path(places[0]['file']).name}, line {places[0]['line']}: {lines[lines.index('^') - 1]}"
 
 
 def _starting(mark: str, lines: list[str]) -> list[str]:

@@ -15,6 +15,7 @@ import numpy as np
 
 from filters.kernels.bind import like
 from filters.kernels.dependencies import Dependencies, dependencies, is_of_library, named_attributes, named_values
+from filters.kernels.installed import is_foreign
 
 Wrap = Callable[[FunctionType, FunctionType, Dependencies], Any]
 
@@ -39,7 +40,7 @@ class Versions:
         """A clone of `function` that calls clones of what it called, and so on down; recursive functions are handled.
 
         The originals and their modules are not touched. A clone keeps the constants as they are now: modules that it
-        names are copied, arrays too.
+        names are copied, arrays too. Functions of other installed libraries are called as they are.
         """
         if function in self._given:
             return self._given[function]
@@ -80,7 +81,7 @@ class _Snapshot:
         if is_of_library(value):
             return value
         if isinstance(value, FunctionType):
-            return self._version(value)
+            return value if is_foreign(value, self._function) else self._version(value)
         if type(value) is tuple or (isinstance(value, tuple) and hasattr(value, "_fields")):
             return like(value, [self.of(item) for item in value])
         if type(value) is np.ndarray:

@@ -12,6 +12,7 @@ from typing import Any, NamedTuple, cast
 
 import numpy as np
 import pytest
+from scipy.linalg import expm
 
 from filters.kernels.dependencies import dependencies
 from filters.modular import recalculate
@@ -173,6 +174,10 @@ def test_modules_and_functions_that_name_each_other_are_walked_once() -> None:
         return function(n - 1) if n else package.itself.itself
 
     assert dependencies(function) == dependencies(function)
+
+
+def test_a_function_of_an_installed_library_is_known_by_identity() -> None:
+    assert dependencies(naming(expm)).opaque == (expm,)
 
 
 @pytest.mark.parametrize("function", [filter_all, run.step_all, recalculate.filter_all])

@@ -6,7 +6,9 @@ from types import FunctionType, ModuleType
 from typing import Any
 
 import numpy as np
+import scipy.linalg
 from numpy import eye
+from scipy.linalg import expm
 
 from filters.kernels.dependencies import Dependencies
 from filters.kernels.rebind import Versions
@@ -116,3 +118,22 @@ def test_a_recursive_function_calls_its_clone() -> None:
 
     assert Versions(wrap).of(factorial)(4) == 24
     assert calls == [4, 3, 2, 1, 0]
+
+
+def test_a_function_of_an_installed_library_is_called_as_it_is() -> None:
+    def by_module(A: Any) -> Any:
+        return scipy.linalg.expm(A)
+
+    def by_name(A: Any) -> Any:
+        return expm(A)
+
+    wrapped: list[str] = []
+
+    def wrap(clone: FunctionType, original: FunctionType, _known: Dependencies) -> Any:
+        wrapped.append(original.__name__)
+        return clone
+
+    versions = Versions(wrap)
+    for function in (by_module, by_name):
+        np.testing.assert_array_equal(versions.of(function)(np.zeros((2, 2))), np.eye(2))
+    assert wrapped == ["by_module", "by_name"]
