@@ -16,6 +16,7 @@ from typing import Any, Literal, TypeVar
 
 from filters.covariance_forms import CovarianceFormName
 from filters.kernels.counted import Operations, count
+from filters.kernels.uncountable import UncountableError
 from filters.registry import ALL_METHODS, Job
 from filters.systems.system import System
 from sched_sim.costs import Cost, CostTable
@@ -48,7 +49,8 @@ def measure(
     update: the covariance form, of no use to methods that keep factors of the covariance.
     x0 (n,): a typical state of the system, zero if not given.
 
-    Raises InputError if the standard filter, with which typical arguments are made, cannot be run from there.
+    Raises InputError if the standard filter, with which typical arguments are made, cannot be run from there, or if a
+    function of the system cannot be counted or compiled.
     """
     jobs = {
         (method, kind): job
@@ -100,11 +102,17 @@ Key = TypeVar("Key")
 
 
 def counted(jobs: Mapping[Key, Job], progress: Progress = silent) -> dict[Key, Operations]:
-    """The exact operations of each job."""
+    """The exact operations of each job.
+
+    Raises InputError for a job with a function of the user's that cannot be counted.
+    """
     found = {}
     for number, (key, job) in enumerate(jobs.items()):
         progress(number, len(jobs), "jobs")
-        found[key] = count(job.function, *job.arguments(0))
+        try:
+            found[key] = count(job.function, *job.arguments(0))
+        except UncountableError as error:
+            raise InputError(f"{error}, or time it with another --backend") from error
     return found
 
 

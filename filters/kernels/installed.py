@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
-from types import CodeType, FunctionType
+from types import FunctionType
 
 _ROOT = Path(__file__).resolve().parents[2]
 _OURS = tuple(os.path.join(_ROOT, package, "") for package in ("filters", "reports", "sched_sim", "studies"))
@@ -12,9 +12,8 @@ _PYTHON = ("<frozen ", os.path.join(os.path.dirname(os.path.abspath(os.__file__)
 _FOLDERS = frozenset({"site-packages", "dist-packages"})
 
 
-def is_installed(code: CodeType) -> bool:
-    """By the file that it is from."""
-    file = code.co_filename
+def is_installed(file: str) -> bool:
+    """By the file that the code is from."""
     if file.startswith(_OURS):
         return False
     return file.startswith(_PYTHON) or not _FOLDERS.isdisjoint(Path(file).parts)
@@ -22,7 +21,9 @@ def is_installed(code: CodeType) -> bool:
 
 def is_foreign(function: FunctionType, caller: FunctionType | None) -> bool:
     """Whether it is installed and not of the caller's package, so that what it needs around it is not known here."""
-    return is_installed(function.__code__) and (caller is None or _package(function) != _package(caller))
+    if not is_installed(function.__code__.co_filename):
+        return False
+    return caller is None or _package(function) != _package(caller)
 
 
 def _package(function: FunctionType) -> str:

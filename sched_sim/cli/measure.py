@@ -35,7 +35,8 @@ Backend = Annotated[
     Literal["compiled", "counted", "numpy"],
     typer.Option(
         "--backend",
-        help="compiled: time of code compiled by numba; counted: exact operation counts; numpy: time of NumPy calls.",
+        help="compiled: time of code compiled by numba; counted: exact operation counts, of a model written with "
+        "+ - * /, functions of single numbers (np.sin, math.sin) and products of arrays; numpy: time of NumPy calls.",
     ),
 ]
 UpdateForm = Annotated[

@@ -74,6 +74,31 @@ def imaginary():
 
 def number():
     return 9
+
+def inverting():
+    return car()._replace(F=lambda j, x, u, p: np.linalg.inv(p.Phi[0] + np.diag(x)))
+"""
+
+PENDULUM = """
+import numpy as np
+from numpy import cos, sin
+from filters.systems.system import System
+
+def f(j, x, u, p, out):
+    out[0] = x[0] + 0.005 * x[1]
+    out[1] = float(x[1]) + 0.005 * (u[0] - 9.81 * sin(x[0]))
+
+def F(j, x, u, p):
+    A = np.zeros((2, 2), dtype=np.float64)
+    A[0, 1] = 1.0
+    A[1, 0] = -9.81 * cos(x[0])
+    return np.eye(2) + 0.005 * A
+
+def system():
+    return System(
+        states=2, inputs=1, measurements=1, f=f, F=F, Q=lambda j, p: 1e-6 * np.eye(2),
+        h=lambda k, x, p, out: out.fill(sin(x[0])), H=lambda k, x, p: np.array([[cos(x[0]), 0.0]]),
+        R=lambda k, p: np.array([[1e-4]]), parameters=())
 """
 
 
@@ -196,3 +221,25 @@ def test_a_system_that_breaks_down_later_ends_with_code_2(
     result = sched_sim(f"measure --system own_broken:{function} --backend counted")
     assert result.code == 2
     assert message in result.err.replace("\n", " ")
+
+
+def test_functions_of_math_are_counted_as_those_of_numpy(sched_sim: Run, tmp_path: Path) -> None:
+    printed = {}
+    for library in ("numpy", "math"):
+        name = f"pendulum_of_{library}"
+        (tmp_path / f"{name}.py").write_text(PENDULUM.replace("from numpy", f"from {library}"), encoding="utf-8")
+        result = sched_sim(f"measure --system {name}:system --backend counted --method larsen -o {library}.toml")
+        assert result.code == 0, result.err
+        text = (tmp_path / f"{library}.toml").read_text(encoding="utf-8")
+        printed[library] = text.replace(name, "pendulum")
+    assert printed["math"] == printed["numpy"]
+    assert "propagate = { multiply = 21, add = 16, function = 2 }" in printed["math"]
+
+
+def test_a_model_that_cannot_be_counted_is_named_with_its_line(sched_sim: Run, tmp_path: Path) -> None:
+    (tmp_path / "own_inverse.py").write_text(OWN_SYSTEM, encoding="utf-8")
+    result = sched_sim("measure --system own_inverse:inverting --backend counted")
+    assert result.code == 2
+    message = " ".join(result.err.split())
+    assert "in own_inverse.py, line 55: np.linalg.inv(p.Phi[0] + np.diag(x)) cannot be counted: it does not" in message
+    assert message.endswith("or time it with another --backend")

@@ -137,3 +137,20 @@ def test_a_function_of_an_installed_library_is_called_as_it_is() -> None:
     for function in (by_module, by_name):
         np.testing.assert_array_equal(versions.of(function)(np.zeros((2, 2))), np.eye(2))
     assert wrapped == ["by_module", "by_name"]
+
+
+def test_what_is_no_function_of_ours_is_replaced_by_what_stands_for_it() -> None:
+    table = np.ones(2)
+
+    def use() -> Any:
+        return len(table), np, float
+
+    seen: list[Any] = []
+
+    def outside(value: Any) -> Any:
+        seen.append(value)
+        return "ab"
+
+    assert Versions(as_it_is, outside=outside, builtins={"float": str}).of(use)() == (2, "ab", str)
+    assert any(value is np for value in seen)
+    assert any(value is not table and value is not np and value.tolist() == [1.0, 1.0] for value in seen)

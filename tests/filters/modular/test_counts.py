@@ -10,6 +10,7 @@ import pytest
 from filters.arrays import FloatArray
 from filters.kernels.backends import arguments_for, function_for
 from filters.kernels.counted import Operations, count
+from filters.kernels.counted_scalar import plain
 from filters.modular import (
     ModularFilter,
     Sensor,
@@ -194,7 +195,7 @@ def test_predictions_grow_with_the_cube_of_the_states_linear_corrections_with_th
 def numbers(value: Any) -> list[float]:
     """All that an argument holds, as floats."""
     if isinstance(value, np.ndarray):
-        return [float(item) for item in value.flat]
+        return [plain(item) for item in value.flat]
     return [number for item in value for number in numbers(item)] if isinstance(value, tuple) else []
 
 
