@@ -59,9 +59,9 @@ WhichCost = Annotated[
     typer.Option("--statistic", help="Which of a measured cost's figures to plan with.", rich_help_panel=opt.DESIGN),
 ]
 LrPropagateBys = Annotated[Axis, _values("--lr-propagate-by", "Deadline of LR propagate: m (default), l or m,l.")]
-FeedbackIns = Annotated[Axis, _values("--feedback", "next-step (default), same-step or both.")]
-Gains = Annotated[Axis, _values("--gain", "at-update (default), precomputed or both.")]
-Noises = Annotated[Axis, _values("--low-rate-noise", "exact (default), sum, euler or several.")]
+FeedbackIns = Annotated[Axis, _values("--feedback", "next-step (default), same-step or next-step,same-step.")]
+Gains = Annotated[Axis, _values("--gain", "at-update (default), precomputed or at-update,precomputed.")]
+Noises = Annotated[Axis, _values("--low-rate-noise", "exact (default), sum, euler or several: exact,sum,euler.")]
 Speeds = Annotated[
     Axis,
     _values("--speed", "Cost units per HR period: 0.6:1.6:0.05; by default each design's least.", opt.PROCESSOR),

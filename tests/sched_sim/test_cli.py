@@ -235,6 +235,18 @@ def test_the_help_of_measure_says_which_options_exclude_each_other(sched_sim: Ru
         assert other.split()[0] in not_with
 
 
+def test_the_help_of_sweep_gives_values_that_it_takes(sched_sim: Run) -> None:
+    said = " ".join(sched_sim("sweep --help").out.replace("│", " ").split())
+    for option in ("--lr-propagate-by", "--feedback", "--gain", "--low-rate-noise", "--cpus"):
+        (values,) = re.findall(rf"{option} VALUES ([^.]*)\.", said)
+        for value in re.findall(r"[\w,-]*[\w-]", values.replace("(default)", "").replace("several: ", "")):
+            if value not in ("Deadline", "of", "LR", "propagate", "or", "processors"):
+                result = sched_sim(
+                    f"sweep -N 10 -M 2 --costs counted-9-3-3 {option} {value} --speed 10000 --format json"
+                )
+                assert result.code == 0, result.err
+
+
 @pytest.mark.parametrize(
     "line",
     [
