@@ -67,6 +67,7 @@ def test_counts_alone_are_one_sample_of_their_arithmetic(tmp_path: Path) -> None
         ("predict = [1.21e-6, -1]", r"samples\.predict\.1: .*greater than 0"),
         ("predict = []", r"samples\.predict: .*at least one"),
         ("predict = 3", r"samples\.predict: .*list"),
+        ("predict = { a = 1 }", r"samples\.predict: must be a list: write `predict = \[...\]`$"),
         ("predikt = [1]", r"samples\.predikt: .*not permitted"),
         ('predict = ["fast"]', r"samples\.predict\.0: .*fast"),
     ],
