@@ -9,6 +9,7 @@ from typing import Annotated, Any, Self
 
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, ValidationError, model_validator
 
+from sched_sim.cost_documents import refuse_samples
 from sched_sim.costs import (
     ARITHMETIC,
     KINDS,
@@ -117,6 +118,7 @@ def read_cost_table(path: Path, shown: str = "") -> CostTable:
     shown = shown or str(path)
     remedy = f"give one of {', '.join(shipped_names())}, or the path of a TOML file"
     document = read_toml(path, f"cost table {shown!r}", remedy)
+    refuse_samples(document, f"cost table {shown!r}")
     try:
         checked = _CostFile.model_validate(document)
     except ValidationError as error:

@@ -11,6 +11,7 @@ from typing import Annotated, Any, Self
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
+from sched_sim.cost_documents import CORRECT, PREDICT, refuse_cost_table
 from sched_sim.cost_file import CountsOfJob, Number
 from sched_sim.costs import Counts, arithmetic
 from sched_sim.errors import InputError
@@ -18,10 +19,6 @@ from sched_sim.files import write
 from sched_sim.toml_file import read_toml
 from sched_sim.toml_problems import problems
 from sched_sim.toml_text import toml_key, toml_number, toml_tables, toml_value
-
-PREDICT = ("predict", "predict_accumulate")
-CORRECT = ("correct", "correct_accumulate", "correct_late")
-"""Parts of a filter. The first is there once; each of the second once for each sensor."""
 
 
 @dataclass(frozen=True)
@@ -113,6 +110,7 @@ def read_sampled_costs(path: Path, shown: str = "") -> SampledCosts:
     """
     shown = shown or str(path)
     document = read_toml(path, f"costs {shown!r}", "give the path of a file that `sched-sim measure --filter` writes")
+    refuse_cost_table(document, f"costs {shown!r}")
     try:
         checked = _SampleFile.model_validate(document)
     except ValidationError as error:
