@@ -57,6 +57,14 @@ ARITHMETIC = ("multiply", "add", "divide", "sqrt", "function")
 OPERATION_KINDS = (*ARITHMETIC, "logic")
 """logic: what the arithmetic needs around it: loads, stores, index arithmetic, comparisons, branches."""
 
+SECONDS: Mapping[str, Fraction] = {
+    **dict.fromkeys(("second", "seconds", "s"), Fraction(1)),
+    "ms": Fraction(1, 10**3),
+    "us": Fraction(1, 10**6),
+    "ns": Fraction(1, 10**9),
+}
+"""The units of costs that are times."""
+
 Counts = Mapping[str, int]
 """How often one job does each kind of operation."""
 

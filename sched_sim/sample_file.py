@@ -13,7 +13,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_valida
 
 from sched_sim.cost_documents import CORRECT, PREDICT, refuse_cost_table
 from sched_sim.cost_file import CountsOfJob, Number
-from sched_sim.costs import Counts, arithmetic
+from sched_sim.costs import SECONDS, Counts, arithmetic
 from sched_sim.errors import InputError
 from sched_sim.files import write
 from sched_sim.toml_file import read_toml
@@ -23,7 +23,7 @@ from sched_sim.toml_text import toml_key, toml_number, toml_tables, toml_value
 
 @dataclass(frozen=True)
 class SampledCosts:
-    """What each execution of each part of a filter took, all in one `unit` ("second", "operation").
+    """What each execution of each part of a filter took, all in one `unit` ("second", "ms", "operation").
 
     samples: by part, each one execution, at least one: "predict" (one step), "predict_accumulate" (one that also
     multiplies the transition, for Larsen's method), and with the sensor's name behind a dot "correct.gps" (one
@@ -57,7 +57,7 @@ class SampledCosts:
     @property
     def harness(self) -> bool:
         """Whether `measure --filter` timed the samples: most of such a sample is the loop that timed it."""
-        return self.unit == "second" and self.provenance.get("backend") == "compiled"
+        return self.unit in SECONDS and self.provenance.get("backend") == "compiled"
 
     @property
     def shown(self) -> str:

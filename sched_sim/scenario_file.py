@@ -11,6 +11,7 @@ from typing import Annotated, Any, Literal, Self, get_args
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, model_validator
 
 from sched_sim.bounds import MOST_SENSORS, MOST_STEPS, check_simulation, short
+from sched_sim.costs import SECONDS
 from sched_sim.errors import InputError
 from sched_sim.jobs import HR, LR
 from sched_sim.processor import load_processor, seconds_for, shipped_processors
@@ -266,10 +267,11 @@ def _from_file(sampled: SampledCosts, checked: _ScenarioFile, folder: Path) -> S
             name: (seconds_for(counts, part, f"[operations] {name} of costs {sampled.shown}"),)
             for name, counts in sampled.operations.items()
         }
-    if checked.hr_hz is not None and sampled.unit != "second":
+    if checked.hr_hz is not None and sampled.unit not in SECONDS:
         raise InputError(
-            f"costs {sampled.shown} has the unit {sampled.unit!r}, and hr_hz needs seconds: give processor = ... where "
-            f"operations are counted, or speed = ... (cost units per HR period) instead of hr_hz"
+            f"costs {sampled.shown} has the unit {sampled.unit!r}, and hr_hz needs one of time: write unit = with "
+            f"{', '.join(SECONDS)} for times, give processor = ... where operations are counted, or speed = ... (cost "
+            f"units per HR period) instead of hr_hz"
         )
-    slower = checked.times_slower or Fraction(1)
+    slower = (checked.times_slower or Fraction(1)) * (1 if checked.hr_hz is None else SECONDS[sampled.unit])
     return {name: tuple(slower * sample for sample in samples) for name, samples in sampled.samples.items()}

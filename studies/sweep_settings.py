@@ -146,7 +146,8 @@ class Settings(BaseModel):
             if self.hr_hz and table.unit != "second":
                 raise InputError(
                     f"--hr-hz (hr_hz in a grid file) needs costs in seconds, and those of cost table {table.shown} are "
-                    f"in {table.unit!r}: give --processor with counted operations, or --speed instead"
+                    f'in {table.unit!r}: write times in seconds, with unit = "second", give --processor with counted '
+                    f"operations, or --speed instead"
                 )
         return tuple(sorted(1 / rate for rate in self.hr_hz)) or self.speed
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from sched_sim.cli import options as opt
 from sched_sim.cli.output import lines, print_csv, print_json, print_table, say, units
 from sched_sim.cli.progress import simulations
+from sched_sim.costs import SECONDS
 
 if TYPE_CHECKING:
     from sched_sim.costs import JobCosts
@@ -16,7 +17,6 @@ if TYPE_CHECKING:
     from sched_sim.tasks import Task
     from sched_sim.timing import Timing
 
-SECONDS = {"second": 1.0, "seconds": 1.0, "s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
 """Units of costs that are times: then work per second is a share of the processor on which they were found."""
 
 LARGEST_DENOMINATOR = 10_000
@@ -114,9 +114,9 @@ def _absolute(rate: Fraction | None, L: int, speed: float, unit: str) -> dict[st
     times: dict[str, float] = {}
     if rate is not None:
         hz = float(rate)
-        times |= {"correction_ms": 1000 * L / hz, "work_per_second": speed * hz * SECONDS.get(unit, 1)}
+        times |= {"correction_ms": 1000 * L / hz, "work_per_second": speed * hz * float(SECONDS.get(unit, 1))}
     if unit in SECONDS:
-        times["highest_hr_hz"] = 1 / (speed * SECONDS[unit])
+        times["highest_hr_hz"] = 1 / (speed * float(SECONDS[unit]))
     return times
 
 

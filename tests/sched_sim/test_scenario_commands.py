@@ -92,6 +92,15 @@ def test_a_slower_processor_takes_longer_for_what_was_measured(tmp_path: Path) -
     assert read_scenario(tmp_path / "s.toml").costs["predict"] == (Fraction(5, 10**5), Fraction(15, 10**5))
 
 
+def test_samples_may_be_in_any_unit_of_time(tmp_path: Path) -> None:
+    for unit, scale in {"s": 1, "ms": 10**3, "us": 10**6, "ns": 10**9}.items():
+        measured = f'name = "m"\nunit = "{unit}"\n[samples]\npredict = [3]\n[samples.correct]\ngps = [2]\n'
+        write(tmp_path, SHORT.replace("speed = 10", "hr_hz = 100"), measured)
+        assert read_scenario(tmp_path / "s.toml").costs["predict"] == (Fraction(3, scale),)
+        write(tmp_path, SHORT, measured)
+        assert read_scenario(tmp_path / "s.toml").costs["predict"] == (Fraction(3),)
+
+
 def test_json_has_the_distributions(sched_sim: Run) -> None:
     document = json.loads(sched_sim(f"simulate --scenario {ROCKET} --format json").out)
     outcome = run_scenario(read_scenario(ROCKET))
@@ -327,7 +336,7 @@ def test_each_of_two_processors_has_a_busy_share(sched_sim: Run, tmp_path: Path)
         (("speed = 10", ""), ["neither is given of hr_hz and speed"]),
         (("speed = 10", "speed = 10\nhr_hz = 400"), ["both are given of hr_hz and speed"]),
         (("speed = 10", "speed = 0"), ["speed", "greater than 0"]),
-        (("speed = 10", "hr_hz = 400"), ["'operation'", "processor", "speed"]),
+        (("speed = 10", "hr_hz = 400"), ["'operation'", "second, seconds, s, ms", "processor", "speed"]),
         (("speed = 10", 'speed = 10\nprocessor = "cortex-m7"'), ["processor 'cortex-m7'", "hr_hz"]),
         (("speed = 10", 'hr_hz = 9\nprocessor = "z80"'), ["z80", "cortex-m7"]),
         (("speed = 10", 'hr_hz = 9\ntimes_slower = 2\nprocessor = "cortex-m7"'), ["times_slower", "one of them"]),

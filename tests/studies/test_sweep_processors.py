@@ -243,7 +243,7 @@ def test_the_tables_name_processor_rate_and_covariance_update(sched_sim):
     [
         ("--processor leon3 --speed 1", ["--speed", "--processor", "exclude each other", "--hr-hz"]),
         ("--hr-hz 400 --speed 1", ["--speed", "--hr-hz", "exclude each other"]),
-        ("--hr-hz 400", ["--hr-hz", "steffes2014", "seconds", "--processor"]),
+        ("--hr-hz 400", ["--hr-hz", "steffes2014", "seconds", 'unit = "second"', "--processor"]),
         ("--processor leon3 --hr-hz 0", ["--hr-hz", "'0'", "greater than 0"]),
         ("--processor leon3 --hr-hz fast", ["--hr-hz", "'fast'", "finite number"]),
         ("--processor leon4", ["processor 'leon4'", "leon3", "path of a TOML file"]),
