@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from fractions import Fraction
 from pathlib import Path
 from typing import Annotated, Any, Self
@@ -108,6 +108,24 @@ class _CostFile(BaseModel):
                 f'write unit = "operation", or give the costs too'
             )
         return self
+
+    @model_validator(mode="after")
+    def _one_cost_for_each_job(self) -> Self:
+        if self.unit in ("operation", "operations") and (found := list(self._contradictions())):
+            raise ValueError("; ".join(found))
+        return self
+
+    def _contradictions(self) -> Iterator[str]:
+        """What is said of a job that costs other than the operations that are counted of it."""
+        for method, jobs in self.operations.items():
+            for kind, counts in jobs.items():
+                entry, number = self.costs.get(method, {}).get(kind), arithmetic(counts)
+                figures = () if entry is None else (entry.minimum, entry.median, entry.p95)
+                if others := [figure for figure in figures if figure != number]:
+                    yield (
+                        f"[costs.{method}] {kind} is {toml_number(others[0])} operations, and [operations.{method}] "
+                        f"{kind} makes {number} without its logic: leave one of them out, or mend it"
+                    )
 
 
 def read_cost_table(path: Path, shown: str = "") -> CostTable:

@@ -155,6 +155,20 @@ def test_costs_that_a_file_gives_beside_its_counts_hold(file: Path) -> None:
     assert table.operations["standard"]["update"]["divide"] == 1
 
 
+def test_costs_in_operations_are_those_that_are_counted(file: Path) -> None:
+    file.write_text(COUNTS + "[costs.standard]\npropagate = 30\nupdate = 13\n")
+    assert load(file).entry("standard", "propagate").median == 30
+    file.write_text(COUNTS + "[costs.standard]\npropagate = 3700\nupdate = { minimum = 13, median = 13, p95 = 14 }\n")
+    with pytest.raises(InputError) as error:
+        load(file)
+    for words in [
+        "[costs.standard] propagate is 3700 operations, and [operations.standard] propagate makes 30 without its logic",
+        "[costs.standard] update is 14 operations, and [operations.standard] update makes 13",
+        "leave one of them out",
+    ]:
+        assert words in str(error.value)
+
+
 def test_the_shipped_counts_are_written_as_they_are_shipped() -> None:
     assert cost_table_text(load("counted-9-3-3")) == (SHIPPED / "counted-9-3-3.toml").read_text(encoding="utf-8")
 
