@@ -33,7 +33,7 @@ def measure_filter(
 ) -> SampledCosts:
     """The costs of the filter's parts. compiled: samples in seconds; counted: exact operations, one sample of each.
 
-    Raises InputError for a part that numba cannot compile.
+    Raises InputError for a part that numba cannot compile, or that cannot be counted.
     """
     if backend == "compiled":
         return timed_together({name: user}, thorough=thorough, seed=seed, progress=progress)[name]

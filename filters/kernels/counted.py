@@ -53,18 +53,29 @@ def count(function: Callable[..., Any], *arguments: Any) -> Operations:
     return Operations(tally.multiply, tally.add, tally.divide, tally.sqrt, tally.function)
 
 
-_VERSIONS = Versions(lambda clone, _original, _known: clone, outside=counted_version, builtins=BUILTINS)
-
-
 def _version(function: Any) -> Any:
-    """That runs on counting scalars; as it is if it is none of plain Python."""
+    """That runs on counting scalars; as it is if it is none of Python."""
     if isinstance(function, FunctionType):
         return _VERSIONS.of(function)
     if isinstance(function, MethodType):
         return MethodType(_version(function.__func__), function.__self__)
     if isinstance(function, partial):
         return partial(_version(function.func), *function.args, **function.keywords)
+    if _is_jitted(function):
+        return _version(function.py_func)
     return function
+
+
+def _is_jitted(value: Any) -> bool:
+    """Whether it is a function that numba's decorator compiles; asked without an import of numba, which takes long."""
+    return type(value).__module__.startswith("numba.") and isinstance(getattr(value, "py_func", None), FunctionType)
+
+
+def _outside(value: Any) -> Any:
+    return _version(value) if _is_jitted(value) else counted_version(value)
+
+
+_VERSIONS = Versions(lambda clone, _original, _known: clone, outside=_outside, builtins=BUILTINS)
 
 
 def _counting(value: Any, tally: Tally) -> Any:

@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
+from numba import njit
 
 from filters.kernels.counted import Operations, count
 from filters.kernels.counted_scalar import Scalar, Tally
@@ -93,6 +94,16 @@ class Model:
 @pytest.mark.parametrize("function", [Model().square, partial(Model.square, Model())])
 def test_methods_and_partial_functions_are_counted(function: Any) -> None:
     assert count(lambda functions, x: functions[0](x), (function,), 1.0) == Operations(multiply=5, add=3)
+
+
+@njit  # type: ignore[misc]
+def jitted(x: Any) -> Any:
+    return np.sin(x)
+
+
+@pytest.mark.parametrize("function", [jitted, lambda x: jitted(x)])
+def test_functions_that_numba_compiles_are_counted_as_they_are_written(function: Any) -> None:
+    assert count(lambda functions, x: functions[0](x), (function,), 1.0) == Operations(function=1)
 
 
 def test_what_cannot_be_counted_is_refused_with_its_line() -> None:
