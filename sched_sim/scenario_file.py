@@ -226,7 +226,8 @@ def _scenario(checked: _ScenarioFile, folder: Path) -> Scenario:
     if unused := [part.partition(".")[2] for part in stated if part not in needed]:
         raise InputError(
             f'the cost of sensor {", ".join(unused)} has no meaning with late = "larsen": its late corrections are '
-            f"another part, whose costs are under [samples.correct_late] of a costs file; delete the cost"
+            f"another part, whose costs are under [samples.correct_late] of a costs file; delete the cost, or choose "
+            f'late = "recalculate"'
         )
     if checked.costs is not None:
         sampled = read_sampled_costs(folder / checked.costs)

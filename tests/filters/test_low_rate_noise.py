@@ -53,5 +53,5 @@ def test_approximate_noise_makes_the_filter_suboptimal_and_euler_less_so() -> No
     assert state["exact"] < 1e-12
     assert covariance["sum"] == pytest.approx(0.5119, abs=1e-4)
     assert covariance["euler"] == pytest.approx(0.0876, abs=1e-4)
-    assert state["sum"] == pytest.approx(8.41e-3, abs=1e-5)
-    assert state["euler"] == pytest.approx(7.47e-3, abs=1e-5)
+    assert state["sum"] == pytest.approx(1.318e-2, abs=1e-5)
+    assert state["euler"] == pytest.approx(9.004e-3, abs=1e-5)
