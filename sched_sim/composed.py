@@ -264,7 +264,7 @@ class ComposedFilter(Source):
         further = branch._replace(aim=aim, seen=len(self.landed))
         return (job.go_on((("CU", work),), partial(self._finish, further)),)
 
-    def _land(self, together: Together, _job: Job, now: int) -> tuple[Job, ...]:
+    def _land(self, together: Together, job: Job, now: int) -> tuple[Job, ...]:
         for one in together:
             del self.pending[bisect_left(self.pending, one)]
             self.carried.pop(one, None)
@@ -272,8 +272,7 @@ class ComposedFilter(Source):
             self.landed.append((applied_to, one))
             insort(self.applied, (applied_to, one), key=itemgetter(0))
             self.on_landing(one, now)
-        sensor = self.sensors[together[0].sensor]
-        return self._next(sensor.priority, now) if self.scenario.preempted(sensor) else ()
+        return self._next(job.priority, now) if job.priority in self.waiting else ()
 
     def _job(self, measurement: Measurement, parts: Parts, then: Then | None) -> Job:
         sensor = self.sensors[measurement.sensor]

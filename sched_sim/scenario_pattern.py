@@ -43,20 +43,21 @@ class Arrivals:
     def sums(self, values: Floats, steps: Ints, last: Ints) -> Floats:
         """Of values by lag, over its measurements that are at most `last` older than each of the steps."""
         lag = last - (last - (steps - self.offset)) % self.every
-        sums = _rows(values, self.every, 0).cumsum(axis=0).ravel()
-        return np.where(lag >= 0, sums[np.maximum(lag, 0)], 0.0)
+        sums = _rows(values, self.every).cumsum(axis=0).ravel()
+        return np.where(lag >= 0, sums.take(lag, mode="clip"), 0.0)
 
     def products(self, values: Floats, steps: Ints, first: Ints) -> Floats:
         """The same as a product, over those that are at least `first` older."""
         lag = first + ((steps - self.offset) - first) % self.every
-        products = _rows(values, self.every, 1)[::-1].cumprod(axis=0)[::-1].ravel()
-        return np.where(lag < values.size, products[np.minimum(lag, values.size - 1)], 1.0)
+        products = _rows(values, self.every)[::-1].cumprod(axis=0)[::-1].ravel()
+        return np.where(lag < values.size, products.take(lag, mode="clip"), 1.0)
 
 
-def _rows(values: Floats, width: int, fill: float) -> Floats:
-    """Values `width` lags apart below one another."""
+def _rows(values: Floats, width: int) -> Floats:
+    """Values `width` lags apart below one another. Behind the last are ones, which products do not notice; sums are of
+    lags before that."""
     width = min(width, values.size)
-    return np.append(values, np.full(-values.size % width, fill)).reshape(-1, width)
+    return np.append(values, np.ones(-values.size % width)).reshape(-1, width)
 
 
 def _steps(every: int, offset: int, others: Sequence[Arrivals], most: int) -> Ints:
@@ -113,7 +114,7 @@ def in_flight(sensors: Sequence[Sensor], of: Sensor | None = None) -> float:
     every, offset = (1, 0) if of is None else (min(of.every, RAREST), of.offset)
     steps = _steps(every, offset % every, late, MOST_CASES)
     flying = np.zeros(steps.size)
-    lags = [1 + (steps - 1 - one.offset) % one.every for one in late]  # from the last that was taken before
+    lags = [(steps - 1 - one.offset) % one.every for one in late]  # to the step before, from the last that was taken
     surely = [lag for one, lag in zip(late, lags, strict=True) if one.sensor.least_delay > 0]
     newest = np.min(surely, axis=0) if surely else np.full(steps.size, RAREST)
     waits = np.ones(steps.size, bool)  # for a lost one: no other is taken in this step, before the correction

@@ -47,6 +47,35 @@ def test_an_older_measurement_that_comes_in_between_takes_the_correction_back_to
     assert run_scenario(of).sensors["gps"].achieved == {6: 1}
 
 
+def test_it_goes_back_to_that_step_and_no_further() -> None:
+    """As above, with one of the imu's in the step before: what it corrected is in the prediction of step 3."""
+    gps, imu = sensor("gps", 100, 1, offset=5), sensor("imu", 100, offset=2, priority=HR)
+    camera = sensor("camera", 100, 4, offset=3, priority=HR)
+    entries = {"predict": 2, "correct.gps": 8, "correct.camera": 1, "correct.imu": 1}
+    of = scenario(10, entries, gps, camera, imu, steps=14)
+    expected = [(62, 70), (83, 85), (85, 90), (92, 100), (102, 108), (108, 110), (112, 114), (114, 116)]
+    assert slices_of(of, "correct gps") == expected
+
+
+def test_one_of_its_own_step_that_comes_in_between_has_it_corrected_once_more() -> None:
+    """Both are of step 5. At 79 the gps is through with step 6, and the camera's has landed at 77: 8 + 1 for both and
+    steps 6 and 7, 4; then steps 8 and 9."""
+    gps, camera = sensor("gps", 100, 1, offset=5), sensor("camera", 100, 2, offset=5, priority=HR)
+    of = scenario(10, {"predict": 2, "correct.gps": 8, "correct.camera": 1}, gps, camera, steps=14)
+    assert slices_of(of, "correct camera") == [(72, 77)]
+    assert slices_of(of, "correct gps") == [(62, 70), (77, 79), (79, 80), (82, 90), (92, 96), (96, 100)]
+
+
+def test_what_is_done_again_goes_by_the_steps_corrected_not_by_the_order_of_landing() -> None:
+    """The imu's of step 4 landed in it, then the gps's of step 3, in step 6. The camera's of step 4 comes in step 8: 1,
+    steps 5 to 8, 16, and the imu's, 1."""
+    gps, imu = sensor("gps", 100, 3, offset=3, priority=HR), sensor("imu", 100, offset=4, priority=HR)
+    camera = sensor("camera", 100, 4, offset=4, priority=HR)
+    of = scenario(30, BY_HAND | {"correct.camera": 1}, gps, imu, camera, steps=10)
+    assert slices_of(of, "correct gps") == [(184, 184 + 2 + 12 + 1)]
+    assert slices_of(of, "correct camera") == [(244, 244 + 1 + 16 + 1)]
+
+
 def test_a_late_correction_replays_what_other_sensors_saw_in_those_steps() -> None:
     """At 40: the correction of step 1, 2; steps 2 to 4, 12; the other sensor's of step 2, which landed in step 3."""
     gps, imu = sensor("gps", 100, 3, offset=1, priority=HR), sensor("imu", 100, 1, offset=2, priority=HR)
@@ -189,6 +218,24 @@ def test_larsen_a_delay_as_long_as_the_time_between_measurements_is_one_flight_a
     of = scenario(10, entries, sensor("gps", 2, 2), late="larsen", steps=7)
     assert [end - start for start, end in slices_of(of, "predict")] == [3, *[4] * 6]
     assert run_scenario(of).sensors["gps"].achieved == {2: 3}
+
+
+def test_larsen_a_late_one_is_done_again_in_the_step_in_which_it_landed() -> None:
+    """The gps's of step 1 lands in step 5, after the baro's of step 3. The imu's of step 4 takes until 63: it has steps
+    5 and 6 to do, 2, and the gps's, 3."""
+    entries = {
+        "predict": 1,
+        "predict_accumulate": 2,
+        "correct.baro": 1,
+        "correct_accumulate.baro": 1,
+        "correct.imu": 15,
+        "correct_accumulate.imu": 15,
+        "correct_late.gps": 3,
+    }
+    gps, baro = sensor("gps", 100, 4, offset=1, priority=HR), sensor("baro", 100, offset=3, priority=HR)
+    of = scenario(10, entries, gps, baro, sensor("imu", 100, offset=4), late="larsen", steps=10)
+    assert slices_of(of, "correct gps") == [(52, 55)]
+    assert slices_of(of, "correct imu") == [(42, 50), (55, 60), (61, 63), (63, 63 + 2 + 3)]
 
 
 def test_larsen_one_that_lands_after_the_next_was_taken_costs_no_second_product() -> None:

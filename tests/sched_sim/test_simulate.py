@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from typing import Any
 
 import pytest
 
@@ -95,6 +96,43 @@ def test_a_job_that_finishes_exactly_at_its_deadline_has_met_it() -> None:
     assert (meets.misses, meets.utilization) == (0, 1)
     misses = simulate(StandardCosts(4, 6), Timing(1, 0, 1), Fraction(99, 10), cycles=5)
     assert misses.misses == 5
+
+
+@pytest.mark.parametrize("late", [(3, 1), (1, 3), (3, 0, 2)])
+def test_the_worst_lateness_is_that_of_the_job_that_missed_its_deadline_by_most(late: tuple[int, ...]) -> None:
+    """Each alone, for 5 ticks."""
+    jobs = [job("late", 10, 10 * i, 5, deadline=10 * i + 5 - ticks) for i, ticks in enumerate(late)]
+    processor = Processor([Given(one) for one in jobs], 10, 100, cpus=1, context_switch=0, on_slice=None)
+    processor.run()
+    found = processor.schedule().responses["late"]
+    assert (found.worst_lateness, found.misses) == (3, sum(ticks > 0 for ticks in late))
+
+
+def test_the_first_miss_is_that_of_the_earliest_deadline_and_of_several_the_one_that_is_found_first() -> None:
+    """They finish at 8, 10, 12 and 14."""
+    deadlines = {"a": 7, "b": 5, "c": 5, "d": 6}
+    jobs = [job(kind, 10, 0, 8 if kind == "a" else 2, deadline) for kind, deadline in deadlines.items()]
+    processor = Processor([Given(one) for one in jobs], 10, 100, cpus=1, context_switch=0, on_slice=None)
+    processor.run()
+    assert processor.schedule().first_miss == ("b", False)
+
+
+@pytest.mark.parametrize(("now", "left", "overhead"), [(5, 12, 2), (6, 11, 1), (7, 10, 0), (9, 8, 0)])
+def test_a_state_says_what_is_left_of_a_running_job_and_of_its_context_switch(
+    now: int, left: int, overhead: int
+) -> None:
+    """Of 3 ticks of a switch and 10 of work, from 4 on, due at 20."""
+    states: list[Any] = []
+
+    class Observer(Given):
+        def release(self) -> tuple[Job, ...]:
+            states.append(processor.state(now))
+            return super().release()
+
+    sources = [Given(job("one", 10, 4, 10, deadline=20)), Observer(job("other", 20, now, 1))]
+    processor = Processor(sources, 10, 100, cpus=1, context_switch=3, on_slice=None)
+    processor.run()
+    assert states == [((("one", 4 - now, 20 - now, left, overhead), ()),)]
 
 
 def test_an_lr_update_that_finishes_exactly_at_the_start_of_a_step_is_applied_in_it() -> None:
