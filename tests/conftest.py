@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shlex
 import sys
 from pathlib import Path
 from random import Random
@@ -53,7 +54,7 @@ def sched_sim(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str
     monkeypatch.setenv("COLUMNS", "200")
 
     def run(line: str) -> Result:
-        monkeypatch.setattr(sys, "argv", ["sched-sim", *line.split()])
+        monkeypatch.setattr(sys, "argv", ["sched-sim", *shlex.split(line)])
         try:
             main()
             code = 0

@@ -35,7 +35,8 @@ class Command(TyperCommand):
         for parameter in self.params:
             value = given.get(parameter.name)
             if value == "" or (isinstance(value, list | tuple) and "" in value):
-                name = parameter.opts[0] if parameter.opts[0].startswith("-") else str(parameter.name).upper()
+                option = parameter.opts[0]
+                name = option if option.startswith("-") else f"argument {str(parameter.name).upper()}"
                 raise InputError(f"{name} is empty: give a value, or leave it out")
         return super().parse_args(context, arguments)
 

@@ -188,6 +188,7 @@ def test_help_and_version(sched_sim: Run) -> None:
         ("gantt -N 10 -M 4 -o nowhere/g.svg", ["--output 'nowhere/g.svg'"]),
         ("measure --states 0", ["--states", "0"]),
         ("minimum -N 10 -M 4 --costs=", ["--costs is empty: give a value, or leave it out"]),
+        ("sweep ''", ["argument GRID is empty: give a value, or leave it out"]),
         ("minimum -N 10 -M 4 --processor=", ["--processor is empty"]),
         ("minimum -N 10 -M 4 --tasks=", ["--tasks is empty"]),
         ("simulate -N 10 -M 4 --gantt=", ["--gantt is empty"]),
