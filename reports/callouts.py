@@ -6,10 +6,10 @@ from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
+from reports.drawing.placing import spread, worst_shift
+from reports.drawing.style import SMALL_PT, drawable, text_width_mm
 from reports.intervals import TASK, Bar
-from reports.placing import spread, worst_shift
 from reports.scale import Scale
-from reports.style import SMALL_PT, drawable, text_width_mm
 
 PADDING_MM = 0.5
 GAP_MM = 1.0

@@ -9,9 +9,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from reports.legend import draw_legend, legend_height, line_entry
-from reports.panels import METHOD_NAMES
-from reports.style import (
+from reports.drawing.legend import draw_legend, legend_height, line_entry
+from reports.drawing.style import (
     FONT_PT,
     PALE,
     SOURCE_LINES,
@@ -22,6 +21,7 @@ from reports.style import (
     page,
     text_width_mm,
 )
+from reports.panels import METHOD_NAMES
 from sched_sim.costs import KINDS, CostTable
 from sched_sim.errors import InputError
 from sched_sim.timing import Timing

@@ -12,8 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
 from matplotlib.ticker import MaxNLocator
 
-from reports.lanes import shortened
-from reports.style import (
+from reports.drawing.style import (
     FILLS,
     INK,
     PALE,
@@ -28,6 +27,7 @@ from reports.style import (
     page,
     text_width_mm,
 )
+from reports.lanes import shortened
 from sched_sim.composed import correct_kind
 from sched_sim.distribution import finished_or_not
 from sched_sim.scenario import Scenario, Sensor

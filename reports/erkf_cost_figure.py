@@ -8,10 +8,9 @@ from typing import NamedTuple
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from reports.axes import AXIS_MM, EDGE_MM, TITLE_MM, decades, plain
-from reports.legend import draw_legend, legend_height, line_entry
-from reports.machine import marked
-from reports.style import (
+from reports.drawing.axes import AXIS_MM, EDGE_MM, TITLE_MM, decades, plain
+from reports.drawing.legend import draw_legend, legend_height, line_entry
+from reports.drawing.style import (
     INK,
     PALE,
     SMALL_PT,
@@ -23,6 +22,7 @@ from reports.style import (
     page,
     text_width_mm,
 )
+from reports.machine import marked
 
 ROW_MM, GAP_MM, RIGHT_MM = 4.8, 8.0, 4.0
 COUNTS_SHARE = 0.6

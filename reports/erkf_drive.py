@@ -12,9 +12,9 @@ from matplotlib.ticker import MaxNLocator
 
 from filters.arrays import FloatArray
 from filters.systems.drive import wrap
-from reports.axes import AXIS_MM, EDGE_MM, TITLE_MM, plain
-from reports.legend import Entry, draw_legend, legend_height, line_entry
-from reports.style import INK, PALE, SOURCE_LINES, TITLE_PT, WIDTH_MM, Line, axes_at, drawing, page
+from reports.drawing.axes import AXIS_MM, EDGE_MM, TITLE_MM, plain
+from reports.drawing.legend import Entry, draw_legend, legend_height, line_entry
+from reports.drawing.style import INK, PALE, SOURCE_LINES, TITLE_PT, WIDTH_MM, Line, axes_at, drawing, page
 
 Columns = Mapping[str, FloatArray]
 

@@ -8,9 +8,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
-from reports.axes import AXIS_MM, EDGE_MM, TITLE_MM, decades, end_labels, plain
-from reports.legend import draw_legend, legend_height, line_entry
-from reports.style import SOURCE_LINES, TITLE_PT, WIDTH_MM, axes_at, drawing, page
+from reports.drawing.axes import AXIS_MM, EDGE_MM, TITLE_MM, decades, end_labels, plain
+from reports.drawing.legend import draw_legend, legend_height, line_entry
+from reports.drawing.style import SOURCE_LINES, TITLE_PT, WIDTH_MM, axes_at, drawing, page
 
 LEFT_MM, RIGHT_MM, GAP_MM, PLOT_MM = 18.0, 10.0, 24.0, 56.0
 LINES = SOURCE_LINES[1:]

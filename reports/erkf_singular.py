@@ -9,9 +9,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from filters.arrays import FloatArray
-from reports.axes import AXIS_MM, EDGE_MM, TITLE_MM, decades, plain
-from reports.legend import draw_legend, legend_height, line_entry
-from reports.style import INK, SMALL_PT, SOURCE_LINES, TITLE_PT, WIDTH_MM, axes_at, drawing, page
+from reports.drawing.axes import AXIS_MM, EDGE_MM, TITLE_MM, decades, plain
+from reports.drawing.legend import draw_legend, legend_height, line_entry
+from reports.drawing.style import INK, SMALL_PT, SOURCE_LINES, TITLE_PT, WIDTH_MM, axes_at, drawing, page
 
 LEFT_MM, RIGHT_MM, GAP_MM, VALUES_MM, DIFFERENCES_MM, BETWEEN_MM = 14.0, 4.0, 16.0, 44.0, 44.0, 9.0
 WAYS = {"givens": "Givens rotations", "lu": "LU with pivoting", "lu without pivoting": "LU without pivoting"}

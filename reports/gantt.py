@@ -8,25 +8,14 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
+from reports.drawing.legend import draw_legend, fill_entries, legend_height, sign_entries
+from reports.drawing.picture import image, save
+from reports.drawing.style import FONT_PT, INK, PALE, RED, TITLE_PT, WIDTH_MM, axes_at, drawing, page, text_width_mm
 from reports.intervals import jobs, never_ran, rows
 from reports.lanes import draw_lanes, fills_of, lanes, shortened
-from reports.legend import draw_legend, fill_entries, legend_height, sign_entries
 from reports.marks import draw_marks
 from reports.panels import Panel, method_panel
-from reports.picture import image, save
 from reports.scale import Scale
-from reports.style import (
-    FONT_PT,
-    INK,
-    PALE,
-    RED,
-    TITLE_PT,
-    WIDTH_MM,
-    axes_at,
-    drawing,
-    page,
-    text_width_mm,
-)
 
 __all__ = ["Panel", "gantt", "image", "method_panel", "save"]
 

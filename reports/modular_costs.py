@@ -8,11 +8,11 @@ from typing import TypeAlias
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
-from reports.axes import decades
-from reports.legend import line_entry
+from reports.drawing.axes import decades
+from reports.drawing.legend import line_entry
+from reports.drawing.sheet import label, sheet
+from reports.drawing.style import SOURCE_LINES, drawing
 from reports.machine import marked
-from reports.sheet import label, sheet
-from reports.style import SOURCE_LINES, drawing
 
 Record: TypeAlias = Mapping[str, str]
 

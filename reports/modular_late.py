@@ -10,10 +10,10 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from filters.arrays import FloatArray
-from reports.legend import line_entry
+from reports.drawing.legend import line_entry
+from reports.drawing.sheet import label, sheet
+from reports.drawing.style import METHOD_LINES, Line, drawing
 from reports.modular_oscillator import OSCILLATOR_AMPLITUDES
-from reports.sheet import label, sheet
-from reports.style import METHOD_LINES, Line, drawing
 
 Record: TypeAlias = Mapping[str, str]
 

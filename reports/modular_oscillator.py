@@ -11,10 +11,10 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullLocator
 
 from filters.arrays import FloatArray
-from reports.axes import decades
-from reports.legend import fill_entries, line_entry
-from reports.sheet import label, sheet
-from reports.style import GREY, INK, PALE, SMALL_PT, SOURCE_LINES, Fill, Line, drawing
+from reports.drawing.axes import decades
+from reports.drawing.legend import fill_entries, line_entry
+from reports.drawing.sheet import label, sheet
+from reports.drawing.style import GREY, INK, PALE, SMALL_PT, SOURCE_LINES, Fill, Line, drawing
 from studies.spring_mass_run import ACCELERATION_SIGMA, AMPLITUDES, POSITION_SIGMA_M
 
 Columns: TypeAlias = Mapping[str, FloatArray]

@@ -11,11 +11,11 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullLocator
 
 from filters.arrays import FloatArray
-from reports.axes import decades
-from reports.legend import fill_entries, line_entry
+from reports.drawing.axes import decades
+from reports.drawing.legend import fill_entries, line_entry
+from reports.drawing.sheet import label, sheet
+from reports.drawing.style import GREY, INK, PALE, RED, SOURCE_LINES, Fill, Line, drawing
 from reports.modular_oscillator import BAND, ESTIMATE, TRUE
-from reports.sheet import label, sheet
-from reports.style import GREY, INK, PALE, RED, SOURCE_LINES, Fill, Line, drawing
 from studies.rocket import CLAIM_PERCENT
 
 Columns: TypeAlias = Mapping[str, FloatArray]

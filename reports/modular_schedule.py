@@ -13,11 +13,11 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullLoca
 
 from filters.arrays import FloatArray
 from filters.systems.rocket_filter import GPS
-from reports.axes import decades
-from reports.legend import fill_entries, line_entry
-from reports.sheet import label, sheet
+from reports.drawing.axes import decades
+from reports.drawing.legend import fill_entries, line_entry
+from reports.drawing.sheet import label, sheet
+from reports.drawing.style import GREY, PALE, RED, SMALL_PT, SOURCE_LINES, Fill, Line, drawing
 from reports.stored import Rows, digits, rows_of
-from reports.style import GREY, PALE, RED, SMALL_PT, SOURCE_LINES, Fill, Line, drawing
 from studies.rocket_schedule import (
     CONTROL_EVERY,
     GPS_DELAYS,

@@ -48,9 +48,9 @@ def gantt(
     """
     from functools import partial
 
+    from reports.drawing.picture import check_picture
     from reports.gantt import gantt as draw
     from reports.gantt import method_panel, save
-    from reports.picture import check_picture
     from sched_sim.costs import select
     from sched_sim.least_speed import least_speed
 

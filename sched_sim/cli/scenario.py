@@ -30,7 +30,7 @@ def simulate_scenario(
     from sched_sim.trace import check_trace, open_trace
 
     if gantt is not None or histogram is not None:
-        from reports.picture import check_picture
+        from reports.drawing.picture import check_picture
 
         for option, picture in (("--gantt", gantt), ("--histogram", histogram)):
             if picture is not None:
@@ -54,7 +54,7 @@ def simulate_scenario(
         outcome = run_scenario(scenario, on_slice=write if writers or scenario.cpus > 1 else None, on_progress=progress)
     if histogram is not None:
         from reports.distributions import distributions_figure
-        from reports.picture import save
+        from reports.drawing.picture import save
 
         save(distributions_figure(scenario, outcome), histogram, "--histogram")
     if gantt is not None:

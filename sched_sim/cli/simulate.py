@@ -117,7 +117,7 @@ def simulate(
     from sched_sim.trace import check_trace, open_trace
 
     if gantt is not None:
-        from reports.picture import check_picture
+        from reports.drawing.picture import check_picture
 
         check_picture(gantt, "--gantt")
     for path in trace or ():

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.text import Text
 from matplotlib.transforms import Bbox
 
-from reports.style import drawing
+from reports.drawing.style import drawing
 
 TOLERANCE = 0.5  # pixels at 100 dots per inch
 

@@ -10,7 +10,7 @@ import pytest
 from matplotlib.figure import Figure
 
 from reports.data_uri import data_uri
-from reports.picture import image
+from reports.drawing.picture import image
 
 
 @pytest.fixture(scope="module")

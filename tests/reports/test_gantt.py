@@ -10,10 +10,10 @@ from fractions import Fraction
 import pytest
 from matplotlib.collections import PolyCollection
 
+from reports.drawing.style import RED
 from reports.gantt import Panel, gantt
 from reports.intervals import bars, jobs
 from reports.panels import cycle_marks, method_panel
-from reports.style import RED
 from sched_sim.costs import load
 from sched_sim.errors import InputError
 from sched_sim.options import Options

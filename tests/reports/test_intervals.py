@@ -10,8 +10,8 @@ from itertools import pairwise
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
+from reports.drawing.placing import spread, worst_shift
 from reports.intervals import bars, jobs, never_ran, overdue_work, rows, waits
-from reports.placing import spread, worst_shift
 from sched_sim.costs import DualRateCosts
 from sched_sim.least_speed import least_speed
 from sched_sim.options import Options

@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from reports.style import GREY, INK, RED, SMALL_PT, Fill, Line, axes_at, text_width_mm
+from reports.drawing.style import GREY, INK, RED, SMALL_PT, Fill, Line, axes_at, text_width_mm
 
 LINE_MM, SWATCH_MM, SIGN_MM, BESIDE_MM, GAP_MM = 4.0, 5.5, 1.2, 1.2, 3.8
 

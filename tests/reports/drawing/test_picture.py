@@ -8,8 +8,8 @@ import matplotlib as mpl
 import pytest
 from matplotlib.figure import Figure
 
+from reports.drawing.picture import image, save
 from reports.gantt import gantt, method_panel
-from reports.picture import image, save
 from reports.timelines import dual_rate_timeline
 from sched_sim.costs import load
 from sched_sim.errors import InputError

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from reports.style import drawing
+from reports.drawing.style import drawing
 from sched_sim.errors import InputError
 from sched_sim.files import check_writable, write
 

@@ -8,9 +8,9 @@ from typing import NamedTuple
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from reports.axes import AXIS_MM, EDGE_MM, TITLE_MM, plain
-from reports.legend import Entry, draw_legend, legend_height
-from reports.style import PALE, TITLE_PT, WIDTH_MM, axes_at, page
+from reports.drawing.axes import AXIS_MM, EDGE_MM, TITLE_MM, plain
+from reports.drawing.legend import Entry, draw_legend, legend_height
+from reports.drawing.style import PALE, TITLE_PT, WIDTH_MM, axes_at, page
 
 LEFT_MM, RIGHT_MM, GAP_MM, PLOT_MM = 15.0, 4.0, 15.0, 50.0
 STACKED_MM = 4.0

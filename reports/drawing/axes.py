@@ -9,8 +9,8 @@ from typing import Literal
 from matplotlib.axes import Axes
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
-from reports.placing import spread
-from reports.style import PALE, SMALL_PT
+from reports.drawing.placing import spread
+from reports.drawing.style import PALE, SMALL_PT
 
 EDGE_MM, TITLE_MM, AXIS_MM = 2.0, 6.0, 10.5
 LINE_MM = 2.9
