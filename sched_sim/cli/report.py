@@ -63,8 +63,8 @@ def _patent_multirate(_thorough: bool) -> dict[str, bytes]:
 
 
 def _erkf(thorough: bool) -> dict[str, bytes]:
-    from reports.erkf import build
-    from reports.erkf_results import results
+    from reports.erkf.report import build
+    from reports.erkf.results import results
     from sched_sim.cli.progress import progress_bar
 
     with progress_bar("Measuring and simulating") as progress:

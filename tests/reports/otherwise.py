@@ -31,7 +31,7 @@ def _patent_multirate() -> Mapping[str, object]:
 
 
 def _erkf() -> Mapping[str, object]:
-    from reports.erkf_results import simulated
+    from reports.erkf.results import simulated
     from reports.stored import as_stored
 
     return as_stored(simulated())

@@ -9,8 +9,9 @@ import pytest
 
 from filters.arrays import FloatArray
 from filters.systems.drive import CargoDrive, simulate_cargo_drive
-from reports import erkf, modular
-from reports.erkf_results import read as read_erkf
+from reports import modular
+from reports.erkf import report as erkf
+from reports.erkf.results import read as read_erkf
 from reports.machine import MARK, legend
 from reports.modular_results import dropout_table
 from reports.modular_results import read as read_modular

@@ -6,9 +6,9 @@ from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
-from reports.erkf_counts import ALL_WAYS, PROCESSORS, TIMED, Counts, Parallel
-from reports.erkf_results import Results
-from reports.erkf_schedule import millions
+from reports.erkf.counts import ALL_WAYS, PROCESSORS, TIMED, Counts, Parallel
+from reports.erkf.results import Results
+from reports.erkf.schedule import millions
 from reports.machine import marked, residue
 from reports.written import percent, plus_minus, significant
 from sched_sim.costs import ROBUST_METHODS, CostTable, RobustCosts, StandardCosts, select

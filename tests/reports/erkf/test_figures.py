@@ -9,8 +9,8 @@ import pytest
 from matplotlib.figure import Figure
 
 from filters.arrays import FloatArray
-from reports.erkf_cost_figure import Way, cost_figure
-from reports.erkf_drive import (
+from reports.erkf.cost_figure import Way, cost_figure
+from reports.erkf.drive import (
     attitude_figure,
     errors_figure,
     position_figure,
@@ -18,9 +18,9 @@ from reports.erkf_drive import (
     windowed_rms,
     wrapped_deg,
 )
-from reports.erkf_parallel import parallel_figure
-from reports.erkf_schedule import millions, one_period, speed_figure, two_rates
-from reports.erkf_singular import WAYS, singular_figure
+from reports.erkf.parallel import parallel_figure
+from reports.erkf.schedule import millions, one_period, speed_figure, two_rates
+from reports.erkf.singular import WAYS, singular_figure
 from reports.gantt import gantt
 from reports.intervals import jobs
 from sched_sim.costs import RobustCosts

@@ -11,11 +11,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from reports import erkf_counts as ways
-from reports import erkf_tables as tables
-from reports.erkf import build
-from reports.erkf_counts import all_counts, parallel
-from reports.erkf_results import TABLES, Results, read
+from reports.erkf import counts as ways
+from reports.erkf import tables
+from reports.erkf.counts import all_counts, parallel
+from reports.erkf.report import build
+from reports.erkf.results import TABLES, Results, read
 from reports.stored import Rows
 from sched_sim.costs import ROBUST_METHODS, Cost, CostTable, StandardCosts, load
 from sched_sim.least_speed import least_speed
@@ -86,8 +86,8 @@ def _other_residues() -> Rows:
 
 
 def test_the_command_writes_the_report(sched_sim: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("reports.erkf_results.results", lambda _thorough, _progress: stored())
-    monkeypatch.setattr("reports.erkf.build", lambda found: rebuilt() if found is stored() else {})
+    monkeypatch.setattr("reports.erkf.results.results", lambda _thorough, _progress: stored())
+    monkeypatch.setattr("reports.erkf.report.build", lambda found: rebuilt() if found is stored() else {})
     published.is_written("erkf", rebuilt(), sched_sim, tmp_path)
 
 

@@ -9,15 +9,15 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
-from reports import erkf_counts as ways
-from reports import erkf_tables as tables
-from reports.erkf_cost_figure import Way, cost_figure
-from reports.erkf_counts import Parallel, all_counts, parallel
-from reports.erkf_drive import attitude_figure, errors_figure, position_figure, route_figure
-from reports.erkf_parallel import parallel_figure
-from reports.erkf_results import Results
-from reports.erkf_schedule import millions, one_period, speed_figure, two_rates
-from reports.erkf_singular import singular_figure
+from reports.erkf import counts as ways
+from reports.erkf import tables
+from reports.erkf.cost_figure import Way, cost_figure
+from reports.erkf.counts import Parallel, all_counts, parallel
+from reports.erkf.drive import attitude_figure, errors_figure, position_figure, route_figure
+from reports.erkf.parallel import parallel_figure
+from reports.erkf.results import Results
+from reports.erkf.schedule import millions, one_period, speed_figure, two_rates
+from reports.erkf.singular import singular_figure
 from reports.gantt import gantt, image
 from reports.machine import legend, residue, timed_on
 from reports.render import csv_bytes, render
