@@ -21,7 +21,7 @@ from reports.drawing.style import (
     page,
     text_width_mm,
 )
-from reports.panels import METHOD_NAMES
+from reports.gantt.panels import METHOD_NAMES
 from sched_sim.costs import KINDS, CostTable
 from sched_sim.errors import InputError
 from sched_sim.timing import Timing

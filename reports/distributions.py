@@ -27,7 +27,7 @@ from reports.drawing.style import (
     page,
     text_width_mm,
 )
-from reports.lanes import shortened
+from reports.gantt.lanes import shortened
 from sched_sim.composed import correct_kind
 from sched_sim.distribution import finished_or_not
 from sched_sim.scenario import Scenario, Sensor

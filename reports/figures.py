@@ -15,7 +15,7 @@ from reports.curves import achieved_curve, hr_limit, knee, speed_grid
 from reports.drawing.legend import draw_legend, legend_height, line_entry
 from reports.drawing.placing import spread
 from reports.drawing.style import GREY, INK, METHOD_LINES, PALE, SMALL_PT, TITLE_PT, WIDTH_MM, axes_at, drawing, page
-from reports.panels import METHOD_NAMES
+from reports.gantt.panels import METHOD_NAMES
 from sched_sim.costs import DELAYED_METHODS, CostTable, DualRateCosts, select
 from sched_sim.least_speed import Stair, staircase
 from sched_sim.options import Options

@@ -13,7 +13,7 @@ from reports import modular_schedule as schedule
 from reports import modular_tables as tables
 from reports import modular_words as words
 from reports.drawing.picture import image
-from reports.gantt import gantt
+from reports.gantt.chart import gantt
 from reports.modular_costs import cost_figure
 from reports.modular_late import late_figure
 from reports.modular_results import OWN_MODEL, SHOWN_PERIODS, Results

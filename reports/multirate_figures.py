@@ -13,8 +13,8 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from reports.drawing.legend import draw_legend, legend_height, line_entry
 from reports.drawing.style import INK, PALE, SMALL_PT, SOURCE_LINES, WIDTH_MM, Line, axes_at, drawing, page
-from reports.gantt import gantt
-from reports.panels import Panel, cycle_marks, method_panel
+from reports.gantt.chart import gantt
+from reports.gantt.panels import Panel, cycle_marks, method_panel
 from sched_sim.costs import CostTable, MultirateCosts, StandardCosts
 from sched_sim.load import load
 from sched_sim.simulate import simulate

@@ -8,7 +8,7 @@ from math import ceil, floor
 from typing import Any
 
 from reports import multirate_tables as tables
-from reports.gantt import image
+from reports.gantt.chart import image
 from reports.multirate_accuracy import Curve, Family, start_figure, steady_figure
 from reports.multirate_costs import Form, every, least_time_of, our_forms, patents_form, time_of
 from reports.multirate_figures import load_figure, rates_figure, two_rates_panel

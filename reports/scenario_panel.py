@@ -7,8 +7,8 @@ from dataclasses import replace
 from math import ceil
 from typing import NamedTuple
 
-from reports.intervals import jobs
-from reports.panels import Mark, Panel
+from reports.gantt.intervals import jobs
+from reports.gantt.panels import Mark, Panel
 from sched_sim.composed import correct_kind
 from sched_sim.draws import fates
 from sched_sim.methods import step_at

@@ -14,12 +14,12 @@ from matplotlib.ticker import FixedFormatter, FixedLocator
 
 from reports.drawing.legend import draw_legend, fill_entries, legend_height
 from reports.drawing.style import GREY, INK, SMALL_PT, WIDTH_MM, axes_at, drawing, page, text_width_mm
-from reports.gantt import frame
-from reports.intervals import JobSpan, bars, jobs, rows
-from reports.lanes import Lane, draw_lanes, fills_of
-from reports.marks import draw_marks
-from reports.panels import METHOD_NAMES, Panel, cycle_marks
-from reports.scale import Scale
+from reports.gantt.chart import frame
+from reports.gantt.intervals import JobSpan, bars, jobs, rows
+from reports.gantt.lanes import Lane, draw_lanes, fills_of
+from reports.gantt.marks import draw_marks
+from reports.gantt.panels import METHOD_NAMES, Panel, cycle_marks
+from reports.gantt.scale import Scale
 from sched_sim.costs import CostTable, JobCosts, LarsenCosts, select
 from sched_sim.errors import InputError
 from sched_sim.options import Options

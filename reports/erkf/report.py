@@ -18,7 +18,7 @@ from reports.erkf.parallel import parallel_figure
 from reports.erkf.results import Results
 from reports.erkf.schedule import millions, one_period, speed_figure, two_rates
 from reports.erkf.singular import singular_figure
-from reports.gantt import gantt, image
+from reports.gantt.chart import gantt, image
 from reports.machine import legend, residue, timed_on
 from reports.render import csv_bytes, render
 from reports.written import percent

@@ -49,8 +49,8 @@ def gantt(
     from functools import partial
 
     from reports.drawing.picture import check_picture
-    from reports.gantt import gantt as draw
-    from reports.gantt import method_panel, save
+    from reports.gantt.chart import gantt as draw
+    from reports.gantt.chart import method_panel, save
     from sched_sim.costs import select
     from sched_sim.least_speed import least_speed
 

@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
 from reports.distributions import distributions_figure
-from reports.gantt import gantt
+from reports.gantt.chart import gantt
 from reports.scenario_panel import scenario_panel
 from sched_sim.scenario import Scenario, Sensor
 from sched_sim.scenario_file import read_scenario

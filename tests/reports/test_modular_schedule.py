@@ -16,9 +16,9 @@ from matplotlib.patches import Rectangle
 
 from filters.arrays import FloatArray
 from filters.systems.rocket_filter import SENSORS, PredictorName
-from reports.gantt import gantt
-from reports.intervals import bars as bars_of
-from reports.intervals import never_ran
+from reports.gantt.chart import gantt
+from reports.gantt.intervals import bars as bars_of
+from reports.gantt.intervals import never_ran
 from reports.modular_schedule import (
     LEVELS,
     landing_figure,

@@ -9,8 +9,8 @@ from fractions import Fraction
 import pytest
 from matplotlib.collections import PolyCollection
 
-from reports.gantt import gantt
-from reports.intervals import bars, jobs, rows
+from reports.gantt.chart import gantt
+from reports.gantt.intervals import bars, jobs, rows
 from reports.scenario_panel import LEAST_BAR_MM, Late, first_late, scenario_panel, window
 from sched_sim.draws import fates
 from sched_sim.scenario import Scenario, Sensor

@@ -9,7 +9,7 @@ import pytest
 from matplotlib.figure import Figure
 
 from reports.drawing.picture import image, save
-from reports.gantt import gantt, method_panel
+from reports.gantt.chart import gantt, method_panel
 from reports.timelines import dual_rate_timeline
 from sched_sim.costs import load
 from sched_sim.errors import InputError

@@ -21,8 +21,8 @@ from reports.erkf.drive import (
 from reports.erkf.parallel import parallel_figure
 from reports.erkf.schedule import millions, one_period, speed_figure, two_rates
 from reports.erkf.singular import WAYS, singular_figure
-from reports.gantt import gantt
-from reports.intervals import jobs
+from reports.gantt.chart import gantt
+from reports.gantt.intervals import jobs
 from sched_sim.costs import RobustCosts
 from sched_sim.least_speed import least_speed
 from sched_sim.timing import Timing

@@ -8,8 +8,8 @@ from typing import NamedTuple
 
 from reports.drawing.placing import spread, worst_shift
 from reports.drawing.style import SMALL_PT, drawable, text_width_mm
-from reports.intervals import TASK, Bar
-from reports.scale import Scale
+from reports.gantt.intervals import TASK, Bar
+from reports.gantt.scale import Scale
 
 PADDING_MM = 0.5
 GAP_MM = 1.0

@@ -11,7 +11,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from reports.drawing.placing import spread, worst_shift
-from reports.intervals import bars, jobs, never_ran, overdue_work, rows, waits
+from reports.gantt.intervals import bars, jobs, never_ran, overdue_work, rows, waits
 from sched_sim.costs import DualRateCosts
 from sched_sim.least_speed import least_speed
 from sched_sim.options import Options

@@ -11,9 +11,9 @@ import pytest
 from matplotlib.collections import PolyCollection
 
 from reports.drawing.style import RED
-from reports.gantt import Panel, gantt
-from reports.intervals import bars, jobs
-from reports.panels import cycle_marks, method_panel
+from reports.gantt.chart import Panel, gantt
+from reports.gantt.intervals import bars, jobs
+from reports.gantt.panels import cycle_marks, method_panel
 from sched_sim.costs import load
 from sched_sim.errors import InputError
 from sched_sim.options import Options
@@ -170,6 +170,8 @@ def test_too_many_steps_are_refused() -> None:
 
 
 def test_drawing_does_not_import_pyplot() -> None:
-    code = "import sys, reports.gantt, reports.timelines, reports.figures; print('matplotlib.pyplot' in sys.modules)"
+    code = (
+        "import sys, reports.gantt.chart, reports.timelines, reports.figures; print('matplotlib.pyplot' in sys.modules)"
+    )
     run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert run.stdout.strip() == "False"

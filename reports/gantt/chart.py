@@ -11,11 +11,11 @@ from matplotlib.ticker import MaxNLocator
 from reports.drawing.legend import draw_legend, fill_entries, legend_height, sign_entries
 from reports.drawing.picture import image, save
 from reports.drawing.style import FONT_PT, INK, PALE, RED, TITLE_PT, WIDTH_MM, axes_at, drawing, page, text_width_mm
-from reports.intervals import jobs, never_ran, rows
-from reports.lanes import draw_lanes, fills_of, lanes, shortened
-from reports.marks import draw_marks
-from reports.panels import Panel, method_panel
-from reports.scale import Scale
+from reports.gantt.intervals import jobs, never_ran, rows
+from reports.gantt.lanes import draw_lanes, fills_of, lanes, shortened
+from reports.gantt.marks import draw_marks
+from reports.gantt.panels import Panel, method_panel
+from reports.gantt.scale import Scale
 
 __all__ = ["Panel", "gantt", "image", "method_panel", "save"]
 
