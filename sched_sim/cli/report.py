@@ -73,8 +73,8 @@ def _erkf(thorough: bool) -> dict[str, bytes]:
 
 
 def _modular(thorough: bool) -> dict[str, bytes]:
-    from reports.modular import build
-    from reports.modular_results import results
+    from reports.modular.report import build
+    from reports.modular.results import results
     from sched_sim.cli.progress import progress_bar
 
     with progress_bar("Simulating and measuring") as progress:

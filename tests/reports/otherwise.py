@@ -38,7 +38,7 @@ def _erkf() -> Mapping[str, object]:
 
 
 def _modular() -> Mapping[str, object]:
-    from reports.modular_results import simulated
+    from reports.modular.results import simulated
 
     return simulated()
 

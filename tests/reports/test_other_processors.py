@@ -9,12 +9,12 @@ import pytest
 
 from filters.arrays import FloatArray
 from filters.systems.drive import CargoDrive, simulate_cargo_drive
-from reports import modular
 from reports.erkf import report as erkf
 from reports.erkf.results import read as read_erkf
 from reports.machine import MARK, legend
-from reports.modular_results import dropout_table
-from reports.modular_results import read as read_modular
+from reports.modular import report as modular
+from reports.modular.results import dropout_table
+from reports.modular.results import read as read_modular
 from reports.stored import Rows, digits
 from studies import robust_drive, spring_mass
 from studies.robust_drive import AttitudeMethod

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from reports.machine import marked
-from reports.modular_costs import OPERATIONS, SECONDS
-from reports.modular_oscillator import OSCILLATOR_AMPLITUDES, QUANTITIES, SENSORS, UNITS, Record
-from reports.modular_results import OWN_MODEL, Results
-from reports.modular_rocket import QUANTITIES as OF_ROCKET
-from reports.modular_rocket_rows import CASES
-from reports.modular_schedule import miss_rows_of, verdict_rows
+from reports.modular.costs import OPERATIONS, SECONDS
+from reports.modular.oscillator import OSCILLATOR_AMPLITUDES, QUANTITIES, SENSORS, UNITS, Record
+from reports.modular.results import OWN_MODEL, Results
+from reports.modular.rocket import QUANTITIES as OF_ROCKET
+from reports.modular.rocket_rows import CASES
+from reports.modular.schedule import miss_rows_of, verdict_rows
 from reports.stored import Rows
 from reports.written import between, plus_minus, significant
 from sched_sim.distribution import wilson

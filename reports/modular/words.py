@@ -11,13 +11,13 @@ from filters.modular.sigma_points import maccormack, merwe, weights
 from filters.systems.rocket import BURN_S, RATE_HZ
 from filters.systems.spring_mass import period_s
 from reports.machine import legend, marked
-from reports.modular_costs import OPERATIONS, SECONDS
-from reports.modular_oscillator import OSCILLATOR_AMPLITUDES, QUANTITIES
-from reports.modular_results import HALF, OWN_MODEL, SHOWN_PERIODS, Results
-from reports.modular_rocket import QUANTITIES as OF_ROCKET
-from reports.modular_rocket_rows import CASES
-from reports.modular_schedule import miss_rows_of, missed_percent
-from reports.modular_tables import (
+from reports.modular.costs import OPERATIONS, SECONDS
+from reports.modular.oscillator import OSCILLATOR_AMPLITUDES, QUANTITIES
+from reports.modular.results import HALF, OWN_MODEL, SHOWN_PERIODS, Results
+from reports.modular.rocket import QUANTITIES as OF_ROCKET
+from reports.modular.rocket_rows import CASES
+from reports.modular.schedule import miss_rows_of, missed_percent
+from reports.modular.tables import (
     group_of,
     interval_of,
     late_error,

@@ -19,7 +19,7 @@ from filters.systems.rocket_filter import SENSORS, PredictorName
 from reports.gantt.chart import gantt
 from reports.gantt.intervals import bars as bars_of
 from reports.gantt.intervals import never_ran
-from reports.modular_schedule import (
+from reports.modular.schedule import (
     LEVELS,
     landing_figure,
     landings,
@@ -31,7 +31,7 @@ from reports.modular_schedule import (
     share_rows,
     verdict_rows,
 )
-from reports.modular_schedule_gantt import DELAY, fix_panels
+from reports.modular.schedule_gantt import DELAY, fix_panels
 from reports.stored import Rows, records
 from sched_sim.sample_file import SampledCosts
 from studies.rocket_schedule import JOBS, URGENCIES, WAYS, MissRow, Run, chosen

@@ -13,7 +13,7 @@ from filters.arrays import FloatArray
 from reports.drawing.legend import line_entry
 from reports.drawing.sheet import label, sheet
 from reports.drawing.style import METHOD_LINES, Line, drawing
-from reports.modular_oscillator import OSCILLATOR_AMPLITUDES
+from reports.modular.oscillator import OSCILLATOR_AMPLITUDES
 
 Record: TypeAlias = Mapping[str, str]
 

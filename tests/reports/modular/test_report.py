@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 
 from reports.machine import MARK
-from reports.modular import build
-from reports.modular_costs import OPERATIONS
-from reports.modular_results import TABLES, Results, read
-from reports.modular_schedule import miss_rows_of
+from reports.modular.costs import OPERATIONS
+from reports.modular.report import build
+from reports.modular.results import TABLES, Results, read
+from reports.modular.schedule import miss_rows_of
 from studies import late_measurements, modular_costs
 from studies.rocket_schedule import LAND_BY, compared_at
 from tests.command_line import Run
@@ -64,8 +64,8 @@ def test_the_committed_file_is_rebuilt_byte_for_byte(name: str) -> None:
 
 
 def test_the_command_writes_the_report(sched_sim: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("reports.modular_results.results", lambda _thorough, _progress: stored())
-    monkeypatch.setattr("reports.modular.build", lambda found: rebuilt() if found is stored() else {})
+    monkeypatch.setattr("reports.modular.results.results", lambda _thorough, _progress: stored())
+    monkeypatch.setattr("reports.modular.report.build", lambda found: rebuilt() if found is stored() else {})
     published.is_written("modular", rebuilt(), sched_sim, tmp_path)
 
 

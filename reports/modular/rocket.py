@@ -15,7 +15,7 @@ from reports.drawing.axes import decades
 from reports.drawing.legend import fill_entries, line_entry
 from reports.drawing.sheet import label, sheet
 from reports.drawing.style import GREY, INK, PALE, RED, SOURCE_LINES, Fill, Line, drawing
-from reports.modular_oscillator import BAND, ESTIMATE, TRUE
+from reports.modular.oscillator import BAND, ESTIMATE, TRUE
 from studies.rocket import CLAIM_PERCENT
 
 Columns: TypeAlias = Mapping[str, FloatArray]

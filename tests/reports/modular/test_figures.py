@@ -8,9 +8,9 @@ from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 
 from filters.arrays import FloatArray
-from reports.modular_costs import OPERATIONS, SECONDS, cost_figure
-from reports.modular_late import late_figure
-from reports.modular_oscillator import (
+from reports.modular.costs import OPERATIONS, SECONDS, cost_figure
+from reports.modular.late import late_figure
+from reports.modular.oscillator import (
     NOISES,
     OSCILLATOR_AMPLITUDES,
     QUANTITIES,
@@ -21,8 +21,8 @@ from reports.modular_oscillator import (
     nees_figure,
     rate_figure,
 )
-from reports.modular_rocket import DROPOUTS, HALVES, SHOWN, flight_figure, residual_figure
-from reports.modular_rocket import nees_figure as rocket_nees_figure
+from reports.modular.rocket import DROPOUTS, HALVES, SHOWN, flight_figure, residual_figure
+from reports.modular.rocket import nees_figure as rocket_nees_figure
 from tests.reports.layout import flaws, texts
 
 

@@ -7,18 +7,14 @@ from matplotlib.figure import Figure
 
 from filters.systems.rocket import BURN_S
 from filters.systems.spring_mass import period_s
-from reports import modular_oscillator as oscillator
-from reports import modular_rocket as rocket
-from reports import modular_schedule as schedule
-from reports import modular_tables as tables
-from reports import modular_words as words
 from reports.drawing.picture import image
 from reports.gantt.chart import gantt
-from reports.modular_costs import cost_figure
-from reports.modular_late import late_figure
-from reports.modular_results import OWN_MODEL, SHOWN_PERIODS, Results
-from reports.modular_rocket_rows import READINGS
-from reports.modular_schedule_gantt import fix_panels
+from reports.modular import oscillator, rocket, schedule, tables, words
+from reports.modular.costs import cost_figure
+from reports.modular.late import late_figure
+from reports.modular.results import OWN_MODEL, SHOWN_PERIODS, Results
+from reports.modular.rocket_rows import READINGS
+from reports.modular.schedule_gantt import fix_panels
 from reports.render import csv_bytes, render
 from studies import spring_mass
 from studies.late_measurements import SENSORS
