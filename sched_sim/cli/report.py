@@ -53,8 +53,8 @@ def _steffes(thorough: bool) -> dict[str, bytes]:
 
 
 def _patent_multirate(_thorough: bool) -> dict[str, bytes]:
-    from reports.multirate_results import results
-    from reports.patent_multirate import build
+    from reports.multirate.report import build
+    from reports.multirate.results import results
     from sched_sim.cli.progress import progress_bar
 
     with progress_bar("Computing") as progress:

@@ -24,8 +24,8 @@ PLAIN = {
 
 
 def _patent_multirate() -> Mapping[str, object]:
-    from reports.multirate_results import results
-    from reports.patent_multirate import build
+    from reports.multirate.report import build
+    from reports.multirate.results import results
 
     return {name: content.decode() for name, content in build(results()).items()}
 

@@ -7,10 +7,10 @@ from pathlib import Path
 
 import pytest
 
-from reports import multirate_tables as tables
-from reports.multirate_costs import every, least_time_of, our_forms, patents_form, time_of
-from reports.multirate_results import PERIODS, SHOWN, Results, results
-from reports.patent_multirate import build
+from reports.multirate import tables
+from reports.multirate.costs import every, least_time_of, our_forms, patents_form, time_of
+from reports.multirate.report import build
+from reports.multirate.results import PERIODS, SHOWN, Results, results
 from sched_sim.load import load
 from sched_sim.processor import load_processor, shipped_processors
 from studies import patent
@@ -57,7 +57,7 @@ def test_progress_is_told_from_start_to_end() -> None:
 
 
 def test_the_command_writes_the_report(sched_sim: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("reports.multirate_results.results", lambda _progress: found())
+    monkeypatch.setattr("reports.multirate.results.results", lambda _progress: found())
     published.is_written("patent-multirate", rebuilt(), sched_sim, tmp_path)
 
 

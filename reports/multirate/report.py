@@ -7,13 +7,13 @@ from fractions import Fraction
 from math import ceil, floor
 from typing import Any
 
-from reports import multirate_tables as tables
 from reports.gantt.chart import image
-from reports.multirate_accuracy import Curve, Family, start_figure, steady_figure
-from reports.multirate_costs import Form, every, least_time_of, our_forms, patents_form, time_of
-from reports.multirate_figures import load_figure, rates_figure, two_rates_panel
-from reports.multirate_results import PERIODS, RECEIVER, SHOWN, Results
-from reports.multirate_words import ratio_text, scenario_text
+from reports.multirate import tables
+from reports.multirate.accuracy import Curve, Family, start_figure, steady_figure
+from reports.multirate.costs import Form, every, least_time_of, our_forms, patents_form, time_of
+from reports.multirate.figures import load_figure, rates_figure, two_rates_panel
+from reports.multirate.results import PERIODS, RECEIVER, SHOWN, Results
+from reports.multirate.words import ratio_text, scenario_text
 from reports.render import csv_bytes, render
 from reports.written import decimal, percent, significant
 from sched_sim.fit import fit

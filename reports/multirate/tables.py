@@ -6,9 +6,9 @@ from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from typing import Any, NamedTuple
 
-from reports.multirate_costs import Form, every, least_time_of, time_of
-from reports.multirate_results import RECEIVER, SHOWN, Results
-from reports.multirate_words import ratio_text, scenario_text
+from reports.multirate.costs import Form, every, least_time_of, time_of
+from reports.multirate.results import RECEIVER, SHOWN, Results
+from reports.multirate.words import ratio_text, scenario_text
 from reports.written import decimal, percent, significant
 from sched_sim.costs import arithmetic
 from sched_sim.fit import fit
