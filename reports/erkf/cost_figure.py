@@ -22,7 +22,7 @@ from reports.drawing.style import (
     page,
     text_width_mm,
 )
-from reports.machine import marked
+from reports.pages.machine import marked
 
 ROW_MM, GAP_MM, RIGHT_MM = 4.8, 8.0, 4.0
 COUNTS_SHARE = 0.6

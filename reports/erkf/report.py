@@ -19,9 +19,9 @@ from reports.erkf.results import Results
 from reports.erkf.schedule import millions, one_period, speed_figure, two_rates
 from reports.erkf.singular import singular_figure
 from reports.gantt.chart import gantt, image
-from reports.machine import legend, residue, timed_on
-from reports.render import csv_bytes, render
-from reports.written import percent
+from reports.pages.machine import legend, residue, timed_on
+from reports.pages.numbers import percent
+from reports.pages.render import csv_bytes, render
 from sched_sim.costs import ROBUST_METHODS, CostTable, RobustMethod, load
 from sched_sim.fit import fit
 from sched_sim.least_speed import least_speed

@@ -15,9 +15,9 @@ import numpy as np
 
 from filters.arrays import FloatArray
 from filters.systems.drive import FIX_EVERY, simulate_cargo_drive
-from reports.stored import Rows, digits, read_tables, rows_of, table_files
-from reports.stored import columns as columns_of
-from reports.stored import records as records_of
+from reports.pages.stored import Rows, digits, read_tables, rows_of, table_files
+from reports.pages.stored import columns as columns_of
+from reports.pages.stored import records as records_of
 from sched_sim.cost_file import cost_table_text, read_cost_table
 from sched_sim.costs import CostTable
 from studies import robust_drive as drive

@@ -9,8 +9,8 @@ from typing import Any
 from reports.erkf.counts import ALL_WAYS, PROCESSORS, TIMED, Counts, Parallel
 from reports.erkf.results import Results
 from reports.erkf.schedule import millions
-from reports.machine import marked, residue
-from reports.written import percent, plus_minus, significant
+from reports.pages.machine import marked, residue
+from reports.pages.numbers import percent, plus_minus, significant
 from sched_sim.costs import ROBUST_METHODS, CostTable, RobustCosts, StandardCosts, select
 from sched_sim.fit import fit
 from sched_sim.least_speed import achieved_l, least_speed

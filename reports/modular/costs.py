@@ -12,7 +12,7 @@ from reports.drawing.axes import decades
 from reports.drawing.legend import line_entry
 from reports.drawing.sheet import label, sheet
 from reports.drawing.style import SOURCE_LINES, drawing
-from reports.machine import marked
+from reports.pages.machine import marked
 
 Record: TypeAlias = Mapping[str, str]
 

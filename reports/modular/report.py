@@ -15,7 +15,7 @@ from reports.modular.late import late_figure
 from reports.modular.results import OWN_MODEL, SHOWN_PERIODS, Results
 from reports.modular.rocket_rows import READINGS
 from reports.modular.schedule_gantt import fix_panels
-from reports.render import csv_bytes, render
+from reports.pages.render import csv_bytes, render
 from studies import spring_mass
 from studies.late_measurements import SENSORS
 from studies.rocket import BASE, PHASES

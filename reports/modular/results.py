@@ -15,13 +15,13 @@ import numpy as np
 
 from filters.arrays import FloatArray
 from filters.systems.spring_mass import period_s
-from reports.machine import marked, timed_on
 from reports.modular.costs import OPERATIONS, SECONDS
 from reports.modular.oscillator import QUANTITIES, SENSORS, UNITS
 from reports.modular.rocket_rows import rocket_tables
 from reports.modular.schedule import TABLES as SCHEDULE_TABLES
 from reports.modular.schedule import schedule_tables
-from reports.stored import Rows, Tables, as_stored, columns, digits, read_tables, records, rows_of, table_files
+from reports.pages.machine import marked, timed_on
+from reports.pages.stored import Rows, Tables, as_stored, columns, digits, read_tables, records, rows_of, table_files
 from studies import late_measurements, modular_costs, rocket, rocket_schedule, spring_mass
 from studies.spring_mass_run import OSCILLATOR, SETTLED_PERIODS, step_s
 from studies.typical import UNLUCKY, quantile

@@ -9,7 +9,7 @@ import numpy as np
 from filters.arrays import FloatArray
 from filters.systems.rocket import RATE_HZ
 from reports.modular.rocket import DROPOUTS, HALVES, QUANTITIES, SHOWN
-from reports.stored import Rows, digits, rows_of
+from reports.pages.stored import Rows, digits, rows_of
 from studies import rocket
 from studies.rocket_flights import Run, fly
 from studies.rocket_readings import READINGS as ALL_READINGS

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from reports.machine import marked
 from reports.modular.costs import OPERATIONS, SECONDS
 from reports.modular.oscillator import OSCILLATOR_AMPLITUDES, QUANTITIES, SENSORS, UNITS, Record
 from reports.modular.results import OWN_MODEL, Results
 from reports.modular.rocket import QUANTITIES as OF_ROCKET
 from reports.modular.rocket_rows import CASES
 from reports.modular.schedule import miss_rows_of, verdict_rows
-from reports.stored import Rows
-from reports.written import between, plus_minus, significant
+from reports.pages.machine import marked
+from reports.pages.numbers import between, plus_minus, significant
+from reports.pages.stored import Rows
 from sched_sim.distribution import wilson
 from studies import late_measurements, modular_costs, rocket, spring_mass
 from studies.rocket_readings import READINGS

@@ -10,7 +10,6 @@ import numpy as np
 from filters.modular.sigma_points import maccormack, merwe, weights
 from filters.systems.rocket import BURN_S, RATE_HZ
 from filters.systems.spring_mass import period_s
-from reports.machine import legend, marked
 from reports.modular.costs import OPERATIONS, SECONDS
 from reports.modular.oscillator import OSCILLATOR_AMPLITUDES, QUANTITIES
 from reports.modular.results import HALF, OWN_MODEL, SHOWN_PERIODS, Results
@@ -27,7 +26,8 @@ from reports.modular.tables import (
     rocket_error,
     share_that_holds,
 )
-from reports.written import plus_minus, significant
+from reports.pages.machine import legend, marked
+from reports.pages.numbers import plus_minus, significant
 from sched_sim.processor import load_processor
 from studies import late_measurements, modular_costs, rocket, rocket_schedule, spring_mass
 from studies.rocket_schedule import GPS_DELAYS as DELAYS

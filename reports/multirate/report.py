@@ -14,8 +14,8 @@ from reports.multirate.costs import Form, every, least_time_of, our_forms, paten
 from reports.multirate.figures import load_figure, rates_figure, two_rates_panel
 from reports.multirate.results import PERIODS, RECEIVER, SHOWN, Results
 from reports.multirate.words import ratio_text, scenario_text
-from reports.render import csv_bytes, render
-from reports.written import decimal, percent, significant
+from reports.pages.numbers import decimal, percent, significant
+from reports.pages.render import csv_bytes, render
 from sched_sim.fit import fit
 from sched_sim.load import load
 from sched_sim.processor import Processor, load_processor, on_processor, shipped_processors

@@ -25,7 +25,7 @@ def report(name: Name = "steffes2014", thorough: Thorough = False, output: Folde
     sched-sim report erkf
     sched-sim report modular
     """
-    from reports.render import make_folder, write_report
+    from reports.pages.render import make_folder, write_report
 
     folder = output / name
     make_folder(folder)

@@ -32,7 +32,7 @@ def _patent_multirate() -> Mapping[str, object]:
 
 def _erkf() -> Mapping[str, object]:
     from reports.erkf.results import simulated
-    from reports.stored import as_stored
+    from reports.pages.stored import as_stored
 
     return as_stored(simulated())
 

@@ -8,7 +8,7 @@ import re
 from collections.abc import Collection, Mapping
 from pathlib import Path
 
-from reports.machine import MARK
+from reports.pages.machine import MARK
 from tests.command_line import Run
 
 FOLDER = Path(__file__).parents[2] / "reports" / "published"

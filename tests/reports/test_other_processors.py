@@ -11,11 +11,11 @@ from filters.arrays import FloatArray
 from filters.systems.drive import CargoDrive, simulate_cargo_drive
 from reports.erkf import report as erkf
 from reports.erkf.results import read as read_erkf
-from reports.machine import MARK, legend
 from reports.modular import report as modular
 from reports.modular.results import dropout_table
 from reports.modular.results import read as read_modular
-from reports.stored import Rows, digits
+from reports.pages.machine import MARK, legend
+from reports.pages.stored import Rows, digits
 from studies import robust_drive, spring_mass
 from studies.robust_drive import AttitudeMethod
 from studies.spring_mass_run import Record, Setting, oscillation

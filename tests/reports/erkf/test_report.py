@@ -16,7 +16,7 @@ from reports.erkf import tables
 from reports.erkf.counts import all_counts, parallel
 from reports.erkf.report import build
 from reports.erkf.results import TABLES, Results, read
-from reports.stored import Rows
+from reports.pages.stored import Rows
 from sched_sim.costs import ROBUST_METHODS, Cost, CostTable, StandardCosts, load
 from sched_sim.least_speed import least_speed
 from sched_sim.processor import shipped_processors

@@ -9,11 +9,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from reports.machine import MARK
 from reports.modular.costs import OPERATIONS
 from reports.modular.report import build
 from reports.modular.results import TABLES, Results, read
 from reports.modular.schedule import miss_rows_of
+from reports.pages.machine import MARK
 from studies import late_measurements, modular_costs
 from studies.rocket_schedule import LAND_BY, compared_at
 from tests.command_line import Run

@@ -32,7 +32,7 @@ from reports.modular.schedule import (
     verdict_rows,
 )
 from reports.modular.schedule_gantt import DELAY, fix_panels
-from reports.stored import Rows, records
+from reports.pages.stored import Rows, records
 from sched_sim.sample_file import SampledCosts
 from studies.rocket_schedule import JOBS, URGENCIES, WAYS, MissRow, Run, chosen
 from tests.reports.layout import flaws, texts

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from filters.arrays import FloatArray
-from reports.render import Row, csv_bytes
+from reports.pages.render import Row, csv_bytes
 
 Rows = list[Row]
 """The first one is the heading."""

@@ -16,7 +16,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from markdown_it import MarkdownIt
 from markupsafe import Markup
 
-from reports.data_uri import data_uri
+from reports.pages.data_uri import data_uri
 from sched_sim.errors import InputError
 from sched_sim.files import check_writable, write
 

@@ -9,8 +9,8 @@ from xml.etree import ElementTree
 import pytest
 from matplotlib.figure import Figure
 
-from reports.data_uri import data_uri
 from reports.drawing.picture import image
+from reports.pages.data_uri import data_uri
 
 
 @pytest.fixture(scope="module")
