@@ -53,14 +53,14 @@ def simulate_scenario(
         progress = files.enter_context(progress_bar("Simulating"))
         outcome = run_scenario(scenario, on_slice=write if writers or scenario.cpus > 1 else None, on_progress=progress)
     if histogram is not None:
-        from reports.distributions import distributions_figure
         from reports.drawing.picture import save
+        from reports.scenario.distributions import distributions_figure
 
         save(distributions_figure(scenario, outcome), histogram, "--histogram")
     if gantt is not None:
         from reports.gantt.chart import gantt as draw
         from reports.gantt.chart import save
-        from reports.scenario_panel import scenario_panel
+        from reports.scenario.panel import scenario_panel
 
         save(draw([scenario_panel(scenario, outcome)]), gantt, "--gantt")
     schedule = outcome.schedule

@@ -11,13 +11,13 @@ from matplotlib.collections import PolyCollection
 
 from reports.gantt.chart import gantt
 from reports.gantt.intervals import bars, jobs, rows
-from reports.scenario_panel import LEAST_BAR_MM, Late, first_late, scenario_panel, window
+from reports.scenario.panel import LEAST_BAR_MM, Late, first_late, scenario_panel, window
 from sched_sim.draws import fates
 from sched_sim.scenario import Scenario, Sensor
 from sched_sim.scenario_run import run_scenario
 from sched_sim.tasks import Task
 from tests.reports.layout import flaws, texts
-from tests.reports.test_distributions import LONG, OVERLOAD, ROCKET
+from tests.reports.scenario.test_distributions import LONG, OVERLOAD, ROCKET
 
 STARVED = Scenario(
     "starved",
@@ -88,8 +88,8 @@ def test_the_window_is_short_and_about_what_matters(
     ],
 )
 def test_every_job_is_drawn_whether_it_ran_or_not(scenario: Scenario, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("reports.scenario_panel.CYCLES", 60)
-    monkeypatch.setattr("reports.scenario_panel.MOST_STEPS", 60)
+    monkeypatch.setattr("reports.scenario.panel.CYCLES", 60)
+    monkeypatch.setattr("reports.scenario.panel.MOST_STEPS", 60)
     outcome = run_scenario(scenario)
     drawn = jobs(scenario_panel(scenario, outcome).schedule)
     released = {kind: figures.released for kind, figures in outcome.jobs.items() if figures.released}

@@ -13,9 +13,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from reports.distributions import distributions_figure
 from reports.gantt.chart import gantt
-from reports.scenario_panel import scenario_panel
+from reports.scenario.distributions import distributions_figure
+from reports.scenario.panel import scenario_panel
 from sched_sim.scenario import Scenario, Sensor
 from sched_sim.scenario_file import read_scenario
 from sched_sim.scenario_run import JobFigures, Outcome, SensorFigures, run_scenario
