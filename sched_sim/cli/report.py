@@ -35,7 +35,7 @@ def report(name: Name = "steffes2014", thorough: Thorough = False, output: Folde
 
 def _steffes(thorough: bool) -> dict[str, bytes]:
     from filters.systems.example import example_system
-    from reports.steffes import build
+    from reports.steffes.report import build
     from sched_sim.cli.progress import progress_bar
     from sched_sim.costs import DELAYED_METHODS
     from studies.measure import measure

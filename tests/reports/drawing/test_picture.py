@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from reports.drawing.picture import image, save
 from reports.gantt.chart import gantt, method_panel
-from reports.timelines import dual_rate_timeline
+from reports.steffes.timelines import dual_rate_timeline
 from sched_sim.costs import load
 from sched_sim.errors import InputError
 from sched_sim.ticks import exact

@@ -170,8 +170,6 @@ def test_too_many_steps_are_refused() -> None:
 
 
 def test_drawing_does_not_import_pyplot() -> None:
-    code = (
-        "import sys, reports.gantt.chart, reports.timelines, reports.figures; print('matplotlib.pyplot' in sys.modules)"
-    )
+    code = "import sys, reports.gantt.chart, reports.steffes.timelines, reports.steffes.figures; print('matplotlib.pyplot' in sys.modules)"
     run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert run.stdout.strip() == "False"

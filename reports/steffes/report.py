@@ -5,12 +5,12 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import Any
 
-from reports.comparisons import Speeds, cost_figure, table4_figure
-from reports.figures import achieved_figure, least_speed_figure
 from reports.gantt.chart import gantt, image, method_panel
 from reports.pages.machine import legend, marked, timed_on
 from reports.pages.render import csv_bytes, render
-from reports.timelines import dual_rate_timeline, serial_costs, serial_timeline
+from reports.steffes.comparisons import Speeds, cost_figure, table4_figure
+from reports.steffes.figures import achieved_figure, least_speed_figure
+from reports.steffes.timelines import dual_rate_timeline, serial_costs, serial_timeline
 from sched_sim.analysis import BINDING_WORDS
 from sched_sim.cost_file import cost_table_text
 from sched_sim.costs import DELAYED_METHODS, CostTable, load, select

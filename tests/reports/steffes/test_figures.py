@@ -9,9 +9,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from reports.curves import achieved_curve, hr_limit, knee, speed_grid
 from reports.drawing.style import METHOD_LINES
-from reports.figures import Speeds, achieved_figure, cost_figure, least_speed_figure, table4_figure
+from reports.steffes.curves import achieved_curve, hr_limit, knee, speed_grid
+from reports.steffes.figures import Speeds, achieved_figure, cost_figure, least_speed_figure, table4_figure
 from sched_sim.costs import DualRateCosts, load, select
 from sched_sim.errors import InputError
 from sched_sim.least_speed import achieved_l, least_speed, staircase

@@ -10,7 +10,7 @@ from matplotlib.colors import to_rgba
 
 from reports.drawing.style import FILLS
 from reports.gantt.intervals import jobs
-from reports.timelines import dual_rate_timeline, serial_timeline, unused
+from reports.steffes.timelines import dual_rate_timeline, serial_timeline, unused
 from sched_sim.costs import load, select
 from sched_sim.errors import InputError
 from sched_sim.options import Options

@@ -7,7 +7,7 @@ from functools import cache
 
 import pytest
 
-from reports.steffes import build
+from reports.steffes.report import build
 from sched_sim.cost_file import read_cost_table
 from sched_sim.costs import Cost, CostTable
 from tests.reports import published

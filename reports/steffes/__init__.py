@@ -1,0 +1,1 @@
+"""The report on Steffes 2014."""
