@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
+from pathlib import Path
 from typing import Any
 
 from sched_sim.scenario import Scenario, Sensor
@@ -11,6 +12,7 @@ from sched_sim.scenario_run import run_scenario
 from sched_sim.schedule import Slice
 
 HR, LR = 10, 20
+ROCKET = Path(__file__).parent / "rocket.toml"
 
 Costs = dict[str, tuple[Fraction, ...]]
 

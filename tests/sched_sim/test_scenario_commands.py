@@ -16,8 +16,7 @@ from sched_sim.scenario_file import read_scenario
 from sched_sim.scenario_run import run_scenario
 from sched_sim.tasks import Task
 from tests.command_line import Run, is_refused
-
-ROCKET = Path(__file__).parent / "rocket.toml"
+from tests.scenarios import ROCKET
 
 SHORT = """\
 name = "short"

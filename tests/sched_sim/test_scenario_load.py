@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 from fractions import Fraction
-from pathlib import Path
 
 import pytest
 from hypothesis import assume, given, settings
@@ -17,10 +16,11 @@ from sched_sim.scenario_file import read_scenario
 from sched_sim.scenario_load import catching_up, demand, loads
 from sched_sim.scenario_run import run_scenario
 from sched_sim.tasks import Task
+from tests import scenarios
 from tests.scenarios import HR, LR, sensor
 from tests.scenarios import scenario as case
 
-ROCKET = read_scenario(Path(__file__).parent / "rocket.toml")
+ROCKET = read_scenario(scenarios.ROCKET)
 
 
 def scenario(speed: int, **more: object) -> Scenario:

@@ -170,6 +170,7 @@ def test_too_many_steps_are_refused() -> None:
 
 
 def test_drawing_does_not_import_pyplot() -> None:
-    code = "import sys, reports.gantt.chart, reports.steffes.timelines, reports.steffes.figures; print('matplotlib.pyplot' in sys.modules)"
+    modules = "reports.gantt.chart, reports.steffes.timelines, reports.steffes.figures"
+    code = f"import sys, {modules}; print('matplotlib.pyplot' in sys.modules)"
     run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert run.stdout.strip() == "False"

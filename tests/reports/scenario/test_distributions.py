@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections import Counter
 from dataclasses import replace
 from fractions import Fraction
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -20,9 +19,10 @@ from sched_sim.scenario import Scenario, Sensor
 from sched_sim.scenario_file import read_scenario
 from sched_sim.scenario_run import JobFigures, Outcome, SensorFigures, run_scenario
 from sched_sim.tasks import Task
+from tests import scenarios
 from tests.reports.layout import flaws, texts
 
-ROCKET = read_scenario(Path(__file__).parents[1] / "sched_sim" / "rocket.toml")
+ROCKET = read_scenario(scenarios.ROCKET)
 OVERLOAD = Scenario(
     "overload",
     steps=400,
