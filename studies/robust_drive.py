@@ -34,7 +34,7 @@ from filters.systems.drive import (
     wrap,
 )
 from filters.systems.position import PositionRows, position, position_scaling, position_uncertainty
-from studies.rms import rms as over_runs
+from studies.modular.rms import rms as over_runs
 
 Record = TypeVar("Record", bound=tuple[Any, ...])
 

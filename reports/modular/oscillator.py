@@ -15,7 +15,7 @@ from reports.drawing.axes import decades
 from reports.drawing.legend import fill_entries, line_entry
 from reports.drawing.sheet import label, sheet
 from reports.drawing.style import GREY, INK, PALE, SMALL_PT, SOURCE_LINES, Fill, Line, drawing
-from studies.spring_mass_run import ACCELERATION_SIGMA, AMPLITUDES, POSITION_SIGMA_M
+from studies.modular.oscillator_run import ACCELERATION_SIGMA, AMPLITUDES, POSITION_SIGMA_M
 
 Columns: TypeAlias = Mapping[str, FloatArray]
 Record: TypeAlias = Mapping[str, str]
@@ -100,7 +100,7 @@ def dropout_figure(rows: Sequence[Record]) -> Figure:
 def rate_figure(by_rate: Mapping[int, Sequence[Record]], reach: float) -> Figure:
     """The error of position for each sampling rate: against dropout, and against the time between measurements.
 
-    by_rate: by measurements in a period. reach: in periods, see `studies.spring_mass.reach`.
+    by_rate: by measurements in a period. reach: in periods, see `studies.modular.oscillator.reach`.
     """
     lines = dict(zip(by_rate, SOURCE_LINES, strict=False))
     with drawing():

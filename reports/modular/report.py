@@ -16,11 +16,11 @@ from reports.modular.results import OWN_MODEL, SHOWN_PERIODS, Results
 from reports.modular.rocket_rows import READINGS
 from reports.modular.schedule_gantt import fix_panels
 from reports.pages.render import csv_bytes, render
-from studies import spring_mass
-from studies.late_measurements import SENSORS
-from studies.rocket import BASE, PHASES
-from studies.rocket_schedule import compared_at, counted
-from studies.spring_mass_run import OSCILLATOR
+from studies.modular import oscillator as spring_mass
+from studies.modular.late_measurements import SENSORS
+from studies.modular.oscillator_run import OSCILLATOR
+from studies.modular.rocket import BASE, PHASES
+from studies.modular.rocket_schedule import compared_at, counted
 
 TITLE = "Modular Kalman filters: what dropout, delay and ignorance do to them, what they cost, and when they land"
 

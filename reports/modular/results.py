@@ -22,9 +22,19 @@ from reports.modular.schedule import TABLES as SCHEDULE_TABLES
 from reports.modular.schedule import schedule_tables
 from reports.pages.machine import marked, timed_on
 from reports.pages.stored import Rows, Tables, as_stored, columns, digits, read_tables, records, rows_of, table_files
-from studies import late_measurements, modular_costs, rocket, rocket_schedule, spring_mass
-from studies.spring_mass_run import OSCILLATOR, SETTLED_PERIODS, step_s
-from studies.typical import UNLUCKY, quantile
+from studies.modular import (
+    costs as modular_costs,
+)
+from studies.modular import (
+    late_measurements,
+    rocket,
+    rocket_schedule,
+)
+from studies.modular import (
+    oscillator as spring_mass,
+)
+from studies.modular.oscillator_run import OSCILLATOR, SETTLED_PERIODS, step_s
+from studies.modular.typical import UNLUCKY, quantile
 
 Progress = Callable[[int, int, str], None]
 

@@ -16,7 +16,7 @@ from reports.drawing.legend import fill_entries, line_entry
 from reports.drawing.sheet import label, sheet
 from reports.drawing.style import GREY, INK, PALE, RED, SOURCE_LINES, Fill, Line, drawing
 from reports.modular.oscillator import BAND, ESTIMATE, TRUE
-from studies.rocket import CLAIM_PERCENT
+from studies.modular.rocket import CLAIM_PERCENT
 
 Columns: TypeAlias = Mapping[str, FloatArray]
 

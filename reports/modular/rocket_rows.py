@@ -10,10 +10,10 @@ from filters.arrays import FloatArray
 from filters.systems.rocket import RATE_HZ
 from reports.modular.rocket import DROPOUTS, HALVES, QUANTITIES, SHOWN
 from reports.pages.stored import Rows, digits, rows_of
-from studies import rocket
-from studies.rocket_flights import Run, fly
-from studies.rocket_readings import READINGS as ALL_READINGS
-from studies.typical import quantile
+from studies.modular import rocket
+from studies.modular.rocket_flights import Run, fly
+from studies.modular.rocket_readings import READINGS as ALL_READINGS
+from studies.modular.typical import quantile
 
 SEED, EVERY, NEES_EVERY = 0, 10, 5
 """Of the flight that is drawn, and of curves: the seed, and steps between points."""

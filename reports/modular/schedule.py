@@ -18,7 +18,7 @@ from reports.drawing.legend import fill_entries, line_entry
 from reports.drawing.sheet import label, sheet
 from reports.drawing.style import GREY, PALE, RED, SMALL_PT, SOURCE_LINES, Fill, Line, drawing
 from reports.pages.stored import Rows, digits, rows_of
-from studies.rocket_schedule import (
+from studies.modular.rocket_schedule import (
     CONTROL_EVERY,
     GPS_DELAYS,
     JOBS,

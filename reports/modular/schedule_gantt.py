@@ -11,7 +11,17 @@ from reports.gantt.panels import Mark, Panel
 from sched_sim.draws import fates
 from sched_sim.scenario_run import run_scenario
 from sched_sim.schedule import Response, Slice
-from studies.rocket_schedule import DROPOUT, GPS_DELAYS, JOBS, PERIOD_MS, URGENCIES, WAYS, Costs, Way, scenario
+from studies.modular.rocket_schedule import (
+    DROPOUT,
+    GPS_DELAYS,
+    JOBS,
+    PERIOD_MS,
+    URGENCIES,
+    WAYS,
+    Costs,
+    Way,
+    scenario,
+)
 
 DELAY, BEFORE, AFTER = 15, 2, 8
 """Steps that the fix is late, and that are shown before its arrival and after."""

@@ -12,9 +12,11 @@ from reports.pages.machine import marked
 from reports.pages.numbers import between, plus_minus, significant
 from reports.pages.stored import Rows
 from sched_sim.distribution import wilson
-from studies import late_measurements, modular_costs, rocket, spring_mass
-from studies.rocket_readings import READINGS
-from studies.rocket_schedule import compared_at
+from studies.modular import costs as modular_costs
+from studies.modular import late_measurements, rocket
+from studies.modular import oscillator as spring_mass
+from studies.modular.rocket_readings import READINGS
+from studies.modular.rocket_schedule import compared_at
 
 COMPARED = ("0.1", "0.8")
 """The dropouts that the claim is about."""

@@ -29,10 +29,20 @@ from reports.modular.tables import (
 from reports.pages.machine import legend, marked
 from reports.pages.numbers import plus_minus, significant
 from sched_sim.processor import load_processor
-from studies import late_measurements, modular_costs, rocket, rocket_schedule, spring_mass
-from studies.rocket_schedule import GPS_DELAYS as DELAYS
-from studies.rocket_schedule import MissRow, compared_at
-from studies.spring_mass_run import AMPLITUDES, OSCILLATOR, PERIODS, POSITION_SIGMA_M, SETTLED_PERIODS
+from studies.modular import (
+    costs as modular_costs,
+)
+from studies.modular import (
+    late_measurements,
+    rocket,
+    rocket_schedule,
+)
+from studies.modular import (
+    oscillator as spring_mass,
+)
+from studies.modular.oscillator_run import AMPLITUDES, OSCILLATOR, PERIODS, POSITION_SIGMA_M, SETTLED_PERIODS
+from studies.modular.rocket_schedule import GPS_DELAYS as DELAYS
+from studies.modular.rocket_schedule import MissRow, compared_at
 
 STATES = (3, 15)
 """Lengths of the errors of the two modalities."""

@@ -14,8 +14,9 @@ from reports.modular.report import build
 from reports.modular.results import TABLES, Results, read
 from reports.modular.schedule import miss_rows_of
 from reports.pages.machine import MARK
-from studies import late_measurements, modular_costs
-from studies.rocket_schedule import LAND_BY, compared_at
+from studies.modular import costs as modular_costs
+from studies.modular import late_measurements
+from studies.modular.rocket_schedule import LAND_BY, compared_at
 from tests.command_line import Run
 from tests.reports import published
 

@@ -34,7 +34,7 @@ from reports.modular.schedule import (
 from reports.modular.schedule_gantt import DELAY, fix_panels
 from reports.pages.stored import Rows, records
 from sched_sim.sample_file import SampledCosts
-from studies.rocket_schedule import JOBS, URGENCIES, WAYS, MissRow, Run, chosen
+from studies.modular.rocket_schedule import JOBS, URGENCIES, WAYS, MissRow, Run, chosen
 from tests.reports.layout import flaws, texts
 
 GRID = (1000, 200, 40, 10)

@@ -21,8 +21,8 @@ import numpy as np
 
 from filters.arrays import FloatArray
 from filters.kernels.backends import BackendName
-from studies.nees import Consistency, consistency
-from studies.spring_mass_run import (
+from studies.modular.nees import Consistency, consistency
+from studies.modular.oscillator_run import (
     AMPLITUDES,
     POSITION_SIGMA_M,
     SENSORS,

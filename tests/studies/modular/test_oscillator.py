@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from filters.arrays import FloatArray
-from studies import spring_mass as study
-from studies.spring_mass import KEEN, LOWEST, USUAL, Row
-from studies.spring_mass_run import (
+from studies.modular import oscillator as study
+from studies.modular.oscillator import KEEN, LOWEST, USUAL, Row
+from studies.modular.oscillator_run import (
     AMPLITUDES,
     PERIODS,
     POSITION_SIGMA_M,

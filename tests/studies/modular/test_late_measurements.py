@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from filters.modular import observe
-from studies.late_measurements import (
+from studies.modular.late_measurements import (
     DELAYS,
     EVERY,
     SENSORS,
@@ -19,7 +19,7 @@ from studies.late_measurements import (
     late_study,
     work,
 )
-from studies.spring_mass_run import SETTLED_PERIODS, oscillation
+from studies.modular.oscillator_run import SETTLED_PERIODS, oscillation
 
 TRUTH = oscillation(SETTING, 1).truth[: SETTLED_PERIODS * SETTING.rate + 121]
 
@@ -65,7 +65,7 @@ def test_work() -> None:
 
 
 def test_the_study_has_a_row_for_all_that_is_possible(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("studies.late_measurements.errors", lambda *_: np.ones((5, 3)))
+    monkeypatch.setattr("studies.modular.late_measurements.errors", lambda *_: np.ones((5, 3)))
     told: list[tuple[int, int]] = []
     found = late_study([0, 1], progress=lambda done, total, _what: told.append((done, total)))
     asked = [(s, w, d) for s in SENSORS for w in WAYS for d in DELAYS if is_possible(s, w, d)]

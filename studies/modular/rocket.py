@@ -32,10 +32,10 @@ import numpy as np
 from filters.arrays import FloatArray
 from filters.systems.rocket import BURN_S
 from filters.systems.rocket_filter import OF, SENSORS, TUNED, ProcessNoise
-from studies.nees import Bounds, bounds, nees
-from studies.rocket_flights import Case, Run, flight, follow, measure
-from studies.rocket_readings import READINGS, length
-from studies.typical import Quantile, quantile
+from studies.modular.nees import Bounds, bounds, nees
+from studies.modular.rocket_flights import Case, Run, flight, follow, measure
+from studies.modular.rocket_readings import READINGS, length
+from studies.modular.typical import Quantile, quantile
 
 Progress: TypeAlias = Callable[[int, int, str], None]
 

@@ -6,9 +6,9 @@ from itertools import pairwise
 
 import numpy as np
 
-from studies import modular_costs
 from studies.job_times import Protocol
-from studies.modular_costs import DT, KINDS, PARTS, STATES, jobs, move, move_jacobian, operations, see, see_jacobian
+from studies.modular import costs as modular_costs
+from studies.modular.costs import DT, KINDS, PARTS, STATES, jobs, move, move_jacobian, operations, see, see_jacobian
 
 
 def test_every_part_is_counted_and_larger_ones_cost_more() -> None:

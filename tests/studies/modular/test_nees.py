@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from filters.arrays import FloatArray
-from studies.nees import bounds, consistency, nees
+from studies.modular.nees import bounds, consistency, nees
 
 P = np.array([[4.0, 1.0, 0.0], [1.0, 2.0, -0.5], [0.0, -0.5, 1.0]])
 RUNS, STEPS = 50, 400

@@ -10,7 +10,7 @@ from collections.abc import Callable
 import numpy as np
 
 from filters.arrays import FloatArray
-from studies.rocket_flights import Run
+from studies.modular.rocket_flights import Run
 
 
 def distance(one: Run) -> FloatArray:

@@ -28,7 +28,7 @@ from sched_sim.distribution import wilson
 from sched_sim.processor import load_processor
 from sched_sim.sample_file import SampledCosts
 from sched_sim.scenario_run import run_scenario
-from studies.rocket_schedule import (
+from studies.modular.rocket_schedule import (
     CONTROL_EVERY,
     DROPOUT,
     GPS_DELAYS,

@@ -10,10 +10,19 @@ from scipy.spatial.transform import Rotation
 
 from filters.arrays import FloatArray
 from filters.systems.rocket_filter import ACCELEROMETER, CAMERA, GPS, OF, SENSORS
-from studies import rocket as study
-from studies.rocket import BASE, BLIND_CASES, DROPOUT_CASES, EXTENDED, PHASES, QUANTITIES, ResidualRow, RocketResults
-from studies.rocket_flights import Case, Run, fly
-from studies.rocket_readings import READINGS
+from studies.modular import rocket as study
+from studies.modular.rocket import (
+    BASE,
+    BLIND_CASES,
+    DROPOUT_CASES,
+    EXTENDED,
+    PHASES,
+    QUANTITIES,
+    ResidualRow,
+    RocketResults,
+)
+from studies.modular.rocket_flights import Case, Run, fly
+from studies.modular.rocket_readings import READINGS
 
 EARLY = 130
 """Steps that are flown without compiling: a second on the pad, and 0.3 s of flight."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from studies.rms import rms
+from studies.modular.rms import rms
 
 
 def test_standard_error_is_that_of_repeated_draws() -> None:

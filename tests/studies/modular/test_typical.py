@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from studies.typical import quantile
+from studies.modular.typical import quantile
 
 
 @pytest.mark.parametrize(("runs", "low", "high"), [(6, 1, 6), (10, 2, 9), (20, 6, 15), (100, 40, 61)])

@@ -23,8 +23,7 @@ from filters.modular.jobs import modular_jobs
 from filters.registry import ALL_METHODS
 from filters.systems.composed import composed_system
 from filters.systems.spring_mass import Instrument, frequency, tracker
-from studies.rms import Rms, rms
-from studies.spring_mass_run import (
+from studies.modular.oscillator_run import (
     ACCELERATION_SIGMA,
     AMPLITUDES,
     OSCILLATOR,
@@ -35,6 +34,7 @@ from studies.spring_mass_run import (
     start,
     step_s,
 )
+from studies.modular.rms import Rms, rms
 
 Way: TypeAlias = Literal["recalculate", "larsen", "dual-rate", "as new"]
 Sensors: TypeAlias = Literal["position", "position and acceleration"]

@@ -1,0 +1,1 @@
+"""Modular filters tried: the oscillator, the rocket, late measurements, their costs and consistency."""
