@@ -15,7 +15,7 @@ from reports.drawing.legend import draw_legend, legend_height, line_entry
 from reports.drawing.placing import spread
 from reports.drawing.style import INK, PALE, SMALL_PT, SOURCE_LINES, TITLE_PT, WIDTH_MM, Line, axes_at, drawing, page
 from reports.multirate.words import ratio_text
-from studies.multirate import GOOD, Reading
+from studies.multirate.accuracy import GOOD, Reading
 
 EDGE_MM, LEFT_MM, RIGHT_MM, GAP_MM, TITLE_MM, BETWEEN_MM, AXIS_MM = 2.0, 20.0, 11.0, 15.0, 6.0, 5.0, 11.0
 STEADY_MM, START_MM = 42.0, 62.0

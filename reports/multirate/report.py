@@ -19,8 +19,8 @@ from reports.pages.render import csv_bytes, render
 from sched_sim.fit import fit
 from sched_sim.load import load
 from sched_sim.processor import Processor, load_processor, on_processor, shipped_processors
-from studies import patent
-from studies.multirate import ACCELERATION_NOISES, GOOD, SPEEDS, TRACKING_INDICES, Reading, largest_good
+from studies.multirate import patent
+from studies.multirate.accuracy import ACCELERATION_NOISES, GOOD, SPEEDS, TRACKING_INDICES, Reading, largest_good
 
 TITLE = "The multirate gain, regenerated: what it saves, and what it costs"
 GANTT_HZ = Fraction(20)

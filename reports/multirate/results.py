@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from filters.arrays import FloatArray
-from studies.multirate import (
+from studies.multirate.accuracy import (
     ACCELERATION_NOISES,
     Accuracy,
     Reading,

@@ -14,8 +14,8 @@ from sched_sim.costs import arithmetic
 from sched_sim.fit import fit
 from sched_sim.load import load
 from sched_sim.processor import Processor
-from studies.multirate import GOOD, Accuracy, Reading, largest_good
-from studies.patent import CYCLES, Load, comparison, terms
+from studies.multirate.accuracy import GOOD, Accuracy, Reading, largest_good
+from studies.multirate.patent import CYCLES, Load, comparison, terms
 
 Rows = list[list[Any]]
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from studies.multirate import ACCELERATION_NOISES
+from studies.multirate.accuracy import ACCELERATION_NOISES
 
 VEHICLES = ("calm", "road", "aircraft")
 """For each of ACCELERATION_NOISES."""
@@ -14,7 +14,7 @@ RECEIVERS = {
 
 
 def scenario_text(name: str) -> str:
-    """A scenario of `studies.multirate` in words."""
+    """A scenario of `studies.multirate.accuracy` in words."""
     return RECEIVERS.get(name, name)
 
 

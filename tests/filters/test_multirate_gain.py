@@ -248,7 +248,7 @@ def test_an_unknown_kind_of_noise() -> None:
 
 
 def test_operations_of_the_state_update_of_the_patents_example() -> None:
-    """Phi x, H x, y - H x, K z, x + K z. The patent has 139 and 128: see studies.patent."""
+    """Phi x, H x, y - H x, K z, x + K z. The patent has 139 and 128: see studies.multirate.patent."""
     for method in MULTIRATE_METHODS.values():
         job = method.jobs(gps(steps=30))["state_update"]
         assert count(job.function, *job.arguments(0)) == Operations(

@@ -13,8 +13,8 @@ from reports.multirate.report import build
 from reports.multirate.results import PERIODS, SHOWN, Results, results
 from sched_sim.load import load
 from sched_sim.processor import load_processor, shipped_processors
-from studies import patent
-from studies.multirate import largest_good
+from studies.multirate import patent
+from studies.multirate.accuracy import largest_good
 from tests.command_line import Run
 from tests.reports import published
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from filters import multirate_gain
-from studies.multirate import (
+from studies.multirate.accuracy import (
     READINGS,
     SPEEDS,
     Accuracy,

@@ -7,7 +7,7 @@ from fractions import Fraction
 import pytest
 
 from filters.kernels.counted import Operations
-from studies.patent import (
+from studies.multirate.patent import (
     CYCLES,
     comparison,
     cycle_us,
