@@ -12,8 +12,8 @@ from filters.robust.parallel import Schedule, greedy, sameh_kuck
 from filters.robust.parallel_cost import time_units
 from filters.robust.parallel_step import step_pattern
 from filters.systems.uncertain import linearised
-from studies.robust_costs import SYSTEMS, SystemName, robust_case
-from studies.robust_counts import PENALTIES, Penalty, counts, dense_counts, kalman_counts
+from studies.robust.costs import SYSTEMS, SystemName, robust_case
+from studies.robust.counts import PENALTIES, Penalty, counts, dense_counts, kalman_counts
 
 REPEATED = "inverse: N eliminations, as in the paper"
 INVERSE = "inverse: one Gauss-Jordan, dense"

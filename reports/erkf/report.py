@@ -27,8 +27,8 @@ from sched_sim.fit import fit
 from sched_sim.least_speed import least_speed
 from sched_sim.processor import Processor, load_processor, shipped_processors
 from sched_sim.timing import Timing
-from studies import robust_drive as drive
-from studies.robust_costs import HR_HZ, SYSTEMS, N, SystemName
+from studies.robust import drive
+from studies.robust.costs import HR_HZ, SYSTEMS, N, SystemName
 
 TITLE = "The extended robust Kalman filter: which way to compute it, on which processor, and what it buys"
 SLOWEST = "leon3"

@@ -20,9 +20,9 @@ from reports.pages.stored import columns as columns_of
 from reports.pages.stored import records as records_of
 from sched_sim.cost_file import cost_table_text, read_cost_table
 from sched_sim.costs import CostTable
-from studies import robust_drive as drive
-from studies import singular_values as singular
-from studies.robust_costs import SYSTEMS, SystemName, robust_costs
+from studies.robust import drive
+from studies.robust import singular_values as singular
+from studies.robust.costs import SYSTEMS, SystemName, robust_costs
 
 Progress = Callable[[int, int, str], None]
 

@@ -17,7 +17,7 @@ from sched_sim.least_speed import achieved_l, least_speed
 from sched_sim.options import Options
 from sched_sim.processor import Processor, on_processor
 from sched_sim.timing import Timing
-from studies.robust_costs import HR_HZ, SYSTEMS, N, SystemName, parallel_costs
+from studies.robust.costs import HR_HZ, SYSTEMS, N, SystemName, parallel_costs
 
 Rows = list[list[Any]]
 

@@ -236,7 +236,7 @@ def _robust(
     thorough: bool,
     progress: Callable[[int, int, str], None],
 ) -> CostTable:
-    from studies.robust_costs import parallel_costs, robust_costs
+    from studies.robust.costs import parallel_costs, robust_costs
 
     if parallel is None:
         return robust_costs(name, backend, thorough=thorough, progress=progress)

@@ -16,10 +16,10 @@ from reports.modular.results import dropout_table
 from reports.modular.results import read as read_modular
 from reports.pages.machine import MARK, legend
 from reports.pages.stored import Rows, digits
-from studies import robust_drive
 from studies.modular import oscillator as spring_mass
 from studies.modular.oscillator_run import Record, Setting, oscillation
-from studies.robust_drive import AttitudeMethod
+from studies.robust import drive as robust_drive
+from studies.robust.drive import AttitudeMethod
 from tests.reports import published
 from tests.reports.otherwise import regenerated
 

@@ -21,7 +21,7 @@ from sched_sim.costs import ROBUST_METHODS, Cost, CostTable, StandardCosts, load
 from sched_sim.least_speed import least_speed
 from sched_sim.processor import shipped_processors
 from sched_sim.timing import Timing
-from studies.robust_costs import SYSTEMS, N
+from studies.robust.costs import SYSTEMS, N
 from tests.command_line import Run
 from tests.reports import published
 

@@ -23,8 +23,8 @@ from filters.systems.drive import (
 )
 from filters.systems.position import position, position_scaling
 from filters.systems.uncertain import UncertainSystem
-from studies import robust_drive as study
-from studies.robust_drive import AttitudeMethod, AttitudeResult, PositionMethod, PositionResult
+from studies.robust import drive as study
+from studies.robust.drive import AttitudeMethod, AttitudeResult, PositionMethod, PositionResult
 
 SEEDS = (0, 1, 2)
 

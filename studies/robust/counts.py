@@ -20,7 +20,7 @@ from filters.systems.attitude import attitude_uncertainty
 from filters.systems.example import example_system
 from filters.systems.position import position_uncertainty
 from filters.systems.uncertain import linearised
-from studies.robust_costs import SYSTEMS, SystemName, robust_case
+from studies.robust.costs import SYSTEMS, SystemName, robust_case
 
 Penalty: TypeAlias = Literal["infinite", "finite"]
 PENALTIES: tuple[Penalty, ...] = get_args(Penalty)

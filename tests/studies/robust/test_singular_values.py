@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from filters import extended_robust
-from studies.singular_values import CASES, WAYS, Agreement, Case, Comparison, compare, singular_values
+from studies.robust.singular_values import CASES, WAYS, Agreement, Case, Comparison, compare, singular_values
 
 LIMITS = [case for case in CASES if np.isinf(case.method.mu) and case.scaled]
 FINITE = [case for case in CASES if np.isfinite(case.method.mu)]

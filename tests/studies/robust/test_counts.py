@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from studies.robust_costs import SYSTEMS
-from studies.robust_counts import WayCount, counts, dense_counts, kalman_counts
+from studies.robust.costs import SYSTEMS
+from studies.robust.counts import WayCount, counts, dense_counts, kalman_counts
 
 COUNTS = counts()
 

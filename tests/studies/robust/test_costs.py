@@ -16,7 +16,7 @@ from sched_sim.least_speed import least_speed
 from sched_sim.options import Options
 from sched_sim.simulate import simulate
 from sched_sim.timing import Timing
-from studies.robust_costs import SYSTEMS, N, SystemName, parallel_costs, robust_case, robust_costs
+from studies.robust.costs import SYSTEMS, N, SystemName, parallel_costs, robust_case, robust_costs
 from tests.command_line import Run, is_refused
 
 

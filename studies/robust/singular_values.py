@@ -21,7 +21,7 @@ from filters.extended_robust import ExtendedHistory
 from filters.systems.drive import FIX_EVERY, RATE_HZ, START, CargoDrive, simulate_cargo_drive
 from filters.systems.position import position, position_scaling, position_uncertainty
 from filters.systems.uncertain import Scaling
-from studies.robust_drive import (
+from studies.robust.drive import (
     LIMIT_ALL,
     LIMIT_BIAS,
     POSITION_LIMIT,

@@ -1,0 +1,1 @@
+"""The extended robust filter: costs, counts, the drive, singular values."""
