@@ -19,8 +19,8 @@ from sched_sim.cli.parts import TASKS_ON_PARTS, WORDS
 from sched_sim.costs import COUNTED, PAPERS, Statistic
 
 if TYPE_CHECKING:
-    from studies.store import Store
-    from studies.sweep import Outcome, Sweep
+    from studies.sweep.run import Outcome, Sweep
+    from studies.sweep.store import Store
 
 MOST_WORKERS = 1_000
 SHOWN = 20
@@ -150,10 +150,10 @@ def sweep(
     sched-sim sweep -N 40 -M 20 --processor cortex-m4f --processor leon3 --hr-hz 100:800:100 --tasks tasks.toml
     sched-sim sweep grid.toml --simulate --results designs.sqlite
     """
-    from studies.export import check_export
-    from studies.export import export as write
-    from studies.sweep import Outcome, run
-    from studies.sweep_settings import settings
+    from studies.sweep.export import check_export
+    from studies.sweep.export import export as write
+    from studies.sweep.run import Outcome, run
+    from studies.sweep.settings import settings
 
     flags = {
         "N": N,
@@ -249,7 +249,7 @@ def _progress(total: int) -> Iterator[Callable[[int], None]]:
 
 def _report(asked: Sweep, store: Store, outcome: Outcome, exports: Sequence[Path], format: opt.Format) -> None:
     from sched_sim.cli.update_form import update_note
-    from studies.sweep_summary import best, by_method
+    from studies.sweep.summary import best, by_method
 
     tables = asked.grid.tables
     designs = best(store)

@@ -17,7 +17,7 @@ from sched_sim.processor_file import read_processor
 from sched_sim.sample_file import read_sampled_costs
 from sched_sim.scenario_file import read_scenario
 from sched_sim.task_file import read_tasks
-from studies.sweep_settings import settings
+from studies.sweep.settings import settings
 
 SCENARIO = """
 name = "s"

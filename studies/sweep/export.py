@@ -10,8 +10,8 @@ from typing import IO, Any
 from sched_sim.errors import InputError
 from sched_sim.files import check_writable, writing
 from sched_sim.text import csv_cell
-from studies.rows import Row
-from studies.store import Store
+from studies.sweep.rows import Row
+from studies.sweep.store import Store
 
 AT_A_TIME = 50_000
 """Rows in memory, and in one row group of Parquet."""

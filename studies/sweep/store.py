@@ -16,9 +16,9 @@ from typing import Any, Self
 
 from sched_sim.errors import InputError
 from sched_sim.files import write
-from studies.file_lock import FileLock
-from studies.rows import Cell, Row
-from studies.store_layout import Layout, check_owner
+from studies.sweep.file_lock import FileLock
+from studies.sweep.rows import Cell, Row
+from studies.sweep.store_layout import Layout, check_owner
 
 AT_A_TIME = 50_000
 """Rows in memory."""

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from sched_sim.errors import InputError
-from studies.axes import numbers, whole_numbers, words
+from studies.sweep.axes import numbers, whole_numbers, words
 
 
 def test_a_range_of_decimals_is_exact_and_holds_its_end():

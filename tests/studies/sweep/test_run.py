@@ -8,13 +8,13 @@ from contextlib import contextmanager
 import pytest
 
 from sched_sim.errors import InputError
-from studies import sweep as sweeping
-from studies.export import export
-from studies.rows import rows_of
-from studies.stopping import stop_signals
-from studies.sweep import run
-from studies.sweep_settings import settings
-from studies.workers import WorkerDeathError
+from studies.sweep.export import export
+from studies.sweep.rows import rows_of
+from studies.sweep.run import run
+from studies.sweep.run import run as sweeping
+from studies.sweep.settings import settings
+from studies.sweep.stopping import stop_signals
+from studies.sweep.workers import WorkerDeathError
 
 ANALYSED = {"N": "10:60:10", "M": "1:4", "speed": "0.6:1.6:0.1"}
 SIMULATED = {"N": "4:6", "M": "1:2", "simulate": True, "context_switch": "0,0.01"}

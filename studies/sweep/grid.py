@@ -13,7 +13,7 @@ from sched_sim.errors import InputError
 from sched_sim.options import Options
 from sched_sim.tasks import Task, check_cpus
 from sched_sim.timing import Timing, several_in_flight
-from studies.legal import Designs, Legal, law_of
+from studies.sweep.legal import Designs, Legal, law_of
 
 MOST_PAIRS = 10_000_000
 """Of N and M, which are looked through for those that are legal."""

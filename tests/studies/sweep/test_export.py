@@ -7,10 +7,10 @@ import pytest
 from pyarrow import parquet
 
 from sched_sim.errors import InputError
-from studies import export as exporting
-from studies.export import check_export, export
-from studies.sweep import run
-from studies.sweep_settings import settings
+from studies.sweep.export import check_export, export
+from studies.sweep.run import export as exporting
+from studies.sweep.run import run
+from studies.sweep.settings import settings
 from tests.full_disk import room_for
 
 SWEEP = settings({"N": "4:6", "M": "1:2", "speed": "0.5,0.8", "simulate": True, "cycles": 2}).sweep()

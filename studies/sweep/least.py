@@ -18,8 +18,8 @@ from sched_sim.options import Options
 from sched_sim.tasks import Task
 from sched_sim.ticks import ticks_per_unit, to_ticks
 from sched_sim.timing import Timing
-from studies.grid import Chunk
-from studies.legal import Ints
+from studies.sweep.grid import Chunk
+from studies.sweep.legal import Ints
 
 
 class Least(NamedTuple):

@@ -14,8 +14,8 @@ from typing import Any
 from zlib import crc32
 
 from sched_sim.errors import InputError
-from studies.grid import Block
-from studies.rows import Column, Row
+from studies.sweep.grid import Block
+from studies.sweep.rows import Column, Row
 
 APPLICATION_ID = 0x53575031
 

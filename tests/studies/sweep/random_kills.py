@@ -24,11 +24,10 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import ClassVar
 
-from studies import sweep as sweeping
-from studies import workers
-from studies.export import export
-from studies.sweep import Sweep, run
-from studies.sweep_settings import settings
+from studies.sweep.export import export
+from studies.sweep.run import Sweep, run, workers
+from studies.sweep.run import run as sweeping
+from studies.sweep.settings import settings
 from tests.deaths import killed_at_call
 
 ANALYSED = settings({"N": "5:6", "M": "1:2", "speed": "0.6,0.8,1"}).sweep()

@@ -19,9 +19,9 @@ from sched_sim.task_file import read_tasks
 from sched_sim.timing import Feedback
 from sched_sim.toml_file import read_toml
 from sched_sim.toml_problems import problems
-from studies.axes import numbers, whole_numbers, words
-from studies.grid import Grid
-from studies.sweep import Sweep
+from studies.sweep.axes import numbers, whole_numbers, words
+from studies.sweep.grid import Grid
+from studies.sweep.run import Sweep
 
 ALL = "all"
 """Instead of values of M or L: every legal one."""

@@ -7,7 +7,7 @@ import pytest
 
 from sched_sim.errors import InputError
 from sched_sim.options import Options
-from studies.sweep_settings import settings
+from studies.sweep.settings import settings
 from tests.command_line import Run, is_refused
 
 FILE = """

@@ -12,7 +12,7 @@ from threading import Thread
 
 import pytest
 
-from studies.workers import WorkerDeathError, compute
+from studies.sweep.workers import WorkerDeathError, compute
 
 SIZE = 5
 

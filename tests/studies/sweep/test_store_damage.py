@@ -8,9 +8,9 @@ from contextlib import closing
 import pytest
 
 from sched_sim.errors import InputError
-from studies.sweep import run
-from studies.sweep_settings import settings
-from studies.sweep_summary import best, by_method
+from studies.sweep.run import run
+from studies.sweep.settings import settings
+from studies.sweep.summary import best, by_method
 
 SWEEP = settings({"N": "5:6", "M": "1:2", "speed": "0.6,1", "lr_propagate_by": "m,l"}).sweep()
 

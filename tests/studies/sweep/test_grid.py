@@ -11,8 +11,8 @@ from sched_sim.costs import DELAYED_METHODS, METHODS, TWO_RATE_METHODS, load
 from sched_sim.errors import InputError
 from sched_sim.options import Options
 from sched_sim.timing import Timing, check_dual_rate, check_two_rate, latest_feedback_step
-from studies.grid import Grid
-from studies.legal import Legal, law_of
+from studies.sweep.grid import Grid
+from studies.sweep.legal import Legal, law_of
 
 STEFFES = load("steffes2014")
 

@@ -7,8 +7,8 @@ from typing import Literal, NamedTuple, TypeAlias
 
 from sched_sim.schedule import Schedule
 from sched_sim.timing import Timing
-from studies.grid import Chunk
-from studies.least import analyse
+from studies.sweep.grid import Chunk
+from studies.sweep.least import analyse
 
 Cell: TypeAlias = int | float | str | None
 """As SQLite gives it back: true and false are 1 and 0."""

@@ -11,8 +11,8 @@ from sched_sim.least_speed import achieved_l, least_speed
 from sched_sim.options import Options
 from sched_sim.simulate import simulate
 from sched_sim.timing import Timing
-from studies.grid import Grid
-from studies.rows import columns, rows_of
+from studies.sweep.grid import Grid
+from studies.sweep.rows import columns, rows_of
 
 CYCLES = 4
 

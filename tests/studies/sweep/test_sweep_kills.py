@@ -13,7 +13,7 @@ import pytest
 
 from tests.deaths import call_alone, traceable
 from tests.exhaust import share_of
-from tests.studies.random_kills import PATIENCE_S
+from tests.studies.sweep.random_kills import PATIENCE_S
 
 pytestmark = [
     pytest.mark.slow,
@@ -157,7 +157,7 @@ def test_ctrl_c_while_the_workers_start(tmp_path):
 
 
 def kill_many(part, number):
-    done = call_alone("tests.studies.random_kills", "kill_many", 10_000 * part, number)
+    done = call_alone("tests.studies.sweep.random_kills", "kill_many", 10_000 * part, number)
     assert done.returncode == 0, done.stderr
 
 

@@ -7,9 +7,9 @@ from contextlib import closing
 import pytest
 
 from sched_sim.errors import InputError
-from studies.store_layout import APPLICATION_ID
-from studies.sweep import run
-from studies.sweep_settings import settings
+from studies.sweep.run import run
+from studies.sweep.settings import settings
+from studies.sweep.store_layout import APPLICATION_ID
 
 SWEEP = settings({"N": "5", "M": "1:2"}).sweep()
 

@@ -14,9 +14,9 @@ from sched_sim.processor import load_processor, on_processor
 from sched_sim.simulate import simulate
 from sched_sim.task_file import read_tasks
 from sched_sim.timing import Timing
-from studies.export import export
-from studies.sweep import run
-from studies.sweep_settings import settings
+from studies.sweep.export import export
+from studies.sweep.run import run
+from studies.sweep.settings import settings
 from tests.command_line import is_refused
 
 PART = """

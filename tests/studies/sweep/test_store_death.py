@@ -8,10 +8,10 @@ from tempfile import TemporaryDirectory
 import pytest
 
 from sched_sim.errors import InputError
-from studies.export import export
-from studies.rows import rows_of
-from studies.sweep import run
-from studies.sweep_settings import settings
+from studies.sweep.export import export
+from studies.sweep.rows import rows_of
+from studies.sweep.run import run
+from studies.sweep.settings import settings
 from tests.deaths import call_alone, killed_at_call, traceable
 from tests.full_disk import room_for
 
@@ -68,7 +68,7 @@ def die_everywhere(start, step):
     [(7, 41), *(pytest.param(start, 8, marks=pytest.mark.exhaust) for start in range(1, 9))],
 )
 def test_a_kill_at_any_system_call_loses_nothing(start, step):
-    done = call_alone("tests.studies.test_store_death", "die_everywhere", start, step)
+    done = call_alone("tests.studies.sweep.test_store_death", "die_everywhere", start, step)
     assert done.returncode == 0, done.stderr
 
 

@@ -7,8 +7,8 @@ from contextlib import closing
 import pytest
 
 from sched_sim.errors import InputError
-from studies.rows import rows_of
-from studies.sweep_settings import settings
+from studies.sweep.rows import rows_of
+from studies.sweep.settings import settings
 
 SWEEP = settings({"N": "5:9", "M": "1:2"}).sweep()
 OTHER = settings({"N": "5:8", "M": "1:2"}).sweep()

@@ -12,12 +12,12 @@ from typing import Any, NamedTuple
 from sched_sim.errors import InputError
 from sched_sim.steady import hyperperiod_steps
 from sched_sim.timing import Timing
-from studies.grid import Chunk, Grid
-from studies.rows import Column, Row, columns, rows_of
-from studies.stopping import stop_signals
-from studies.store import Store
-from studies.store_layout import Layout, digest
-from studies.workers import WorkerDeathError, compute
+from studies.sweep.grid import Chunk, Grid
+from studies.sweep.rows import Column, Row, columns, rows_of
+from studies.sweep.stopping import stop_signals
+from studies.sweep.store import Store
+from studies.sweep.store_layout import Layout, digest
+from studies.sweep.workers import WorkerDeathError, compute
 
 ANALYSED = 20_000
 """Points between two commits where there is a closed form: some 50 ms of work."""

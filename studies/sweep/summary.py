@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from studies.store import Store
-from studies.store_layout import BLOCK_COLUMNS
+from studies.sweep.store import Store
+from studies.sweep.store_layout import BLOCK_COLUMNS
 
 BEST = ("costs", "N", "M", "method", "L", "min_speed", "min_speed_exact", "binding")
 

@@ -1,0 +1,1 @@
+"""Whole grids of designs: axes, rows, the results store, workers, export."""
