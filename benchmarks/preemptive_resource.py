@@ -7,7 +7,7 @@ from typing import Any
 
 import simpy
 
-from sched_sim.costs import DualRateCosts
+from sched_sim.pieces import DualRateCosts
 from sched_sim.timing import Timing
 
 Process = Generator[simpy.Event, Any, None]

@@ -15,7 +15,9 @@ from operator import index
 
 import numpy as np
 
-from sched_sim.costs import (
+from sched_sim.demand import DualRateDemand, Ints, Quotient, choose, largest, quotient, smaller, whole_numbers
+from sched_sim.options import Options
+from sched_sim.pieces import (
     DualRateCosts,
     JobCosts,
     LarsenCosts,
@@ -24,8 +26,6 @@ from sched_sim.costs import (
     StandardCosts,
     TwoRateCosts,
 )
-from sched_sim.demand import DualRateDemand, Ints, Quotient, choose, largest, quotient, smaller, whole_numbers
-from sched_sim.options import Options
 
 
 class Binding(IntEnum):

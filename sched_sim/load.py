@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 
-from sched_sim.costs import (
+from sched_sim.options import Options
+from sched_sim.pieces import (
     DualRateCosts,
     JobCosts,
     LarsenCosts,
@@ -14,7 +15,6 @@ from sched_sim.costs import (
     RobustCosts,
     StandardCosts,
 )
-from sched_sim.options import Options
 from sched_sim.tasks import Task, check_cpus
 from sched_sim.timing import Timing
 

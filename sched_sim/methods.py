@@ -6,7 +6,9 @@ from collections import deque
 from collections.abc import Callable, Hashable
 from dataclasses import replace
 
-from sched_sim.costs import (
+from sched_sim.jobs import HR, LR, Job, Parts, RecurringSource
+from sched_sim.options import Options
+from sched_sim.pieces import (
     DualRateCosts,
     JobCosts,
     LarsenCosts,
@@ -15,8 +17,6 @@ from sched_sim.costs import (
     RobustCosts,
     StandardCosts,
 )
-from sched_sim.jobs import HR, LR, Job, Parts, RecurringSource
-from sched_sim.options import Options
 from sched_sim.timing import Timing, check_dual_rate, check_two_rate
 
 OnLanding = Callable[[int, int], None]

@@ -15,7 +15,8 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from pathlib import Path
 
-from sched_sim.costs import Cost, CostTable, Counts, arithmetic
+from sched_sim.costs.operations import Counts, arithmetic
+from sched_sim.costs.table import Cost, CostTable
 from sched_sim.errors import InputError
 
 SHIPPED = Path(__file__).parent / "processors"

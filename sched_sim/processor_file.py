@@ -9,7 +9,7 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, model_validator
 
-from sched_sim.costs import OPERATION_KINDS
+from sched_sim.costs.operations import OPERATION_KINDS
 from sched_sim.errors import InputError
 from sched_sim.processor import Processor, shipped_processors
 from sched_sim.ticks import exact, positive

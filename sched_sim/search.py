@@ -8,9 +8,9 @@ from fractions import Fraction
 from itertools import count
 from math import ceil
 
-from sched_sim.costs import DualRateCosts, JobCosts
 from sched_sim.load import loads
 from sched_sim.options import Options
+from sched_sim.pieces import DualRateCosts, JobCosts
 from sched_sim.schedule import Schedule
 from sched_sim.steady import Steady, longest_run, run_until_steady
 from sched_sim.tasks import Task

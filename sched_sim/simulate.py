@@ -19,10 +19,10 @@ import simpy
 
 from sched_sim.bounds import check_simulation, short
 from sched_sim.clock import Clock, OnProgress
-from sched_sim.costs import JobCosts, LarsenCosts, RecalculateCosts
 from sched_sim.jobs import Job, RecurringSource, Source
 from sched_sim.methods import OnLanding, method_source
 from sched_sim.options import Options
+from sched_sim.pieces import JobCosts, LarsenCosts, RecalculateCosts
 from sched_sim.schedule import Response, Schedule, Slice
 from sched_sim.tasks import Task, TaskSource, check_cpus, work_and_times
 from sched_sim.ticks import positive, ticks_per_unit, to_ticks

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from fractions import Fraction
 from typing import Any, Literal, TypeAlias
 
-from sched_sim.sample_file import SampledCosts
+from sched_sim.costs.sample_file import SampledCosts
 from studies.job_times import Progress, Protocol, seconds_per_run, silent
 from studies.measure import counted, nonzero, where_timed
 from studies.user_filter import UserFilter

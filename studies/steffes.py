@@ -16,9 +16,10 @@ from itertools import product
 from math import sqrt
 from typing import Any, NamedTuple
 
-from sched_sim.costs import Cost, CostTable, select
+from sched_sim.costs.table import Cost, CostTable
 from sched_sim.least_speed import LeastSpeed, least_speed
 from sched_sim.options import Options
+from sched_sim.pieces import select
 from sched_sim.timing import Timing
 
 METHODS = ("recalculate", "larsen", "dual-rate")

@@ -10,8 +10,8 @@ from math import lcm
 import numpy as np
 
 from sched_sim.analysis import NOT_LANDED, achieved_l, least_period
-from sched_sim.costs import DualRateCosts, JobCosts
 from sched_sim.options import Options
+from sched_sim.pieces import DualRateCosts, JobCosts
 from sched_sim.simulate import simulate
 from sched_sim.timing import Timing
 from tests.designs import Design

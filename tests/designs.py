@@ -8,7 +8,8 @@ from typing import NamedTuple
 
 from hypothesis import strategies as st
 
-from sched_sim.costs import (
+from sched_sim.options import Options
+from sched_sim.pieces import (
     DualRateCosts,
     JobCosts,
     LarsenCosts,
@@ -17,7 +18,6 @@ from sched_sim.costs import (
     RobustCosts,
     StandardCosts,
 )
-from sched_sim.options import Options
 from sched_sim.tasks import Task
 from sched_sim.timing import Timing
 

@@ -13,7 +13,7 @@ import pytest
 
 import filters.modular
 from sched_sim.cli import main
-from sched_sim.costs import load
+from sched_sim.costs.table_file import load_costs
 from sched_sim.timing import Timing
 from studies.steffes import cells, least_speeds
 
@@ -91,7 +91,7 @@ def test_the_table_of_least_speeds_is_what_the_analysis_gives() -> None:
     """Each row of "What it finds": printed, from the paper's costs, from counted operations."""
     timing = None
     rows = re.findall(r"^\| (.*) \|$", README.partition("## What it finds")[2].partition("Larsen's method")[0], re.M)
-    paper, counted = load("steffes2014"), load("counted-9-3-3")
+    paper, counted = load_costs("steffes2014"), load_costs("counted-9-3-3")
     cell_of = {(cell.timing, cell.method): cell for cell in cells(paper)}
     checked = 0
     for row in rows[2:]:

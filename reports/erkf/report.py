@@ -22,7 +22,9 @@ from reports.gantt.chart import gantt, image
 from reports.pages.machine import legend, residue, timed_on
 from reports.pages.numbers import percent
 from reports.pages.render import csv_bytes, render
-from sched_sim.costs import ROBUST_METHODS, CostTable, RobustMethod, load
+from sched_sim.costs.methods import ROBUST_METHODS, RobustMethod
+from sched_sim.costs.table import CostTable
+from sched_sim.costs.table_file import load_costs
 from sched_sim.fit import fit
 from sched_sim.least_speed import least_speed
 from sched_sim.processor import Processor, load_processor, shipped_processors
@@ -40,7 +42,7 @@ SMALL, LARGE = (f"{100 * error:g} %" for error in drive.SCALE_ERRORS)
 
 def build(found: Results) -> dict[str, bytes]:
     """All files of the report by name, as a pure function of what was measured and simulated."""
-    counted = {system: load(f"erkf-{system}") for system in SYSTEMS}
+    counted = {system: load_costs(f"erkf-{system}") for system in SYSTEMS}
     devices = {system: parallel(system) for system in SYSTEMS}
     parts = [load_processor(name) for name in shipped_processors()]
     slowest = next(part for part in parts if part.name == SLOWEST)

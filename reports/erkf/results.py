@@ -18,8 +18,8 @@ from filters.systems.drive import FIX_EVERY, simulate_cargo_drive
 from reports.pages.stored import Rows, digits, read_tables, rows_of, table_files
 from reports.pages.stored import columns as columns_of
 from reports.pages.stored import records as records_of
-from sched_sim.cost_file import cost_table_text, read_cost_table
-from sched_sim.costs import CostTable
+from sched_sim.costs.table import CostTable
+from sched_sim.costs.table_file import costs_text, read_costs
 from studies.robust import drive
 from studies.robust import singular_values as singular
 from studies.robust.costs import SYSTEMS, SystemName, robust_costs
@@ -56,16 +56,14 @@ class Results(NamedTuple):
     def files(self) -> dict[str, bytes]:
         """What `read` reads."""
         return {
-            **{f"measured-{name}.toml": cost_table_text(table).encode() for name, table in self.measured.items()},
+            **{f"measured-{name}.toml": costs_text(table).encode() for name, table in self.measured.items()},
             **table_files(self.tables),
         }
 
 
 def read(folder: Path) -> Results:
     """The results that a report in `folder` was made from."""
-    measured: dict[SystemName, CostTable] = {
-        name: read_cost_table(folder / f"measured-{name}.toml") for name in SYSTEMS
-    }
+    measured: dict[SystemName, CostTable] = {name: read_costs(folder / f"measured-{name}.toml") for name in SYSTEMS}
     return Results(measured, read_tables(folder, TABLES))
 
 

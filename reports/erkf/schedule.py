@@ -13,8 +13,8 @@ from reports.drawing.axes import AXIS_MM, EDGE_MM, TITLE_MM, decades, plain
 from reports.drawing.legend import draw_legend, legend_height, line_entry
 from reports.drawing.style import SOURCE_LINES, TITLE_PT, WIDTH_MM, axes_at, drawing, page
 from reports.gantt.panels import Panel, cycle_marks
-from sched_sim.costs import RobustCosts, StandardCosts
 from sched_sim.least_speed import achieved_l, least_speed
+from sched_sim.pieces import RobustCosts, StandardCosts
 from sched_sim.simulate import simulate
 from sched_sim.timing import Timing
 

@@ -11,10 +11,12 @@ from reports.erkf.results import Results
 from reports.erkf.schedule import millions
 from reports.pages.machine import marked, residue
 from reports.pages.numbers import percent, plus_minus, significant
-from sched_sim.costs import ROBUST_METHODS, CostTable, RobustCosts, StandardCosts, select
+from sched_sim.costs.methods import ROBUST_METHODS
+from sched_sim.costs.table import CostTable
 from sched_sim.fit import fit
 from sched_sim.least_speed import achieved_l, least_speed
 from sched_sim.options import Options
+from sched_sim.pieces import RobustCosts, StandardCosts, select
 from sched_sim.processor import Processor, on_processor
 from sched_sim.timing import Timing
 from studies.robust.costs import HR_HZ, SYSTEMS, N, SystemName, parallel_costs

@@ -8,9 +8,11 @@ from fractions import Fraction
 from typing import NamedTuple
 
 from sched_sim.bounds import check_simulation
-from sched_sim.costs import MULTIRATE_METHODS, TWO_RATE_METHODS, CostTable, Statistic, select
+from sched_sim.costs.methods import MULTIRATE_METHODS, TWO_RATE_METHODS
+from sched_sim.costs.table import CostTable
 from sched_sim.errors import InputError
 from sched_sim.options import Options
+from sched_sim.pieces import Statistic, select
 from sched_sim.schedule import Schedule
 from sched_sim.simulate import simulate
 from sched_sim.tasks import Task

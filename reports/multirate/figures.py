@@ -15,8 +15,9 @@ from reports.drawing.legend import draw_legend, legend_height, line_entry
 from reports.drawing.style import INK, PALE, SMALL_PT, SOURCE_LINES, WIDTH_MM, Line, axes_at, drawing, page
 from reports.gantt.chart import gantt
 from reports.gantt.panels import Panel, cycle_marks, method_panel
-from sched_sim.costs import CostTable, MultirateCosts, StandardCosts
+from sched_sim.costs.table import CostTable
 from sched_sim.load import load
+from sched_sim.pieces import MultirateCosts, StandardCosts
 from sched_sim.simulate import simulate
 from sched_sim.timing import Timing
 

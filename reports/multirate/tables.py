@@ -10,7 +10,7 @@ from reports.multirate.costs import Form, every, least_time_of, time_of
 from reports.multirate.results import RECEIVER, SHOWN, Results
 from reports.multirate.words import ratio_text, scenario_text
 from reports.pages.numbers import decimal, percent, significant
-from sched_sim.costs import arithmetic
+from sched_sim.costs.operations import arithmetic
 from sched_sim.fit import fit
 from sched_sim.load import load
 from sched_sim.processor import Processor

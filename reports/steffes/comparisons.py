@@ -22,7 +22,8 @@ from reports.drawing.style import (
     text_width_mm,
 )
 from reports.gantt.panels import METHOD_NAMES
-from sched_sim.costs import KINDS, CostTable
+from sched_sim.costs.methods import KINDS
+from sched_sim.costs.table import CostTable
 from sched_sim.errors import InputError
 from sched_sim.timing import Timing
 

@@ -16,9 +16,11 @@ from reports.drawing.style import GREY, INK, METHOD_LINES, PALE, SMALL_PT, TITLE
 from reports.gantt.panels import METHOD_NAMES
 from reports.steffes.comparisons import SPEED_UNIT, Speeds, cost_figure, table4_figure
 from reports.steffes.curves import achieved_curve, hr_limit, knee, speed_grid
-from sched_sim.costs import DELAYED_METHODS, CostTable, DualRateCosts, select
+from sched_sim.costs.methods import DELAYED_METHODS
+from sched_sim.costs.table import CostTable
 from sched_sim.least_speed import Stair, staircase
 from sched_sim.options import Options
+from sched_sim.pieces import DualRateCosts, select
 
 __all__ = ["Speeds", "achieved_figure", "cost_figure", "least_speed_figure", "table4_figure"]
 

@@ -12,11 +12,13 @@ from reports.steffes.comparisons import Speeds, cost_figure, table4_figure
 from reports.steffes.figures import achieved_figure, least_speed_figure
 from reports.steffes.timelines import dual_rate_timeline, serial_costs, serial_timeline
 from sched_sim.analysis import BINDING_WORDS
-from sched_sim.cost_file import cost_table_text
-from sched_sim.costs import DELAYED_METHODS, CostTable, load, select
+from sched_sim.costs.methods import DELAYED_METHODS
+from sched_sim.costs.table import CostTable
+from sched_sim.costs.table_file import costs_text, load_costs
 from sched_sim.least_speed import achieved_l, least_speed
 from sched_sim.load import load as busy
 from sched_sim.options import Options
+from sched_sim.pieces import select
 from sched_sim.simulate import simulate
 from sched_sim.timing import Timing
 from studies import steffes
@@ -30,7 +32,7 @@ BY_L = Options(lr_propagate_by="l")
 
 def build(measured: CostTable) -> dict[str, bytes]:
     """All files of the report by name, as a pure function of one measured cost table."""
-    paper, counted = load("steffes2014"), load("counted-9-3-3")
+    paper, counted = load_costs("steffes2014"), load_costs("counted-9-3-3")
     tables = {"paper": paper, "counted": counted.normalised(), "measured": measured.normalised()}
     entry_rows, table4_rows, simulated_rows = _entries(tables), _table4(tables), _simulated(paper)
     figures = {name: image(figure, "svg") for name, figure in _figures(tables).items()}
@@ -72,7 +74,7 @@ def build(measured: CostTable) -> dict[str, bytes]:
     return {
         **pages,
         **figures,
-        "measured.toml": cost_table_text(measured).encode(),
+        "measured.toml": costs_text(measured).encode(),
         "tables-1-3.csv": csv_bytes(entry_rows),
         "table-4.csv": csv_bytes(table4_rows),
         "simulated.csv": csv_bytes(simulated_rows),

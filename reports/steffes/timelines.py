@@ -20,9 +20,10 @@ from reports.gantt.lanes import Lane, draw_lanes, fills_of
 from reports.gantt.marks import draw_marks
 from reports.gantt.panels import METHOD_NAMES, Panel, cycle_marks
 from reports.gantt.scale import Scale
-from sched_sim.costs import CostTable, JobCosts, LarsenCosts, select
+from sched_sim.costs.table import CostTable
 from sched_sim.errors import InputError
 from sched_sim.options import Options
+from sched_sim.pieces import JobCosts, LarsenCosts, select
 from sched_sim.simulate import simulate
 from sched_sim.timing import Timing
 

@@ -12,7 +12,7 @@ from sched_sim.cli.output import say
 from sched_sim.cli.outputs import refuse_one_file_for_two
 
 if TYPE_CHECKING:
-    from sched_sim.costs import CostTable
+    from sched_sim.costs.table import CostTable
 
 ChartMethods = Annotated[
     list[str] | None,
@@ -51,15 +51,15 @@ def gantt(
     from reports.drawing.picture import check_picture
     from reports.gantt.chart import gantt as draw
     from reports.gantt.chart import method_panel, save
-    from sched_sim.costs import select
     from sched_sim.least_speed import least_speed
+    from sched_sim.pieces import select
 
     check_picture(output, "--output")
     inputs = [("--costs", costs), ("--processor", processor), ("--tasks", tasks)]
     refuse_one_file_for_two([("--output", output)], inputs)
     options = opt.make_options(lr_propagate_by, feedback, gain, low_rate_noise, cpus, context_switch)
     part = opt.make_processor(processor)
-    table, others, rate = opt.load_costs(costs, part), opt.make_tasks(tasks), opt.hr_rate(hr_hz)
+    table, others, rate = opt.costs_on(costs, part), opt.make_tasks(tasks), opt.hr_rate(hr_hz)
     panels = []
     for name in opt.wanted_methods(method or _usual(table), table):
         timing = opt.make_timing(N, M, L, name, options)

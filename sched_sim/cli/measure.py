@@ -13,11 +13,11 @@ from sched_sim.cli import options as opt
 from sched_sim.cli.measure_filter import OF_A_SYSTEM, SIZES, measure_own_filter, refuse_with_filter
 from sched_sim.cli.output import print_csv, print_json, print_table, say, units
 from sched_sim.cli.outputs import module_files, refuse_one_file_for_two
-from sched_sim.costs import SYSTEM_METHODS
+from sched_sim.costs.methods import SYSTEM_METHODS
 from sched_sim.errors import InputError
 
 if TYPE_CHECKING:
-    from sched_sim.costs import CostTable
+    from sched_sim.costs.table import CostTable
 
 SYSTEM = "System"
 WITHOUT_SYSTEM = "Not with --system, --filter or --robust, which have their own."
@@ -142,7 +142,7 @@ def measure(
     from filters.systems.example import example_system
     from sched_sim.cli.progress import progress_bar
     from sched_sim.cli.update_form import update_form
-    from sched_sim.cost_file import write_cost_table
+    from sched_sim.costs.table_file import write_costs
     from sched_sim.files import check_writable
     from studies.measure import measure as run
     from studies.user_function import explained
@@ -207,7 +207,7 @@ def measure(
             timed=table.unit == "second",
         )
     if output is not None:
-        write_cost_table(table, output)
+        write_costs(table, output)
         say(f"Wrote {output}; use it with --costs {output}")
 
 

@@ -14,8 +14,8 @@ from sched_sim.cli.options import given_options
 from sched_sim.cli.output import Format, print_csv, print_json, print_table, say
 from sched_sim.cli.outputs import module_files, refuse_one_file_for_two
 from sched_sim.cli.progress import progress_bar
+from sched_sim.costs.sample_file import SampledCosts, write_sampled_costs
 from sched_sim.errors import InputError
-from sched_sim.sample_file import SampledCosts, write_sampled_costs
 
 if TYPE_CHECKING:
     from sched_sim.scenario import Samples

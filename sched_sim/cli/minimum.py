@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Any
 from sched_sim.cli import options as opt
 from sched_sim.cli.output import lines, print_csv, print_json, print_table, say, units
 from sched_sim.cli.progress import simulations
-from sched_sim.costs import SECONDS
+from sched_sim.costs.table import SECONDS
 
 if TYPE_CHECKING:
-    from sched_sim.costs import JobCosts
     from sched_sim.options import Options
+    from sched_sim.pieces import JobCosts
     from sched_sim.tasks import Task
     from sched_sim.timing import Timing
 
@@ -49,14 +49,15 @@ def minimum(
     """
     from sched_sim.cli.parts import MEANING, fit_row, fit_words, fixed_by, least_row
     from sched_sim.cli.update_form import update_form, update_note
-    from sched_sim.costs import COUNTED, select
+    from sched_sim.costs.table_file import COUNTED
     from sched_sim.fit import fit
     from sched_sim.least_speed import least_speed
+    from sched_sim.pieces import select
     from sched_sim.timing import impossible
 
     options = opt.make_options(lr_propagate_by, feedback, gain, low_rate_noise, cpus, context_switch)
     part = opt.make_processor(processor)
-    table, others, rate = opt.load_costs(costs, part), opt.make_tasks(tasks), opt.hr_rate(hr_hz)
+    table, others, rate = opt.costs_on(costs, part), opt.make_tasks(tasks), opt.hr_rate(hr_hz)
     design = f"N={N} M={_given(M, 'none')} L={_given(L, 'latest')}"
     rows: list[dict[str, Any]] = []
     shown: list[dict[str, Any]] = []

@@ -10,19 +10,12 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import typer
 
 from sched_sim.bounds import MOST_STEPS, short
-from sched_sim.costs import (
-    COUNTED,
-    METHODS,
-    PAPERS,
-    TWO_RATE_METHODS,
-    CostTable,
-    Method,
-    Statistic,
-    default_methods,
-    load,
-)
+from sched_sim.costs.methods import METHODS, TWO_RATE_METHODS, Method
+from sched_sim.costs.table import CostTable, default_methods
+from sched_sim.costs.table_file import COUNTED, PAPERS, load_costs
 from sched_sim.errors import InputError
 from sched_sim.options import Gain, LowRateNoise, Options
+from sched_sim.pieces import Statistic
 from sched_sim.tasks import Task
 from sched_sim.ticks import exact, positive
 from sched_sim.timing import Feedback, Timing, latest_feedback_step
@@ -266,13 +259,13 @@ def hr_rate(text: str | None) -> Fraction | None:
     return None if text is None else positive(text, "--hr-hz")
 
 
-def load_costs(name: str | None, processor: Processor | None) -> CostTable:
+def costs_on(name: str | None, processor: Processor | None) -> CostTable:
     """The cost table of this name or path, in seconds on the processor if there is one."""
     if processor is None:
-        return load(PAPERS if name is None else name)
+        return load_costs(PAPERS if name is None else name)
     from sched_sim.processor import on_processor
 
-    return on_processor(load(COUNTED if name is None else name), processor)
+    return on_processor(load_costs(COUNTED if name is None else name), processor)
 
 
 def make_processor(name: str | None) -> Processor | None:

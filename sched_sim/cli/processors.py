@@ -10,13 +10,14 @@ import typer
 from sched_sim.cli import options as opt
 from sched_sim.cli.output import lines, print_csv, print_json, print_table
 from sched_sim.cli.parts import MEANING, TASKS_ON_PARTS
-from sched_sim.costs import COUNTED, METHODS
+from sched_sim.costs.methods import METHODS
+from sched_sim.costs.table_file import COUNTED
 
 if TYPE_CHECKING:
     from fractions import Fraction
 
-    from sched_sim.costs import Statistic
     from sched_sim.options import Options
+    from sched_sim.pieces import Statistic
     from sched_sim.processor import Processor
     from sched_sim.tasks import Task
     from sched_sim.timing import Timing
@@ -175,13 +176,14 @@ def _verdicts(
     from sched_sim.cli.parts import fit_row, fit_words, fixed_by, least_row
     from sched_sim.cli.progress import simulations
     from sched_sim.cli.update_form import update_form, update_note
-    from sched_sim.costs import load, select
+    from sched_sim.costs.table_file import load_costs
     from sched_sim.errors import InputError
     from sched_sim.fit import fit
+    from sched_sim.pieces import select
     from sched_sim.processor import on_processor
 
     rows, shown, reasons = [], [], []
-    counts = load(COUNTED if costs is None else costs)
+    counts = load_costs(COUNTED if costs is None else costs)
     for part in parts:
         table = on_processor(counts, part)
         for method, timing in designs.items():

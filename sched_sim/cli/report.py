@@ -37,7 +37,7 @@ def _steffes(thorough: bool) -> dict[str, bytes]:
     from filters.systems.example import example_system
     from reports.steffes.report import build
     from sched_sim.cli.progress import progress_bar
-    from sched_sim.costs import DELAYED_METHODS
+    from sched_sim.costs.methods import DELAYED_METHODS
     from studies.measure import measure
 
     with progress_bar("Measuring") as progress:

@@ -18,8 +18,8 @@ from sched_sim.errors import InputError
 from sched_sim.shares import percent
 
 if TYPE_CHECKING:
-    from sched_sim.costs import JobCosts
     from sched_sim.options import Options
+    from sched_sim.pieces import JobCosts
     from sched_sim.schedule import Response, Slice
     from sched_sim.tasks import Task
     from sched_sim.timing import Timing
@@ -111,8 +111,9 @@ def simulate(
     from contextlib import ExitStack
 
     from sched_sim.cli.update_form import update_form, update_note
-    from sched_sim.costs import MULTIRATE_METHODS, select
+    from sched_sim.costs.methods import MULTIRATE_METHODS
     from sched_sim.least_speed import least_speed
+    from sched_sim.pieces import select
     from sched_sim.simulate import simulate as run
     from sched_sim.trace import check_trace, open_trace
 
@@ -125,7 +126,7 @@ def simulate(
     options = opt.make_options(lr_propagate_by, feedback, gain, low_rate_noise, cpus, context_switch)
     timing = opt.make_timing(N, M, L, method, options)
     part = opt.make_processor(processor)
-    table, others, rate = opt.load_costs(costs, part), opt.make_tasks(tasks), opt.hr_rate(hr_hz)
+    table, others, rate = opt.costs_on(costs, part), opt.make_tasks(tasks), opt.hr_rate(hr_hz)
     work = select(table, method, options, statistic)
     pace = opt.pace(speed, rate, part, lambda: least_speed(work, timing, options, others))
     achieved: list[int | None] = [None] * cycles

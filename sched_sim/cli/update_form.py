@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from sched_sim.costs import DELAYED_METHODS, CostTable
+from sched_sim.costs.methods import DELAYED_METHODS
+from sched_sim.costs.table import CostTable
 
 MEASURE = "`sched-sim measure --update"
 FORMS = {

@@ -38,11 +38,11 @@ from filters.systems.rocket_filter import (
     attitude,
     rocket_filter,
 )
+from sched_sim.costs.sample_file import SampledCosts
 from sched_sim.distribution import wilson
 from sched_sim.draws import fates
 from sched_sim.jobs import HR, LR
 from sched_sim.processor import load_processor, seconds_for
-from sched_sim.sample_file import SampledCosts
 from sched_sim.scenario import Late, Scenario, Sensor
 from sched_sim.scenario_run import Outcome, run_scenario
 from sched_sim.schedule import Slice

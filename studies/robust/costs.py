@@ -17,7 +17,7 @@ from filters.robust_jobs import RobustCase, Start, robust_jobs
 from filters.systems.attitude import attitude, attitude_scaling, attitude_uncertainty
 from filters.systems.position import position, position_scaling, position_uncertainty
 from filters.systems.uncertain import linearised
-from sched_sim.costs import Cost, CostTable
+from sched_sim.costs.table import Cost, CostTable
 from studies.job_times import Progress, silent
 from studies.measure import BackendName, cost_table
 

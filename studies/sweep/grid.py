@@ -8,9 +8,11 @@ from fractions import Fraction
 from functools import cached_property
 from itertools import accumulate, product
 
-from sched_sim.costs import DELAYED_METHODS, CostTable, JobCosts, Statistic, select
+from sched_sim.costs.methods import DELAYED_METHODS
+from sched_sim.costs.table import CostTable
 from sched_sim.errors import InputError
 from sched_sim.options import Options
+from sched_sim.pieces import JobCosts, Statistic, select
 from sched_sim.tasks import Task, check_cpus
 from sched_sim.timing import Timing, several_in_flight
 from studies.sweep.legal import Designs, Legal, law_of

@@ -11,10 +11,10 @@ from typing import NamedTuple
 import numpy as np
 
 from sched_sim import analysis
-from sched_sim.costs import JobCosts
 from sched_sim.demand import Quotient
 from sched_sim.least_speed import least_speed
 from sched_sim.options import Options
+from sched_sim.pieces import JobCosts
 from sched_sim.tasks import Task
 from sched_sim.ticks import ticks_per_unit, to_ticks
 from sched_sim.timing import Timing

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from sched_sim.costs import TWO_RATE_METHODS
+from sched_sim.costs.methods import TWO_RATE_METHODS
 from sched_sim.errors import InputError
 from sched_sim.timing import Feedback
 

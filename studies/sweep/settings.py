@@ -11,9 +11,12 @@ from typing import Annotated, Any, Literal, get_args
 from pydantic import BaseModel, ConfigDict, Field, PlainValidator, StrictBool, ValidationError, ValidationInfo
 
 from sched_sim.bounds import MOST_STEPS, short
-from sched_sim.costs import COUNTED, METHODS, PAPERS, CostTable, Statistic, default_methods, load, shipped_names
+from sched_sim.costs.methods import METHODS
+from sched_sim.costs.table import CostTable, default_methods
+from sched_sim.costs.table_file import COUNTED, PAPERS, load_costs, shipped_tables
 from sched_sim.errors import InputError
 from sched_sim.options import Gain, LowRateNoise, Options
+from sched_sim.pieces import Statistic
 from sched_sim.processor import load_processor, on_processor, shipped_processors
 from sched_sim.task_file import read_tasks
 from sched_sim.timing import Feedback
@@ -126,7 +129,7 @@ class Settings(BaseModel):
 
     def _tables(self) -> tuple[CostTable, ...]:
         """Each of them on each of the processors, if there are any."""
-        tables = [load(name) for name in self.costs or (COUNTED if self.processor else PAPERS,)]
+        tables = [load_costs(name) for name in self.costs or (COUNTED if self.processor else PAPERS,)]
         parts = [load_processor(name) for name in self.processor]
         return tuple(on_processor(*pair) for pair in product(tables, parts)) if parts else tuple(tables)
 
@@ -180,7 +183,7 @@ def _read(path: Path) -> Settings:
     def beside(names: Sequence[str], shipped: Sequence[str] = ()) -> tuple[str, ...]:
         return tuple(name if name in shipped else str(path.parent / name) for name in names)
 
-    files = {"costs": beside(found.costs, shipped_names()), "processor": beside(found.processor, shipped_processors())}
+    files = {"costs": beside(found.costs, shipped_tables()), "processor": beside(found.processor, shipped_processors())}
     return found.model_copy(update=files | {"tasks": found.tasks and str(path.parent / found.tasks)})
 
 

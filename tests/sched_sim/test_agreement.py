@@ -10,7 +10,8 @@ from random import Random
 
 import pytest
 
-from sched_sim.costs import (
+from sched_sim.options import Options
+from sched_sim.pieces import (
     DualRateCosts,
     JobCosts,
     LarsenCosts,
@@ -19,7 +20,6 @@ from sched_sim.costs import (
     RobustCosts,
     StandardCosts,
 )
-from sched_sim.options import Options
 from sched_sim.timing import Timing
 from tests.agreement import assert_agreement, legal_timings
 from tests.exhaust import share_of

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from sched_sim.costs import SHIPPED
+from sched_sim.costs.table_file import SHIPPED
 from tests.command_line import Run, is_refused
 
 HEAD = 'name = "c"\nunit = "operation"\n'

@@ -8,9 +8,9 @@ from itertools import pairwise
 from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
-from sched_sim.costs import DualRateCosts
 from sched_sim.least_speed import achieved_l, least_speed, staircase
 from sched_sim.options import Options
+from sched_sim.pieces import DualRateCosts
 from sched_sim.search import least_speed_by_simulation
 from sched_sim.simulate import simulate
 from sched_sim.timing import Timing

@@ -10,10 +10,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from sched_sim.cost_file import cost_table_text, read_cost_table
-from sched_sim.costs import DELAYED_METHODS, OPERATION_KINDS, Cost, CostTable, load
+from sched_sim.costs.methods import DELAYED_METHODS
+from sched_sim.costs.operations import OPERATION_KINDS
+from sched_sim.costs.table import Cost, CostTable
+from sched_sim.costs.table_file import costs_text, load_costs, read_costs
 from sched_sim.errors import InputError
-from sched_sim.processor import SHIPPED, Processor, load_processor, on_processor, shipped_processors
+from sched_sim.processor import TABLES, Processor, load_processor, on_processor, shipped_processors
 
 MICROSECOND = Fraction(1, 10**6)
 
@@ -76,13 +78,13 @@ def file(tmp_path: Path) -> Path:
 def test_the_patents_filter_takes_the_patents_times_on_the_patents_processor() -> None:
     # "Optimal covariance filtering": "the conventional Kalman filter would require 166,870 microseconds per cycle";
     # 139 x 20 + 128 x 10 + 1783 x 2 for the state update
-    costs = on_processor(load("patent-multirate"), load_processor("patent")).costs["multirate"]
+    costs = on_processor(load_costs("patent-multirate"), load_processor("patent")).costs["multirate"]
     assert costs["covariance_gain"] == Cost.of(166870 * MICROSECOND)
     assert costs["state_update"] == Cost.of(7626 * MICROSECOND)
 
 
 def test_the_patents_overhead_factor_is_that_of_its_covariance_cycle() -> None:
-    counted = dict(load("patent-multirate").operations["multirate"]["covariance_gain"])
+    counted = dict(load_costs("patent-multirate").operations["multirate"]["covariance_gain"])
     del counted["logic"]
     assert seconds(counted, load_processor("patent")) == 166870 * MICROSECOND
 
@@ -100,7 +102,7 @@ def test_every_shipped_processor_says_where_each_figure_is_from(name: str) -> No
 
 @pytest.mark.parametrize("name", shipped_processors())
 def test_every_shipped_processor_runs_the_counted_filters(name: str) -> None:
-    counted = load("counted-9-3-3")
+    counted = load_costs("counted-9-3-3")
     timed = on_processor(counted, load_processor(name))
     assert timed.unit == "second"
     for method in DELAYED_METHODS:
@@ -138,10 +140,10 @@ def test_logic_is_the_jobs_own_or_the_processors_factor(file: Path) -> None:
 
 
 def test_costs_on_a_processor_survive_being_written_and_read(tmp_path: Path) -> None:
-    timed = on_processor(load("patent-multirate"), load_processor("patent"))
+    timed = on_processor(load_costs("patent-multirate"), load_processor("patent"))
     path = tmp_path / "timed.toml"
-    path.write_text(cost_table_text(timed))
-    assert replace(read_cost_table(path), path=timed.path) == timed
+    path.write_text(costs_text(timed))
+    assert replace(read_costs(path), path=timed.path) == timed
 
 
 @given(processors, counts, counts, st.integers(1, 1000))
@@ -154,7 +156,7 @@ def test_time_is_linear_in_the_counts(processor: Processor, a: dict[str, int], b
 
 @pytest.mark.parametrize("clock_mhz", [1, 84, 5000])
 def test_times_are_cycles_over_the_clock(file: Path, clock_mhz: int) -> None:
-    file.write_text((SHIPPED / "cortex-m4f.toml").read_text().replace("value = 168", f"value = {clock_mhz}"))
+    file.write_text((TABLES / "cortex-m4f.toml").read_text().replace("value = 168", f"value = {clock_mhz}"))
     shipped, moved = load_processor("cortex-m4f"), load_processor(file)
     assert moved.seconds["divide"] == Fraction(15, clock_mhz) * MICROSECOND
     assert moved.seconds == {kind: time * 168 / clock_mhz for kind, time in shipped.seconds.items()}
@@ -167,7 +169,7 @@ def test_an_unknown_processor_lists_the_shipped_ones_and_says_that_a_path_works(
 
 def test_a_table_without_counts_names_the_remedy() -> None:
     with pytest.raises(InputError, match=r"steffes2014.*no operation counts.*'patent'.*--costs counted-9-3-3.*measure"):
-        on_processor(load("steffes2014"), load_processor("patent"))
+        on_processor(load_costs("steffes2014"), load_processor("patent"))
 
 
 def test_a_function_that_is_not_timed_is_the_arithmetic_of_a_cosine(file: Path) -> None:

@@ -8,8 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from sched_sim.costs import load, select
+from sched_sim.costs.table_file import load_costs
 from sched_sim.options import Options
+from sched_sim.pieces import select
 from sched_sim.processor import load_processor, on_processor
 from sched_sim.simulate import simulate
 from sched_sim.timing import Timing
@@ -49,7 +50,7 @@ def test_a_gain_computed_early_needs_less_of_a_part(sched_sim: Run) -> None:
     """L = M + 1: of the LR update only the correction is left to step m."""
     line = "processors -N 10 -M 4 -L 5 --hr-hz 400 --processor cortex-m4f --format json"
     (late,), (early,) = (json.loads(sched_sim(line + gain).out) for gain in ("", " --gain precomputed"))
-    costs = select(on_processor(load("counted-9-3-3"), load_processor("cortex-m4f")), "dual-rate", EARLY)
+    costs = select(on_processor(load_costs("counted-9-3-3"), load_processor("cortex-m4f")), "dual-rate", EARLY)
     speed = Fraction(early["min_speed_exact"])
     assert early["needed_share"] < late["needed_share"]
     assert simulate(costs, Timing(10, 4, 5), speed, 4, EARLY).misses == 0

@@ -13,7 +13,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from sched_sim.costs import JobCosts, LarsenCosts, RecalculateCosts, StandardCosts
+from sched_sim.pieces import JobCosts, LarsenCosts, RecalculateCosts, StandardCosts
 from sched_sim.scenario import Late, Scenario
 from sched_sim.scenario_run import Outcome, run_scenario
 from sched_sim.simulate import simulate

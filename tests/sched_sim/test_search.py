@@ -9,9 +9,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from sched_sim.costs import StandardCosts, load, select
+from sched_sim.costs.table_file import load_costs
 from sched_sim.least_speed import least_speed
 from sched_sim.options import Options
+from sched_sim.pieces import StandardCosts, select
 from sched_sim.search import least_speed_by_simulation, search_resolution
 from sched_sim.simulate import simulate
 from sched_sim.steady import run_until_steady
@@ -19,7 +20,7 @@ from sched_sim.tasks import Task
 from sched_sim.timing import Timing
 from tests.designs import Design, designs
 
-PAPER = select(load("steffes2014"), "dual-rate", Options())
+PAPER = select(load_costs("steffes2014"), "dual-rate", Options())
 FIGURE_3 = Timing(10, 4, 8)
 
 

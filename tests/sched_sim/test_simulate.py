@@ -7,10 +7,10 @@ from typing import Any
 
 import pytest
 
-from sched_sim.costs import DualRateCosts, LarsenCosts, MultirateCosts, RecalculateCosts, StandardCosts
 from sched_sim.errors import InputError
 from sched_sim.jobs import Job
 from sched_sim.options import Options
+from sched_sim.pieces import DualRateCosts, LarsenCosts, MultirateCosts, RecalculateCosts, StandardCosts
 from sched_sim.simulate import Processor, simulate
 from sched_sim.tasks import Task
 from sched_sim.timing import Feedback, Timing

@@ -9,11 +9,12 @@ import pytest
 from hypothesis import given, seed, settings
 from hypothesis import strategies as st
 
-from sched_sim.costs import DualRateCosts, StandardCosts, load, select
+from sched_sim.costs.table_file import load_costs
 from sched_sim.errors import InputError
 from sched_sim.least_speed import least_speed
 from sched_sim.load import loads
 from sched_sim.options import Options
+from sched_sim.pieces import DualRateCosts, StandardCosts, select
 from sched_sim.search import search_resolution
 from sched_sim.simulate import simulate
 from sched_sim.steady import run_until_steady
@@ -32,7 +33,7 @@ OF_ONE_PRIORITY = [
 @pytest.mark.parametrize(("method", "least"), [("standard", "1.505"), ("larsen", "1.594"), ("dual-rate", "1.671")])
 def test_tasks_of_one_priority_need_the_whole_load(method: str, least: str) -> None:
     """Larsen by hand: 7 x 0.45 + 3 x 0.66 + 0.81 for the filter and 2 x 5 for the tasks in 10 HR periods: 1.594."""
-    costs = select(load("steffes2014"), method, Options())
+    costs = select(load_costs("steffes2014"), method, Options())
     found = least_speed(costs, FIGURE_3, tasks=OF_ONE_PRIORITY)
     assert found == (Fraction(least), "load")
     assert simulate(costs, FIGURE_3, found.speed, 100, tasks=OF_ONE_PRIORITY).misses == 0
@@ -91,7 +92,7 @@ def test_a_task_that_has_no_offset_and_no_backlog_repeats_after_one_hyperperiod(
 
 def test_work_that_piles_up_never_repeats() -> None:
     """15.94 units of work in ten HR periods (see above), at a speed of 1.593; the tasks may wait for ten periods."""
-    costs = select(load("steffes2014"), "larsen", Options())
+    costs = select(load_costs("steffes2014"), "larsen", Options())
     steady = run_until_steady(costs, FIGURE_3, Fraction("1.593"), tasks=OF_ONE_PRIORITY)
     assert not steady.repeats
     assert steady.schedule.misses > 0

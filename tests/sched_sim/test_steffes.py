@@ -6,9 +6,10 @@ from fractions import Fraction
 
 import pytest
 
-from sched_sim.costs import load, select
+from sched_sim.costs.table_file import load_costs
 from sched_sim.least_speed import achieved_l, least_speed, staircase
 from sched_sim.options import Options
+from sched_sim.pieces import select
 from sched_sim.simulate import simulate
 from sched_sim.timing import Timing
 
@@ -17,7 +18,7 @@ BY_L = Options(lr_propagate_by="l")
 
 
 def costs(method: str):
-    return select(load("steffes2014"), method, PAPER)
+    return select(load_costs("steffes2014"), method, PAPER)
 
 
 @pytest.mark.parametrize(

@@ -11,10 +11,10 @@ from typing import Any
 
 import pytest
 
-from sched_sim.cost_file import read_cost_table
+from sched_sim.costs.sample_file import read_sampled_costs
+from sched_sim.costs.table_file import read_costs
 from sched_sim.errors import InputError
 from sched_sim.processor_file import read_processor
-from sched_sim.sample_file import read_sampled_costs
 from sched_sim.scenario_file import read_scenario
 from sched_sim.task_file import read_tasks
 from studies.sweep.settings import settings
@@ -67,7 +67,7 @@ Read = Callable[[Path], Any]
 READERS: dict[str, tuple[str, Read]] = {
     "scenario": (SCENARIO, read_scenario),
     "tasks": (TASKS, read_tasks),
-    "costs": (COSTS, read_cost_table),
+    "costs": (COSTS, read_costs),
     "samples": (SAMPLES, read_sampled_costs),
     "processor": (PROCESSOR, read_processor),
     "grid": (GRID, lambda path: settings({}, path)),

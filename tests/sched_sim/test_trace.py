@@ -10,9 +10,10 @@ from pathlib import Path
 
 import pytest
 
-from sched_sim.costs import load, select
+from sched_sim.costs.table_file import load_costs
 from sched_sim.errors import InputError
 from sched_sim.options import Options
+from sched_sim.pieces import select
 from sched_sim.schedule import Schedule
 from sched_sim.simulate import simulate
 from sched_sim.timing import Timing
@@ -20,7 +21,7 @@ from sched_sim.trace import open_trace
 
 
 def traced(path: Path, speed: str = "0.77", scale: float = 1000.0) -> Schedule:
-    costs = select(load("steffes2014"), "dual-rate", Options())
+    costs = select(load_costs("steffes2014"), "dual-rate", Options())
     with open_trace(path, scale) as write:
         return simulate(costs, Timing(10, 4, 8), Fraction(speed), 3, on_slice=write)
 

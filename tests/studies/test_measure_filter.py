@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 from sched_sim.cli.measure_filter import noise
+from sched_sim.costs.sample_file import SampledCosts, read_sampled_costs
 from sched_sim.errors import InputError
-from sched_sim.sample_file import SampledCosts, read_sampled_costs
 from studies.user_filter import load_filter
 from tests.command_line import Run, is_refused
 

@@ -11,19 +11,19 @@ from matplotlib.figure import Figure
 from reports.drawing.picture import image, save
 from reports.gantt.chart import gantt, method_panel
 from reports.steffes.timelines import dual_rate_timeline
-from sched_sim.costs import load
+from sched_sim.costs.table_file import load_costs
 from sched_sim.errors import InputError
 from sched_sim.ticks import exact
 from sched_sim.timing import Timing
 
 
 def picture() -> Figure:
-    return dual_rate_timeline(load("steffes2014"), Timing(10, 4, 8), exact("0.78", "speed"))
+    return dual_rate_timeline(load_costs("steffes2014"), Timing(10, 4, 8), exact("0.78", "speed"))
 
 
 def chart() -> Figure:
     """A Gantt chart with a miss: hatches, outlines, red."""
-    panels = [method_panel(load("steffes2014"), "dual-rate", Timing(10, 4, 8), exact("0.64", "speed"))]
+    panels = [method_panel(load_costs("steffes2014"), "dual-rate", Timing(10, 4, 8), exact("0.64", "speed"))]
     return gantt(panels)
 
 

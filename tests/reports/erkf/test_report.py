@@ -17,8 +17,11 @@ from reports.erkf.counts import all_counts, parallel
 from reports.erkf.report import build
 from reports.erkf.results import TABLES, Results, read
 from reports.pages.stored import Rows
-from sched_sim.costs import ROBUST_METHODS, Cost, CostTable, StandardCosts, load
+from sched_sim.costs.methods import ROBUST_METHODS
+from sched_sim.costs.table import Cost, CostTable
+from sched_sim.costs.table_file import load_costs
 from sched_sim.least_speed import least_speed
+from sched_sim.pieces import StandardCosts
 from sched_sim.processor import shipped_processors
 from sched_sim.timing import Timing
 from studies.robust.costs import SYSTEMS, N
@@ -127,7 +130,7 @@ def test_sparsity_against_processors() -> None:
 def test_in_one_period_is_what_l_1_asks_for() -> None:
     for system in SYSTEMS:
         for method in ROBUST_METHODS:
-            costs = tables.robust_costs_of(load(f"erkf-{system}"), method)
+            costs = tables.robust_costs_of(load_costs(f"erkf-{system}"), method)
             serial = least_speed(StandardCosts(costs.inertial, costs.robust_step), Timing(N, 0, N)).speed
             assert serial == least_speed(costs, Timing(N, 0, 1)).speed
     for row in rows("speeds.csv"):

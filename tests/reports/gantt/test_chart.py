@@ -14,14 +14,14 @@ from reports.drawing.style import RED
 from reports.gantt.chart import Panel, gantt
 from reports.gantt.intervals import bars, jobs
 from reports.gantt.panels import cycle_marks, method_panel
-from sched_sim.costs import load
+from sched_sim.costs.table_file import load_costs
 from sched_sim.errors import InputError
 from sched_sim.options import Options
 from sched_sim.tasks import Task
 from sched_sim.timing import Timing
 from tests.reports.layout import flaws, texts
 
-PAPER = load("steffes2014")
+PAPER = load_costs("steffes2014")
 TASKS = [
     Task("control law", Fraction(1), Fraction("0.1"), 5),
     Task("a task_with $a long name$ that does not end", Fraction(5), Fraction("0.3"), 30, Fraction("0.5")),

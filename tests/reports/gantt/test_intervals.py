@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 
 from reports.drawing.placing import spread, worst_shift
 from reports.gantt.intervals import bars, jobs, never_ran, overdue_work, rows, waits
-from sched_sim.costs import DualRateCosts
 from sched_sim.least_speed import least_speed
 from sched_sim.options import Options
+from sched_sim.pieces import DualRateCosts
 from sched_sim.schedule import Schedule
 from sched_sim.simulate import simulate
 from sched_sim.tasks import Task

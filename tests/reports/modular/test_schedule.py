@@ -33,7 +33,7 @@ from reports.modular.schedule import (
 )
 from reports.modular.schedule_gantt import DELAY, fix_panels
 from reports.pages.stored import Rows, records
-from sched_sim.sample_file import SampledCosts
+from sched_sim.costs.sample_file import SampledCosts
 from studies.modular.rocket_schedule import JOBS, URGENCIES, WAYS, MissRow, Run, chosen
 from tests.reports.layout import flaws, texts
 

@@ -12,16 +12,17 @@ from hypothesis import strategies as st
 from reports.drawing.style import METHOD_LINES
 from reports.steffes.curves import achieved_curve, hr_limit, knee, speed_grid
 from reports.steffes.figures import Speeds, achieved_figure, cost_figure, least_speed_figure, table4_figure
-from sched_sim.costs import DualRateCosts, load, select
+from sched_sim.costs.table_file import load_costs
 from sched_sim.errors import InputError
 from sched_sim.least_speed import achieved_l, least_speed, staircase
 from sched_sim.options import Options
+from sched_sim.pieces import DualRateCosts, select
 from sched_sim.simulate import simulate
 from sched_sim.timing import Timing
 from tests.designs import Design, designs
 from tests.reports.layout import flaws, texts
 
-PAPER, COUNTED = load("steffes2014"), load("counted-9-3-3")
+PAPER, COUNTED = load_costs("steffes2014"), load_costs("counted-9-3-3")
 DUAL_RATE = select(PAPER, "dual-rate", Options())
 BLUE = METHOD_LINES["dual-rate"].colour
 SAME_STEP = Options(feedback="same-step", lr_propagate_by="l")

@@ -8,14 +8,14 @@ from functools import cache
 import pytest
 
 from reports.steffes.report import build
-from sched_sim.cost_file import read_cost_table
-from sched_sim.costs import Cost, CostTable
+from sched_sim.costs.table import Cost, CostTable
+from sched_sim.costs.table_file import read_costs
 from tests.reports import published
 
 
 @cache
 def committed_costs() -> CostTable:
-    return read_cost_table(published.FOLDER / "steffes2014" / "measured.toml")
+    return read_costs(published.FOLDER / "steffes2014" / "measured.toml")
 
 
 @cache

@@ -11,14 +11,15 @@ from matplotlib.colors import to_rgba
 from reports.drawing.style import FILLS
 from reports.gantt.intervals import jobs
 from reports.steffes.timelines import dual_rate_timeline, serial_timeline, unused
-from sched_sim.costs import load, select
+from sched_sim.costs.table_file import load_costs
 from sched_sim.errors import InputError
 from sched_sim.options import Options
+from sched_sim.pieces import select
 from sched_sim.simulate import simulate
 from sched_sim.timing import Timing
 from tests.reports.layout import flaws, texts
 
-PAPER = load("steffes2014")
+PAPER = load_costs("steffes2014")
 LARSEN, SERIAL, DUAL_RATE = Fraction("1.47"), Fraction("1.26"), Fraction("0.77")
 """Least speeds; SERIAL: of steps that all propagate in 0.45, and update in 0.81."""
 

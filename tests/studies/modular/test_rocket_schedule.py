@@ -24,9 +24,9 @@ from filters.systems.rocket_filter import (
     START_SIGMAS,
     PredictorName,
 )
+from sched_sim.costs.sample_file import SampledCosts
 from sched_sim.distribution import wilson
 from sched_sim.processor import load_processor
-from sched_sim.sample_file import SampledCosts
 from sched_sim.scenario_run import run_scenario
 from studies.modular.rocket_schedule import (
     CONTROL_EVERY,

@@ -10,10 +10,11 @@ import pytest
 
 from filters.kernels.backends import arguments_for, function_for
 from filters.robust_jobs import robust_jobs
-from sched_sim.cost_file import cost_table_text
-from sched_sim.costs import ROBUST_METHODS, SHIPPED, RobustCosts, StandardCosts, select
+from sched_sim.costs.methods import ROBUST_METHODS
+from sched_sim.costs.table_file import TABLES, costs_text
 from sched_sim.least_speed import least_speed
 from sched_sim.options import Options
+from sched_sim.pieces import RobustCosts, StandardCosts, select
 from sched_sim.simulate import simulate
 from sched_sim.timing import Timing
 from studies.robust.costs import SYSTEMS, N, SystemName, parallel_costs, robust_case, robust_costs
@@ -22,7 +23,7 @@ from tests.command_line import Run, is_refused
 
 @pytest.mark.parametrize("system", SYSTEMS)
 def test_the_shipped_tables_are_fresh_counts(system: SystemName) -> None:
-    assert (SHIPPED / f"erkf-{system}.toml").read_text() == cost_table_text(robust_costs(system))
+    assert (TABLES / f"erkf-{system}.toml").read_text() == costs_text(robust_costs(system))
 
 
 @pytest.mark.parametrize("system", SYSTEMS)

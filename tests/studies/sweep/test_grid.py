@@ -7,14 +7,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from sched_sim.costs import DELAYED_METHODS, METHODS, TWO_RATE_METHODS, load
+from sched_sim.costs.methods import DELAYED_METHODS, METHODS, TWO_RATE_METHODS
+from sched_sim.costs.table_file import load_costs
 from sched_sim.errors import InputError
 from sched_sim.options import Options
 from sched_sim.timing import Timing, check_dual_rate, check_two_rate, latest_feedback_step
 from studies.sweep.grid import Grid
 from studies.sweep.legal import Legal, law_of
 
-STEFFES = load("steffes2014")
+STEFFES = load_costs("steffes2014")
 
 METHOD = st.sampled_from(METHODS)
 FEEDBACK = st.sampled_from(["next-step", "same-step"])

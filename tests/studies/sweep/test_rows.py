@@ -6,7 +6,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from sched_sim.costs import KINDS, METHODS, Cost, CostTable
+from sched_sim.costs.methods import KINDS, METHODS
+from sched_sim.costs.table import Cost, CostTable
+from sched_sim.costs.table_file import load_costs
 from sched_sim.least_speed import achieved_l, least_speed
 from sched_sim.options import Options
 from sched_sim.simulate import simulate
@@ -93,9 +95,7 @@ def test_rows_are_those_of_the_scalar_analysis_and_of_the_simulation(table, meth
 
 
 def steffes(N, M, L, method="dual-rate", speeds=(), **options):
-    from sched_sim.costs import load
-
-    grid = Grid((N,), (M,), L and (L,), speeds, (method,), (load("steffes2014"),), (Options(**options),))
+    grid = Grid((N,), (M,), L and (L,), speeds, (method,), (load_costs("steffes2014"),), (Options(**options),))
     return list(rows(grid, 3))
 
 
@@ -120,10 +120,10 @@ def test_context_switches_go_through_the_simulation(method):
     switch = Fraction(1, 100)
     found = steffes(6, 2, None, method, speeds=(), context_switch=switch)
     for row in found:
-        from sched_sim.costs import load, select
+        from sched_sim.pieces import select
 
         options = Options(context_switch=switch)
-        costs = select(load("steffes2014"), method, options)
+        costs = select(load_costs("steffes2014"), method, options)
         least = least_speed(costs, Timing(row["N"], row["M"], row["L"]), options)
         assert (row["min_speed_exact"], row["binding"]) == (str(least.speed), least.binding)
         assert row["feasible"]

@@ -7,9 +7,10 @@ from pathlib import Path
 
 import pytest
 
-from sched_sim.costs import load, select
+from sched_sim.costs.table_file import load_costs
 from sched_sim.errors import InputError
 from sched_sim.options import Options
+from sched_sim.pieces import select
 from sched_sim.processor import load_processor, on_processor
 from sched_sim.simulate import simulate
 from sched_sim.task_file import read_tasks
@@ -97,7 +98,7 @@ def test_a_design_meets_its_deadlines_where_the_simulation_at_the_parts_own_spee
     others = read_tasks(Path(tasks)) if tasks else ()
     for row in rows:
         part = load_processor("mine.toml" if row["processor"] == "mine" else row["processor"])
-        costs = select(on_processor(load("counted-9-3-3"), part), row["method"], Options())
+        costs = select(on_processor(load_costs("counted-9-3-3"), part), row["method"], Options())
         timing = Timing(*(int(row[name]) for name in "NML"))
         schedule = simulate(costs, timing, 1 / Fraction(row["hr_hz"]), 40, Options(), others)
         assert (row["feasible"] == "true") == (schedule.misses == 0)
@@ -140,7 +141,7 @@ def test_tasks_reach_the_simulation_of_each_point_and_the_workers():
     rows = rows_of(workers=2, **flags)
     assert [row["misses"] for row in rows] == ["0", "0"]
     assert all(float(row["utilization"]) > 0.9 for row in rows)
-    costs, others = select(load("steffes2014"), "dual-rate", Options()), read_tasks(Path("equals.toml"))
+    costs, others = select(load_costs("steffes2014"), "dual-rate", Options()), read_tasks(Path("equals.toml"))
     for row in rows:
         schedule = simulate(costs, Timing(10, int(row["M"]), 8), Fraction(row["min_speed_exact"]), 3, Options(), others)
         assert float(row["utilization"]) == float(schedule.utilization)

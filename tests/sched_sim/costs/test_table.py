@@ -8,19 +8,11 @@ from pathlib import Path
 
 import pytest
 
-from sched_sim.cost_file import cost_table_text, read_cost_table
-from sched_sim.costs import (
-    DELAYED_METHODS,
-    SHIPPED,
-    DualRateCosts,
-    LarsenCosts,
-    StandardCosts,
-    load,
-    select,
-    shipped_names,
-)
+from sched_sim.costs.methods import DELAYED_METHODS
+from sched_sim.costs.table_file import TABLES, costs_text, load_costs, read_costs, shipped_tables
 from sched_sim.errors import InputError
 from sched_sim.options import Options
+from sched_sim.pieces import DualRateCosts, LarsenCosts, StandardCosts, select
 
 BY_HAND = """
 name = "mine"
@@ -40,42 +32,42 @@ def file(tmp_path: Path) -> Path:
 
 
 def test_a_table_written_by_hand_is_read_as_exact_decimals(file: Path) -> None:
-    costs = load(file).costs["larsen"]
+    costs = load_costs(file).costs["larsen"]
     assert costs["propagate"].p95 == Fraction(21, 100)
     assert (costs["update"].minimum, costs["update"].p95) == (Fraction(4, 10), Fraction(55, 100))
 
 
 def test_the_chosen_statistic_is_what_is_scheduled(file: Path) -> None:
-    costs = select(load(file), "larsen", Options(), "p95")
+    costs = select(load_costs(file), "larsen", Options(), "p95")
     assert costs == LarsenCosts(Fraction(21, 100), Fraction(3, 10), Fraction(55, 100))
 
 
 @pytest.mark.parametrize("name", ["steffes2014", "counted-9-3-3"])
 def test_shipped_tables_have_what_every_delayed_method_needs(name: str) -> None:
-    assert name in shipped_names()
+    assert name in shipped_tables()
     for method in DELAYED_METHODS:
-        select(load(name), method, Options())
+        select(load_costs(name), method, Options())
 
 
 def test_the_counted_table_has_what_every_option_needs() -> None:
-    split = select(load("counted-9-3-3"), "dual-rate", Options(gain="precomputed", low_rate_noise="euler"))
+    split = select(load_costs("counted-9-3-3"), "dual-rate", Options(gain="precomputed", low_rate_noise="euler"))
     assert isinstance(split, DualRateCosts)
-    whole = select(load("counted-9-3-3"), "dual-rate", Options())
+    whole = select(load_costs("counted-9-3-3"), "dual-rate", Options())
     assert isinstance(whole, DualRateCosts)
     assert split.lr_gain + split.lr_update == whole.lr_update
 
 
 def test_a_table_survives_being_written_and_read(tmp_path: Path) -> None:
-    for name in shipped_names():
-        table = load(name)
+    for name in shipped_tables():
+        table = load_costs(name)
         path = tmp_path / "copy.toml"
-        path.write_text(cost_table_text(table))
-        again = read_cost_table(path)
+        path.write_text(costs_text(table))
+        again = read_costs(path)
         assert replace(again, path=table.path) == table
 
 
 def test_normalised_costs_have_the_standard_step_as_unit() -> None:
-    entries = load("counted-9-3-3").normalised().costs["standard"]
+    entries = load_costs("counted-9-3-3").normalised().costs["standard"]
     assert entries["propagate"].minimum + entries["update"].minimum == 1
 
 
@@ -98,7 +90,7 @@ def test_normalised_costs_have_the_standard_step_as_unit() -> None:
 def test_what_is_wrong_in_a_file_is_named(file: Path, old: str, new: str, said: list[str]) -> None:
     file.write_text(BY_HAND.replace(old, new, 1))
     with pytest.raises(InputError) as error:
-        load(file)
+        load_costs(file)
     for words in [str(file), *said]:
         assert words in str(error.value)
 
@@ -106,14 +98,14 @@ def test_what_is_wrong_in_a_file_is_named(file: Path, old: str, new: str, said: 
 def test_every_wrong_entry_is_named_at_once(file: Path) -> None:
     file.write_text(BY_HAND.replace("0.21", "-1").replace("0.3", "0"))
     with pytest.raises(InputError, match=r"costs\.larsen\.propagate:.*costs\.larsen\.propagate_accumulate:"):
-        load(file)
+        load_costs(file)
 
 
 def test_a_missing_entry_is_named_with_its_remedy(file: Path) -> None:
     with pytest.raises(InputError, match=r"mine .*no entry \[costs\.dual-rate\] hr_propagate: add the line"):
-        select(load(file), "dual-rate", Options())
+        select(load_costs(file), "dual-rate", Options())
     with pytest.raises(InputError, match=r"no entry \[costs\.dual-rate\] lr_gain"):
-        select(load("steffes2014"), "dual-rate", Options(gain="precomputed"))
+        select(load_costs("steffes2014"), "dual-rate", Options(gain="precomputed"))
 
 
 def test_an_unknown_table_lists_the_shipped_ones() -> None:
@@ -121,14 +113,14 @@ def test_an_unknown_table_lists_the_shipped_ones() -> None:
         InputError,
         match=r"'steffes' not found: give one of counted-9-3-3, erkf-.*, patent-multirate, steffes2014",
     ):
-        load("steffes")
+        load_costs("steffes")
 
 
 def test_a_missing_entry_of_a_shipped_table_names_the_tables_that_have_it() -> None:
     with pytest.raises(InputError, match=r"lr_gain: use --costs counted-9-3-3 or a table that"):
-        select(load("steffes2014"), "dual-rate", Options(gain="precomputed"))
+        select(load_costs("steffes2014"), "dual-rate", Options(gain="precomputed"))
     with pytest.raises(InputError, match=r"use --costs .*patent-multirate"):
-        select(load("steffes2014"), "multirate", Options())
+        select(load_costs("steffes2014"), "multirate", Options())
 
 
 COUNTS = """
@@ -142,7 +134,7 @@ update = { multiply = 7, divide = 1, sqrt = 2, function = 3 }
 
 def test_counts_without_costs_cost_their_arithmetic(file: Path) -> None:
     file.write_text(COUNTS)
-    table = load(file)
+    table = load_costs(file)
     assert table.operations["standard"]["propagate"] == {"multiply": 20, "add": 10, "logic": 70}
     assert select(table, "standard", Options()) == StandardCosts(Fraction(30), Fraction(13))
     assert "operations" not in table.provenance
@@ -150,17 +142,17 @@ def test_counts_without_costs_cost_their_arithmetic(file: Path) -> None:
 
 def test_costs_that_a_file_gives_beside_its_counts_hold(file: Path) -> None:
     file.write_text(COUNTS.replace("operation", "ms", 1) + "[costs.standard]\npropagate = 0.5\n")
-    table = load(file)
+    table = load_costs(file)
     assert table.entry("standard", "propagate").median == Fraction(1, 2)
     assert table.operations["standard"]["update"]["divide"] == 1
 
 
 def test_costs_in_operations_are_those_that_are_counted(file: Path) -> None:
     file.write_text(COUNTS + "[costs.standard]\npropagate = 30\nupdate = 13\n")
-    assert load(file).entry("standard", "propagate").median == 30
+    assert load_costs(file).entry("standard", "propagate").median == 30
     file.write_text(COUNTS + "[costs.standard]\npropagate = 3700\nupdate = { minimum = 13, median = 13, p95 = 14 }\n")
     with pytest.raises(InputError) as error:
-        load(file)
+        load_costs(file)
     for words in [
         "[costs.standard] propagate is 3700 operations, and [operations.standard] propagate makes 30 without its logic",
         "[costs.standard] update is 14 operations, and [operations.standard] update makes 13",
@@ -170,7 +162,7 @@ def test_costs_in_operations_are_those_that_are_counted(file: Path) -> None:
 
 
 def test_the_shipped_counts_are_written_as_they_are_shipped() -> None:
-    assert cost_table_text(load("counted-9-3-3")) == (SHIPPED / "counted-9-3-3.toml").read_text(encoding="utf-8")
+    assert costs_text(load_costs("counted-9-3-3")) == (TABLES / "counted-9-3-3.toml").read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize(
@@ -190,6 +182,6 @@ def test_the_shipped_counts_are_written_as_they_are_shipped() -> None:
 def test_what_is_wrong_with_counts_is_named(file: Path, old: str, new: str, said: list[str]) -> None:
     file.write_text(COUNTS.replace(old, new, 1))
     with pytest.raises(InputError) as error:
-        load(file)
+        load_costs(file)
     for words in [str(file), *said]:
         assert words in str(error.value)

@@ -11,9 +11,10 @@ from typing import Annotated, Any, Self
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
-from sched_sim.cost_documents import CORRECT, PREDICT, refuse_cost_table
-from sched_sim.cost_file import CountsOfJob, Number
-from sched_sim.costs import SECONDS, Counts, arithmetic
+from sched_sim.costs.documents import CORRECT, PREDICT, refuse_cost_table
+from sched_sim.costs.operations import Counts, arithmetic
+from sched_sim.costs.table import SECONDS
+from sched_sim.costs.table_file import CountsOfJob, Number
 from sched_sim.errors import InputError
 from sched_sim.files import write
 from sched_sim.toml_file import read_toml

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from sched_sim.costs.sample_file import SampledCosts, read_sampled_costs, write_sampled_costs
 from sched_sim.errors import InputError
-from sched_sim.sample_file import SampledCosts, read_sampled_costs, write_sampled_costs
 
 BY_HAND = """\
 name = "rocket"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from sched_sim.costs import METHODS
+from sched_sim.costs.methods import METHODS
 from sched_sim.errors import InputError
 
 PREDICT = ("predict", "predict_accumulate")

@@ -3,28 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 from typing import Annotated, Any, Self
 
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, ValidationError, model_validator
 
-from sched_sim.cost_documents import refuse_samples
-from sched_sim.costs import (
-    ARITHMETIC,
-    KINDS,
-    OPERATION_KINDS,
-    Cost,
-    CostTable,
-    arithmetic,
-    positive_cost,
-    shipped_names,
-)
+from sched_sim.costs.documents import refuse_samples
+from sched_sim.costs.methods import KINDS
+from sched_sim.costs.operations import ARITHMETIC, OPERATION_KINDS, arithmetic
+from sched_sim.costs.table import Cost, CostTable, positive_cost
 from sched_sim.errors import InputError
 from sched_sim.files import write
 from sched_sim.toml_file import read_toml
 from sched_sim.toml_problems import problems
 from sched_sim.toml_text import toml_number, toml_tables, toml_value
+
+TABLES = Path(__file__).parent / "tables"
+PAPERS, COUNTED = "steffes2014", "counted-9-3-3"
+"""The tables that are meant if the user names none: of the paper; with a processor, counted operations."""
 
 Entries = dict[str, Any]
 """One method's entries, by job kind."""
@@ -128,13 +126,33 @@ class _CostFile(BaseModel):
                     )
 
 
-def read_cost_table(path: Path, shown: str = "") -> CostTable:
+def shipped_tables() -> list[str]:
+    """The names of the cost tables that come with the project."""
+    return sorted(path.stem for path in TABLES.glob("*.toml"))
+
+
+def load_costs(name_or_path: str | Path) -> CostTable:
+    """A shipped table by its name, or a user's own by its path.
+
+    Raises InputError that names the file, every wrong entry in it, and the remedy.
+    """
+    name = str(name_or_path)
+    if name not in shipped_tables():
+        return read_costs(Path(name))
+    return replace(read_costs(TABLES / f"{name}.toml", shown=name), found_in=_shipped_with)
+
+
+def _shipped_with(method: str, kind: str) -> list[str]:
+    return [name for name in shipped_tables() if kind in load_costs(name).costs.get(method, {})]
+
+
+def read_costs(path: Path, shown: str = "") -> CostTable:
     """The table in `path`; `shown` is what the user called it.
 
     Raises InputError that lists every wrong entry of the file with its value.
     """
     shown = shown or str(path)
-    remedy = f"give one of {', '.join(shipped_names())}, or the path of a TOML file"
+    remedy = f"give one of {', '.join(shipped_tables())}, or the path of a TOML file"
     document = read_toml(path, f"cost table {shown!r}", remedy)
     refuse_samples(document, f"cost table {shown!r}")
     try:
@@ -151,8 +169,8 @@ def read_cost_table(path: Path, shown: str = "") -> CostTable:
     return CostTable(checked.name, checked.unit, costs, dict(checked.model_extra or {}), shown, checked.operations)
 
 
-def cost_table_text(table: CostTable) -> str:
-    """`table` as the TOML text that `read_cost_table` reads back; exact where its costs are decimals."""
+def costs_text(table: CostTable) -> str:
+    """`table` as the TOML text that `read_costs` reads back; exact where its costs are decimals."""
     lines = [f"name = {toml_value(table.name)}", f"unit = {toml_value(table.unit)}"]
     sections: list[str] = []
     for key, value in table.provenance.items():
@@ -167,9 +185,9 @@ def cost_table_text(table: CostTable) -> str:
     return "\n".join([*lines, *sections]) + "\n"
 
 
-def write_cost_table(table: CostTable, path: Path) -> None:
+def write_costs(table: CostTable, path: Path) -> None:
     """Raises InputError if the path cannot be written."""
-    write(path, cost_table_text(table).encode(), "cost table")
+    write(path, costs_text(table).encode(), "cost table")
 
 
 def _toml_cost(cost: Cost) -> str:
