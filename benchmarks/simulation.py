@@ -11,7 +11,7 @@ import simpy
 from benchmarks import preemptive_resource
 from benchmarks.timing import Result, seconds
 from sched_sim.pieces import DualRateCosts
-from sched_sim.schedule import Schedule
+from sched_sim.schedule.outcome import Schedule
 from sched_sim.simulate import simulate
 from sched_sim.timing import Timing
 

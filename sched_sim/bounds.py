@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 from sched_sim.errors import InputError
 
 if TYPE_CHECKING:
-    from sched_sim.tasks import Task
+    from sched_sim.schedule.tasks import Task
 
 MOST_DIGITS = 50
 """Of a number: exact arithmetic takes them all."""

@@ -47,9 +47,8 @@ from operator import itemgetter
 from typing import NamedTuple
 
 from sched_sim.draws import stream, total
-from sched_sim.jobs import Job, Parts, Source
-from sched_sim.methods import Then, step_at
 from sched_sim.scenario import Scenario, Sensor
+from sched_sim.schedule.jobs import Job, Parts, Source, Then, step_at
 
 
 class Measurement(NamedTuple):

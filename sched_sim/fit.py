@@ -10,9 +10,9 @@ from sched_sim.least_speed import LeastSpeed, achieved_l, least_speed
 from sched_sim.load import loads
 from sched_sim.options import Options
 from sched_sim.pieces import JobCosts
+from sched_sim.schedule.tasks import Task
 from sched_sim.search import OnProgress
 from sched_sim.steady import run_until_steady
-from sched_sim.tasks import Task
 from sched_sim.timing import Timing
 
 

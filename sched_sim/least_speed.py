@@ -12,7 +12,7 @@ import numpy as np
 from sched_sim import analysis
 from sched_sim.options import Options
 from sched_sim.pieces import DualRateCosts, JobCosts, TwoRateCosts
-from sched_sim.tasks import Task
+from sched_sim.schedule.tasks import Task
 from sched_sim.ticks import positive, ticks_per_unit, to_ticks
 from sched_sim.timing import Timing, check_dual_rate, check_two_rate, latest_feedback_step
 

@@ -15,7 +15,7 @@ from sched_sim.pieces import (
     RobustCosts,
     StandardCosts,
 )
-from sched_sim.tasks import Task, check_cpus
+from sched_sim.schedule.tasks import Task, check_cpus
 from sched_sim.timing import Timing
 
 

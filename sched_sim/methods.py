@@ -6,7 +6,6 @@ from collections import deque
 from collections.abc import Callable, Hashable
 from dataclasses import replace
 
-from sched_sim.jobs import HR, LR, Job, Parts, RecurringSource
 from sched_sim.options import Options
 from sched_sim.pieces import (
     DualRateCosts,
@@ -17,12 +16,11 @@ from sched_sim.pieces import (
     RobustCosts,
     StandardCosts,
 )
+from sched_sim.schedule.jobs import HR, LR, Job, Parts, RecurringSource, Then, step_at
 from sched_sim.timing import Timing, check_dual_rate, check_two_rate
 
 OnLanding = Callable[[int, int], None]
 """Called with (cycle, achieved L) when a correction has reached the state, or a gain is in use."""
-
-Then = Callable[[Job, int], tuple[Job, ...]]
 
 
 def method_source(costs: JobCosts, timing: Timing, options: Options, period: int, on_landing: OnLanding) -> HrSource:
@@ -48,11 +46,6 @@ def method_source(costs: JobCosts, timing: Timing, options: Options, period: int
         case RobustCosts(inertial, robust_step):
             parts = ("IP", inertial), ("RS", robust_step)
             return TwoRate(*parts, "lr_step", timing, options, period, on_landing)
-
-
-def step_at(finish: int, period: int) -> int:
-    """The step in which something finished; the last instant of a step belongs to it."""
-    return -(-finish // period) - 1
 
 
 class HrSource(RecurringSource):

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from sched_sim.scenario import Scenario, Sensor
 from sched_sim.scenario_pattern import going_back, in_flight
-from sched_sim.tasks import Task
+from sched_sim.schedule.tasks import Task
 
 
 class Load(NamedTuple):

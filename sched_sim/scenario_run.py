@@ -7,15 +7,14 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from sched_sim.bounds import check_simulation
-from sched_sim.clock import Clock, OnProgress
 from sched_sim.composed import ComposedFilter, Measurement, correct_kind
 from sched_sim.distribution import wilson
-from sched_sim.jobs import Source
-from sched_sim.methods import step_at
 from sched_sim.scenario import Scenario, needed_parts
-from sched_sim.schedule import Response, Schedule, Slice
-from sched_sim.simulate import OnSlice, Processor
-from sched_sim.tasks import TaskSource, work_and_times
+from sched_sim.schedule.clock import Clock, OnProgress
+from sched_sim.schedule.jobs import Source, step_at
+from sched_sim.schedule.outcome import Response, Schedule, Slice
+from sched_sim.schedule.processor import OnSlice, Processor
+from sched_sim.schedule.tasks import TaskSource, work_and_times
 from sched_sim.ticks import ticks_per_unit, to_ticks
 
 

@@ -11,9 +11,9 @@ from math import ceil
 from sched_sim.load import loads
 from sched_sim.options import Options
 from sched_sim.pieces import DualRateCosts, JobCosts
-from sched_sim.schedule import Schedule
+from sched_sim.schedule.outcome import Schedule
+from sched_sim.schedule.tasks import Task
 from sched_sim.steady import Steady, longest_run, run_until_steady
-from sched_sim.tasks import Task
 from sched_sim.ticks import ticks_per_unit
 from sched_sim.timing import Timing
 

@@ -18,7 +18,7 @@ from sched_sim.pieces import (
     RobustCosts,
     StandardCosts,
 )
-from sched_sim.tasks import Task
+from sched_sim.schedule.tasks import Task
 from sched_sim.timing import Timing
 
 ticks = st.integers(1, 5) | st.integers(1, 100)

@@ -9,7 +9,7 @@ from typing import Any
 
 from sched_sim.scenario import Scenario, Sensor
 from sched_sim.scenario_run import run_scenario
-from sched_sim.schedule import Slice
+from sched_sim.schedule.outcome import Slice
 
 HR, LR = 10, 20
 ROCKET = Path(__file__).parent / "rocket.toml"

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from itertools import pairwise
 from typing import NamedTuple
 
-from sched_sim.schedule import Schedule, Slice
+from sched_sim.schedule.outcome import Schedule, Slice
 
 TASK = "task:"
 CORRECT = "correct "

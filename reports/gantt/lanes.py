@@ -15,7 +15,7 @@ from reports.drawing.style import FILLS, FONT_PT, GREY, INK, RED, SMALL_PT, TASK
 from reports.gantt.callouts import Callout, callouts, label_fits, shown_label
 from reports.gantt.intervals import TASK, Bar, JobSpan, Row, bars, jobs, overdue_work, rows, waits
 from reports.gantt.scale import Scale
-from sched_sim.schedule import Schedule
+from sched_sim.schedule.outcome import Schedule
 
 Fills = Mapping[str, Fill]
 

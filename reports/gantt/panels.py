@@ -13,9 +13,9 @@ from sched_sim.costs.table import CostTable
 from sched_sim.errors import InputError
 from sched_sim.options import Options
 from sched_sim.pieces import Statistic, select
-from sched_sim.schedule import Schedule
+from sched_sim.schedule.outcome import Schedule
+from sched_sim.schedule.tasks import Task
 from sched_sim.simulate import simulate
-from sched_sim.tasks import Task
 from sched_sim.timing import Timing
 
 METHOD_NAMES = {

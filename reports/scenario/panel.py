@@ -11,10 +11,10 @@ from reports.gantt.intervals import jobs
 from reports.gantt.panels import Mark, Panel
 from sched_sim.composed import correct_kind
 from sched_sim.draws import fates
-from sched_sim.methods import step_at
 from sched_sim.scenario import Scenario, Sensor
 from sched_sim.scenario_run import Outcome, run_scenario
-from sched_sim.schedule import Schedule, Slice
+from sched_sim.schedule.jobs import step_at
+from sched_sim.schedule.outcome import Schedule, Slice
 
 FEWEST_STEPS, MOST_STEPS = 12, 24
 CYCLES = 2

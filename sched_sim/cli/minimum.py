@@ -14,7 +14,7 @@ from sched_sim.costs.table import SECONDS
 if TYPE_CHECKING:
     from sched_sim.options import Options
     from sched_sim.pieces import JobCosts
-    from sched_sim.tasks import Task
+    from sched_sim.schedule.tasks import Task
     from sched_sim.timing import Timing
 
 """Units of costs that are times: then work per second is a share of the processor on which they were found."""

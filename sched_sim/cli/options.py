@@ -16,7 +16,7 @@ from sched_sim.costs.table_file import COUNTED, PAPERS, load_costs
 from sched_sim.errors import InputError
 from sched_sim.options import Gain, LowRateNoise, Options
 from sched_sim.pieces import Statistic
-from sched_sim.tasks import Task
+from sched_sim.schedule.tasks import Task
 from sched_sim.ticks import exact, positive
 from sched_sim.timing import Feedback, Timing, latest_feedback_step
 
@@ -250,7 +250,7 @@ def make_timing(N: int, M: int | None, L: int | None, method: str, options: Opti
 def make_tasks(path: Path | None) -> Sequence[Task]:
     if path is None:
         return ()
-    from sched_sim.task_file import read_tasks
+    from sched_sim.schedule.task_file import read_tasks
 
     return read_tasks(path)
 

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from sched_sim.options import Options
     from sched_sim.pieces import Statistic
     from sched_sim.processor import Processor
-    from sched_sim.tasks import Task
+    from sched_sim.schedule.tasks import Task
     from sched_sim.timing import Timing
 
 Parts = Annotated[

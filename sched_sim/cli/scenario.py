@@ -17,7 +17,7 @@ from sched_sim.cli.progress import progress_bar
 if TYPE_CHECKING:
     from sched_sim.scenario import Scenario, Sensor
     from sched_sim.scenario_run import JobFigures, Outcome, SensorFigures
-    from sched_sim.schedule import Slice
+    from sched_sim.schedule.outcome import Slice
 
 
 def simulate_scenario(
@@ -27,7 +27,7 @@ def simulate_scenario(
     cannot be written or is one that is read."""
     from sched_sim.scenario_file import read_scenario
     from sched_sim.scenario_run import run_scenario
-    from sched_sim.trace import check_trace, open_trace
+    from sched_sim.schedule.trace import check_trace, open_trace
 
     if gantt is not None or histogram is not None:
         from reports.drawing.picture import check_picture

@@ -20,8 +20,8 @@ from sched_sim.shares import percent
 if TYPE_CHECKING:
     from sched_sim.options import Options
     from sched_sim.pieces import JobCosts
-    from sched_sim.schedule import Response, Slice
-    from sched_sim.tasks import Task
+    from sched_sim.schedule.outcome import Response, Slice
+    from sched_sim.schedule.tasks import Task
     from sched_sim.timing import Timing
 
 GanttFile = Annotated[
@@ -114,8 +114,8 @@ def simulate(
     from sched_sim.costs.methods import MULTIRATE_METHODS
     from sched_sim.least_speed import least_speed
     from sched_sim.pieces import select
+    from sched_sim.schedule.trace import check_trace, open_trace
     from sched_sim.simulate import simulate as run
-    from sched_sim.trace import check_trace, open_trace
 
     if gantt is not None:
         from reports.drawing.picture import check_picture

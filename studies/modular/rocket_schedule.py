@@ -41,12 +41,12 @@ from filters.systems.rocket_filter import (
 from sched_sim.costs.sample_file import SampledCosts
 from sched_sim.distribution import wilson
 from sched_sim.draws import fates
-from sched_sim.jobs import HR, LR
 from sched_sim.processor import load_processor, seconds_for
 from sched_sim.scenario import Late, Scenario, Sensor
 from sched_sim.scenario_run import Outcome, run_scenario
-from sched_sim.schedule import Slice
-from sched_sim.tasks import Task
+from sched_sim.schedule.jobs import HR, LR
+from sched_sim.schedule.outcome import Slice
+from sched_sim.schedule.tasks import Task
 from studies.measure_filter import measure_filter
 from studies.user_filter import UserFilter
 

@@ -13,7 +13,7 @@ from sched_sim.costs.table import CostTable
 from sched_sim.errors import InputError
 from sched_sim.options import Options
 from sched_sim.pieces import JobCosts, Statistic, select
-from sched_sim.tasks import Task, check_cpus
+from sched_sim.schedule.tasks import Task, check_cpus
 from sched_sim.timing import Timing, several_in_flight
 from studies.sweep.legal import Designs, Legal, law_of
 

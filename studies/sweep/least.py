@@ -15,7 +15,7 @@ from sched_sim.demand import Quotient
 from sched_sim.least_speed import least_speed
 from sched_sim.options import Options
 from sched_sim.pieces import JobCosts
-from sched_sim.tasks import Task
+from sched_sim.schedule.tasks import Task
 from sched_sim.ticks import ticks_per_unit, to_ticks
 from sched_sim.timing import Timing
 from studies.sweep.grid import Chunk

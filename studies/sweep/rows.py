@@ -5,7 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import Literal, NamedTuple, TypeAlias
 
-from sched_sim.schedule import Schedule
+from sched_sim.schedule.outcome import Schedule
 from sched_sim.timing import Timing
 from studies.sweep.grid import Chunk
 from studies.sweep.least import analyse

@@ -18,7 +18,7 @@ from sched_sim.errors import InputError
 from sched_sim.options import Gain, LowRateNoise, Options
 from sched_sim.pieces import Statistic
 from sched_sim.processor import load_processor, on_processor, shipped_processors
-from sched_sim.task_file import read_tasks
+from sched_sim.schedule.task_file import read_tasks
 from sched_sim.timing import Feedback
 from sched_sim.toml_file import read_toml
 from sched_sim.toml_problems import problems

@@ -15,7 +15,7 @@ from sched_sim.scenario import Scenario, Sensor
 from sched_sim.scenario_file import read_scenario
 from sched_sim.scenario_load import catching_up, demand, loads
 from sched_sim.scenario_run import run_scenario
-from sched_sim.tasks import Task
+from sched_sim.schedule.tasks import Task
 from tests import scenarios
 from tests.scenarios import HR, LR, sensor
 from tests.scenarios import scenario as case

@@ -16,7 +16,7 @@ from sched_sim.costs.table_file import read_costs
 from sched_sim.errors import InputError
 from sched_sim.processor_file import read_processor
 from sched_sim.scenario_file import read_scenario
-from sched_sim.task_file import read_tasks
+from sched_sim.schedule.task_file import read_tasks
 from studies.sweep.settings import settings
 
 SCENARIO = """

@@ -17,7 +17,7 @@ from reports.gantt.panels import cycle_marks, method_panel
 from sched_sim.costs.table_file import load_costs
 from sched_sim.errors import InputError
 from sched_sim.options import Options
-from sched_sim.tasks import Task
+from sched_sim.schedule.tasks import Task
 from sched_sim.timing import Timing
 from tests.reports.layout import flaws, texts
 

@@ -15,9 +15,9 @@ from reports.gantt.intervals import bars, jobs, never_ran, overdue_work, rows, w
 from sched_sim.least_speed import least_speed
 from sched_sim.options import Options
 from sched_sim.pieces import DualRateCosts
-from sched_sim.schedule import Schedule
+from sched_sim.schedule.outcome import Schedule
+from sched_sim.schedule.tasks import Task
 from sched_sim.simulate import simulate
-from sched_sim.tasks import Task
 from sched_sim.timing import Timing
 from tests.designs import Design, designs
 

@@ -18,7 +18,7 @@ from reports.scenario.panel import scenario_panel
 from sched_sim.scenario import Scenario, Sensor
 from sched_sim.scenario_file import read_scenario
 from sched_sim.scenario_run import JobFigures, Outcome, SensorFigures, run_scenario
-from sched_sim.tasks import Task
+from sched_sim.schedule.tasks import Task
 from tests import scenarios
 from tests.reports.layout import flaws, texts
 

@@ -15,7 +15,7 @@ from reports.scenario.panel import LEAST_BAR_MM, Late, first_late, scenario_pane
 from sched_sim.draws import fates
 from sched_sim.scenario import Scenario, Sensor
 from sched_sim.scenario_run import run_scenario
-from sched_sim.tasks import Task
+from sched_sim.schedule.tasks import Task
 from tests.reports.layout import flaws, texts
 from tests.reports.scenario.test_distributions import LONG, OVERLOAD, ROCKET
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from sched_sim.errors import InputError
 from sched_sim.files import check_writable, writing
-from sched_sim.schedule import Slice
+from sched_sim.schedule.outcome import Slice
 from sched_sim.text import csv_cell, json_text
 
 Write = Callable[[Slice], None]

@@ -12,7 +12,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_valida
 
 from sched_sim.bounds import MOST_TASKS
 from sched_sim.errors import InputError
-from sched_sim.tasks import Task
+from sched_sim.schedule.tasks import Task
 from sched_sim.toml_file import read_toml
 from sched_sim.toml_numbers import Number, Positive, Whole
 from sched_sim.toml_problems import problems

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from sched_sim.errors import InputError
-from sched_sim.jobs import Job
+from sched_sim.schedule.jobs import Job
 from sched_sim.ticks import to_ticks
 
 

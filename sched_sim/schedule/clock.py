@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from sched_sim.jobs import Job
+from sched_sim.schedule.jobs import Job
 
 OnProgress = Callable[[int, int, str], None]
 """Called with (steps done, steps in all, what they are)."""

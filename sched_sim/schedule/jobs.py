@@ -13,6 +13,10 @@ LR = 20
 """Priorities of the filter's jobs. Smaller is more urgent (as in SimPy); user tasks may take any whole number."""
 
 
+Then: TypeAlias = "Callable[[Job, int], tuple[Job, ...]]"
+"""Called with a job and the time when it finishes; may return jobs to release at that instant."""
+
+
 class Job:
     """One released piece of work. All times are in ticks.
 
@@ -37,7 +41,7 @@ class Job:
         deadline: int,
         remaining: int,
         parts: Parts,
-        then: Callable[[Job, int], tuple[Job, ...]] | None = None,
+        then: Then | None = None,
         cpu: int = 0,
     ) -> None:
         self.kind = kind
@@ -52,7 +56,7 @@ class Job:
         self.overhead = 0
         self.held = False
 
-    def go_on(self, parts: Parts, then: Callable[[Job, int], tuple[Job, ...]] | None) -> Job:
+    def go_on(self, parts: Parts, then: Then | None) -> Job:
         """The same job with more to do, when it has just finished and its `then` finds that it has not.
 
         It is still the one that ran last: if nothing else runs first, no context switch is charged.
@@ -64,6 +68,11 @@ class Job:
     def state(self, now: int, left: int, overhead: int) -> Hashable:
         """What tells it from others of its source, whenever `now` is; left, overhead: work not yet done."""
         return self.kind, self.release - now, self.deadline - now, left, overhead
+
+
+def step_at(finish: int, period: int) -> int:
+    """The step in which something finished; the last instant of a step belongs to it."""
+    return -(-finish // period) - 1
 
 
 class Source(Protocol):

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import NamedTuple
 
-from sched_sim.jobs import Parts
+from sched_sim.schedule.jobs import Parts
 
 
 class Slice(NamedTuple):

@@ -1,0 +1,1 @@
+"""What runs on a processor: jobs and tasks, the simulated processor itself, its outcome and its trace."""
