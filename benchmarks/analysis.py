@@ -8,8 +8,8 @@ import numpy as np
 
 from benchmarks.simulation import COSTS
 from benchmarks.timing import Result, seconds
-from sched_sim.analysis import achieved_l, least_period
-from sched_sim.options import Options
+from sched_sim.design.analysis import achieved_l, least_period
+from sched_sim.design.options import Options
 
 POINTS = 1_000_000
 

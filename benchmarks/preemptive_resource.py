@@ -7,8 +7,8 @@ from typing import Any
 
 import simpy
 
-from sched_sim.pieces import DualRateCosts
-from sched_sim.timing import Timing
+from sched_sim.design.pieces import DualRateCosts
+from sched_sim.design.timing import Timing
 
 Process = Generator[simpy.Event, Any, None]
 

@@ -10,10 +10,10 @@ import simpy
 
 from benchmarks import preemptive_resource
 from benchmarks.timing import Result, seconds
-from sched_sim.pieces import DualRateCosts
+from sched_sim.design.pieces import DualRateCosts
+from sched_sim.design.simulate import simulate
+from sched_sim.design.timing import Timing
 from sched_sim.schedule.outcome import Schedule
-from sched_sim.simulate import simulate
-from sched_sim.timing import Timing
 
 COSTS = DualRateCosts(hr=63, hr_restart=4, hr_update=3, lr_propagate=41, lr_gain=0, lr_update=56)
 FIGURE_3 = Timing(10, 4, 8)

@@ -17,10 +17,10 @@ from math import sqrt
 from typing import Any, NamedTuple
 
 from sched_sim.costs.table import Cost, CostTable
-from sched_sim.least_speed import LeastSpeed, least_speed
-from sched_sim.options import Options
-from sched_sim.pieces import select
-from sched_sim.timing import Timing
+from sched_sim.design.least_speed import LeastSpeed, least_speed
+from sched_sim.design.options import Options
+from sched_sim.design.pieces import select
+from sched_sim.design.timing import Timing
 
 METHODS = ("recalculate", "larsen", "dual-rate")
 HALF_UNIT = Fraction(5, 1000)

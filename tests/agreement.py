@@ -9,11 +9,11 @@ from math import lcm
 
 import numpy as np
 
-from sched_sim.analysis import NOT_LANDED, achieved_l, least_period
-from sched_sim.options import Options
-from sched_sim.pieces import DualRateCosts, JobCosts
-from sched_sim.simulate import simulate
-from sched_sim.timing import Timing
+from sched_sim.design.analysis import NOT_LANDED, achieved_l, least_period
+from sched_sim.design.options import Options
+from sched_sim.design.pieces import DualRateCosts, JobCosts
+from sched_sim.design.simulate import simulate
+from sched_sim.design.timing import Timing
 from tests.designs import Design
 
 CYCLES = 4

@@ -8,8 +8,8 @@ from typing import NamedTuple
 
 from hypothesis import strategies as st
 
-from sched_sim.options import Options
-from sched_sim.pieces import (
+from sched_sim.design.options import Options
+from sched_sim.design.pieces import (
     DualRateCosts,
     JobCosts,
     LarsenCosts,
@@ -18,8 +18,8 @@ from sched_sim.pieces import (
     RobustCosts,
     StandardCosts,
 )
+from sched_sim.design.timing import Timing
 from sched_sim.schedule.tasks import Task
-from sched_sim.timing import Timing
 
 ticks = st.integers(1, 5) | st.integers(1, 100)
 

@@ -14,7 +14,7 @@ import pytest
 import filters.modular
 from sched_sim.cli import main
 from sched_sim.costs.table_file import load_costs
-from sched_sim.timing import Timing
+from sched_sim.design.timing import Timing
 from studies.steffes import cells, least_speeds
 
 README = (Path(__file__).parents[1] / "README.md").read_text()

@@ -25,10 +25,10 @@ from reports.pages.render import csv_bytes, render
 from sched_sim.costs.methods import ROBUST_METHODS, RobustMethod
 from sched_sim.costs.table import CostTable
 from sched_sim.costs.table_file import load_costs
-from sched_sim.fit import fit
-from sched_sim.least_speed import least_speed
+from sched_sim.design.fit import fit
+from sched_sim.design.least_speed import least_speed
+from sched_sim.design.timing import Timing
 from sched_sim.processor import Processor, load_processor, shipped_processors
-from sched_sim.timing import Timing
 from studies.robust import drive
 from studies.robust.costs import HR_HZ, SYSTEMS, N, SystemName
 

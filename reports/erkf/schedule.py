@@ -13,10 +13,10 @@ from reports.drawing.axes import AXIS_MM, EDGE_MM, TITLE_MM, decades, plain
 from reports.drawing.legend import draw_legend, legend_height, line_entry
 from reports.drawing.style import SOURCE_LINES, TITLE_PT, WIDTH_MM, axes_at, drawing, page
 from reports.gantt.panels import Panel, cycle_marks
-from sched_sim.least_speed import achieved_l, least_speed
-from sched_sim.pieces import RobustCosts, StandardCosts
-from sched_sim.simulate import simulate
-from sched_sim.timing import Timing
+from sched_sim.design.least_speed import achieved_l, least_speed
+from sched_sim.design.pieces import RobustCosts, StandardCosts
+from sched_sim.design.simulate import simulate
+from sched_sim.design.timing import Timing
 
 LEFT_MM, RIGHT_MM, GAP_MM, PLOT_MM = 15.0, 4.0, 16.0, 56.0
 LINES = SOURCE_LINES[1:]

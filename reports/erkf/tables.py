@@ -13,12 +13,12 @@ from reports.pages.machine import marked, residue
 from reports.pages.numbers import percent, plus_minus, significant
 from sched_sim.costs.methods import ROBUST_METHODS
 from sched_sim.costs.table import CostTable
-from sched_sim.fit import fit
-from sched_sim.least_speed import achieved_l, least_speed
-from sched_sim.options import Options
-from sched_sim.pieces import RobustCosts, StandardCosts, select
+from sched_sim.design.fit import fit
+from sched_sim.design.least_speed import achieved_l, least_speed
+from sched_sim.design.options import Options
+from sched_sim.design.pieces import RobustCosts, StandardCosts, select
+from sched_sim.design.timing import Timing
 from sched_sim.processor import Processor, on_processor
-from sched_sim.timing import Timing
 from studies.robust.costs import HR_HZ, SYSTEMS, N, SystemName, parallel_costs
 
 Rows = list[list[Any]]

@@ -10,13 +10,13 @@ from typing import NamedTuple
 from sched_sim.bounds import check_simulation
 from sched_sim.costs.methods import MULTIRATE_METHODS, TWO_RATE_METHODS
 from sched_sim.costs.table import CostTable
+from sched_sim.design.options import Options
+from sched_sim.design.pieces import Statistic, select
+from sched_sim.design.simulate import simulate
+from sched_sim.design.timing import Timing
 from sched_sim.errors import InputError
-from sched_sim.options import Options
-from sched_sim.pieces import Statistic, select
 from sched_sim.schedule.outcome import Schedule
 from sched_sim.schedule.tasks import Task
-from sched_sim.simulate import simulate
-from sched_sim.timing import Timing
 
 METHOD_NAMES = {
     "standard": "Standard (no delay)",

@@ -10,10 +10,10 @@ from typing import NamedTuple
 from filters.systems.gps import gps
 from sched_sim.costs.table import Cost, CostTable
 from sched_sim.costs.table_file import load_costs
-from sched_sim.options import Options
-from sched_sim.pieces import MultirateCosts, select
+from sched_sim.design.options import Options
+from sched_sim.design.pieces import MultirateCosts, select
+from sched_sim.design.timing import Timing
 from sched_sim.processor import Processor, on_processor
-from sched_sim.timing import Timing
 from studies.measure import measure
 
 

@@ -16,10 +16,10 @@ from reports.drawing.style import INK, PALE, SMALL_PT, SOURCE_LINES, WIDTH_MM, L
 from reports.gantt.chart import gantt
 from reports.gantt.panels import Panel, cycle_marks, method_panel
 from sched_sim.costs.table import CostTable
-from sched_sim.load import load
-from sched_sim.pieces import MultirateCosts, StandardCosts
-from sched_sim.simulate import simulate
-from sched_sim.timing import Timing
+from sched_sim.design.load import load
+from sched_sim.design.pieces import MultirateCosts, StandardCosts
+from sched_sim.design.simulate import simulate
+from sched_sim.design.timing import Timing
 
 EDGE_MM, LEFT_MM, RIGHT_MM, PLOT_MM, AXIS_MM = 2.0, 13.0, 15.0, 64.0, 11.0
 NUMBERS = (0.5, 1, 2, 3, 4, 5, 7, 10, 15, 20, 30, 50, 70, 100)

@@ -16,8 +16,8 @@ from reports.multirate.results import PERIODS, RECEIVER, SHOWN, Results
 from reports.multirate.words import ratio_text, scenario_text
 from reports.pages.numbers import decimal, percent, significant
 from reports.pages.render import csv_bytes, render
-from sched_sim.fit import fit
-from sched_sim.load import load
+from sched_sim.design.fit import fit
+from sched_sim.design.load import load
 from sched_sim.processor import Processor, load_processor, on_processor, shipped_processors
 from studies.multirate import patent
 from studies.multirate.accuracy import ACCELERATION_NOISES, GOOD, SPEEDS, TRACKING_INDICES, Reading, largest_good

@@ -11,8 +11,8 @@ from reports.multirate.results import RECEIVER, SHOWN, Results
 from reports.multirate.words import ratio_text, scenario_text
 from reports.pages.numbers import decimal, percent, significant
 from sched_sim.costs.operations import arithmetic
-from sched_sim.fit import fit
-from sched_sim.load import load
+from sched_sim.design.fit import fit
+from sched_sim.design.load import load
 from sched_sim.processor import Processor
 from studies.multirate.accuracy import GOOD, Accuracy, Reading, largest_good
 from studies.multirate.patent import CYCLES, Load, comparison, terms

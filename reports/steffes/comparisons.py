@@ -24,8 +24,8 @@ from reports.drawing.style import (
 from reports.gantt.panels import METHOD_NAMES
 from sched_sim.costs.methods import KINDS
 from sched_sim.costs.table import CostTable
+from sched_sim.design.timing import Timing
 from sched_sim.errors import InputError
-from sched_sim.timing import Timing
 
 ROW_MM, TITLE_MM, AXIS_MM, GAP_MM, EDGE_MM, RIGHT_MM = 4.6, 6.0, 10.5, 6.0, 2.0, 5.0
 SPEED_UNIT = "standard steps per HR period"

@@ -9,10 +9,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sched_sim import analysis
-from sched_sim.least_speed import Stair
-from sched_sim.options import Options
-from sched_sim.pieces import DualRateCosts, JobCosts
+from sched_sim.design import analysis
+from sched_sim.design.least_speed import Stair
+from sched_sim.design.options import Options
+from sched_sim.design.pieces import DualRateCosts, JobCosts
 from sched_sim.ticks import ticks_per_unit, to_ticks
 
 

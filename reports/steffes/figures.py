@@ -18,9 +18,9 @@ from reports.steffes.comparisons import SPEED_UNIT, Speeds, cost_figure, table4_
 from reports.steffes.curves import achieved_curve, hr_limit, knee, speed_grid
 from sched_sim.costs.methods import DELAYED_METHODS
 from sched_sim.costs.table import CostTable
-from sched_sim.least_speed import Stair, staircase
-from sched_sim.options import Options
-from sched_sim.pieces import DualRateCosts, select
+from sched_sim.design.least_speed import Stair, staircase
+from sched_sim.design.options import Options
+from sched_sim.design.pieces import DualRateCosts, select
 
 __all__ = ["Speeds", "achieved_figure", "cost_figure", "least_speed_figure", "table4_figure"]
 

@@ -11,16 +11,16 @@ from reports.pages.render import csv_bytes, render
 from reports.steffes.comparisons import Speeds, cost_figure, table4_figure
 from reports.steffes.figures import achieved_figure, least_speed_figure
 from reports.steffes.timelines import dual_rate_timeline, serial_costs, serial_timeline
-from sched_sim.analysis import BINDING_WORDS
 from sched_sim.costs.methods import DELAYED_METHODS
 from sched_sim.costs.table import CostTable
 from sched_sim.costs.table_file import costs_text, load_costs
-from sched_sim.least_speed import achieved_l, least_speed
-from sched_sim.load import load as busy
-from sched_sim.options import Options
-from sched_sim.pieces import select
-from sched_sim.simulate import simulate
-from sched_sim.timing import Timing
+from sched_sim.design.analysis import BINDING_WORDS
+from sched_sim.design.least_speed import achieved_l, least_speed
+from sched_sim.design.load import load as busy
+from sched_sim.design.options import Options
+from sched_sim.design.pieces import select
+from sched_sim.design.simulate import simulate
+from sched_sim.design.timing import Timing
 from studies import steffes
 
 TITLE = "Steffes 2014, regenerated: which processor a delayed-measurement Kalman filter needs"

@@ -21,11 +21,11 @@ from reports.gantt.marks import draw_marks
 from reports.gantt.panels import METHOD_NAMES, Panel, cycle_marks
 from reports.gantt.scale import Scale
 from sched_sim.costs.table import CostTable
+from sched_sim.design.options import Options
+from sched_sim.design.pieces import JobCosts, LarsenCosts, select
+from sched_sim.design.simulate import simulate
+from sched_sim.design.timing import Timing
 from sched_sim.errors import InputError
-from sched_sim.options import Options
-from sched_sim.pieces import JobCosts, LarsenCosts, select
-from sched_sim.simulate import simulate
-from sched_sim.timing import Timing
 
 LEFT_MM, RIGHT_MM, MARKS_MM, AXIS_MM, KEY_LINE_MM, EDGE_MM = 12.0, 7.0, 5.0, 6.5, 4.6, 2.0
 

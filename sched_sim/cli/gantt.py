@@ -51,8 +51,8 @@ def gantt(
     from reports.drawing.picture import check_picture
     from reports.gantt.chart import gantt as draw
     from reports.gantt.chart import method_panel, save
-    from sched_sim.least_speed import least_speed
-    from sched_sim.pieces import select
+    from sched_sim.design.least_speed import least_speed
+    from sched_sim.design.pieces import select
 
     check_picture(output, "--output")
     inputs = [("--costs", costs), ("--processor", processor), ("--tasks", tasks)]

@@ -12,10 +12,10 @@ from sched_sim.cli.progress import simulations
 from sched_sim.costs.table import SECONDS
 
 if TYPE_CHECKING:
-    from sched_sim.options import Options
-    from sched_sim.pieces import JobCosts
+    from sched_sim.design.options import Options
+    from sched_sim.design.pieces import JobCosts
+    from sched_sim.design.timing import Timing
     from sched_sim.schedule.tasks import Task
-    from sched_sim.timing import Timing
 
 """Units of costs that are times: then work per second is a share of the processor on which they were found."""
 
@@ -50,10 +50,10 @@ def minimum(
     from sched_sim.cli.parts import MEANING, fit_row, fit_words, fixed_by, least_row
     from sched_sim.cli.update_form import update_form, update_note
     from sched_sim.costs.table_file import COUNTED
-    from sched_sim.fit import fit
-    from sched_sim.least_speed import least_speed
-    from sched_sim.pieces import select
-    from sched_sim.timing import impossible
+    from sched_sim.design.fit import fit
+    from sched_sim.design.least_speed import least_speed
+    from sched_sim.design.pieces import select
+    from sched_sim.design.timing import impossible
 
     options = opt.make_options(lr_propagate_by, feedback, gain, low_rate_noise, cpus, context_switch)
     part = opt.make_processor(processor)
@@ -98,10 +98,10 @@ def minimum(
 
 def _landing(costs: JobCosts, timing: Timing, speed: Fraction, options: Options, tasks: Sequence[Task]) -> int:
     """The latest L at which a correction lands at the least speed."""
-    from sched_sim.least_speed import achieved_l
+    from sched_sim.design.least_speed import achieved_l
 
     if tasks or options.context_switch:
-        from sched_sim.steady import run_until_steady
+        from sched_sim.design.steady import run_until_steady
 
         return max(run_until_steady(costs, timing, speed, options, tasks).schedule.achieved)
     landed = achieved_l(costs, timing, speed, options)

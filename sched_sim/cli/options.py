@@ -13,15 +13,15 @@ from sched_sim.bounds import MOST_STEPS, short
 from sched_sim.costs.methods import METHODS, TWO_RATE_METHODS, Method
 from sched_sim.costs.table import CostTable, default_methods
 from sched_sim.costs.table_file import COUNTED, PAPERS, load_costs
+from sched_sim.design.options import Gain, LowRateNoise, Options
+from sched_sim.design.pieces import Statistic
+from sched_sim.design.timing import Feedback, Timing, latest_feedback_step
 from sched_sim.errors import InputError
-from sched_sim.options import Gain, LowRateNoise, Options
-from sched_sim.pieces import Statistic
 from sched_sim.schedule.tasks import Task
 from sched_sim.ticks import exact, positive
-from sched_sim.timing import Feedback, Timing, latest_feedback_step
 
 if TYPE_CHECKING:
-    from sched_sim.least_speed import LeastSpeed
+    from sched_sim.design.least_speed import LeastSpeed
     from sched_sim.processor import Processor
 
 DESIGN = "Design"

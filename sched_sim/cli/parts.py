@@ -8,10 +8,10 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from sched_sim.fit import Fit
-    from sched_sim.least_speed import LeastSpeed
+    from sched_sim.design.fit import Fit
+    from sched_sim.design.least_speed import LeastSpeed
+    from sched_sim.design.timing import Timing
     from sched_sim.processor import Processor
-    from sched_sim.timing import Timing
 
 
 def least_row(method: str, timing: Timing, least: LeastSpeed | None) -> dict[str, Any]:
@@ -30,7 +30,7 @@ def least_row(method: str, timing: Timing, least: LeastSpeed | None) -> dict[str
 
 def fixed_by(binding: str | None) -> str | None:
     """What fixes the least speed, in words."""
-    from sched_sim.analysis import BINDING_WORDS
+    from sched_sim.design.analysis import BINDING_WORDS
 
     return None if binding is None else BINDING_WORDS.get(binding, binding)
 

@@ -16,11 +16,11 @@ from sched_sim.costs.table_file import COUNTED
 if TYPE_CHECKING:
     from fractions import Fraction
 
-    from sched_sim.options import Options
-    from sched_sim.pieces import Statistic
+    from sched_sim.design.options import Options
+    from sched_sim.design.pieces import Statistic
+    from sched_sim.design.timing import Timing
     from sched_sim.processor import Processor
     from sched_sim.schedule.tasks import Task
-    from sched_sim.timing import Timing
 
 Parts = Annotated[
     list[str] | None,
@@ -177,9 +177,9 @@ def _verdicts(
     from sched_sim.cli.progress import simulations
     from sched_sim.cli.update_form import update_form, update_note
     from sched_sim.costs.table_file import load_costs
+    from sched_sim.design.fit import fit
+    from sched_sim.design.pieces import select
     from sched_sim.errors import InputError
-    from sched_sim.fit import fit
-    from sched_sim.pieces import select
     from sched_sim.processor import on_processor
 
     rows, shown, reasons = [], [], []

@@ -18,11 +18,11 @@ from sched_sim.errors import InputError
 from sched_sim.shares import percent
 
 if TYPE_CHECKING:
-    from sched_sim.options import Options
-    from sched_sim.pieces import JobCosts
+    from sched_sim.design.options import Options
+    from sched_sim.design.pieces import JobCosts
+    from sched_sim.design.timing import Timing
     from sched_sim.schedule.outcome import Response, Slice
     from sched_sim.schedule.tasks import Task
-    from sched_sim.timing import Timing
 
 GanttFile = Annotated[
     Path | None,
@@ -112,10 +112,10 @@ def simulate(
 
     from sched_sim.cli.update_form import update_form, update_note
     from sched_sim.costs.methods import MULTIRATE_METHODS
-    from sched_sim.least_speed import least_speed
-    from sched_sim.pieces import select
+    from sched_sim.design.least_speed import least_speed
+    from sched_sim.design.pieces import select
+    from sched_sim.design.simulate import simulate as run
     from sched_sim.schedule.trace import check_trace, open_trace
-    from sched_sim.simulate import simulate as run
 
     if gantt is not None:
         from reports.drawing.picture import check_picture
@@ -191,14 +191,14 @@ def unseen(
     costs: JobCosts, timing: Timing, speed: Fraction, cycles: int, options: Options, tasks: Sequence[Task]
 ) -> str | None:
     """What is still to come after so many measurement cycles without a miss, in words; None if nothing new."""
-    from sched_sim.load import loads
+    from sched_sim.design.load import loads
 
     shown = f"{cycles} {'cycle is' if cycles == 1 else 'cycles are'} shown"
     if (most := max(loads(costs, timing, speed, options, tasks))) > 1:
         return f"{shown}; the work is {_above(most)} of what the processor can do, and piles up without end"
     if not tasks and not options.context_switch:
         return None
-    from sched_sim.steady import run_until_steady
+    from sched_sim.design.steady import run_until_steady
 
     try:
         steady = run_until_steady(costs, timing, speed, options, tasks)

@@ -17,7 +17,7 @@ from sched_sim.cli.output import lines, print_csv, print_json, print_table, say
 from sched_sim.cli.outputs import refuse_one_file_for_two
 from sched_sim.cli.parts import TASKS_ON_PARTS, WORDS
 from sched_sim.costs.table_file import COUNTED, PAPERS
-from sched_sim.pieces import Statistic
+from sched_sim.design.pieces import Statistic
 
 if TYPE_CHECKING:
     from studies.sweep.run import Outcome, Sweep

@@ -10,11 +10,11 @@ from itertools import accumulate, product
 
 from sched_sim.costs.methods import DELAYED_METHODS
 from sched_sim.costs.table import CostTable
+from sched_sim.design.options import Options
+from sched_sim.design.pieces import JobCosts, Statistic, select
+from sched_sim.design.timing import Timing, several_in_flight
 from sched_sim.errors import InputError
-from sched_sim.options import Options
-from sched_sim.pieces import JobCosts, Statistic, select
 from sched_sim.schedule.tasks import Task, check_cpus
-from sched_sim.timing import Timing, several_in_flight
 from studies.sweep.legal import Designs, Legal, law_of
 
 MOST_PAIRS = 10_000_000
@@ -120,7 +120,7 @@ class Grid:
         for options in self.options:
             check_cpus(self.tasks, options.cpus)
         if self.tasks or any(options.context_switch for options in self.options):
-            from sched_sim.steady import longest_run
+            from sched_sim.design.steady import longest_run
 
             for N in self.N:
                 longest_run(Timing(N, 0, N), self.tasks)

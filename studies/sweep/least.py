@@ -10,14 +10,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sched_sim import analysis
-from sched_sim.demand import Quotient
-from sched_sim.least_speed import least_speed
-from sched_sim.options import Options
-from sched_sim.pieces import JobCosts
+from sched_sim.design import analysis
+from sched_sim.design.demand import Quotient
+from sched_sim.design.least_speed import least_speed
+from sched_sim.design.options import Options
+from sched_sim.design.pieces import JobCosts
+from sched_sim.design.timing import Timing
 from sched_sim.schedule.tasks import Task
 from sched_sim.ticks import ticks_per_unit, to_ticks
-from sched_sim.timing import Timing
 from studies.sweep.grid import Chunk
 from studies.sweep.legal import Ints
 
@@ -132,8 +132,8 @@ FIRST_CYCLES = 4
 
 
 def _simulated(costs: JobCosts, timing: Timing, speed: Fraction, options: Options, tasks: Sequence[Task]) -> Outcome:
-    from sched_sim.simulate import simulate
-    from sched_sim.steady import run_until_steady
+    from sched_sim.design.simulate import simulate
+    from sched_sim.design.steady import run_until_steady
 
     steady = run_until_steady(costs, timing, speed, options, tasks)
     if steady.repeats:

@@ -10,8 +10,8 @@ import numpy as np
 import numpy.typing as npt
 
 from sched_sim.costs.methods import TWO_RATE_METHODS
+from sched_sim.design.timing import Feedback
 from sched_sim.errors import InputError
-from sched_sim.timing import Feedback
 
 Ints: TypeAlias = npt.NDArray[Any]
 
@@ -37,7 +37,7 @@ class Law(NamedTuple):
 
 
 def law_of(method: str, feedback: Feedback) -> Law:
-    """What L a method may have (see `sched_sim.timing`). The serial methods land at m, whatever L is."""
+    """What L a method may have (see `sched_sim.design.timing`). The serial methods land at m, whatever L is."""
     if method in TWO_RATE_METHODS:
         return Law(1, 0, only_first=False, undelayed=True)
     if method != "dual-rate":

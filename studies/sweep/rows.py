@@ -5,8 +5,8 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import Literal, NamedTuple, TypeAlias
 
+from sched_sim.design.timing import Timing
 from sched_sim.schedule.outcome import Schedule
-from sched_sim.timing import Timing
 from studies.sweep.grid import Chunk
 from studies.sweep.least import analyse
 
@@ -85,7 +85,7 @@ def rows_of(chunk: Chunk, cycles: int | None) -> list[Row]:
 
 def _simulation(chunk: Chunk, timing: Timing, speed: Fraction, cycles: int) -> Row:
     """The figures of `SIMULATION_COLUMNS`."""
-    from sched_sim.simulate import simulate
+    from sched_sim.design.simulate import simulate
 
     block = chunk.block
     schedule = simulate(block.costs, timing, speed, cycles, block.options, block.tasks)

@@ -9,9 +9,9 @@ from itertools import chain
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from sched_sim.design.steady import hyperperiod_steps
+from sched_sim.design.timing import Timing
 from sched_sim.errors import InputError
-from sched_sim.steady import hyperperiod_steps
-from sched_sim.timing import Timing
 from studies.sweep.grid import Chunk, Grid
 from studies.sweep.rows import Column, Row, columns, rows_of
 from studies.sweep.stopping import stop_signals

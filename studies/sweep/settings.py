@@ -14,12 +14,12 @@ from sched_sim.bounds import MOST_STEPS, short
 from sched_sim.costs.methods import METHODS
 from sched_sim.costs.table import CostTable, default_methods
 from sched_sim.costs.table_file import COUNTED, PAPERS, load_costs, shipped_tables
+from sched_sim.design.options import Gain, LowRateNoise, Options
+from sched_sim.design.pieces import Statistic
+from sched_sim.design.timing import Feedback
 from sched_sim.errors import InputError
-from sched_sim.options import Gain, LowRateNoise, Options
-from sched_sim.pieces import Statistic
 from sched_sim.processor import load_processor, on_processor, shipped_processors
 from sched_sim.schedule.task_file import read_tasks
-from sched_sim.timing import Feedback
 from sched_sim.toml_file import read_toml
 from sched_sim.toml_problems import problems
 from studies.sweep.axes import numbers, whole_numbers, words

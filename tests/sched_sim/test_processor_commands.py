@@ -11,12 +11,12 @@ from pathlib import Path
 import pytest
 
 from sched_sim.costs.table_file import load_costs
-from sched_sim.least_speed import least_speed
-from sched_sim.options import Options
-from sched_sim.pieces import select
+from sched_sim.design.least_speed import least_speed
+from sched_sim.design.options import Options
+from sched_sim.design.pieces import select
+from sched_sim.design.simulate import simulate
+from sched_sim.design.timing import Timing
 from sched_sim.processor import load_processor, on_processor, shipped_processors
-from sched_sim.simulate import simulate
-from sched_sim.timing import Timing
 from tests.command_line import Run, is_refused
 
 MY_PART = """\

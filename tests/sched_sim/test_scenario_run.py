@@ -13,12 +13,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from sched_sim.pieces import JobCosts, LarsenCosts, RecalculateCosts, StandardCosts
+from sched_sim.design.pieces import JobCosts, LarsenCosts, RecalculateCosts, StandardCosts
+from sched_sim.design.simulate import simulate
+from sched_sim.design.timing import Timing
 from sched_sim.scenario import Late, Scenario
 from sched_sim.scenario_run import Outcome, run_scenario
 from sched_sim.schedule.tasks import Task
-from sched_sim.simulate import simulate
-from sched_sim.timing import Timing
 from tests.scenarios import HR, LR, scenario, sensor
 
 

@@ -6,7 +6,7 @@ from fractions import Fraction
 
 import pytest
 
-from sched_sim.schedule import Response, Schedule, Slice
+from sched_sim.schedule.outcome import Response, Schedule, Slice
 
 
 def slice_of(start: int, end: int, *, begin: int = 0, overhead: int = 0, finished: bool = True) -> Slice:

@@ -10,9 +10,9 @@ import pytest
 from filters.systems.example import example_system
 from filters.systems.navigation import vehicle
 from sched_sim.costs.methods import KINDS, SYSTEM_METHODS
+from sched_sim.design.options import Options
+from sched_sim.design.pieces import select
 from sched_sim.errors import InputError
-from sched_sim.options import Options
-from sched_sim.pieces import select
 from studies.measure import BackendName, measure
 from studies.user_system import load_system
 from tests.command_line import Run

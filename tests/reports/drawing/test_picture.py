@@ -12,9 +12,9 @@ from reports.drawing.picture import image, save
 from reports.gantt.chart import gantt, method_panel
 from reports.steffes.timelines import dual_rate_timeline
 from sched_sim.costs.table_file import load_costs
+from sched_sim.design.timing import Timing
 from sched_sim.errors import InputError
 from sched_sim.ticks import exact
-from sched_sim.timing import Timing
 
 
 def picture() -> Figure:

@@ -23,9 +23,9 @@ from reports.erkf.schedule import millions, one_period, speed_figure, two_rates
 from reports.erkf.singular import WAYS, singular_figure
 from reports.gantt.chart import gantt
 from reports.gantt.intervals import jobs
-from sched_sim.least_speed import least_speed
-from sched_sim.pieces import RobustCosts
-from sched_sim.timing import Timing
+from sched_sim.design.least_speed import least_speed
+from sched_sim.design.pieces import RobustCosts
+from sched_sim.design.timing import Timing
 from tests.reports.layout import flaws, texts
 
 COSTS = RobustCosts(Fraction(10), Fraction(900))

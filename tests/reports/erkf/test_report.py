@@ -20,10 +20,10 @@ from reports.pages.stored import Rows
 from sched_sim.costs.methods import ROBUST_METHODS
 from sched_sim.costs.table import Cost, CostTable
 from sched_sim.costs.table_file import load_costs
-from sched_sim.least_speed import least_speed
-from sched_sim.pieces import StandardCosts
+from sched_sim.design.least_speed import least_speed
+from sched_sim.design.pieces import StandardCosts
+from sched_sim.design.timing import Timing
 from sched_sim.processor import shipped_processors
-from sched_sim.timing import Timing
 from studies.robust.costs import SYSTEMS, N
 from tests.command_line import Run
 from tests.reports import published

@@ -15,10 +15,10 @@ from reports.gantt.chart import Panel, gantt
 from reports.gantt.intervals import bars, jobs
 from reports.gantt.panels import cycle_marks, method_panel
 from sched_sim.costs.table_file import load_costs
+from sched_sim.design.options import Options
+from sched_sim.design.timing import Timing
 from sched_sim.errors import InputError
-from sched_sim.options import Options
 from sched_sim.schedule.tasks import Task
-from sched_sim.timing import Timing
 from tests.reports.layout import flaws, texts
 
 PAPER = load_costs("steffes2014")

@@ -12,13 +12,13 @@ from hypothesis import strategies as st
 
 from reports.drawing.placing import spread, worst_shift
 from reports.gantt.intervals import bars, jobs, never_ran, overdue_work, rows, waits
-from sched_sim.least_speed import least_speed
-from sched_sim.options import Options
-from sched_sim.pieces import DualRateCosts
+from sched_sim.design.least_speed import least_speed
+from sched_sim.design.options import Options
+from sched_sim.design.pieces import DualRateCosts
+from sched_sim.design.simulate import simulate
+from sched_sim.design.timing import Timing
 from sched_sim.schedule.outcome import Schedule
 from sched_sim.schedule.tasks import Task
-from sched_sim.simulate import simulate
-from sched_sim.timing import Timing
 from tests.designs import Design, designs
 
 overload = Design(DualRateCosts(63, 4, 3, 41, 0, 56), Timing(10, 4, 8), Options())

@@ -11,9 +11,9 @@ from reports.gantt.intervals import bars
 from reports.multirate.accuracy import Curve, Family, start_figure, steady_figure
 from reports.multirate.costs import least_time_of, our_forms, patents_form
 from reports.multirate.figures import load_figure, one_loop_panel, rates_figure, two_rates_panel
-from sched_sim.load import load
+from sched_sim.design.load import load
+from sched_sim.design.timing import Timing
 from sched_sim.processor import load_processor, on_processor
-from sched_sim.timing import Timing
 from tests.reports.layout import flaws, texts
 
 PATENT = load_processor("patent")

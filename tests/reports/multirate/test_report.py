@@ -11,7 +11,7 @@ from reports.multirate import tables
 from reports.multirate.costs import every, least_time_of, our_forms, patents_form, time_of
 from reports.multirate.report import build
 from reports.multirate.results import PERIODS, SHOWN, Results, results
-from sched_sim.load import load
+from sched_sim.design.load import load
 from sched_sim.processor import load_processor, shipped_processors
 from studies.multirate import patent
 from studies.multirate.accuracy import largest_good

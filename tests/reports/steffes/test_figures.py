@@ -13,12 +13,12 @@ from reports.drawing.style import METHOD_LINES
 from reports.steffes.curves import achieved_curve, hr_limit, knee, speed_grid
 from reports.steffes.figures import Speeds, achieved_figure, cost_figure, least_speed_figure, table4_figure
 from sched_sim.costs.table_file import load_costs
+from sched_sim.design.least_speed import achieved_l, least_speed, staircase
+from sched_sim.design.options import Options
+from sched_sim.design.pieces import DualRateCosts, select
+from sched_sim.design.simulate import simulate
+from sched_sim.design.timing import Timing
 from sched_sim.errors import InputError
-from sched_sim.least_speed import achieved_l, least_speed, staircase
-from sched_sim.options import Options
-from sched_sim.pieces import DualRateCosts, select
-from sched_sim.simulate import simulate
-from sched_sim.timing import Timing
 from tests.designs import Design, designs
 from tests.reports.layout import flaws, texts
 

@@ -11,13 +11,13 @@ from pathlib import Path
 import pytest
 
 from sched_sim.costs.table_file import load_costs
+from sched_sim.design.options import Options
+from sched_sim.design.pieces import select
+from sched_sim.design.simulate import simulate
+from sched_sim.design.timing import Timing
 from sched_sim.errors import InputError
-from sched_sim.options import Options
-from sched_sim.pieces import select
 from sched_sim.schedule.outcome import Schedule
 from sched_sim.schedule.trace import open_trace
-from sched_sim.simulate import simulate
-from sched_sim.timing import Timing
 
 
 def traced(path: Path, speed: str = "0.77", scale: float = 1000.0) -> Schedule:

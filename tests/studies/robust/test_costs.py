@@ -12,11 +12,11 @@ from filters.kernels.backends import arguments_for, function_for
 from filters.robust_jobs import robust_jobs
 from sched_sim.costs.methods import ROBUST_METHODS
 from sched_sim.costs.table_file import TABLES, costs_text
-from sched_sim.least_speed import least_speed
-from sched_sim.options import Options
-from sched_sim.pieces import RobustCosts, StandardCosts, select
-from sched_sim.simulate import simulate
-from sched_sim.timing import Timing
+from sched_sim.design.least_speed import least_speed
+from sched_sim.design.options import Options
+from sched_sim.design.pieces import RobustCosts, StandardCosts, select
+from sched_sim.design.simulate import simulate
+from sched_sim.design.timing import Timing
 from studies.robust.costs import SYSTEMS, N, SystemName, parallel_costs, robust_case, robust_costs
 from tests.command_line import Run, is_refused
 

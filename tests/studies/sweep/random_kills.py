@@ -68,7 +68,7 @@ def _prepare() -> None:
     workers.get_context = lambda _: _Forks()
     workers._watch = _watch_alone
     _libc.prctl(PR_SET_CHILD_SUBREAPER, 1)
-    importlib.import_module("sched_sim.simulate")
+    importlib.import_module("sched_sim.design.simulate")
 
 
 class _Fork(ForkProcess):

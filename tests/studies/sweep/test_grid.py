@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 
 from sched_sim.costs.methods import DELAYED_METHODS, METHODS, TWO_RATE_METHODS
 from sched_sim.costs.table_file import load_costs
+from sched_sim.design.options import Options
+from sched_sim.design.timing import Timing, check_dual_rate, check_two_rate, latest_feedback_step
 from sched_sim.errors import InputError
-from sched_sim.options import Options
-from sched_sim.timing import Timing, check_dual_rate, check_two_rate, latest_feedback_step
 from studies.sweep.grid import Grid
 from studies.sweep.legal import Legal, law_of
 
@@ -38,7 +38,7 @@ def is_legal(method, feedback, N, M, L):
 
 
 def legal_designs(method, feedback, Ns, Ms, Ls):
-    """One by one, by the rules of `sched_sim.timing`."""
+    """One by one, by the rules of `sched_sim.design.timing`."""
     for N in Ns:
         for M in Ms or range(N + 1):
             only_m = method in ("standard", "recalculate", "larsen")

@@ -9,10 +9,10 @@ from hypothesis import strategies as st
 from sched_sim.costs.methods import KINDS, METHODS
 from sched_sim.costs.table import Cost, CostTable
 from sched_sim.costs.table_file import load_costs
-from sched_sim.least_speed import achieved_l, least_speed
-from sched_sim.options import Options
-from sched_sim.simulate import simulate
-from sched_sim.timing import Timing
+from sched_sim.design.least_speed import achieved_l, least_speed
+from sched_sim.design.options import Options
+from sched_sim.design.simulate import simulate
+from sched_sim.design.timing import Timing
 from studies.sweep.grid import Grid
 from studies.sweep.rows import columns, rows_of
 
@@ -120,7 +120,7 @@ def test_context_switches_go_through_the_simulation(method):
     switch = Fraction(1, 100)
     found = steffes(6, 2, None, method, speeds=(), context_switch=switch)
     for row in found:
-        from sched_sim.pieces import select
+        from sched_sim.design.pieces import select
 
         options = Options(context_switch=switch)
         costs = select(load_costs("steffes2014"), method, options)

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
+from sched_sim.design.options import Options
 from sched_sim.errors import InputError
-from sched_sim.options import Options
 from studies.sweep.settings import settings
 from tests.command_line import Run, is_refused
 

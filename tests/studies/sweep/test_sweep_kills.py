@@ -22,7 +22,7 @@ pytestmark = [
 
 # Some 2 s of work for one core, in 20 portions.
 GRID = ["-N", "10:40:10", "-M", "1:4", "--simulate", "--cycles", "60", "--workers", "2"]
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[3]
 
 
 def command(folder, *more):

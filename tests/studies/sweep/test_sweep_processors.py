@@ -8,13 +8,13 @@ from pathlib import Path
 import pytest
 
 from sched_sim.costs.table_file import load_costs
+from sched_sim.design.options import Options
+from sched_sim.design.pieces import select
+from sched_sim.design.simulate import simulate
+from sched_sim.design.timing import Timing
 from sched_sim.errors import InputError
-from sched_sim.options import Options
-from sched_sim.pieces import select
 from sched_sim.processor import load_processor, on_processor
 from sched_sim.schedule.task_file import read_tasks
-from sched_sim.simulate import simulate
-from sched_sim.timing import Timing
 from studies.sweep.export import export
 from studies.sweep.run import run
 from studies.sweep.settings import settings

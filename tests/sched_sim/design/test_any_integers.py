@@ -12,10 +12,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from sched_sim.analysis import NOT_LANDED, achieved_l, least_period
+from sched_sim.design.analysis import NOT_LANDED, achieved_l, least_period
+from sched_sim.design.options import Options
+from sched_sim.design.pieces import DualRateCosts, JobCosts, LarsenCosts, RecalculateCosts, StandardCosts
 from sched_sim.errors import InputError
-from sched_sim.options import Options
-from sched_sim.pieces import DualRateCosts, JobCosts, LarsenCosts, RecalculateCosts, StandardCosts
 from studies.sweep.legal import Legal, law_of
 from tests.command_line import Run
 from tests.designs import Design, designs

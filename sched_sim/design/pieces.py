@@ -8,8 +8,8 @@ from typing import Any, Literal
 
 from sched_sim.costs.methods import METHODS, MULTIRATE_METHODS, ROBUST_METHODS
 from sched_sim.costs.table import CostTable
+from sched_sim.design.options import Options
 from sched_sim.errors import InputError
-from sched_sim.options import Options
 
 Statistic = Literal["minimum", "median", "p95"]
 

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
-from sched_sim.pieces import DualRateCosts
+from sched_sim.design.pieces import DualRateCosts
 
 Ints: TypeAlias = Any
 """An array of integers: of any integer type, or (dtype=object) of Python's, which cannot overflow."""

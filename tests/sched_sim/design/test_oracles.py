@@ -8,12 +8,12 @@ from itertools import pairwise
 from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
-from sched_sim.least_speed import achieved_l, least_speed, staircase
-from sched_sim.options import Options
-from sched_sim.pieces import DualRateCosts
-from sched_sim.search import least_speed_by_simulation
-from sched_sim.simulate import simulate
-from sched_sim.timing import Timing
+from sched_sim.design.least_speed import achieved_l, least_speed, staircase
+from sched_sim.design.options import Options
+from sched_sim.design.pieces import DualRateCosts
+from sched_sim.design.search import least_speed_by_simulation
+from sched_sim.design.simulate import simulate
+from sched_sim.design.timing import Timing
 from tests.designs import Design, designs, dual_rate_designs
 
 CYCLES = 4

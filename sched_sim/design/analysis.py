@@ -2,7 +2,7 @@
 
 Everything is exact: costs and HR periods are whole ticks, a least speed is a quotient of two whole numbers. Each
 deadline is a demand over a window, the least speed the largest of them (Steffes 2014, Sec. III.C). Nothing is
-simulated here: `sched_sim.simulate` is the oracle of this module, and this module of that.
+simulated here: `sched_sim.design.simulate` is the oracle of this module, and this module of that.
 
 Any integers will do: the arrays are computed as int64 where nothing can overflow, else as Python's integers.
 """
@@ -15,9 +15,9 @@ from operator import index
 
 import numpy as np
 
-from sched_sim.demand import DualRateDemand, Ints, Quotient, choose, largest, quotient, smaller, whole_numbers
-from sched_sim.options import Options
-from sched_sim.pieces import (
+from sched_sim.design.demand import DualRateDemand, Ints, Quotient, choose, largest, quotient, smaller, whole_numbers
+from sched_sim.design.options import Options
+from sched_sim.design.pieces import (
     DualRateCosts,
     JobCosts,
     LarsenCosts,
@@ -62,7 +62,7 @@ def least_period(costs: JobCosts, N: Ints, M: Ints, L: Ints, options: Options) -
     """The least HR period, in ticks, at which every deadline holds; its code is a `Binding`.
 
     costs in ticks; N, M, L: integer arrays of one shape, legal for the method. `options.context_switch` is not
-    looked at: see `sched_sim.search`.
+    looked at: see `sched_sim.design.search`.
     Raises TypeError for what is no whole number.
     """
     costs = _counted(costs)

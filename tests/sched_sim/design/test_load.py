@@ -6,11 +6,11 @@ from fractions import Fraction
 
 from hypothesis import given, settings
 
-from sched_sim.least_speed import least_speed
-from sched_sim.load import load, work_of_cycle
-from sched_sim.pieces import MultirateCosts
-from sched_sim.simulate import simulate
-from sched_sim.timing import Timing
+from sched_sim.design.least_speed import least_speed
+from sched_sim.design.load import load, work_of_cycle
+from sched_sim.design.pieces import MultirateCosts
+from sched_sim.design.simulate import simulate
+from sched_sim.design.timing import Timing
 from tests.designs import Design, designs
 
 

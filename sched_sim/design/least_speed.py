@@ -9,15 +9,15 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from sched_sim import analysis
-from sched_sim.options import Options
-from sched_sim.pieces import DualRateCosts, JobCosts, TwoRateCosts
+from sched_sim.design import analysis
+from sched_sim.design.options import Options
+from sched_sim.design.pieces import DualRateCosts, JobCosts, TwoRateCosts
+from sched_sim.design.timing import Timing, check_dual_rate, check_two_rate, latest_feedback_step
 from sched_sim.schedule.tasks import Task
 from sched_sim.ticks import positive, ticks_per_unit, to_ticks
-from sched_sim.timing import Timing, check_dual_rate, check_two_rate, latest_feedback_step
 
 if TYPE_CHECKING:
-    from sched_sim.search import OnProgress
+    from sched_sim.design.search import OnProgress
 
 
 class LeastSpeed(NamedTuple):
@@ -57,7 +57,7 @@ def least_speed(
     if isinstance(costs, TwoRateCosts):
         check_two_rate(timing)
     if tasks or options.context_switch:
-        from sched_sim.search import least_speed_by_simulation
+        from sched_sim.design.search import least_speed_by_simulation
 
         return LeastSpeed(*least_speed_by_simulation(costs, timing, options, tasks, on_progress))
     resolution, in_ticks = _in_ticks(costs)

@@ -10,8 +10,8 @@ from random import Random
 
 import pytest
 
-from sched_sim.options import Options
-from sched_sim.pieces import (
+from sched_sim.design.options import Options
+from sched_sim.design.pieces import (
     DualRateCosts,
     JobCosts,
     LarsenCosts,
@@ -20,7 +20,7 @@ from sched_sim.pieces import (
     RobustCosts,
     StandardCosts,
 )
-from sched_sim.timing import Timing
+from sched_sim.design.timing import Timing
 from tests.agreement import assert_agreement, legal_timings
 from tests.exhaust import share_of
 

@@ -15,15 +15,15 @@ from fractions import Fraction
 from math import ceil, gcd, lcm
 
 from sched_sim.bounds import MOST_JOBS_TO_REPEAT, check_simulation, short
+from sched_sim.design.options import Options
+from sched_sim.design.pieces import JobCosts
+from sched_sim.design.simulate import workload_in_ticks
+from sched_sim.design.timing import Timing
 from sched_sim.errors import InputError
-from sched_sim.options import Options
-from sched_sim.pieces import JobCosts
 from sched_sim.schedule.jobs import Job, RecurringSource, Source
 from sched_sim.schedule.outcome import Schedule
 from sched_sim.schedule.processor import Processor
 from sched_sim.schedule.tasks import Task
-from sched_sim.simulate import workload_in_ticks
-from sched_sim.timing import Timing
 
 LONGEST = 200_000
 """HR periods until the last task has started, and from there until all repeats, that are simulated at the most."""

@@ -6,8 +6,8 @@ from collections import deque
 from collections.abc import Callable, Hashable
 from dataclasses import replace
 
-from sched_sim.options import Options
-from sched_sim.pieces import (
+from sched_sim.design.options import Options
+from sched_sim.design.pieces import (
     DualRateCosts,
     JobCosts,
     LarsenCosts,
@@ -16,8 +16,8 @@ from sched_sim.pieces import (
     RobustCosts,
     StandardCosts,
 )
+from sched_sim.design.timing import Timing, check_dual_rate, check_two_rate
 from sched_sim.schedule.jobs import HR, LR, Job, Parts, RecurringSource, Then, step_at
-from sched_sim.timing import Timing, check_dual_rate, check_two_rate
 
 OnLanding = Callable[[int, int], None]
 """Called with (cycle, achieved L) when a correction has reached the state, or a gain is in use."""

@@ -8,14 +8,14 @@ from fractions import Fraction
 from itertools import count
 from math import ceil
 
-from sched_sim.load import loads
-from sched_sim.options import Options
-from sched_sim.pieces import DualRateCosts, JobCosts
+from sched_sim.design.load import loads
+from sched_sim.design.options import Options
+from sched_sim.design.pieces import DualRateCosts, JobCosts
+from sched_sim.design.steady import Steady, longest_run, run_until_steady
+from sched_sim.design.timing import Timing
 from sched_sim.schedule.outcome import Schedule
 from sched_sim.schedule.tasks import Task
-from sched_sim.steady import Steady, longest_run, run_until_steady
 from sched_sim.ticks import ticks_per_unit
-from sched_sim.timing import Timing
 
 TICKS_PER_LOOP = 1_000_000
 """The least speed is found to this many ticks in the filter's largest job, or finer."""

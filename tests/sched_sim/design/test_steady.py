@@ -10,16 +10,16 @@ from hypothesis import given, seed, settings
 from hypothesis import strategies as st
 
 from sched_sim.costs.table_file import load_costs
+from sched_sim.design.least_speed import least_speed
+from sched_sim.design.load import loads
+from sched_sim.design.options import Options
+from sched_sim.design.pieces import DualRateCosts, StandardCosts, select
+from sched_sim.design.search import search_resolution
+from sched_sim.design.simulate import simulate
+from sched_sim.design.steady import run_until_steady
+from sched_sim.design.timing import Timing
 from sched_sim.errors import InputError
-from sched_sim.least_speed import least_speed
-from sched_sim.load import loads
-from sched_sim.options import Options
-from sched_sim.pieces import DualRateCosts, StandardCosts, select
 from sched_sim.schedule.tasks import Task
-from sched_sim.search import search_resolution
-from sched_sim.simulate import simulate
-from sched_sim.steady import run_until_steady
-from sched_sim.timing import Timing
 from tests.designs import Design, loaded_designs
 from tests.exhaust import share_of
 

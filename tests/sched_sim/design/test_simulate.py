@@ -7,14 +7,14 @@ from typing import Any
 
 import pytest
 
+from sched_sim.design.options import Options
+from sched_sim.design.pieces import DualRateCosts, LarsenCosts, MultirateCosts, RecalculateCosts, StandardCosts
+from sched_sim.design.simulate import simulate
+from sched_sim.design.timing import Feedback, Timing
 from sched_sim.errors import InputError
-from sched_sim.options import Options
-from sched_sim.pieces import DualRateCosts, LarsenCosts, MultirateCosts, RecalculateCosts, StandardCosts
 from sched_sim.schedule.jobs import Job
 from sched_sim.schedule.processor import Processor
 from sched_sim.schedule.tasks import Task
-from sched_sim.simulate import simulate
-from sched_sim.timing import Feedback, Timing
 
 DUAL_RATE = DualRateCosts(hr=6, hr_restart=1, hr_update=2, lr_propagate=3, lr_gain=0, lr_update=5)
 NEVER = 10**9

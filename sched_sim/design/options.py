@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Literal
 
+from sched_sim.design.timing import Feedback
 from sched_sim.errors import InputError
-from sched_sim.timing import Feedback
 
 Gain = Literal["at-update", "precomputed"]
 LowRateNoise = Literal["exact", "sum", "euler"]

@@ -7,11 +7,11 @@ from fractions import Fraction
 import pytest
 
 from sched_sim.costs.table_file import load_costs
-from sched_sim.least_speed import achieved_l, least_speed, staircase
-from sched_sim.options import Options
-from sched_sim.pieces import select
-from sched_sim.simulate import simulate
-from sched_sim.timing import Timing
+from sched_sim.design.least_speed import achieved_l, least_speed, staircase
+from sched_sim.design.options import Options
+from sched_sim.design.pieces import select
+from sched_sim.design.simulate import simulate
+from sched_sim.design.timing import Timing
 
 PAPER = Options()
 BY_L = Options(lr_propagate_by="l")

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 
-from sched_sim.options import Options
-from sched_sim.pieces import (
+from sched_sim.design.options import Options
+from sched_sim.design.pieces import (
     DualRateCosts,
     JobCosts,
     LarsenCosts,
@@ -15,8 +15,8 @@ from sched_sim.pieces import (
     RobustCosts,
     StandardCosts,
 )
+from sched_sim.design.timing import Timing
 from sched_sim.schedule.tasks import Task, check_cpus
-from sched_sim.timing import Timing
 
 
 def load(costs: JobCosts, timing: Timing, speed: Fraction) -> Fraction:

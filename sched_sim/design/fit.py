@@ -6,14 +6,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from sched_sim.least_speed import LeastSpeed, achieved_l, least_speed
-from sched_sim.load import loads
-from sched_sim.options import Options
-from sched_sim.pieces import JobCosts
+from sched_sim.design.least_speed import LeastSpeed, achieved_l, least_speed
+from sched_sim.design.load import loads
+from sched_sim.design.options import Options
+from sched_sim.design.pieces import JobCosts
+from sched_sim.design.search import OnProgress
+from sched_sim.design.steady import run_until_steady
+from sched_sim.design.timing import Timing
 from sched_sim.schedule.tasks import Task
-from sched_sim.search import OnProgress
-from sched_sim.steady import run_until_steady
-from sched_sim.timing import Timing
 
 
 @dataclass(frozen=True, slots=True)

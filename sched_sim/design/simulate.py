@@ -10,16 +10,16 @@ from itertools import chain
 from typing import NamedTuple
 
 from sched_sim.bounds import check_simulation, short
-from sched_sim.methods import OnLanding, method_source
-from sched_sim.options import Options
-from sched_sim.pieces import JobCosts, LarsenCosts, RecalculateCosts
+from sched_sim.design.options import Options
+from sched_sim.design.pieces import JobCosts, LarsenCosts, RecalculateCosts
+from sched_sim.design.sources import OnLanding, method_source
+from sched_sim.design.timing import Timing
 from sched_sim.schedule.clock import Clock, OnProgress
 from sched_sim.schedule.jobs import RecurringSource
 from sched_sim.schedule.outcome import Schedule, Slice
 from sched_sim.schedule.processor import OnSlice, Processor
 from sched_sim.schedule.tasks import Task, TaskSource, check_cpus, work_and_times
 from sched_sim.ticks import positive, ticks_per_unit, to_ticks
-from sched_sim.timing import Timing
 
 
 def simulate(
