@@ -11,10 +11,10 @@ from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Fie
 
 from sched_sim.costs.operations import OPERATION_KINDS
 from sched_sim.errors import InputError
+from sched_sim.files.toml_problems import problems
+from sched_sim.files.toml_reader import read_toml
 from sched_sim.processor import Processor, shipped_processors
 from sched_sim.ticks import exact, positive
-from sched_sim.toml_file import read_toml
-from sched_sim.toml_problems import problems
 
 HERTZ_PER_MHZ = 10**6
 MICROSECONDS_PER_SECOND = 10**6

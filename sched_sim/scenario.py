@@ -11,10 +11,10 @@ from typing import Literal
 from sched_sim.bounds import MOST_STEPS, short
 from sched_sim.draws import fates
 from sched_sim.errors import InputError
+from sched_sim.files.toml_writer import toml_key
 from sched_sim.in_flight import Flight, first_overlap
 from sched_sim.schedule.jobs import HR, LR
 from sched_sim.schedule.tasks import Task
-from sched_sim.toml_text import toml_key
 
 Late = Literal["recalculate", "larsen"]
 """What a late measurement does: the filter rolls back to it and replays, or Larsen's method carries it forward."""

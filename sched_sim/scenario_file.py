@@ -14,13 +14,13 @@ from sched_sim.bounds import MOST_SENSORS, MOST_STEPS, check_simulation, short
 from sched_sim.costs.sample_file import SampledCosts, read_sampled_costs
 from sched_sim.costs.table import SECONDS
 from sched_sim.errors import InputError
+from sched_sim.files.toml_numbers import Number, Positive, Whole, above_zero, whole
+from sched_sim.files.toml_problems import problems
+from sched_sim.files.toml_reader import read_toml
 from sched_sim.processor import load_processor, seconds_for, shipped_processors
 from sched_sim.scenario import Late, Samples, Scenario, Sensor, ends, needed_parts
 from sched_sim.schedule.jobs import HR, LR
 from sched_sim.schedule.task_file import TaskEntry, wrong_together
-from sched_sim.toml_file import read_toml
-from sched_sim.toml_numbers import Number, Positive, Whole, above_zero, whole
-from sched_sim.toml_problems import problems
 
 
 def _several(value: Any, what: str, one: Callable[[Any], Any]) -> tuple[Any, ...]:

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from reports.drawing.style import drawing
 from sched_sim.errors import InputError
-from sched_sim.files import check_writable, write
+from sched_sim.files.writable import check_writable, write
 
 METADATA: dict[str, dict[str, str | None]] = {
     "svg": {"Date": None, "Creator": None},

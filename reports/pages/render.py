@@ -18,7 +18,7 @@ from markupsafe import Markup
 
 from reports.pages.data_uri import data_uri
 from sched_sim.errors import InputError
-from sched_sim.files import check_writable, write
+from sched_sim.files.writable import check_writable, write
 
 Row = Sequence[Any]
 

@@ -143,7 +143,7 @@ def measure(
     from sched_sim.cli.progress import progress_bar
     from sched_sim.cli.update_form import update_form
     from sched_sim.costs.table_file import write_costs
-    from sched_sim.files import check_writable
+    from sched_sim.files.writable import check_writable
     from studies.measure import measure as run
     from studies.user_function import explained
     from studies.user_system import load_system

@@ -16,10 +16,10 @@ from sched_sim.costs.operations import Counts, arithmetic
 from sched_sim.costs.table import SECONDS
 from sched_sim.costs.table_file import CountsOfJob, Number
 from sched_sim.errors import InputError
-from sched_sim.files import write
-from sched_sim.toml_file import read_toml
-from sched_sim.toml_problems import problems
-from sched_sim.toml_text import toml_key, toml_number, toml_tables, toml_value
+from sched_sim.files.toml_problems import problems
+from sched_sim.files.toml_reader import read_toml
+from sched_sim.files.toml_writer import toml_key, toml_number, toml_tables, toml_value
+from sched_sim.files.writable import write
 
 
 @dataclass(frozen=True)

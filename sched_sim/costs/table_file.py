@@ -15,10 +15,10 @@ from sched_sim.costs.methods import KINDS
 from sched_sim.costs.operations import ARITHMETIC, OPERATION_KINDS, arithmetic
 from sched_sim.costs.table import Cost, CostTable, positive_cost
 from sched_sim.errors import InputError
-from sched_sim.files import write
-from sched_sim.toml_file import read_toml
-from sched_sim.toml_problems import problems
-from sched_sim.toml_text import toml_number, toml_tables, toml_value
+from sched_sim.files.toml_problems import problems
+from sched_sim.files.toml_reader import read_toml
+from sched_sim.files.toml_writer import toml_number, toml_tables, toml_value
+from sched_sim.files.writable import write
 
 TABLES = Path(__file__).parent / "tables"
 PAPERS, COUNTED = "steffes2014", "counted-9-3-3"

@@ -12,10 +12,10 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_valida
 
 from sched_sim.bounds import MOST_TASKS
 from sched_sim.errors import InputError
+from sched_sim.files.toml_numbers import Number, Positive, Whole
+from sched_sim.files.toml_problems import problems
+from sched_sim.files.toml_reader import read_toml
 from sched_sim.schedule.tasks import Task
-from sched_sim.toml_file import read_toml
-from sched_sim.toml_numbers import Number, Positive, Whole
-from sched_sim.toml_problems import problems
 
 
 class TaskEntry(BaseModel):

@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from sched_sim.errors import InputError
-from sched_sim.files import check_writable, writing
+from sched_sim.files.writable import check_writable, writing
 from sched_sim.schedule.outcome import Slice
 from sched_sim.text import csv_cell, json_text
 

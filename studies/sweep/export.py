@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import IO, Any
 
 from sched_sim.errors import InputError
-from sched_sim.files import check_writable, writing
+from sched_sim.files.writable import check_writable, writing
 from sched_sim.text import csv_cell
 from studies.sweep.rows import Row
 from studies.sweep.store import Store

@@ -18,10 +18,10 @@ from sched_sim.design.options import Gain, LowRateNoise, Options
 from sched_sim.design.pieces import Statistic
 from sched_sim.design.timing import Feedback
 from sched_sim.errors import InputError
+from sched_sim.files.toml_problems import problems
+from sched_sim.files.toml_reader import read_toml
 from sched_sim.processor import load_processor, on_processor, shipped_processors
 from sched_sim.schedule.task_file import read_tasks
-from sched_sim.toml_file import read_toml
-from sched_sim.toml_problems import problems
 from studies.sweep.axes import numbers, whole_numbers, words
 from studies.sweep.grid import Grid
 from studies.sweep.run import Sweep

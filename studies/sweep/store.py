@@ -15,7 +15,7 @@ from types import TracebackType
 from typing import Any, Self
 
 from sched_sim.errors import InputError
-from sched_sim.files import write
+from sched_sim.files.writable import write
 from studies.sweep.file_lock import FileLock
 from studies.sweep.rows import Cell, Row
 from studies.sweep.store_layout import Layout, check_owner

@@ -9,8 +9,8 @@ from typing import Any
 
 import pytest
 
+from sched_sim.files.toml_numbers import number, whole
 from sched_sim.schedule.task_file import read_tasks
-from sched_sim.toml_numbers import number, whole
 from tests.command_line import Run, is_refused
 
 

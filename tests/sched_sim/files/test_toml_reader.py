@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from sched_sim.errors import InputError
-from sched_sim.toml_file import read_toml
+from sched_sim.files.toml_reader import read_toml
 
 
 def test_a_byte_order_mark_is_no_part_of_the_document(tmp_path: Path) -> None:

@@ -14,11 +14,11 @@ import pytest
 
 from sched_sim.cli.outputs import refuse_one_file_for_two
 from sched_sim.errors import InputError
-from sched_sim.files import check_writable, write, writing
+from sched_sim.files.writable import check_writable, write, writing
 from tests.deaths import call_alone, killed_at_call, traceable
 from tests.full_disk import room_for
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[3]
 
 
 @pytest.fixture
@@ -97,7 +97,7 @@ def test_devices_and_pipes_are_written_to(tmp_path: Path) -> None:
 
 def test_standard_output_under_another_name_is_added_to(tmp_path: Path) -> None:
     """What a shell's >> holds already, and what was printed before, stay."""
-    code = "import sys; from pathlib import Path; from sched_sim.files import write; print('table')\n"
+    code = "import sys; from pathlib import Path; from sched_sim.files.writable import write; print('table')\n"
     code += "write(Path('/dev/stdout'), b'file\\n', '--output'); print('end')"
     (tmp_path / "all.txt").write_text("earlier\n")
     with (tmp_path / "all.txt").open("a") as file:
@@ -166,5 +166,5 @@ def die_everywhere(folder: str) -> None:
 
 @pytest.mark.skipif(not traceable(), reason="no process can be traced here")
 def test_a_kill_at_any_system_call_leaves_the_old_file_or_the_new_and_no_stray_beyond_the_next(tmp_path: Path) -> None:
-    done = call_alone("tests.sched_sim.test_files", "die_everywhere", str(tmp_path))
+    done = call_alone("tests.sched_sim.files.test_writable", "die_everywhere", str(tmp_path))
     assert done.returncode == 0, done.stderr

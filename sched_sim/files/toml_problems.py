@@ -10,8 +10,8 @@ from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
 from sched_sim.bounds import short
-from sched_sim.toml_tables import entries_at, is_text_at, keys_of, no_such_key, required_keys, table_at
-from sched_sim.toml_text import toml_key
+from sched_sim.files.toml_keys import entries_at, is_text_at, keys_of, no_such_key, required_keys, table_at
+from sched_sim.files.toml_writer import toml_key
 
 MOST_PROBLEMS = 20
 """Of a file, in one message."""

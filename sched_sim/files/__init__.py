@@ -1,0 +1,1 @@
+"""Reading and writing files: TOML, and the one way in which a file is written."""
