@@ -17,7 +17,8 @@ from sched_sim.errors import InputError
 from sched_sim.files.toml_numbers import Number, Positive, Whole, above_zero, whole
 from sched_sim.files.toml_problems import problems
 from sched_sim.files.toml_reader import read_toml
-from sched_sim.processor import load_processor, seconds_for, shipped_processors
+from sched_sim.processors.part import seconds_for
+from sched_sim.processors.part_file import load_part, shipped_parts
 from sched_sim.scenario import Late, Samples, Scenario, Sensor, ends, needed_parts
 from sched_sim.schedule.jobs import HR, LR
 from sched_sim.schedule.task_file import TaskEntry, wrong_together
@@ -78,7 +79,7 @@ def _cost_file(value: Any) -> str:
 
 
 def _processor(value: Any) -> str:
-    return _file(value, f"or one of {', '.join(shipped_processors())}")
+    return _file(value, f"or one of {', '.join(shipped_parts())}")
 
 
 def _late(value: Any) -> Any:
@@ -262,8 +263,8 @@ def _from_file(sampled: SampledCosts, checked: _ScenarioFile, folder: Path) -> S
                 f"costs {sampled.shown} has no [operations] to run on processor {checked.processor!r}: count them with "
                 f"`sched-sim measure --filter ... --backend counted`, or delete processor"
             )
-        shipped = checked.processor in shipped_processors()
-        part = load_processor(checked.processor if shipped else folder / checked.processor)
+        shipped = checked.processor in shipped_parts()
+        part = load_part(checked.processor if shipped else folder / checked.processor)
         return {
             name: (seconds_for(counts, part, f"[operations] {name} of costs {sampled.shown}"),)
             for name, counts in sampled.operations.items()

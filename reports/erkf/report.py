@@ -28,7 +28,8 @@ from sched_sim.costs.table_file import load_costs
 from sched_sim.design.fit import fit
 from sched_sim.design.least_speed import least_speed
 from sched_sim.design.timing import Timing
-from sched_sim.processor import Processor, load_processor, shipped_processors
+from sched_sim.processors.part import Part
+from sched_sim.processors.part_file import load_part, shipped_parts
 from studies.robust import drive
 from studies.robust.costs import HR_HZ, SYSTEMS, N, SystemName
 
@@ -44,7 +45,7 @@ def build(found: Results) -> dict[str, bytes]:
     """All files of the report by name, as a pure function of what was measured and simulated."""
     counted = {system: load_costs(f"erkf-{system}") for system in SYSTEMS}
     devices = {system: parallel(system) for system in SYSTEMS}
-    parts = [load_processor(name) for name in shipped_processors()]
+    parts = [load_part(name) for name in shipped_parts()]
     slowest = next(part for part in parts if part.name == SLOWEST)
     rows = {
         "costs": tables.cost_rows(all_counts(), found.measured),
@@ -85,7 +86,7 @@ def _figures(
     found: Results,
     counted: Mapping[SystemName, CostTable],
     devices: Mapping[SystemName, Parallel],
-    slowest: Processor,
+    slowest: Part,
 ) -> dict[str, Figure]:
     course = found.columns("drive")
     return {
@@ -128,7 +129,7 @@ def _ways(found: Results) -> list[Way]:
     return [way_of(way) for way in ways.ALL_WAYS]
 
 
-def _ways_gantt(table: CostTable, part: Processor) -> Figure:
+def _ways_gantt(table: CostTable, part: Part) -> Figure:
     """Every way on one processor."""
     pace, panels = Fraction(1, HR_HZ), []
     for method in ROBUST_METHODS:
@@ -315,7 +316,7 @@ def _drive(found: Results) -> dict[str, Any]:
     }
 
 
-def _schedule(counted: Mapping[SystemName, CostTable], parts: list[Processor], slowest: Processor) -> dict[str, Any]:
+def _schedule(counted: Mapping[SystemName, CostTable], parts: list[Part], slowest: Part) -> dict[str, Any]:
     position = counted["position"]
     costs = {method: tables.robust_costs_of(position, method) for method in ROBUST_METHODS}
     least = {method: least_speed(of, Timing(N, 0, N)).speed for method, of in costs.items()}
@@ -343,7 +344,7 @@ def _schedule(counted: Mapping[SystemName, CostTable], parts: list[Processor], s
     }
 
 
-def _inertial(table: CostTable, part: Processor) -> Fraction:
+def _inertial(table: CostTable, part: Part) -> Fraction:
     """Seconds of the propagation alone."""
     costs = tables.on(table, part, "robust-closed")
     assert costs is not None

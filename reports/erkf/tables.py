@@ -18,7 +18,7 @@ from sched_sim.design.least_speed import achieved_l, least_speed
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import RobustCosts, StandardCosts, select
 from sched_sim.design.timing import Timing
-from sched_sim.processor import Processor, on_processor
+from sched_sim.processors.part import Part, on_part
 from studies.robust.costs import HR_HZ, SYSTEMS, N, SystemName, parallel_costs
 
 Rows = list[list[Any]]
@@ -132,15 +132,15 @@ def speed_rows(tables: Mapping[SystemName, CostTable], measured: Mapping[SystemN
     return rows
 
 
-def on(table: CostTable, processor: Processor, method: str) -> RobustCosts | None:
+def on(table: CostTable, processor: Part, method: str) -> RobustCosts | None:
     """In seconds; None where the processor has no time for an operation, such as a square root."""
     asked = {kind for counts in table.operations[method].values() for kind in counts} - {"function"}
     if not asked <= set(processor.seconds):
         return None
-    return robust_costs_of(on_processor(table, processor), method)
+    return robust_costs_of(on_part(table, processor), method)
 
 
-def processor_rows(tables: Mapping[SystemName, CostTable], processors: Sequence[Processor]) -> Rows:
+def processor_rows(tables: Mapping[SystemName, CostTable], processors: Sequence[Part]) -> Rows:
     """Spread over N steps, and in one HR period."""
     rows: Rows = [["System", "Processor", "Way", "fits", "load, %", "slack, %", "in use at l", "in one period, %"]]
     for system, table in tables.items():
@@ -158,7 +158,7 @@ def processor_rows(tables: Mapping[SystemName, CostTable], processors: Sequence[
     return rows
 
 
-def device_rows(processor: Processor) -> Rows:
+def device_rows(processor: Part) -> Rows:
     """A device that does several column pairs at a time, its operations as slow as the processor's; and one unit by
     the other ways."""
     rows: Rows = [["System", "Way", "units", "step, ms", "times faster", "in use at l", "clock for L = 1, MHz"]]
@@ -173,7 +173,7 @@ def device_rows(processor: Processor) -> Rows:
     return rows
 
 
-def _device(costs: RobustCosts, processor: Processor) -> list[Any]:
+def _device(costs: RobustCosts, processor: Part) -> list[Any]:
     landed = achieved_l(costs, Timing(N, 0, N), Fraction(1, HR_HZ))
     assert processor.clock_hz is not None
     clock = fit(costs, Timing(N, 0, 1), Fraction(HR_HZ)).needed * processor.clock_hz / 10**6

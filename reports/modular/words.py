@@ -28,7 +28,7 @@ from reports.modular.tables import (
 )
 from reports.pages.machine import legend, marked
 from reports.pages.numbers import plus_minus, significant
-from sched_sim.processor import load_processor
+from sched_sim.processors.part_file import load_part
 from studies.modular import (
     costs as modular_costs,
 )
@@ -239,7 +239,7 @@ def schedule_words(found: Results) -> dict[str, Any]:
     response, loop = "GPS response, median (ms)", there[names["extended"], urgent, "loop"]
     return {
         "at": at,
-        "part": load_processor(rocket_schedule.PROCESSOR).title.partition(" at ")[0],
+        "part": load_part(rocket_schedule.PROCESSOR).title.partition(" at ")[0],
         "spread": [f"{float(edge(rocket_schedule.SPREAD)):g}" for edge in (min, max)],
         "clocks": ", ".join(map(str, sorted({row.clock_mhz for row in misses}))),
         "steps": f"{rocket_schedule.STEPS:,}",

@@ -13,7 +13,7 @@ from sched_sim.costs.table_file import load_costs
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import MultirateCosts, select
 from sched_sim.design.timing import Timing
-from sched_sim.processor import Processor, on_processor
+from sched_sim.processors.part import Part, on_part
 from studies.measure import measure
 
 
@@ -49,16 +49,16 @@ def patents_form() -> Form:
     return Form("the patent's counts", "multirate", load_costs("patent-multirate"))
 
 
-def time_of(form: Form, processor: Processor) -> MultirateCosts | None:
+def time_of(form: Form, processor: Part) -> MultirateCosts | None:
     """In seconds; None if the processor has no time for its square roots."""
     if form.square_roots and "sqrt" not in processor.seconds:
         return None
-    costs = select(on_processor(form.table, processor), form.method, Options())
+    costs = select(on_part(form.table, processor), form.method, Options())
     assert isinstance(costs, MultirateCosts)
     return costs
 
 
-def least_time_of(form: Form, processor: Processor) -> MultirateCosts:
+def least_time_of(form: Form, processor: Part) -> MultirateCosts:
     """In seconds; where the processor has no time for square roots, that of all but these."""
     costs = time_of(form, processor) or time_of(_without_square_roots(form), processor)
     assert costs is not None

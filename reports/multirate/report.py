@@ -18,7 +18,8 @@ from reports.pages.numbers import decimal, percent, significant
 from reports.pages.render import csv_bytes, render
 from sched_sim.design.fit import fit
 from sched_sim.design.load import load
-from sched_sim.processor import Processor, load_processor, on_processor, shipped_processors
+from sched_sim.processors.part import Part, on_part
+from sched_sim.processors.part_file import load_part, shipped_parts
 from studies.multirate import patent
 from studies.multirate.accuracy import ACCELERATION_NOISES, GOOD, SPEEDS, TRACKING_INDICES, Reading, largest_good
 
@@ -37,7 +38,7 @@ READING_NAMES: Mapping[Reading, str] = {
 def build(found: Results) -> dict[str, bytes]:
     """All files of the report by name, as a pure function of what the studies found."""
     own, forms = patents_form(), our_forms()
-    parts = [load_processor(name) for name in shipped_processors()]
+    parts = [load_part(name) for name in shipped_parts()]
     patents = next(part for part in parts if part.name == "patent")
     cases, N = patent.loads(), tables.N
     textbook = forms["conventional, textbook"]
@@ -54,7 +55,7 @@ def build(found: Results) -> dict[str, bytes]:
         "starts": tables.starts(found),
         "processors": tables.processor_rows(asked, parts),
     }
-    on_patents = on_processor(own.table, patents)
+    on_patents = on_part(own.table, patents)
     figures = {
         "load.svg": image(_load_figure([own, *forms.values()], patents, cases), "svg"),
         "steady.svg": image(steady_figure(_families(found), READING_NAMES), "svg"),
@@ -85,7 +86,7 @@ def build(found: Results) -> dict[str, bytes]:
     }
 
 
-def _saving(own: Form, patents: Processor, aircraft: patent.Load) -> dict[str, str]:
+def _saving(own: Form, patents: Part, aircraft: patent.Load) -> dict[str, str]:
     """Of the patent's counts on its processor, at one measurement of all satellites a second."""
     costs = least_time_of(own, patents)
     each, multirate = (load(costs, every(n), Fraction(1)) for n in (1, tables.N))
@@ -184,7 +185,7 @@ def _worse_if_late(found: Results) -> list[tuple[str, str, str]]:
     ]
 
 
-def _running(form: Form, parts: list[Processor]) -> dict[str, Any]:
+def _running(form: Form, parts: list[Part]) -> dict[str, Any]:
     """The conventional form at the rate and n of the processor table."""
     verdicts = {part.name: fit(least_time_of(form, part), every(tables.N), Fraction(tables.RATE_HZ)) for part in parts}
     hz = {name: tables.RATE_HZ / found.needed for name, found in verdicts.items()}
@@ -202,7 +203,7 @@ def _running(form: Form, parts: list[Processor]) -> dict[str, Any]:
     }
 
 
-def _missing(forms: Mapping[str, Form], parts: list[Processor]) -> dict[str, Any]:
+def _missing(forms: Mapping[str, Form], parts: list[Part]) -> dict[str, Any]:
     """Square roots, and who has no time for them."""
     asking = [form for form in forms.values() if form.square_roots]
     without = [part.name for part in parts if any(time_of(form, part) is None for form in asking)]
@@ -215,7 +216,7 @@ def _gantt(table: Any) -> dict[str, Any]:
     return {"hz": f"{float(GANTT_HZ):g}", "landed": landed, "busy": percent(schedule.utilization)}
 
 
-def _load_figure(forms: list[Form], patents: Processor, cases: list[patent.Load]) -> Any:
+def _load_figure(forms: list[Form], patents: Part, cases: list[patent.Load]) -> Any:
     names = {form.name: form.name for form in forms}
     for form in forms:
         if time_of(form, patents) is None:

@@ -13,7 +13,7 @@ from reports.pages.numbers import decimal, percent, significant
 from sched_sim.costs.operations import arithmetic
 from sched_sim.design.fit import fit
 from sched_sim.design.load import load
-from sched_sim.processor import Processor
+from sched_sim.processors.part import Part
 from studies.multirate.accuracy import GOOD, Accuracy, Reading, largest_good
 from studies.multirate.patent import CYCLES, Load, comparison, terms
 
@@ -55,7 +55,7 @@ def loads(printed: Sequence[Load]) -> Rows:
     return rows
 
 
-def our_loads(forms: Iterable[Form], processor: Processor) -> Rows:
+def our_loads(forms: Iterable[Form], processor: Part) -> Rows:
     """The same cases with our forms on the patent's processor, state update included; in percent."""
     forms = list(forms)
     rows: Rows = [["Case", *(form.name if time_of(form, processor) else f"≥ {form.name}" for form in forms)]]
@@ -65,7 +65,7 @@ def our_loads(forms: Iterable[Form], processor: Processor) -> Rows:
     return rows
 
 
-def logic(own: Form, ours: Form, processors: Sequence[Processor]) -> Rows:
+def logic(own: Form, ours: Form, processors: Sequence[Part]) -> Rows:
     """How much of the covariance-and-gain job is logic. own: the patent's counts; ours: for the processors."""
     rows: Rows = [["Source", "logic per arithmetic operation", "share of its time, %"]]
     (patents,) = [processor for processor in processors if processor.name == "patent"]
@@ -111,7 +111,7 @@ def totals() -> Rows:
     return rows
 
 
-def load_by_n(forms: Iterable[Form], processor: Processor, periods: Iterable[int]) -> Rows:
+def load_by_n(forms: Iterable[Form], processor: Part, periods: Iterable[int]) -> Rows:
     """The load at one measurement (of all satellites) a second, in percent."""
     forms = list(forms)
     rows: Rows = [["n", *(form.name for form in forms)]]
@@ -175,7 +175,7 @@ def starts(found: Results) -> Rows:
     return [*rows, ["the worst in steady state", *steady_worst]]
 
 
-def processor_rows(forms: Sequence[tuple[Form, int]], processors: Sequence[Processor]) -> Rows:
+def processor_rows(forms: Sequence[tuple[Form, int]], processors: Sequence[Part]) -> Rows:
     """forms: with the n of each."""
     heads = ("needs, MHz", "load, %", "slack, %", "highest, Hz")
     rows: Rows = [["Processor", "MHz", "precision", "Filter", "n", "runs", *heads]]

@@ -22,7 +22,7 @@ from sched_sim.ticks import exact, positive
 
 if TYPE_CHECKING:
     from sched_sim.design.least_speed import LeastSpeed
-    from sched_sim.processor import Processor
+    from sched_sim.processors.part import Part
 
 DESIGN = "Design"
 PROCESSOR = "Processor"
@@ -259,26 +259,24 @@ def hr_rate(text: str | None) -> Fraction | None:
     return None if text is None else positive(text, "--hr-hz")
 
 
-def costs_on(name: str | None, processor: Processor | None) -> CostTable:
+def costs_on(name: str | None, processor: Part | None) -> CostTable:
     """The cost table of this name or path, in seconds on the processor if there is one."""
     if processor is None:
         return load_costs(PAPERS if name is None else name)
-    from sched_sim.processor import on_processor
+    from sched_sim.processors.part import on_part
 
-    return on_processor(load_costs(COUNTED if name is None else name), processor)
+    return on_part(load_costs(COUNTED if name is None else name), processor)
 
 
-def make_processor(name: str | None) -> Processor | None:
+def make_processor(name: str | None) -> Part | None:
     if name is None:
         return None
-    from sched_sim.processor import load_processor
+    from sched_sim.processors.part_file import load_part
 
-    return load_processor(name)
+    return load_part(name)
 
 
-def pace(
-    speed: str | None, rate: Fraction | None, processor: Processor | None, least: Callable[[], LeastSpeed]
-) -> Fraction:
+def pace(speed: str | None, rate: Fraction | None, processor: Part | None, least: Callable[[], LeastSpeed]) -> Fraction:
     """The speed to run at: the one that was given, else the processor's own at this rate, else the least."""
     if speed is not None and processor is not None:
         raise InputError(

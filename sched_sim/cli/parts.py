@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from sched_sim.design.fit import Fit
     from sched_sim.design.least_speed import LeastSpeed
     from sched_sim.design.timing import Timing
-    from sched_sim.processor import Processor
+    from sched_sim.processors.part import Part
 
 
 def least_row(method: str, timing: Timing, least: LeastSpeed | None) -> dict[str, Any]:
@@ -35,7 +35,7 @@ def fixed_by(binding: str | None) -> str | None:
     return None if binding is None else BINDING_WORDS.get(binding, binding)
 
 
-def fit_row(part: Processor, hr_hz: Fraction, found: Fit | None) -> dict[str, Any]:
+def fit_row(part: Part, hr_hz: Fraction, found: Fit | None) -> dict[str, Any]:
     """needed_share, load and slack: of the part's speed, its time, its speed. None: not known, or it does not land.
 
     found: None if the part's time for some operation is not known.

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from sched_sim.design.options import Options
     from sched_sim.design.pieces import Statistic
     from sched_sim.design.timing import Timing
-    from sched_sim.processor import Processor
+    from sched_sim.processors.part import Part
     from sched_sim.schedule.tasks import Task
 
 Parts = Annotated[
@@ -84,10 +84,10 @@ def processors(
     sched-sim processors -N 40 -M 20 --hr-hz 400 --method dual-rate --gain precomputed
     """
     from sched_sim.errors import InputError
-    from sched_sim.processor import load_processor, shipped_processors
+    from sched_sim.processors.part_file import load_part, shipped_parts
     from sched_sim.ticks import positive
 
-    parts = [load_processor(name) for name in dict.fromkeys(processor or shipped_processors())]
+    parts = [load_part(name) for name in dict.fromkeys(processor or shipped_parts())]
     if not opt.given_options(context, lambda name: name not in OF_THE_LIST):
         rows = [_figures(part) for part in parts]
         shown = [_figures_in_words(part) for part in parts]
@@ -113,7 +113,7 @@ def processors(
         print_table(title, shown, note)
 
 
-def _titles(parts: list[Processor]) -> str:
+def _titles(parts: list[Part]) -> str:
     lines = [f"{part.name}: {part.title}" for part in parts]
     return "\n".join([*lines, "", "logic: instructions around each arithmetic one. Sources: --format json"])
 
@@ -130,7 +130,7 @@ def _flat(row: dict[str, Any]) -> dict[str, Any]:
     return columns
 
 
-def _figures(part: Processor) -> dict[str, Any]:
+def _figures(part: Part) -> dict[str, Any]:
     return {
         "processor": part.name,
         "title": part.title,
@@ -142,7 +142,7 @@ def _figures(part: Processor) -> dict[str, Any]:
     }
 
 
-def _figures_in_words(part: Processor) -> dict[str, str | None]:
+def _figures_in_words(part: Part) -> dict[str, str | None]:
     scale = part.clock_hz or 10**6
     clock = None if part.clock_hz is None else f"{float(part.clock_hz / 10**6):g}"
     figures = {kind: f"{float(part.seconds[kind] * scale):g}" if kind in part.seconds else None for kind in OPERATIONS}
@@ -163,7 +163,7 @@ OTHER_FIGURES = ("clock_mhz", "logic_per_arithmetic")
 
 
 def _verdicts(
-    parts: Sequence[Processor],
+    parts: Sequence[Part],
     designs: Mapping[str, Timing],
     costs: str | None,
     statistic: Statistic,
@@ -180,12 +180,12 @@ def _verdicts(
     from sched_sim.design.fit import fit
     from sched_sim.design.pieces import select
     from sched_sim.errors import InputError
-    from sched_sim.processor import on_processor
+    from sched_sim.processors.part import on_part
 
     rows, shown, reasons = [], [], []
     counts = load_costs(COUNTED if costs is None else costs)
     for part in parts:
-        table = on_processor(counts, part)
+        table = on_part(counts, part)
         for method, timing in designs.items():
             found, reason = None, None
             try:

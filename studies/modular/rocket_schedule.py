@@ -41,7 +41,8 @@ from filters.systems.rocket_filter import (
 from sched_sim.costs.sample_file import SampledCosts
 from sched_sim.distribution import wilson
 from sched_sim.draws import fates
-from sched_sim.processor import load_processor, seconds_for
+from sched_sim.processors.part import seconds_for
+from sched_sim.processors.part_file import load_part
 from sched_sim.scenario import Late, Scenario, Sensor
 from sched_sim.scenario_run import Outcome, run_scenario
 from sched_sim.schedule.jobs import HR, LR
@@ -161,7 +162,7 @@ def filter_of(predictor: PredictorName) -> ModularFilter:
 @cache
 def counted() -> Costs:
     """Both filters: the operations of each part, exactly, as cycles of `PROCESSOR`, with their `SPREAD`."""
-    processor = load_processor(PROCESSOR)
+    processor = load_part(PROCESSOR)
     assert processor.clock_hz is not None
     upright, P0 = np.eye(16)[12], np.diag(START_SIGMAS**2)
     found: dict[PredictorName, SampledCosts] = {}

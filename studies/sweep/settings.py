@@ -20,7 +20,8 @@ from sched_sim.design.timing import Feedback
 from sched_sim.errors import InputError
 from sched_sim.files.toml_problems import problems
 from sched_sim.files.toml_reader import read_toml
-from sched_sim.processor import load_processor, on_processor, shipped_processors
+from sched_sim.processors.part import on_part
+from sched_sim.processors.part_file import load_part, shipped_parts
 from sched_sim.schedule.task_file import read_tasks
 from studies.sweep.axes import numbers, whole_numbers, words
 from studies.sweep.grid import Grid
@@ -130,8 +131,8 @@ class Settings(BaseModel):
     def _tables(self) -> tuple[CostTable, ...]:
         """Each of them on each of the processors, if there are any."""
         tables = [load_costs(name) for name in self.costs or (COUNTED if self.processor else PAPERS,)]
-        parts = [load_processor(name) for name in self.processor]
-        return tuple(on_processor(*pair) for pair in product(tables, parts)) if parts else tuple(tables)
+        parts = [load_part(name) for name in self.processor]
+        return tuple(on_part(*pair) for pair in product(tables, parts)) if parts else tuple(tables)
 
     def _paces(self, tables: Sequence[CostTable]) -> tuple[Fraction, ...]:
         """Cost units per HR period: those asked for, or the seconds that a period has."""
@@ -183,7 +184,7 @@ def _read(path: Path) -> Settings:
     def beside(names: Sequence[str], shipped: Sequence[str] = ()) -> tuple[str, ...]:
         return tuple(name if name in shipped else str(path.parent / name) for name in names)
 
-    files = {"costs": beside(found.costs, shipped_tables()), "processor": beside(found.processor, shipped_processors())}
+    files = {"costs": beside(found.costs, shipped_tables()), "processor": beside(found.processor, shipped_parts())}
     return found.model_copy(update=files | {"tasks": found.tasks and str(path.parent / found.tasks)})
 
 

@@ -16,7 +16,8 @@ from sched_sim.design.options import Options
 from sched_sim.design.pieces import select
 from sched_sim.design.simulate import simulate
 from sched_sim.design.timing import Timing
-from sched_sim.processor import load_processor, on_processor, shipped_processors
+from sched_sim.processors.part import on_part
+from sched_sim.processors.part_file import load_part, shipped_parts
 from tests.command_line import Run, is_refused
 
 MY_PART = """\
@@ -44,8 +45,8 @@ def test_the_patents_three_numbers_in_one_command(sched_sim: Run) -> None:
 
 
 def test_minimum_on_a_processor_is_the_least_speed_times_the_rate_times_the_clock(sched_sim: Run) -> None:
-    part = load_processor("cortex-m7")
-    costs = select(on_processor(load_costs("counted-9-3-3"), part), "dual-rate", Options())
+    part = load_part("cortex-m7")
+    costs = select(on_part(load_costs("counted-9-3-3"), part), "dual-rate", Options())
     least = least_speed(costs, Timing(40, 20, 40)).speed
     line = "minimum -N 40 -M 20 --processor cortex-m7 --hr-hz 400 --method dual-rate --format json"
     (row,) = json.loads(sched_sim(line).out)
@@ -59,7 +60,7 @@ def test_minimum_on_a_processor_is_the_least_speed_times_the_rate_times_the_cloc
 def test_yes_or_no_is_what_the_simulation_at_the_parts_own_speed_says(sched_sim: Run, hr_hz: str, method: str) -> None:
     line = f"minimum -N 40 -M 20 --processor cortex-m7 --hr-hz {hr_hz} --method {method} --format json"
     (row,) = json.loads(sched_sim(line).out)
-    costs = select(on_processor(load_costs("counted-9-3-3"), load_processor("cortex-m7")), method, Options())
+    costs = select(on_part(load_costs("counted-9-3-3"), load_part("cortex-m7")), method, Options())
     schedule = simulate(costs, Timing(40, 20, 40), 1 / Fraction(hr_hz), cycles=4)
     assert row["fits"] == (schedule.misses == 0)
     assert not row["fits"] or schedule.achieved == {row["achieved_l"]: 4}
@@ -67,10 +68,10 @@ def test_yes_or_no_is_what_the_simulation_at_the_parts_own_speed_says(sched_sim:
 
 def test_processors_lists_what_is_shipped(sched_sim: Run) -> None:
     rows = json.loads(sched_sim("processors --format json").out)
-    assert [row["processor"] for row in rows] == shipped_processors()
-    assert {"patent", "cortex-m4f", "cortex-m7", "cortex-a53", "desktop"} <= set(shipped_processors())
+    assert [row["processor"] for row in rows] == shipped_parts()
+    assert {"patent", "cortex-m4f", "cortex-m7", "cortex-a53", "desktop"} <= set(shipped_parts())
     table = sched_sim("processors").out
-    assert all(name in table for name in shipped_processors())
+    assert all(name in table for name in shipped_parts())
 
 
 def test_processors_says_which_can_run_a_method_and_with_what_slack(sched_sim: Run) -> None:

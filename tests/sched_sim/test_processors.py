@@ -13,7 +13,8 @@ from sched_sim.design.options import Options
 from sched_sim.design.pieces import select
 from sched_sim.design.simulate import simulate
 from sched_sim.design.timing import Timing
-from sched_sim.processor import load_processor, on_processor
+from sched_sim.processors.part import on_part
+from sched_sim.processors.part_file import load_part
 from tests.command_line import Run, is_refused
 
 TASKS = '[[task]]\nname = "control"\nperiod = 2\ncost = 1e-4\npriority = 15\n'
@@ -50,7 +51,7 @@ def test_a_gain_computed_early_needs_less_of_a_part(sched_sim: Run) -> None:
     """L = M + 1: of the LR update only the correction is left to step m."""
     line = "processors -N 10 -M 4 -L 5 --hr-hz 400 --processor cortex-m4f --format json"
     (late,), (early,) = (json.loads(sched_sim(line + gain).out) for gain in ("", " --gain precomputed"))
-    costs = select(on_processor(load_costs("counted-9-3-3"), load_processor("cortex-m4f")), "dual-rate", EARLY)
+    costs = select(on_part(load_costs("counted-9-3-3"), load_part("cortex-m4f")), "dual-rate", EARLY)
     speed = Fraction(early["min_speed_exact"])
     assert early["needed_share"] < late["needed_share"]
     assert simulate(costs, Timing(10, 4, 5), speed, 4, EARLY).misses == 0

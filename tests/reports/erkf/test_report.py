@@ -23,7 +23,7 @@ from sched_sim.costs.table_file import load_costs
 from sched_sim.design.least_speed import least_speed
 from sched_sim.design.pieces import StandardCosts
 from sched_sim.design.timing import Timing
-from sched_sim.processor import shipped_processors
+from sched_sim.processors.part_file import shipped_parts
 from studies.robust.costs import SYSTEMS, N
 from tests.command_line import Run
 from tests.reports import published
@@ -140,7 +140,7 @@ def test_in_one_period_is_what_l_1_asks_for() -> None:
 
 def test_every_processor_has_a_verdict_on_every_way() -> None:
     of = rows("processors.csv")
-    assert [row["Processor"] for row in of] == [n for _ in SYSTEMS for n in shipped_processors() for _ in tables.WAYS]
+    assert [row["Processor"] for row in of] == [n for _ in SYSTEMS for n in shipped_parts() for _ in tables.WAYS]
     assert {row["fits"] for row in of} == {"yes", "no", "no sqrt"}
     for row in of:
         assert (row["fits"] == "no sqrt") == (row["load, %"] == "-")

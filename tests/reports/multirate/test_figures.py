@@ -13,11 +13,12 @@ from reports.multirate.costs import least_time_of, our_forms, patents_form
 from reports.multirate.figures import load_figure, one_loop_panel, rates_figure, two_rates_panel
 from sched_sim.design.load import load
 from sched_sim.design.timing import Timing
-from sched_sim.processor import load_processor, on_processor
+from sched_sim.processors.part import on_part
+from sched_sim.processors.part_file import load_part
 from tests.reports.layout import flaws, texts
 
-PATENT = load_processor("patent")
-TABLE = on_processor(patents_form().table, PATENT)
+PATENT = load_part("patent")
+TABLE = on_part(patents_form().table, PATENT)
 READINGS = {"averaged": "$K(R/n)/n$", "sampled": "$K(R)/n$", "skipped": "every $n$-th measurement"}
 
 

@@ -12,7 +12,7 @@ from reports.multirate.costs import every, least_time_of, our_forms, patents_for
 from reports.multirate.report import build
 from reports.multirate.results import PERIODS, SHOWN, Results, results
 from sched_sim.design.load import load
-from sched_sim.processor import load_processor, shipped_processors
+from sched_sim.processors.part_file import load_part, shipped_parts
 from studies.multirate import patent
 from studies.multirate.accuracy import largest_good
 from tests.command_line import Run
@@ -70,7 +70,7 @@ def test_an_unknown_report_is_answered_with_both_names(sched_sim: Run) -> None:
 
 def test_the_three_cases_are_those_of_the_patent() -> None:
     """Their loads from n and rate, by the job costs, are those that the study has from the printed counts."""
-    costs = least_time_of(patents_form(), load_processor("patent"))
+    costs = least_time_of(patents_form(), load_part("patent"))
     cases = zip(tables.CASES, patent.loads(), strict=True)
     for case, printed in cases:
         assert 100 * load(costs, every(case.n), 1 / case.rate_hz) == printed.complete_percent
@@ -118,7 +118,7 @@ def test_no_step_is_named_where_all_ratios_are_alike() -> None:
 
 def test_every_processor_has_a_verdict_on_every_form() -> None:
     of = rows("processors.csv")
-    assert [row["Processor"] for row in of] == [name for name in shipped_processors() for _ in range(4)]
+    assert [row["Processor"] for row in of] == [name for name in shipped_parts() for _ in range(4)]
     verdicts = {row["runs"] for row in of}
     assert verdicts == {"yes", "no", tables.NO_SQRT}
     for row in of:
@@ -127,7 +127,7 @@ def test_every_processor_has_a_verdict_on_every_form() -> None:
 
 
 def test_a_processor_without_square_root_has_no_time_for_a_form_that_needs_it() -> None:
-    part = load_processor("patent")
+    part = load_part("patent")
     for form in our_forms().values():
         assert (time_of(form, part) is None) == (form.square_roots > 0)
         assert least_time_of(form, part).covariance_gain > 0

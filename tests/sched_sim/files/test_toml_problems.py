@@ -14,7 +14,7 @@ import pytest
 from sched_sim.costs.sample_file import read_sampled_costs
 from sched_sim.costs.table_file import read_costs
 from sched_sim.errors import InputError
-from sched_sim.processor_file import read_processor
+from sched_sim.processors.part_file import read_part
 from sched_sim.scenario_file import read_scenario
 from sched_sim.schedule.task_file import read_tasks
 from studies.sweep.settings import settings
@@ -69,7 +69,7 @@ READERS: dict[str, tuple[str, Read]] = {
     "tasks": (TASKS, read_tasks),
     "costs": (COSTS, read_costs),
     "samples": (SAMPLES, read_sampled_costs),
-    "processor": (PROCESSOR, read_processor),
+    "processor": (PROCESSOR, read_part),
     "grid": (GRID, lambda path: settings({}, path)),
 }
 VALUES = ["1", "1.5", "-3", "true", '"x"', '""', "[]", "{}", "[1, 2]", "[[]]", "[{}]", "{ a = 1.5 }", "1979-05-27"]

@@ -26,7 +26,7 @@ from filters.systems.rocket_filter import (
 )
 from sched_sim.costs.sample_file import SampledCosts
 from sched_sim.distribution import wilson
-from sched_sim.processor import load_processor
+from sched_sim.processors.part_file import load_part
 from sched_sim.scenario_run import run_scenario
 from studies.modular.rocket_schedule import (
     CONTROL_EVERY,
@@ -245,7 +245,7 @@ def test_costs_are_the_counted_operations_by_the_data_sheet_and_their_spread() -
         operations = count(job.function, *job.arguments(0))
         found = costs.samples["correct.GPS"]
         assert [cycles / found[0] for cycles in found] == [Fraction(tenths, 10) for tenths in range(10, 16)]
-        part = load_processor(PROCESSOR)
+        part = load_part(PROCESSOR)
         per = {kind: part.seconds[kind] * (part.clock_hz or 0) for kind in part.seconds}
         logic = part.logic_per_arithmetic * sum(operations[:4])
         by_hand = sum(number * per[kind] for kind, number in operations._asdict().items() if kind in per)

@@ -13,7 +13,8 @@ from sched_sim.design.pieces import select
 from sched_sim.design.simulate import simulate
 from sched_sim.design.timing import Timing
 from sched_sim.errors import InputError
-from sched_sim.processor import load_processor, on_processor
+from sched_sim.processors.part import on_part
+from sched_sim.processors.part_file import load_part
 from sched_sim.schedule.task_file import read_tasks
 from studies.sweep.export import export
 from studies.sweep.run import run
@@ -97,8 +98,8 @@ def test_a_design_meets_its_deadlines_where_the_simulation_at_the_parts_own_spee
     }
     others = read_tasks(Path(tasks)) if tasks else ()
     for row in rows:
-        part = load_processor("mine.toml" if row["processor"] == "mine" else row["processor"])
-        costs = select(on_processor(load_costs("counted-9-3-3"), part), row["method"], Options())
+        part = load_part("mine.toml" if row["processor"] == "mine" else row["processor"])
+        costs = select(on_part(load_costs("counted-9-3-3"), part), row["method"], Options())
         timing = Timing(*(int(row[name]) for name in "NML"))
         schedule = simulate(costs, timing, 1 / Fraction(row["hr_hz"]), 40, Options(), others)
         assert (row["feasible"] == "true") == (schedule.misses == 0)

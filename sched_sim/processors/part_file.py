@@ -13,8 +13,10 @@ from sched_sim.costs.operations import OPERATION_KINDS
 from sched_sim.errors import InputError
 from sched_sim.files.toml_problems import problems
 from sched_sim.files.toml_reader import read_toml
-from sched_sim.processor import Processor, shipped_processors
+from sched_sim.processors.part import Part
 from sched_sim.ticks import exact, positive
+
+SHIPPED = Path(__file__).parent
 
 HERTZ_PER_MHZ = 10**6
 MICROSECONDS_PER_SECOND = 10**6
@@ -109,13 +111,28 @@ class _ProcessorFile(BaseModel):
         return self.cycles or self.microseconds
 
 
-def read_processor(path: Path, shown: str = "") -> Processor:
+def shipped_parts() -> list[str]:
+    """The names of the processors that come with the project."""
+    return sorted(path.stem for path in SHIPPED.glob("*.toml"))
+
+
+def load_part(name_or_path: str | Path) -> Part:
+    """A shipped processor by its name, or a user's own by the path of its file.
+
+    Raises InputError that names the file, every wrong entry in it, and the remedy.
+    """
+    text = str(name_or_path)
+    path = SHIPPED / f"{text}.toml" if text in shipped_parts() else Path(text)
+    return read_part(path, shown=text)
+
+
+def read_part(path: Path, shown: str = "") -> Part:
     """The processor in `path`; `shown` is what the user called it.
 
     Raises InputError that lists every wrong entry of the file with its value.
     """
     shown = shown or str(path)
-    remedy = f"give one of {', '.join(shipped_processors())}, or the path of a TOML file"
+    remedy = f"give one of {', '.join(shipped_parts())}, or the path of a TOML file"
     document = read_toml(path, f"processor {shown!r}", remedy)
     try:
         checked = _ProcessorFile.model_validate(document)
@@ -126,7 +143,7 @@ def read_processor(path: Path, shown: str = "") -> Processor:
     named = {**checked.figures, "logic_per_arithmetic": checked.logic_per_arithmetic}
     if checked.clock_mhz:
         named["clock_mhz"] = checked.clock_mhz
-    return Processor(
+    return Part(
         name=checked.name,
         title=checked.title,
         precision=checked.precision,

@@ -15,7 +15,8 @@ from sched_sim.costs.operations import OPERATION_KINDS
 from sched_sim.costs.table import Cost, CostTable
 from sched_sim.costs.table_file import costs_text, load_costs, read_costs
 from sched_sim.errors import InputError
-from sched_sim.processor import TABLES, Processor, load_processor, on_processor, shipped_processors
+from sched_sim.processors.part import Part, on_part
+from sched_sim.processors.part_file import SHIPPED, load_part, shipped_parts
 
 MICROSECOND = Fraction(1, 10**6)
 
@@ -47,7 +48,7 @@ counts = st.fixed_dictionaries(
 )
 positive = st.fractions(min_value=Fraction(1, 1000), max_value=1000)
 processors = st.builds(
-    Processor,
+    Part,
     name=st.just("any"),
     title=st.just("any"),
     precision=st.just("double"),
@@ -63,9 +64,9 @@ def table(operations: dict[str, int]) -> CostTable:
     return CostTable("mine", "operation", {}, operations={"standard": {"update": operations}})
 
 
-def seconds(operations: dict[str, int], processor: Processor) -> Fraction:
+def seconds(operations: dict[str, int], processor: Part) -> Fraction:
     """What that job takes on `processor`."""
-    return on_processor(table(operations), processor).entry("standard", "update").minimum
+    return on_part(table(operations), processor).entry("standard", "update").minimum
 
 
 @pytest.fixture
@@ -78,7 +79,7 @@ def file(tmp_path: Path) -> Path:
 def test_the_patents_filter_takes_the_patents_times_on_the_patents_processor() -> None:
     # "Optimal covariance filtering": "the conventional Kalman filter would require 166,870 microseconds per cycle";
     # 139 x 20 + 128 x 10 + 1783 x 2 for the state update
-    costs = on_processor(load_costs("patent-multirate"), load_processor("patent")).costs["multirate"]
+    costs = on_part(load_costs("patent-multirate"), load_part("patent")).costs["multirate"]
     assert costs["covariance_gain"] == Cost.of(166870 * MICROSECOND)
     assert costs["state_update"] == Cost.of(7626 * MICROSECOND)
 
@@ -86,12 +87,12 @@ def test_the_patents_filter_takes_the_patents_times_on_the_patents_processor() -
 def test_the_patents_overhead_factor_is_that_of_its_covariance_cycle() -> None:
     counted = dict(load_costs("patent-multirate").operations["multirate"]["covariance_gain"])
     del counted["logic"]
-    assert seconds(counted, load_processor("patent")) == 166870 * MICROSECOND
+    assert seconds(counted, load_part("patent")) == 166870 * MICROSECOND
 
 
-@pytest.mark.parametrize("name", shipped_processors())
+@pytest.mark.parametrize("name", shipped_parts())
 def test_every_shipped_processor_says_where_each_figure_is_from(name: str) -> None:
-    processor = load_processor(name)
+    processor = load_part(name)
     assert processor.name == name
     figures = {*processor.seconds, "logic_per_arithmetic", *(["clock_mhz"] if processor.clock_hz else [])}
     assert set(processor.sources) == figures
@@ -100,20 +101,20 @@ def test_every_shipped_processor_says_where_each_figure_is_from(name: str) -> No
         assert processor.sources[kind].startswith(("latency: ", "throughput: ", "time: "))
 
 
-@pytest.mark.parametrize("name", shipped_processors())
+@pytest.mark.parametrize("name", shipped_parts())
 def test_every_shipped_processor_runs_the_counted_filters(name: str) -> None:
     counted = load_costs("counted-9-3-3")
-    timed = on_processor(counted, load_processor(name))
+    timed = on_part(counted, load_part(name))
     assert timed.unit == "second"
     for method in DELAYED_METHODS:
         assert list(timed.costs[method]) == list(counted.costs[method])
     assert timed.provenance["update_form"] == "textbook"
     assert timed.provenance["processor"]["name"] == name
-    assert timed.provenance["machine"] == load_processor(name).title
+    assert timed.provenance["machine"] == load_part(name).title
 
 
 def test_a_file_with_cycles_is_read_exactly(file: Path) -> None:
-    board = load_processor(file)
+    board = load_part(file)
     assert board.clock_hz == 2_000_000
     assert board.seconds == {
         "multiply": Fraction(3, 2) * MICROSECOND,
@@ -127,27 +128,27 @@ def test_a_file_with_cycles_is_read_exactly(file: Path) -> None:
 
 def test_a_file_with_times_has_no_clock(file: Path) -> None:
     file.write_text(TIMES)
-    board = load_processor(file)
+    board = load_part(file)
     assert board.clock_hz is None
     assert seconds({"multiply": 10, "add": 5}, board) == 4 * MICROSECOND
 
 
 def test_logic_is_the_jobs_own_or_the_processors_factor(file: Path) -> None:
-    board = load_processor(file)
+    board = load_part(file)
     assert seconds({"multiply": 4, "add": 6}, board) == (6 + 6 + Fraction(5, 2)) * MICROSECOND
     assert seconds({"multiply": 4, "add": 6, "logic": 100}, board) == (6 + 6 + 50) * MICROSECOND
     assert seconds({"multiply": 4, "add": 6, "logic": 0}, board) == (6 + 6) * MICROSECOND
 
 
 def test_costs_on_a_processor_survive_being_written_and_read(tmp_path: Path) -> None:
-    timed = on_processor(load_costs("patent-multirate"), load_processor("patent"))
+    timed = on_part(load_costs("patent-multirate"), load_part("patent"))
     path = tmp_path / "timed.toml"
     path.write_text(costs_text(timed))
     assert replace(read_costs(path), path=timed.path) == timed
 
 
 @given(processors, counts, counts, st.integers(1, 1000))
-def test_time_is_linear_in_the_counts(processor: Processor, a: dict[str, int], b: dict[str, int], times: int) -> None:
+def test_time_is_linear_in_the_counts(processor: Part, a: dict[str, int], b: dict[str, int], times: int) -> None:
     if ("logic" in a) != ("logic" in b):
         a, b = a | {"logic": 7}, b | {"logic": 8}
     both = {kind: a.get(kind, 0) + times * b.get(kind, 0) for kind in {*a, *b}}
@@ -156,26 +157,26 @@ def test_time_is_linear_in_the_counts(processor: Processor, a: dict[str, int], b
 
 @pytest.mark.parametrize("clock_mhz", [1, 84, 5000])
 def test_times_are_cycles_over_the_clock(file: Path, clock_mhz: int) -> None:
-    file.write_text((TABLES / "cortex-m4f.toml").read_text().replace("value = 168", f"value = {clock_mhz}"))
-    shipped, moved = load_processor("cortex-m4f"), load_processor(file)
+    file.write_text((SHIPPED / "cortex-m4f.toml").read_text().replace("value = 168", f"value = {clock_mhz}"))
+    shipped, moved = load_part("cortex-m4f"), load_part(file)
     assert moved.seconds["divide"] == Fraction(15, clock_mhz) * MICROSECOND
     assert moved.seconds == {kind: time * 168 / clock_mhz for kind, time in shipped.seconds.items()}
 
 
 def test_an_unknown_processor_lists_the_shipped_ones_and_says_that_a_path_works() -> None:
     with pytest.raises(InputError, match=r"'cortex' not found: give one of cortex-a53, .*patent.*path of a TOML file"):
-        load_processor("cortex")
+        load_part("cortex")
 
 
 def test_a_table_without_counts_names_the_remedy() -> None:
     with pytest.raises(InputError, match=r"steffes2014.*no operation counts.*'patent'.*--costs counted-9-3-3.*measure"):
-        on_processor(load_costs("steffes2014"), load_processor("patent"))
+        on_part(load_costs("steffes2014"), load_part("patent"))
 
 
 def test_a_function_that_is_not_timed_is_the_arithmetic_of_a_cosine(file: Path) -> None:
     """13 multiplies, 17 adds, and the logic around these 30."""
     file.write_text(TIMES)
-    board = load_processor(file)
+    board = load_part(file)
     as_arithmetic = seconds({"multiply": 1 + 2 * 13, "add": 2 * 17}, board)
     assert seconds({"multiply": 1, "function": 2}, board) == as_arithmetic
 
@@ -184,7 +185,7 @@ def test_a_function_that_is_not_timed_is_the_arithmetic_of_a_cosine(file: Path) 
 def test_a_kind_that_the_processor_lacks_is_named(file: Path, kind: str) -> None:
     file.write_text(TIMES)
     with pytest.raises(InputError) as error:
-        seconds({"multiply": 1, kind: 2}, load_processor(file))
+        seconds({"multiply": 1, kind: 2}, load_part(file))
     for words in [
         f"'board' ({file})",
         f"no time for {kind}",
@@ -199,7 +200,7 @@ def test_only_the_job_that_needs_it_misses_a_kind() -> None:
     two = replace(
         table({"multiply": 1}), operations={"standard": {"propagate": {"add": 1, "logic": 0}, "update": {"sqrt": 1}}}
     )
-    timed = on_processor(two, load_processor("patent"))
+    timed = on_part(two, load_part("patent"))
     assert timed.entry("standard", "propagate") == Cost.of(10 * MICROSECOND)
     with pytest.raises(InputError, match=r"'patent'.*no time for sqrt.*\[operations\.standard\] update"):
         timed.entry("standard", "update")
@@ -208,7 +209,7 @@ def test_only_the_job_that_needs_it_misses_a_kind() -> None:
 
 
 def test_a_kind_that_no_job_needs_may_lack() -> None:
-    assert seconds({"multiply": 1, "sqrt": 0, "logic": 0}, load_processor("patent")) == 20 * MICROSECOND
+    assert seconds({"multiply": 1, "sqrt": 0, "logic": 0}, load_part("patent")) == 20 * MICROSECOND
 
 
 @pytest.mark.parametrize(
@@ -241,17 +242,17 @@ def test_a_kind_that_no_job_needs_may_lack() -> None:
 def test_what_is_wrong_in_a_file_is_named(file: Path, old: str, new: str, said: list[str]) -> None:
     file.write_text(BOARD.replace(old, new, 1))
     with pytest.raises(InputError) as error:
-        load_processor(file)
+        load_part(file)
     for words in [str(file), *said]:
         assert words in str(error.value)
 
 
 def test_a_folder_is_no_processor(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="is a folder, not a file: give one of"):
-        load_processor(tmp_path)
+        load_part(tmp_path)
 
 
 def test_a_file_that_is_no_text_cannot_be_read(file: Path) -> None:
     file.write_bytes(b"\xff\xfe")
     with pytest.raises(InputError, match="cannot be read"):
-        load_processor(file)
+        load_part(file)

@@ -13,13 +13,10 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from pathlib import Path
 
 from sched_sim.costs.operations import Counts, arithmetic
 from sched_sim.costs.table import Cost, CostTable
 from sched_sim.errors import InputError
-
-SHIPPED = Path(__file__).parent / "processors"
 
 FUNCTION = {"multiply": 13, "add": 17}
 """What a function (sin, cos, exp, ...) is charged as on a processor whose file does not time it: the cosine of fdlibm,
@@ -27,7 +24,7 @@ its polynomial (k_cos.c) and the first step of the reduction of its argument (e_
 
 
 @dataclass(frozen=True)
-class Processor:
+class Part:
     """What each kind of operation takes on one processor.
 
     seconds: by kind of operation (`costs.OPERATION_KINDS`), those that the file gives. clock_hz: None if the file
@@ -46,24 +43,7 @@ class Processor:
     path: str = ""
 
 
-def shipped_processors() -> list[str]:
-    """The names of the processors that come with the project."""
-    return sorted(path.stem for path in SHIPPED.glob("*.toml"))
-
-
-def load_processor(name_or_path: str | Path) -> Processor:
-    """A shipped processor by its name, or a user's own by the path of its file.
-
-    Raises InputError that names the file, every wrong entry in it, and the remedy.
-    """
-    from sched_sim.processor_file import read_processor
-
-    text = str(name_or_path)
-    path = SHIPPED / f"{text}.toml" if text in shipped_processors() else Path(text)
-    return read_processor(path, shown=text)
-
-
-def on_processor(table: CostTable, processor: Processor) -> CostTable:
+def on_part(table: CostTable, processor: Part) -> CostTable:
     """The jobs of `table` whose operations are counted, with the seconds that `processor` takes for them.
 
     A job's time is the sum over its operations, one after another. Logic that a job does not count is
@@ -95,7 +75,7 @@ def on_processor(table: CostTable, processor: Processor) -> CostTable:
     )
 
 
-def seconds_for(counts: Counts, processor: Processor, job: str) -> Fraction:
+def seconds_for(counts: Counts, processor: Part, job: str) -> Fraction:
     """What `processor` takes for one job's operations, one after another. job: how messages name it.
 
     Raises InputError for a kind of operation that it does not give a time for.
@@ -107,7 +87,7 @@ def seconds_for(counts: Counts, processor: Processor, job: str) -> Fraction:
     return sum((number * processor.seconds[operation] for operation, number in needed.items()), Fraction(0))
 
 
-def _needed(counts: Counts, processor: Processor) -> dict[str, Fraction]:
+def _needed(counts: Counts, processor: Part) -> dict[str, Fraction]:
     """How many of each operation a job takes, its logic included."""
     if "function" in counts and "function" not in processor.seconds:
         counts = _without_functions(counts)
@@ -122,7 +102,7 @@ def _without_functions(counts: Counts) -> Counts:
     return {kind: number for kind, number in counts.items() if kind != "function"} | more
 
 
-def _no_time(processor: Processor, missing: Sequence[str], job: str) -> str:
+def _no_time(processor: Part, missing: Sequence[str], job: str) -> str:
     section = "microseconds" if processor.clock_hz is None else "cycles"
     where = f"{processor.name!r} ({processor.path})" if processor.path else repr(processor.name)
     lines = " and ".join(f"`{operation} = ...`" for operation in missing)
@@ -132,7 +112,7 @@ def _no_time(processor: Processor, missing: Sequence[str], job: str) -> str:
     )
 
 
-def _about(processor: Processor) -> dict[str, str]:
+def _about(processor: Part) -> dict[str, str]:
     """What a cost table says of the processor that its times are for."""
     clock = {} if processor.clock_hz is None else {"clock_mhz": str(processor.clock_hz / 10**6)}
     return {
