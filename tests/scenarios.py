@@ -7,8 +7,8 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
-from sched_sim.scenario import Scenario, Sensor
-from sched_sim.scenario_run import run_scenario
+from sched_sim.scenario.run import run_scenario
+from sched_sim.scenario.scenario import Scenario, Sensor
 from sched_sim.schedule.outcome import Slice
 
 HR, LR = 10, 20

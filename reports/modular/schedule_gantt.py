@@ -8,8 +8,8 @@ from itertools import count
 
 from filters.systems.rocket_filter import GPS
 from reports.gantt.panels import Mark, Panel
-from sched_sim.draws import fates
-from sched_sim.scenario_run import run_scenario
+from sched_sim.scenario.draws import fates
+from sched_sim.scenario.run import run_scenario
 from sched_sim.schedule.outcome import Response, Slice
 from studies.modular.rocket_schedule import (
     DROPOUT,

@@ -11,7 +11,7 @@ from reports.modular.schedule import miss_rows_of, verdict_rows
 from reports.pages.machine import marked
 from reports.pages.numbers import between, plus_minus, significant
 from reports.pages.stored import Rows
-from sched_sim.distribution import wilson
+from sched_sim.scenario.distribution import wilson
 from studies.modular import costs as modular_costs
 from studies.modular import late_measurements, rocket
 from studies.modular import oscillator as spring_mass

@@ -28,10 +28,10 @@ from reports.drawing.style import (
     text_width_mm,
 )
 from reports.gantt.lanes import shortened
-from sched_sim.composed import correct_kind
-from sched_sim.distribution import finished_or_not
-from sched_sim.scenario import Scenario, Sensor
-from sched_sim.scenario_run import JobFigures, Outcome, SensorFigures
+from sched_sim.scenario.distribution import finished_or_not
+from sched_sim.scenario.run import JobFigures, Outcome, SensorFigures
+from sched_sim.scenario.scenario import Scenario, Sensor
+from sched_sim.scenario.source import correct_kind
 
 LEFT_MM, RIGHT_MM, GAP_MM, EDGE_MM = 11.0, 3.0, 15.0, 2.0
 TITLE_MM, NOTE_MM, PLOT_MM, AXIS_MM = 4.6, 3.6, 24.0, 11.0

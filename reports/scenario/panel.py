@@ -9,10 +9,10 @@ from typing import NamedTuple
 
 from reports.gantt.intervals import jobs
 from reports.gantt.panels import Mark, Panel
-from sched_sim.composed import correct_kind
-from sched_sim.draws import fates
-from sched_sim.scenario import Scenario, Sensor
-from sched_sim.scenario_run import Outcome, run_scenario
+from sched_sim.scenario.draws import fates
+from sched_sim.scenario.run import Outcome, run_scenario
+from sched_sim.scenario.scenario import Scenario, Sensor
+from sched_sim.scenario.source import correct_kind
 from sched_sim.schedule.jobs import step_at
 from sched_sim.schedule.outcome import Schedule, Slice
 

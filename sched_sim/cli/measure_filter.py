@@ -18,7 +18,7 @@ from sched_sim.costs.sample_file import SampledCosts, write_sampled_costs
 from sched_sim.errors import InputError
 
 if TYPE_CHECKING:
-    from sched_sim.scenario import Samples
+    from sched_sim.scenario.scenario import Samples
 
 SIZES = ("states", "inputs", "measurements")
 OF_A_SYSTEM = (*SIZES, "system", "method", "update")

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from sched_sim.composed import correct_kind
+from sched_sim.scenario.source import correct_kind
 from sched_sim.shares import percent
 
 if TYPE_CHECKING:
-    from sched_sim.scenario import Scenario, Sensor
-    from sched_sim.scenario_run import Outcome
+    from sched_sim.scenario.run import Outcome
+    from sched_sim.scenario.scenario import Scenario, Sensor
 
 
 SATURATED = 0.99
@@ -26,7 +26,7 @@ def causes(scenario: Scenario, outcome: Outcome, busy: Sequence[float]) -> list[
 
 
 def _overload(scenario: Scenario, outcome: Outcome, busy: Sequence[float]) -> Iterator[str]:
-    from sched_sim.scenario_load import loads
+    from sched_sim.scenario.load import loads
 
     if not outcome.misses:
         return
@@ -60,7 +60,7 @@ def _percent(share: float) -> str:
 
 
 def _catching_up(scenario: Scenario, outcome: Outcome) -> Iterator[str]:
-    from sched_sim.scenario_load import catching_up
+    from sched_sim.scenario.load import catching_up
 
     away = [sensor for sensor in scenario.sensors if _stay_away(outcome, sensor)]
     found = catching_up(scenario) if away else {}

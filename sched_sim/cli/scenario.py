@@ -15,8 +15,8 @@ from sched_sim.cli.outputs import Named, refuse_one_file_for_two
 from sched_sim.cli.progress import progress_bar
 
 if TYPE_CHECKING:
-    from sched_sim.scenario import Scenario, Sensor
-    from sched_sim.scenario_run import JobFigures, Outcome, SensorFigures
+    from sched_sim.scenario.run import JobFigures, Outcome, SensorFigures
+    from sched_sim.scenario.scenario import Scenario, Sensor
     from sched_sim.schedule.outcome import Slice
 
 
@@ -25,8 +25,8 @@ def simulate_scenario(
 ) -> None:
     """outputs: the three, by their options. Raises InputError for a scenario that cannot be run, and for a file that
     cannot be written or is one that is read."""
-    from sched_sim.scenario_file import read_scenario
-    from sched_sim.scenario_run import run_scenario
+    from sched_sim.scenario.run import run_scenario
+    from sched_sim.scenario.scenario_file import read_scenario
     from sched_sim.schedule.trace import check_trace, open_trace
 
     if gantt is not None or histogram is not None:
@@ -77,7 +77,7 @@ def simulate_scenario(
 
 def _document(scenario: Scenario, outcome: Outcome, busy: Sequence[float]) -> dict[str, Any]:
     from sched_sim.cli.overload import causes
-    from sched_sim.scenario_load import demand
+    from sched_sim.scenario.load import demand
 
     ms = None if scenario.hr_hz is None else float(1000 / scenario.hr_hz)
     return {
@@ -107,7 +107,7 @@ INTERVAL = "95 % interval: noise of this simulation only, for the costs as state
 
 def _job(figures: JobFigures, ms: float | None, harness: bool) -> dict[str, Any]:
     """Response times in HR periods, and in ms where a period is so many. harness: see `Scenario`."""
-    from sched_sim.distribution import finished_or_not
+    from sched_sim.scenario.distribution import finished_or_not
 
     finished = len(figures.responses)
     response = finished_or_not(figures.responses, figures.released - finished) if finished else None
@@ -220,7 +220,7 @@ def _four_digits(value: float | None) -> str | None:
 
 
 def _sensor_words(sensor: Sensor, figures: SensorFigures) -> dict[str, Any]:
-    from sched_sim.distribution import finished_or_not
+    from sched_sim.scenario.distribution import finished_or_not
 
     row = _sensor(sensor, figures)
     shown = ("taken", "dropped", "on_the_way", "landed", "not_landed", "land_by")

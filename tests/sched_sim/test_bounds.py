@@ -9,7 +9,7 @@ import pytest
 
 from sched_sim.bounds import short
 from sched_sim.errors import InputError
-from sched_sim.scenario_file import read_scenario
+from sched_sim.scenario.scenario_file import read_scenario
 from sched_sim.ticks import exact
 from tests.command_line import Run, is_refused
 

@@ -11,9 +11,9 @@ from pathlib import Path
 
 import pytest
 
-from sched_sim.scenario import Sensor
-from sched_sim.scenario_file import read_scenario
-from sched_sim.scenario_run import run_scenario
+from sched_sim.scenario.run import run_scenario
+from sched_sim.scenario.scenario import Sensor
+from sched_sim.scenario.scenario_file import read_scenario
 from sched_sim.schedule.tasks import Task
 from tests.command_line import Run, is_refused
 from tests.scenarios import ROCKET

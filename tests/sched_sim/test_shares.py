@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from sched_sim.distribution import wilson
+from sched_sim.scenario.distribution import wilson
 from sched_sim.shares import interval, percent, probability
 
 

@@ -15,9 +15,9 @@ from matplotlib.patches import Rectangle
 from reports.gantt.chart import gantt
 from reports.scenario.distributions import distributions_figure
 from reports.scenario.panel import scenario_panel
-from sched_sim.scenario import Scenario, Sensor
-from sched_sim.scenario_file import read_scenario
-from sched_sim.scenario_run import JobFigures, Outcome, SensorFigures, run_scenario
+from sched_sim.scenario.run import JobFigures, Outcome, SensorFigures, run_scenario
+from sched_sim.scenario.scenario import Scenario, Sensor
+from sched_sim.scenario.scenario_file import read_scenario
 from sched_sim.schedule.tasks import Task
 from tests import scenarios
 from tests.reports.layout import flaws, texts

@@ -12,9 +12,9 @@ from matplotlib.collections import PolyCollection
 from reports.gantt.chart import gantt
 from reports.gantt.intervals import bars, jobs, rows
 from reports.scenario.panel import LEAST_BAR_MM, Late, first_late, scenario_panel, window
-from sched_sim.draws import fates
-from sched_sim.scenario import Scenario, Sensor
-from sched_sim.scenario_run import run_scenario
+from sched_sim.scenario.draws import fates
+from sched_sim.scenario.run import run_scenario
+from sched_sim.scenario.scenario import Scenario, Sensor
 from sched_sim.schedule.tasks import Task
 from tests.reports.layout import flaws, texts
 from tests.reports.scenario.test_distributions import LONG, OVERLOAD, ROCKET

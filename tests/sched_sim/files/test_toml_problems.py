@@ -15,7 +15,7 @@ from sched_sim.costs.sample_file import read_sampled_costs
 from sched_sim.costs.table_file import read_costs
 from sched_sim.errors import InputError
 from sched_sim.processors.part_file import read_part
-from sched_sim.scenario_file import read_scenario
+from sched_sim.scenario.scenario_file import read_scenario
 from sched_sim.schedule.task_file import read_tasks
 from studies.sweep.settings import settings
 

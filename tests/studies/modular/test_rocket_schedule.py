@@ -25,9 +25,9 @@ from filters.systems.rocket_filter import (
     PredictorName,
 )
 from sched_sim.costs.sample_file import SampledCosts
-from sched_sim.distribution import wilson
 from sched_sim.processors.part_file import load_part
-from sched_sim.scenario_run import run_scenario
+from sched_sim.scenario.distribution import wilson
+from sched_sim.scenario.run import run_scenario
 from studies.modular.rocket_schedule import (
     CONTROL_EVERY,
     DROPOUT,

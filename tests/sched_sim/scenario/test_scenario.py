@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from sched_sim.errors import InputError
-from sched_sim.scenario import Sensor
+from sched_sim.scenario.scenario import Sensor
 from tests.scenarios import BY_HAND, scenario, sensor
 
 

@@ -8,8 +8,8 @@ from itertools import count
 
 import pytest
 
-from sched_sim.composed import ComposedFilter, Measurement
-from sched_sim.scenario_run import run_scenario
+from sched_sim.scenario.run import run_scenario
+from sched_sim.scenario.source import ComposedFilter, Measurement
 from tests.scenarios import BY_HAND, HR, LR, scenario, sensor, slices_of
 
 

@@ -6,7 +6,7 @@ from dataclasses import asdict
 
 import pytest
 
-from sched_sim.distribution import Distribution, finished_or_not, wilson
+from sched_sim.scenario.distribution import Distribution, finished_or_not, wilson
 
 
 def test_quantiles_are_values_of_the_sample() -> None:

@@ -46,8 +46,8 @@ from itertools import groupby
 from operator import itemgetter
 from typing import NamedTuple
 
-from sched_sim.draws import stream, total
-from sched_sim.scenario import Scenario, Sensor
+from sched_sim.scenario.draws import stream, total
+from sched_sim.scenario.scenario import Scenario, Sensor
 from sched_sim.schedule.jobs import Job, Parts, Source, Then, step_at
 
 

@@ -9,10 +9,10 @@ from pathlib import Path
 from typing import Literal
 
 from sched_sim.bounds import MOST_STEPS, short
-from sched_sim.draws import fates
 from sched_sim.errors import InputError
 from sched_sim.files.toml_writer import toml_key
-from sched_sim.in_flight import Flight, first_overlap
+from sched_sim.scenario.draws import fates
+from sched_sim.scenario.in_flight import Flight, first_overlap
 from sched_sim.schedule.jobs import HR, LR
 from sched_sim.schedule.tasks import Task
 

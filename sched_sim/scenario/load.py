@@ -5,8 +5,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from sched_sim.scenario import Scenario, Sensor
-from sched_sim.scenario_pattern import going_back, in_flight
+from sched_sim.scenario.pattern import going_back, in_flight
+from sched_sim.scenario.scenario import Scenario, Sensor
 from sched_sim.schedule.tasks import Task
 
 

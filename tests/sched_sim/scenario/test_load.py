@@ -11,10 +11,10 @@ from hypothesis import strategies as st
 
 from sched_sim.cli.overload import causes
 from sched_sim.errors import InputError
-from sched_sim.scenario import Scenario, Sensor
-from sched_sim.scenario_file import read_scenario
-from sched_sim.scenario_load import catching_up, demand, loads
-from sched_sim.scenario_run import run_scenario
+from sched_sim.scenario.load import catching_up, demand, loads
+from sched_sim.scenario.run import run_scenario
+from sched_sim.scenario.scenario import Scenario, Sensor
+from sched_sim.scenario.scenario_file import read_scenario
 from sched_sim.schedule.tasks import Task
 from tests import scenarios
 from tests.scenarios import HR, LR, sensor

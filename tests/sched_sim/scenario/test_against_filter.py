@@ -23,8 +23,8 @@ from filters.modular import (
 )
 from filters.modular import Sensor as FilterSensor
 from sched_sim.errors import InputError
-from sched_sim.scenario import Sensor
-from sched_sim.scenario_run import run_scenario
+from sched_sim.scenario.run import run_scenario
+from sched_sim.scenario.scenario import Sensor
 from tests.scenarios import BY_HAND, HR, LR, scenario, sensor
 
 # ------------------------------------------------------------------------------- the work is that of the filter
