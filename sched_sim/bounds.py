@@ -6,15 +6,10 @@ end. Messages name the option or the key, the value and the bound.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from decimal import Decimal
 from fractions import Fraction
-from typing import TYPE_CHECKING
 
 from sched_sim.errors import InputError
-
-if TYPE_CHECKING:
-    from sched_sim.schedule.tasks import Task
 
 MOST_DIGITS = 50
 """Of a number: exact arithmetic takes them all."""
@@ -78,16 +73,3 @@ def check_whole(value: int, what: str, most: int = MOST_STEPS) -> None:
     """Raises InputError for a whole number above `most`, by default of HR steps."""
     if value > most:
         raise InputError(f"{what} is {short(value)}: give at most {most:,}")
-
-
-def check_simulation(steps: int, tasks: Sequence[Task], what: str, most: int = MOST_JOBS) -> None:
-    """Raises InputError for a simulation of too many steps, or of too many jobs of the filter and the tasks."""
-    if steps > MOST_STEPS:
-        raise InputError(f"{what} are {short(steps)} HR steps: at most {MOST_STEPS:,} are simulated; give fewer")
-    jobs = steps + sum(int(steps / task.period) for task in tasks)
-    if jobs > most:
-        shortest = min(tasks, key=lambda task: task.period)
-        raise InputError(
-            f"{what} release {short(jobs)} jobs, most of them of task {shortest.name!r} with period "
-            f"{float(shortest.period):g}: at most {most:,} are possible; check its period, or simulate fewer steps"
-        )

@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import NamedTuple
 
-from sched_sim.bounds import check_simulation
 from sched_sim.costs.methods import MULTIRATE_METHODS, TWO_RATE_METHODS
 from sched_sim.costs.table import CostTable
 from sched_sim.design.options import Options
@@ -15,6 +14,7 @@ from sched_sim.design.pieces import Statistic, select
 from sched_sim.design.simulate import simulate
 from sched_sim.design.timing import Timing
 from sched_sim.errors import InputError
+from sched_sim.schedule.length import check_simulation
 from sched_sim.schedule.outcome import Schedule
 from sched_sim.schedule.tasks import Task
 

@@ -9,13 +9,14 @@ from fractions import Fraction
 from itertools import chain
 from typing import NamedTuple
 
-from sched_sim.bounds import check_simulation, short
+from sched_sim.bounds import short
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import JobCosts, LarsenCosts, RecalculateCosts
 from sched_sim.design.sources import OnLanding, method_source
 from sched_sim.design.timing import Timing
 from sched_sim.schedule.clock import Clock, OnProgress
 from sched_sim.schedule.jobs import RecurringSource
+from sched_sim.schedule.length import check_simulation
 from sched_sim.schedule.outcome import Schedule, Slice
 from sched_sim.schedule.processor import OnSlice, Processor
 from sched_sim.schedule.tasks import Task, TaskSource, check_cpus, work_and_times

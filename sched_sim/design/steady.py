@@ -14,13 +14,14 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import ceil, gcd, lcm
 
-from sched_sim.bounds import MOST_JOBS_TO_REPEAT, check_simulation, short
+from sched_sim.bounds import MOST_JOBS_TO_REPEAT, short
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import JobCosts
 from sched_sim.design.simulate import workload_in_ticks
 from sched_sim.design.timing import Timing
 from sched_sim.errors import InputError
 from sched_sim.schedule.jobs import Job, RecurringSource, Source
+from sched_sim.schedule.length import check_simulation
 from sched_sim.schedule.outcome import Schedule
 from sched_sim.schedule.processor import Processor
 from sched_sim.schedule.tasks import Task

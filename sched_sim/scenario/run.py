@@ -6,12 +6,12 @@ from collections import Counter, defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from sched_sim.bounds import check_simulation
 from sched_sim.scenario.distribution import wilson
 from sched_sim.scenario.scenario import Scenario, needed_parts
 from sched_sim.scenario.source import ComposedFilter, Measurement, correct_kind
 from sched_sim.schedule.clock import Clock, OnProgress
 from sched_sim.schedule.jobs import Source, step_at
+from sched_sim.schedule.length import check_simulation
 from sched_sim.schedule.outcome import Response, Schedule, Slice
 from sched_sim.schedule.processor import OnSlice, Processor
 from sched_sim.schedule.tasks import TaskSource, work_and_times

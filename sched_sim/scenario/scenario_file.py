@@ -10,7 +10,7 @@ from typing import Annotated, Any, Literal, Self, get_args
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, model_validator
 
-from sched_sim.bounds import MOST_SENSORS, MOST_STEPS, check_simulation, short
+from sched_sim.bounds import MOST_SENSORS, MOST_STEPS, short
 from sched_sim.costs.sample_file import SampledCosts, read_sampled_costs
 from sched_sim.costs.table import SECONDS
 from sched_sim.errors import InputError
@@ -21,6 +21,7 @@ from sched_sim.processors.part import seconds_for
 from sched_sim.processors.part_file import load_part, shipped_parts
 from sched_sim.scenario.scenario import Late, Samples, Scenario, Sensor, ends, needed_parts
 from sched_sim.schedule.jobs import HR, LR
+from sched_sim.schedule.length import check_simulation
 from sched_sim.schedule.task_file import TaskEntry, wrong_together
 
 
