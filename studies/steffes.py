@@ -18,8 +18,8 @@ from typing import Any, NamedTuple
 
 from sched_sim.costs.table import Cost, CostTable
 from sched_sim.design.least_speed import LeastSpeed, least_speed
+from sched_sim.design.methods import select
 from sched_sim.design.options import Options
-from sched_sim.design.pieces import select
 from sched_sim.design.timing import Timing
 
 METHODS = ("recalculate", "larsen", "dual-rate")

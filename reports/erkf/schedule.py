@@ -23,7 +23,7 @@ LINES = SOURCE_LINES[1:]
 IN_ONE = {"P": "IP", "U": "RS"}
 
 
-def speed_figure(costs: Mapping[str, Mapping[str, RobustCosts]], N: int, hr_hz: int) -> Figure:
+def speed_figure(costs: Mapping[str, Mapping[str, RobustCosts[Fraction]]], N: int, hr_hz: int) -> Figure:
     """A plot for each system: millions of operations a second against L, a curve for each way, at most four.
 
     costs: in operations, by system and way. At the left end, L = 1, a curve is at what the whole step in one HR
@@ -70,7 +70,9 @@ def millions(speed: Fraction, hr_hz: int) -> float:
     return float(speed * hr_hz / 10**6)
 
 
-def two_rates(costs: RobustCosts, timing: Timing, speed: Fraction, title: str, pace: str, cycles: int = 1) -> Panel:
+def two_rates(
+    costs: RobustCosts[Fraction], timing: Timing, speed: Fraction, title: str, pace: str, cycles: int = 1
+) -> Panel:
     """The robust step in what the inertial propagation leaves of L steps. pace: what the title says of the speed."""
     schedule = simulate(costs, timing, speed, cycles, keep_slices=True)
     landed = achieved_l(costs, timing, speed)
@@ -83,7 +85,7 @@ def two_rates(costs: RobustCosts, timing: Timing, speed: Fraction, title: str, p
     )
 
 
-def one_period(costs: RobustCosts, N: int, speed: Fraction, title: str, pace: str, cycles: int = 1) -> Panel:
+def one_period(costs: RobustCosts[Fraction], N: int, speed: Fraction, title: str, pace: str, cycles: int = 1) -> Panel:
     """The robust step as part of the HR job of every N-th step, so that the next ones wait for it."""
     whole = StandardCosts(costs.inertial, costs.robust_step)
     schedule = simulate(whole, Timing(N, 0, N), speed, cycles, keep_slices=True)

@@ -15,8 +15,9 @@ from sched_sim.costs.methods import ROBUST_METHODS
 from sched_sim.costs.table import CostTable
 from sched_sim.design.fit import fit
 from sched_sim.design.least_speed import achieved_l, least_speed
+from sched_sim.design.methods import select
 from sched_sim.design.options import Options
-from sched_sim.design.pieces import RobustCosts, StandardCosts, select
+from sched_sim.design.pieces import RobustCosts, StandardCosts
 from sched_sim.design.timing import Timing
 from sched_sim.processors.part import Part, on_part
 from studies.robust.costs import HR_HZ, SYSTEMS, N, SystemName, parallel_costs
@@ -38,7 +39,7 @@ OF_POSITION = ("between_north_m", "between_east_m", "between_down_m", "outage_en
 SHOWN = tuple(P for P in PROCESSORS if P not in (4, 256))
 
 
-def robust_costs_of(table: CostTable, method: str) -> RobustCosts:
+def robust_costs_of(table: CostTable, method: str) -> RobustCosts[Fraction]:
     costs = select(table, method, Options())
     assert isinstance(costs, RobustCosts)
     return costs
@@ -132,7 +133,7 @@ def speed_rows(tables: Mapping[SystemName, CostTable], measured: Mapping[SystemN
     return rows
 
 
-def on(table: CostTable, processor: Part, method: str) -> RobustCosts | None:
+def on(table: CostTable, processor: Part, method: str) -> RobustCosts[Fraction] | None:
     """In seconds; None where the processor has no time for an operation, such as a square root."""
     asked = {kind for counts in table.operations[method].values() for kind in counts} - {"function"}
     if not asked <= set(processor.seconds):
@@ -173,7 +174,7 @@ def device_rows(processor: Part) -> Rows:
     return rows
 
 
-def _device(costs: RobustCosts, processor: Part) -> list[Any]:
+def _device(costs: RobustCosts[Fraction], processor: Part) -> list[Any]:
     landed = achieved_l(costs, Timing(N, 0, N), Fraction(1, HR_HZ))
     assert processor.clock_hz is not None
     clock = fit(costs, Timing(N, 0, 1), Fraction(HR_HZ)).needed * processor.clock_hz / 10**6

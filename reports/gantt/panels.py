@@ -9,8 +9,9 @@ from typing import NamedTuple
 
 from sched_sim.costs.methods import MULTIRATE_METHODS, TWO_RATE_METHODS
 from sched_sim.costs.table import CostTable
+from sched_sim.design.methods import select
 from sched_sim.design.options import Options
-from sched_sim.design.pieces import Statistic, select
+from sched_sim.design.pieces import Statistic
 from sched_sim.design.simulate import simulate
 from sched_sim.design.timing import Timing
 from sched_sim.errors import InputError

@@ -10,8 +10,9 @@ from typing import NamedTuple
 from filters.systems.gps import gps
 from sched_sim.costs.table import Cost, CostTable
 from sched_sim.costs.table_file import load_costs
+from sched_sim.design.methods import select
 from sched_sim.design.options import Options
-from sched_sim.design.pieces import MultirateCosts, select
+from sched_sim.design.pieces import MultirateCosts
 from sched_sim.design.timing import Timing
 from sched_sim.processors.part import Part, on_part
 from studies.measure import measure
@@ -49,7 +50,7 @@ def patents_form() -> Form:
     return Form("the patent's counts", "multirate", load_costs("patent-multirate"))
 
 
-def time_of(form: Form, processor: Part) -> MultirateCosts | None:
+def time_of(form: Form, processor: Part) -> MultirateCosts[Fraction] | None:
     """In seconds; None if the processor has no time for its square roots."""
     if form.square_roots and "sqrt" not in processor.seconds:
         return None
@@ -58,7 +59,7 @@ def time_of(form: Form, processor: Part) -> MultirateCosts | None:
     return costs
 
 
-def least_time_of(form: Form, processor: Part) -> MultirateCosts:
+def least_time_of(form: Form, processor: Part) -> MultirateCosts[Fraction]:
     """In seconds; where the processor has no time for square roots, that of all but these."""
     costs = time_of(form, processor) or time_of(_without_square_roots(form), processor)
     assert costs is not None

@@ -16,7 +16,7 @@ from reports.drawing.style import INK, PALE, SMALL_PT, SOURCE_LINES, WIDTH_MM, L
 from reports.gantt.chart import gantt
 from reports.gantt.panels import Panel, cycle_marks, method_panel
 from sched_sim.costs.table import CostTable
-from sched_sim.design.load import load
+from sched_sim.design.load import utilization
 from sched_sim.design.pieces import MultirateCosts, StandardCosts
 from sched_sim.design.simulate import simulate
 from sched_sim.design.timing import Timing
@@ -28,7 +28,7 @@ ONE_LOOP = {"P": "SU", "U": "CG"}
 
 
 def load_figure(
-    costs: Mapping[str, MultirateCosts], printed: Mapping[int, Sequence[str]], periods: Sequence[int]
+    costs: Mapping[str, MultirateCosts[Fraction]], printed: Mapping[int, Sequence[str]], periods: Sequence[int]
 ) -> Figure:
     """The load at one measurement of all satellites a second against n, with the highest rate that it leaves.
 
@@ -41,7 +41,7 @@ def load_figure(
         figure = page(legend_top + legend_height(legend, across) + EDGE_MM)
         axes = axes_at(figure, LEFT_MM, EDGE_MM, across, PLOT_MM)
         shares = {
-            name: [100 * float(load(of_form, Timing(n, 0, n), Fraction(1))) for n in periods]
+            name: [100 * float(utilization(of_form, Timing(n, 0, n), Fraction(1))) for n in periods]
             for name, of_form in costs.items()
         }
         for number, (percents, line) in enumerate(zip(shares.values(), SOURCE_LINES, strict=False)):

@@ -17,7 +17,7 @@ from reports.multirate.words import ratio_text, scenario_text
 from reports.pages.numbers import decimal, percent, significant
 from reports.pages.render import csv_bytes, render
 from sched_sim.design.fit import fit
-from sched_sim.design.load import load
+from sched_sim.design.load import utilization
 from sched_sim.processors.part import Part, on_part
 from sched_sim.processors.part_file import load_part, shipped_parts
 from studies.multirate import patent
@@ -89,7 +89,7 @@ def build(found: Results) -> dict[str, bytes]:
 def _saving(own: Form, patents: Part, aircraft: patent.Load) -> dict[str, str]:
     """Of the patent's counts on its processor, at one measurement of all satellites a second."""
     costs = least_time_of(own, patents)
-    each, multirate = (load(costs, every(n), Fraction(1)) for n in (1, tables.N))
+    each, multirate = (utilization(costs, every(n), Fraction(1)) for n in (1, tables.N))
     return {
         "each": percent(each),
         "printed": aircraft.printed,

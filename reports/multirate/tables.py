@@ -12,7 +12,7 @@ from reports.multirate.words import ratio_text, scenario_text
 from reports.pages.numbers import decimal, percent, significant
 from sched_sim.costs.operations import arithmetic
 from sched_sim.design.fit import fit
-from sched_sim.design.load import load
+from sched_sim.design.load import utilization
 from sched_sim.processors.part import Part
 from studies.multirate.accuracy import GOOD, Accuracy, Reading, largest_good
 from studies.multirate.patent import CYCLES, Load, comparison, terms
@@ -60,7 +60,7 @@ def our_loads(forms: Iterable[Form], processor: Part) -> Rows:
     forms = list(forms)
     rows: Rows = [["Case", *(form.name if time_of(form, processor) else f"≥ {form.name}" for form in forms)]]
     for case in CASES:
-        found = [load(least_time_of(form, processor), every(case.n), 1 / case.rate_hz) for form in forms]
+        found = [utilization(least_time_of(form, processor), every(case.n), 1 / case.rate_hz) for form in forms]
         rows.append([case.name, *(percent(share) for share in found)])
     return rows
 
@@ -116,7 +116,7 @@ def load_by_n(forms: Iterable[Form], processor: Part, periods: Iterable[int]) ->
     forms = list(forms)
     rows: Rows = [["n", *(form.name for form in forms)]]
     for n in periods:
-        found = [load(least_time_of(form, processor), every(n), Fraction(1)) for form in forms]
+        found = [utilization(least_time_of(form, processor), every(n), Fraction(1)) for form in forms]
         rows.append([n, *(percent(share) for share in found)])
     return rows
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import astuple
 from fractions import Fraction
 from typing import NamedTuple
 
@@ -12,7 +11,7 @@ import numpy as np
 from sched_sim.design import analysis
 from sched_sim.design.least_speed import Stair
 from sched_sim.design.options import Options
-from sched_sim.design.pieces import DualRateCosts, JobCosts
+from sched_sim.design.pieces import Costs, DualRateCosts, converted, works
 from sched_sim.ticks import ticks_per_unit, to_ticks
 
 
@@ -36,12 +35,11 @@ def knee(stairs: Sequence[Stair]) -> Knee | None:
 
 
 def achieved_curve(
-    costs: JobCosts, N: int, M: int, speeds: Sequence[Fraction], options: Options = Options()
+    costs: Costs, N: int, M: int, speeds: Sequence[Fraction], options: Options = Options()
 ) -> list[int | None]:
     """The L at which corrections land at each speed; None where nothing lands. See `least_speed.achieved_l`."""
-    values = [Fraction(value) for value in astuple(costs)]
-    resolution = ticks_per_unit([*values, *speeds])
-    in_ticks = type(costs)(*(to_ticks(value, resolution) for value in values))
+    resolution = ticks_per_unit([*works(costs), *speeds])
+    in_ticks = converted(costs, lambda work: to_ticks(work, resolution))
     period = np.array([to_ticks(speed, resolution) for speed in speeds], dtype=object)
     landed = analysis.achieved_l(in_ticks, np.full_like(period, N), np.full_like(period, M), period, options)
     return [None if L == analysis.NOT_LANDED else int(L) for L in landed]
@@ -53,7 +51,7 @@ def speed_grid(slowest: float, fastest: float, points: int, exactly: Sequence[Fr
     return sorted({*exactly, *(Fraction(f"{value:.4g}") for value in spread)})
 
 
-def hr_limit(costs: DualRateCosts, N: int, options: Options = Options()) -> Fraction:
+def hr_limit(costs: DualRateCosts[Fraction], N: int, options: Options = Options()) -> Fraction:
     """The speed below which some HR job of the dual-rate filter overruns its step: with next-step feedback that of
     step l, which also applies the correction."""
     ordinary = costs.hr if N > 1 else costs.hr_restart  # with N = 1, every step is a step k+1

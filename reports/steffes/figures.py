@@ -19,8 +19,9 @@ from reports.steffes.curves import achieved_curve, hr_limit, knee, speed_grid
 from sched_sim.costs.methods import DELAYED_METHODS
 from sched_sim.costs.table import CostTable
 from sched_sim.design.least_speed import Stair, staircase
+from sched_sim.design.methods import select
 from sched_sim.design.options import Options
-from sched_sim.design.pieces import DualRateCosts, select
+from sched_sim.design.pieces import DualRateCosts
 
 __all__ = ["Speeds", "achieved_figure", "cost_figure", "least_speed_figure", "table4_figure"]
 

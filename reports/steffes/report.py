@@ -16,9 +16,9 @@ from sched_sim.costs.table import CostTable
 from sched_sim.costs.table_file import costs_text, load_costs
 from sched_sim.design.analysis import BINDING_WORDS
 from sched_sim.design.least_speed import achieved_l, least_speed
-from sched_sim.design.load import load as busy
+from sched_sim.design.load import utilization as busy
+from sched_sim.design.methods import select
 from sched_sim.design.options import Options
-from sched_sim.design.pieces import select
 from sched_sim.design.simulate import simulate
 from sched_sim.design.timing import Timing
 from studies import steffes

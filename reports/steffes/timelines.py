@@ -21,8 +21,9 @@ from reports.gantt.marks import draw_marks
 from reports.gantt.panels import METHOD_NAMES, Panel, cycle_marks
 from reports.gantt.scale import Scale
 from sched_sim.costs.table import CostTable
+from sched_sim.design.methods import select
 from sched_sim.design.options import Options
-from sched_sim.design.pieces import JobCosts, LarsenCosts, select
+from sched_sim.design.pieces import Costs, LarsenCosts
 from sched_sim.design.simulate import simulate
 from sched_sim.design.timing import Timing
 from sched_sim.errors import InputError
@@ -105,7 +106,7 @@ def dual_rate_timeline(table: CostTable, timing: Timing, speed: Fraction) -> Fig
         return figure
 
 
-def serial_costs(table: CostTable) -> LarsenCosts:
+def serial_costs(table: CostTable) -> LarsenCosts[Fraction]:
     """Of a filter whose steps all propagate alike, and one of which also updates."""
     costs = select(table, "larsen", Options())
     assert isinstance(costs, LarsenCosts)
@@ -119,7 +120,7 @@ def unused(all_jobs: Sequence[JobSpan], first: int, end: int) -> list[tuple[int,
     return [(start, stop) for start, stop in list(pairwise(edges))[::2] if start < stop]
 
 
-def _second_cycle(costs: JobCosts, method: str, timing: Timing, speed: Fraction, steps: int) -> Panel:
+def _second_cycle(costs: Costs, method: str, timing: Timing, speed: Fraction, steps: int) -> Panel:
     """The second cycle, so that what the first left to do is there too; from step k-1 until step k + `steps`."""
     landings: dict[int, int] = {}
     schedule = simulate(costs, timing, speed, 3, keep_slices=True, on_landing=landings.__setitem__)

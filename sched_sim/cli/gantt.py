@@ -52,7 +52,7 @@ def gantt(
     from reports.gantt.chart import gantt as draw
     from reports.gantt.chart import method_panel, save
     from sched_sim.design.least_speed import least_speed
-    from sched_sim.design.pieces import select
+    from sched_sim.design.methods import select
 
     check_picture(output, "--output")
     inputs = [("--costs", costs), ("--processor", processor), ("--tasks", tasks)]

@@ -13,7 +13,7 @@ from sched_sim.costs.table import SECONDS
 
 if TYPE_CHECKING:
     from sched_sim.design.options import Options
-    from sched_sim.design.pieces import JobCosts
+    from sched_sim.design.pieces import Costs
     from sched_sim.design.timing import Timing
     from sched_sim.schedule.tasks import Task
 
@@ -52,8 +52,7 @@ def minimum(
     from sched_sim.costs.table_file import COUNTED
     from sched_sim.design.fit import fit
     from sched_sim.design.least_speed import least_speed
-    from sched_sim.design.pieces import select
-    from sched_sim.design.timing import impossible
+    from sched_sim.design.methods import METHODS, select
 
     options = opt.make_options(lr_propagate_by, feedback, gain, low_rate_noise, cpus, context_switch)
     part = opt.make_processor(processor)
@@ -63,7 +62,7 @@ def minimum(
     shown: list[dict[str, Any]] = []
     for name in opt.wanted_methods(method, table):
         timing = opt.make_timing(N, M, L, name, options)
-        if not method and (reason := impossible(name, timing)):
+        if not method and (reason := METHODS[name].law(options.feedback).why_none(timing.N, timing.M)):
             say(f"Note: no {name}: {reason}")
             continue
         work = select(table, name, options, statistic)
@@ -96,11 +95,11 @@ def minimum(
         print_table(f"Least speed, {design}, in {unit} (costs: {table.name})", shown, note)
 
 
-def _landing(costs: JobCosts, timing: Timing, speed: Fraction, options: Options, tasks: Sequence[Task]) -> int:
+def _landing(costs: Costs, timing: Timing, speed: Fraction, options: Options, tasks: Sequence[Task]) -> int:
     """The latest L at which a correction lands at the least speed."""
-    from sched_sim.design.least_speed import achieved_l
+    from sched_sim.design.least_speed import achieved_l, has_closed_form
 
-    if tasks or options.context_switch:
+    if not has_closed_form(options, tasks):
         from sched_sim.design.steady import run_until_steady
 
         return max(run_until_steady(costs, timing, speed, options, tasks).schedule.achieved)

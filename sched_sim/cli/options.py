@@ -10,12 +10,13 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import typer
 
 from sched_sim.bounds import MOST_STEPS, short
-from sched_sim.costs.methods import METHODS, TWO_RATE_METHODS, Method
+from sched_sim.costs.methods import METHODS as NAMES
+from sched_sim.costs.methods import Method
 from sched_sim.costs.table import CostTable, default_methods
 from sched_sim.costs.table_file import COUNTED, PAPERS, load_costs
 from sched_sim.design.options import Gain, LowRateNoise, Options
 from sched_sim.design.pieces import Statistic
-from sched_sim.design.timing import Feedback, Timing, latest_feedback_step
+from sched_sim.design.timing import Feedback, Timing
 from sched_sim.errors import InputError
 from sched_sim.schedule.tasks import Task
 from sched_sim.ticks import exact, positive
@@ -96,7 +97,7 @@ Methods = Annotated[
     list[str] | None,
     typer.Option(
         "--method",
-        help=f"{', '.join(METHODS)}; repeatable; by default those of the first four that the cost table has.",
+        help=f"{', '.join(NAMES)}; repeatable; by default those of the first four that the cost table has.",
         rich_help_panel=DESIGN,
     ),
 ]
@@ -229,7 +230,10 @@ def make_options(
 
 def make_timing(N: int, M: int | None, L: int | None, method: str, options: Options) -> Timing:
     """With L the latest that the method can have, if the user did not say. Multirate methods have no delay."""
-    if method in TWO_RATE_METHODS:
+    from sched_sim.design.methods import METHODS
+
+    law = METHODS[method].law(options.feedback)
+    if law.undelayed:
         if M:
             raise InputError(
                 f"-M {M}: {method} has no delay, it uses each measurement in its step: for a late one choose "
@@ -242,8 +246,7 @@ def make_timing(N: int, M: int | None, L: int | None, method: str, options: Opti
             "have none)"
         )
     if L is None:
-        latest = latest_feedback_step(N, options.feedback) if method == "dual-rate" else N
-        L = max(latest, M) if 0 <= M <= N else N
+        L = max(N - law.before, M) if 0 <= M <= N else N
     return Timing(N, M, L)
 
 
@@ -294,7 +297,7 @@ def wanted_methods(methods: Sequence[str] | None, table: CostTable) -> Sequence[
     return known_methods(methods) if methods else default_methods(table)
 
 
-def known_methods(methods: Sequence[str], known: Sequence[str] = METHODS) -> Sequence[str]:
+def known_methods(methods: Sequence[str], known: Sequence[str] = NAMES) -> Sequence[str]:
     """Each once; raises InputError for one that is none of the known."""
     for method in methods:
         if method not in known:

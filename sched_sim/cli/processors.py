@@ -178,7 +178,7 @@ def _verdicts(
     from sched_sim.cli.update_form import update_form, update_note
     from sched_sim.costs.table_file import load_costs
     from sched_sim.design.fit import fit
-    from sched_sim.design.pieces import select
+    from sched_sim.design.methods import select
     from sched_sim.errors import InputError
     from sched_sim.processors.part import on_part
 

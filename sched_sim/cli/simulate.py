@@ -19,7 +19,7 @@ from sched_sim.shares import percent
 
 if TYPE_CHECKING:
     from sched_sim.design.options import Options
-    from sched_sim.design.pieces import JobCosts
+    from sched_sim.design.pieces import Costs
     from sched_sim.design.timing import Timing
     from sched_sim.schedule.outcome import Response, Slice
     from sched_sim.schedule.tasks import Task
@@ -113,7 +113,7 @@ def simulate(
     from sched_sim.cli.update_form import update_form, update_note
     from sched_sim.costs.methods import MULTIRATE_METHODS
     from sched_sim.design.least_speed import least_speed
-    from sched_sim.design.pieces import select
+    from sched_sim.design.methods import select
     from sched_sim.design.simulate import simulate as run
     from sched_sim.schedule.trace import check_trace, open_trace
 
@@ -188,7 +188,7 @@ def simulate(
 
 
 def unseen(
-    costs: JobCosts, timing: Timing, speed: Fraction, cycles: int, options: Options, tasks: Sequence[Task]
+    costs: Costs, timing: Timing, speed: Fraction, cycles: int, options: Options, tasks: Sequence[Task]
 ) -> str | None:
     """What is still to come after so many measurement cycles without a miss, in words; None if nothing new."""
     from sched_sim.design.load import loads

@@ -9,7 +9,6 @@ Any integers will do: the arrays are computed as int64 where nothing can overflo
 
 from __future__ import annotations
 
-from dataclasses import astuple
 from enum import IntEnum
 from operator import index
 
@@ -23,8 +22,12 @@ from sched_sim.design.pieces import (
     LarsenCosts,
     MultirateCosts,
     RecalculateCosts,
+    RobustCosts,
+    SerialCosts,
     StandardCosts,
     TwoRateCosts,
+    converted,
+    works,
 )
 
 
@@ -58,7 +61,7 @@ NOT_LANDED = -1
 """Instead of an achieved L where an HR job overruns its step, or nothing lands before the next measurement."""
 
 
-def least_period(costs: JobCosts, N: Ints, M: Ints, L: Ints, options: Options) -> Quotient:
+def least_period(costs: JobCosts[int], N: Ints, M: Ints, L: Ints, options: Options) -> Quotient:
     """The least HR period, in ticks, at which every deadline holds; its code is a `Binding`.
 
     costs in ticks; N, M, L: integer arrays of one shape, legal for the method. `options.context_switch` is not
@@ -71,8 +74,8 @@ def least_period(costs: JobCosts, N: Ints, M: Ints, L: Ints, options: Options) -
     return Quotient(*(part.reshape(shape) for part in _least_period(costs, N, M, L, options)))
 
 
-def _least_period(costs: JobCosts, N: Ints, M: Ints, L: Ints, options: Options) -> Quotient:
-    if isinstance(costs, TwoRateCosts):
+def _least_period(costs: JobCosts[int], N: Ints, M: Ints, L: Ints, options: Options) -> Quotient:
+    if isinstance(costs, MultirateCosts | RobustCosts):
         least = _next_step(_two_rate_demand(costs, N, options), L, by_m=False)
         low = Binding.lr_gain if isinstance(costs, MultirateCosts) else Binding.lr_step
         return least._replace(code=np.where(least.code == Binding.hr, Binding.hr, low))
@@ -83,7 +86,7 @@ def _least_period(costs: JobCosts, N: Ints, M: Ints, L: Ints, options: Options) 
     return quotient(_longest_serial_job(costs, N, M), 1, Binding.hr)
 
 
-def achieved_l(costs: JobCosts, N: Ints, M: Ints, period: Ints, options: Options) -> Ints:
+def achieved_l(costs: JobCosts[int], N: Ints, M: Ints, period: Ints, options: Options) -> Ints:
     """The L at which corrections land (or gains are in use) at an HR period of `period` ticks, or NOT_LANDED.
 
     As `least_period`; `period` is an array of the same shape.
@@ -94,8 +97,8 @@ def achieved_l(costs: JobCosts, N: Ints, M: Ints, period: Ints, options: Options
     return _achieved_l(costs, N, M, period, options).reshape(shape)
 
 
-def _achieved_l(costs: JobCosts, N: Ints, M: Ints, period: Ints, options: Options) -> Ints:
-    if isinstance(costs, TwoRateCosts):
+def _achieved_l(costs: JobCosts[int], N: Ints, M: Ints, period: Ints, options: Options) -> Ints:
+    if isinstance(costs, MultirateCosts | RobustCosts):
         demand = _two_rate_demand(costs, N, options)
         return np.where(period >= demand.longest_hr_job(), _landing_next_step(demand, period), NOT_LANDED)
     if not isinstance(costs, DualRateCosts):
@@ -106,22 +109,22 @@ def _achieved_l(costs: JobCosts, N: Ints, M: Ints, period: Ints, options: Option
     return np.where(period >= demand.longest_hr_job(), landing(demand, period), NOT_LANDED)
 
 
-def _counted(costs: JobCosts) -> JobCosts:
+def _counted(costs: JobCosts[int]) -> JobCosts[int]:
     """With Python's integers, whatever whole numbers they were."""
-    return type(costs)(*map(index, astuple(costs)))
+    return converted(costs, index)
 
 
-def _arrays(costs: JobCosts, N: Ints, *others: Ints) -> list[Ints]:
+def _arrays(costs: JobCosts[int], N: Ints, *others: Ints) -> list[Ints]:
     """Flat, and of a type in which nothing overflows: the analysis multiplies the work of a cycle, or a period, by at
     most two numbers of steps."""
     found = [whole_numbers(array).ravel() for array in (N, *others)]
     steps = int(found[0].max(initial=0)) + 3
     largest = max(int(array.max(initial=0)) for array in found)
-    fits = 8 * steps * max(steps * sum(astuple(costs)), largest) <= np.iinfo(np.int64).max
+    fits = 8 * steps * max(steps * sum(works(costs)), largest) <= np.iinfo(np.int64).max
     return [array.astype(np.int64 if fits else object) for array in found]
 
 
-def _longest_serial_job(costs: StandardCosts | RecalculateCosts | LarsenCosts, N: Ints, M: Ints) -> Ints:
+def _longest_serial_job(costs: SerialCosts[int], N: Ints, M: Ints) -> Ints:
     match costs:
         case StandardCosts(propagate, update):
             return propagate + update + 0 * N
@@ -131,10 +134,10 @@ def _longest_serial_job(costs: StandardCosts | RecalculateCosts | LarsenCosts, N
             return np.where(M >= 2, 0 * N + max(accumulate + update, propagate), 0 * N + propagate + update)
 
 
-def _two_rate_demand(costs: TwoRateCosts, N: Ints, options: Options) -> DualRateDemand:
+def _two_rate_demand(costs: TwoRateCosts[int], N: Ints, options: Options) -> DualRateDemand:
     """That of a dual-rate filter whose measurement comes at once, whose HR jobs are all alike and whose LR update is
     the LR job."""
-    high, low = astuple(costs)
+    high, low = works(costs)
     alike = DualRateCosts(hr=high, hr_restart=high, hr_update=0, lr_propagate=0, lr_gain=0, lr_update=low)
     return DualRateDemand(alike, N, 0 * N, separate=options.cpus == 2)
 

@@ -64,7 +64,7 @@ class DualRateDemand(NamedTuple):
     separate: LR jobs have a processor of their own.
     """
 
-    costs: DualRateCosts
+    costs: DualRateCosts[int]
     N: Ints
     M: Ints
     separate: bool

@@ -6,10 +6,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from sched_sim.design.least_speed import LeastSpeed, achieved_l, least_speed
+from sched_sim.design.least_speed import LeastSpeed, achieved_l, has_closed_form, least_speed
 from sched_sim.design.load import loads
 from sched_sim.design.options import Options
-from sched_sim.design.pieces import JobCosts
+from sched_sim.design.pieces import Costs
 from sched_sim.design.search import OnProgress
 from sched_sim.design.steady import run_until_steady
 from sched_sim.design.timing import Timing
@@ -40,7 +40,7 @@ class Fit:
 
 
 def fit(
-    costs: JobCosts,
+    costs: Costs,
     timing: Timing,
     hr_hz: Fraction,
     options: Options = Options(),
@@ -54,7 +54,7 @@ def fit(
     pace = 1 / hr_hz
     least = least_speed(costs, timing, options, tasks, on_progress)
     busy = sum(loads(costs, timing, pace, options, tasks), Fraction(0)) / options.cpus
-    if tasks or options.context_switch:
+    if not has_closed_form(options, tasks):
         steady = run_until_steady(costs, timing, pace, options, tasks)
         fits, landed = steady.repeats, max(steady.schedule.achieved, default=None)
         if options.context_switch:

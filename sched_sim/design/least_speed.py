@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import astuple
 from fractions import Fraction
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from sched_sim.design import analysis
+from sched_sim.design.methods import method_of
 from sched_sim.design.options import Options
-from sched_sim.design.pieces import DualRateCosts, JobCosts, TwoRateCosts
-from sched_sim.design.timing import Timing, check_dual_rate, check_two_rate, latest_feedback_step
+from sched_sim.design.pieces import Costs, JobCosts, converted, works
+from sched_sim.design.timing import Timing
 from sched_sim.schedule.tasks import Task
 from sched_sim.ticks import positive, ticks_per_unit, to_ticks
 
@@ -38,7 +38,7 @@ class Stair(NamedTuple):
 
 
 def least_speed(
-    costs: JobCosts,
+    costs: Costs,
     timing: Timing,
     options: Options = Options(),
     tasks: Sequence[Task] = (),
@@ -52,11 +52,8 @@ def least_speed(
     into the next step.
     Raises InputError for an L that the method cannot have.
     """
-    if isinstance(costs, DualRateCosts):
-        check_dual_rate(timing, options.feedback)
-    if isinstance(costs, TwoRateCosts):
-        check_two_rate(timing)
-    if tasks or options.context_switch:
+    method_of(costs).check(timing, options.feedback)
+    if not has_closed_form(options, tasks):
         from sched_sim.design.search import least_speed_by_simulation
 
         return LeastSpeed(*least_speed_by_simulation(costs, timing, options, tasks, on_progress))
@@ -67,7 +64,7 @@ def least_speed(
     return LeastSpeed(speed, analysis.Binding(least.code.item()).name)
 
 
-def achieved_l(costs: JobCosts, timing: Timing, speed: Fraction, options: Options = Options()) -> int | None:
+def achieved_l(costs: Costs, timing: Timing, speed: Fraction, options: Options = Options()) -> int | None:
     """The L at which corrections land at `speed`, in closed form; None where an HR job overruns its step or nothing
     lands before the next measurement. Without context-switch costs."""
     positive(speed, "speed")
@@ -77,21 +74,16 @@ def achieved_l(costs: JobCosts, timing: Timing, speed: Fraction, options: Option
     return None if landed == analysis.NOT_LANDED else landed
 
 
-def staircase(costs: JobCosts, N: int, M: int, options: Options = Options()) -> list[Stair]:
+def staircase(costs: Costs, N: int, M: int, options: Options = Options()) -> list[Stair]:
     """Every legal L with its least speed, from the earliest to the latest.
 
     A step on which `achieved` is less than L is waste: the same processor already lands earlier.
     For the serial methods there is one stair: the correction lands at m, whatever L is.
     """
-    if isinstance(costs, DualRateCosts):
-        first = M + 1 if options.feedback == "next-step" else M
-        wanted = range(first, latest_feedback_step(N, options.feedback) + 1)
-    elif isinstance(costs, TwoRateCosts):
-        M, wanted = 0, range(1, N + 1)
-    else:
-        wanted = range(M, M + 1)
+    law = method_of(costs).law(options.feedback)
+    M = 0 if law.undelayed else M
     stairs = []
-    for L in wanted:
+    for L in law.legal(N, M):
         timing = Timing(N, M, L)
         least = least_speed(costs, timing, options)
         landed = achieved_l(costs, timing, least.speed, options)
@@ -100,7 +92,12 @@ def staircase(costs: JobCosts, N: int, M: int, options: Options = Options()) -> 
     return stairs
 
 
-def _in_ticks(costs: JobCosts, *others: Fraction) -> tuple[int, JobCosts]:
-    values = [Fraction(value) for value in astuple(costs)]
-    resolution = ticks_per_unit([*values, *others])
-    return resolution, type(costs)(*(to_ticks(value, resolution) for value in values))
+def has_closed_form(options: Options, tasks: Sequence[Task]) -> bool:
+    """Whether the least speed needs no simulation."""
+    return not tasks and not options.context_switch
+
+
+def _in_ticks(costs: Costs, *others: Fraction) -> tuple[int, JobCosts[int]]:
+    costs = converted(costs, Fraction)
+    resolution = ticks_per_unit([*works(costs), *others])
+    return resolution, converted(costs, lambda work: to_ticks(work, resolution))

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import astuple
 from fractions import Fraction
 from itertools import count
 from math import ceil
 
 from sched_sim.design.load import loads
+from sched_sim.design.methods import method_of
 from sched_sim.design.options import Options
-from sched_sim.design.pieces import DualRateCosts, JobCosts
+from sched_sim.design.pieces import Costs, works
 from sched_sim.design.steady import Steady, longest_run, run_until_steady
 from sched_sim.design.timing import Timing
 from sched_sim.schedule.outcome import Schedule
@@ -28,7 +28,7 @@ OnProgress = Callable[[int], None]
 
 
 def least_speed_by_simulation(
-    costs: JobCosts,
+    costs: Costs,
     timing: Timing,
     options: Options,
     tasks: Sequence[Task],
@@ -84,23 +84,19 @@ def _bisect(run: Callable[[int, int], Steady], too_slow: int, steps: int, longes
     return too_slow, enough, found
 
 
-def search_resolution(costs: JobCosts, options: Options, tasks: Sequence[Task]) -> int:
+def search_resolution(costs: Costs, options: Options, tasks: Sequence[Task]) -> int:
     """Ticks per cost unit to which the least speed is searched: all work is whole, the largest piece at least
     TICKS_PER_LOOP."""
-    work = [Fraction(value) for value in astuple(costs)]
+    work = [Fraction(value) for value in works(costs)]
     resolution = ticks_per_unit([options.context_switch, *work, *(task.cost for task in tasks)])
     while max(work) * resolution < TICKS_PER_LOOP:
         resolution *= 10
     return resolution
 
 
-def _binding(schedule: Schedule, costs: JobCosts, timing: Timing, options: Options) -> str:
+def _binding(schedule: Schedule, costs: Costs, timing: Timing, options: Options) -> str:
     """The demand of the first job missed on a slightly too slow processor; "load" if work only piles up."""
     if schedule.first_miss is None:
         return "load"
     kind, held = schedule.first_miss
-    if kind == "hr" or kind.startswith("task:") or not isinstance(costs, DualRateCosts):
-        return kind
-    if kind in ("lr_propagate", "lr_gain") and timing.M and options.lr_propagate_by == "m":
-        return "lr_propagate"
-    return "lr_update" if timing.M and not held and kind in ("lr_update", "hr_update") else "lr_total"
+    return kind if kind.startswith("task:") else method_of(costs).binding(kind, held, timing, options)

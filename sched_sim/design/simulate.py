@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import astuple, replace
+from dataclasses import replace
 from fractions import Fraction
 from itertools import chain
 from typing import NamedTuple
 
 from sched_sim.bounds import short
+from sched_sim.design.hr_loop import OnLanding
+from sched_sim.design.methods import method_of
 from sched_sim.design.options import Options
-from sched_sim.design.pieces import JobCosts, LarsenCosts, RecalculateCosts
-from sched_sim.design.sources import OnLanding, method_source
+from sched_sim.design.pieces import Costs, converted, works
 from sched_sim.design.timing import Timing
 from sched_sim.schedule.clock import Clock, OnProgress
 from sched_sim.schedule.jobs import RecurringSource
@@ -24,7 +25,7 @@ from sched_sim.ticks import positive, ticks_per_unit, to_ticks
 
 
 def simulate(
-    costs: JobCosts,
+    costs: Costs,
     timing: Timing,
     speed: Fraction,
     cycles: int,
@@ -56,8 +57,7 @@ def simulate(
                 on_landing(cycle, L)
 
     workload = workload_in_ticks(costs, timing, speed, options, tasks, landed)
-    arrives_a_step_later = isinstance(costs, RecalculateCosts | LarsenCosts) and timing.M == timing.N
-    steps = cycles * timing.N + arrives_a_step_later
+    steps = cycles * timing.N + (method_of(costs).lands_in_step_m and timing.M == timing.N)
     clock = [] if on_progress is None else [Clock(workload.period, steps, on_progress)]
     slices: list[Slice] = []
 
@@ -91,16 +91,16 @@ class Workload(NamedTuple):
 
 
 def workload_in_ticks(
-    costs: JobCosts, timing: Timing, speed: Fraction, options: Options, tasks: Sequence[Task], on_landing: OnLanding
+    costs: Costs, timing: Timing, speed: Fraction, options: Options, tasks: Sequence[Task], on_landing: OnLanding
 ) -> Workload:
     """The fewest ticks per cost unit in which all is whole. Raises InputError as `simulate` does."""
     positive(speed, "speed")
     check_cpus(tasks, options.cpus)
-    work = [Fraction(value) for value in astuple(costs)]
+    costs = converted(costs, Fraction)
     of_tasks = chain.from_iterable(work_and_times(task, speed) for task in tasks)
-    resolution = ticks_per_unit([speed, options.context_switch, *work, *of_tasks])
+    resolution = ticks_per_unit([speed, options.context_switch, *works(costs), *of_tasks])
     period = to_ticks(speed, resolution)
-    tick_costs = type(costs)(*(to_ticks(value, resolution) for value in work))
-    source = method_source(tick_costs, timing, options, period, on_landing)
+    in_ticks = converted(costs, lambda work: to_ticks(work, resolution))
+    source = method_of(costs).source(in_ticks, timing, options, period, on_landing)
     task_sources = (TaskSource(task, speed, resolution) for task in tasks)
     return Workload((source, *task_sources), period, to_ticks(options.context_switch, resolution))

@@ -16,7 +16,7 @@ from math import ceil, gcd, lcm
 
 from sched_sim.bounds import MOST_JOBS_TO_REPEAT, short
 from sched_sim.design.options import Options
-from sched_sim.design.pieces import JobCosts
+from sched_sim.design.pieces import Costs
 from sched_sim.design.simulate import workload_in_ticks
 from sched_sim.design.timing import Timing
 from sched_sim.errors import InputError
@@ -53,7 +53,7 @@ class Steady:
 
 
 def run_until_steady(
-    costs: JobCosts,
+    costs: Costs,
     timing: Timing,
     speed: Fraction,
     options: Options = Options(),

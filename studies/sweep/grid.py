@@ -10,12 +10,14 @@ from itertools import accumulate, product
 
 from sched_sim.costs.methods import DELAYED_METHODS
 from sched_sim.costs.table import CostTable
+from sched_sim.design.least_speed import has_closed_form
+from sched_sim.design.methods import METHODS, select
 from sched_sim.design.options import Options
-from sched_sim.design.pieces import JobCosts, Statistic, select
+from sched_sim.design.pieces import Costs, Statistic
 from sched_sim.design.timing import Timing, several_in_flight
 from sched_sim.errors import InputError
 from sched_sim.schedule.tasks import Task, check_cpus
-from studies.sweep.legal import Designs, Legal, law_of
+from studies.sweep.legal import Designs, Legal
 
 MOST_PAIRS = 10_000_000
 """Of N and M, which are looked through for those that are legal."""
@@ -35,13 +37,13 @@ class Block:
     unit: str
     method: str
     options: Options
-    costs: JobCosts
+    costs: Costs
     tasks: tuple[Task, ...]
 
     @property
     def has_closed_form(self) -> bool:
         """Whether the least speed needs no simulation."""
-        return not self.tasks and not self.options.context_switch
+        return has_closed_form(self.options, self.tasks)
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,7 +121,7 @@ class Grid:
             )
         for options in self.options:
             check_cpus(self.tasks, options.cpus)
-        if self.tasks or any(options.context_switch for options in self.options):
+        if not all(has_closed_form(options, self.tasks) for options in self.options):
             from sched_sim.design.steady import longest_run
 
             for N in self.N:
@@ -155,7 +157,7 @@ class Grid:
     @cached_property
     def _legal(self) -> tuple[Legal, ...]:
         """By block; blocks under one law share theirs."""
-        laws = [law_of(block.method, block.options.feedback) for block in self.blocks]
+        laws = [METHODS[block.method].law(block.options.feedback) for block in self.blocks]
         of_law = {law: Legal(law, self.N, self.M, self.L) for law in set(laws)}
         return tuple(of_law[law] for law in laws)
 

@@ -14,7 +14,7 @@ from sched_sim.design import analysis
 from sched_sim.design.demand import Quotient
 from sched_sim.design.least_speed import least_speed
 from sched_sim.design.options import Options
-from sched_sim.design.pieces import JobCosts
+from sched_sim.design.pieces import Costs, JobCosts, converted, works
 from sched_sim.design.timing import Timing
 from sched_sim.schedule.tasks import Task
 from sched_sim.ticks import ticks_per_unit, to_ticks
@@ -57,10 +57,8 @@ def analyse(chunk: Chunk) -> Analysis:
 
 def _in_closed_form(chunk: Chunk) -> Analysis:
     options, speeds = chunk.block.options, chunk.speeds
-    work = [Fraction(value) for value in astuple(chunk.block.costs)]
-    resolution = ticks_per_unit([*work, *speeds])
-    ticks = [to_ticks(value, resolution) for value in work]
-    costs = type(chunk.block.costs)(*ticks)
+    resolution = ticks_per_unit([*works(chunk.block.costs), *speeds])
+    costs = converted(chunk.block.costs, lambda work: to_ticks(work, resolution))
     periods = [to_ticks(speed, resolution) for speed in speeds]
     least = analysis.least_period(costs, *chunk.designs, options)
 
@@ -92,7 +90,7 @@ class Fractions(NamedTuple):
         return self.numerator.astype(object) * other.denominator >= other.numerator.astype(object) * self.denominator
 
 
-def _landing(costs: JobCosts, N: Ints, M: Ints, period: Fractions, options: Options) -> Ints:
+def _landing(costs: JobCosts[int], N: Ints, M: Ints, period: Fractions, options: Options) -> Ints:
     """`analysis.achieved_l` at periods that need not be whole ticks: those of one denominator at a time, in finer
     ticks."""
     landed = np.empty_like(N)
@@ -131,7 +129,7 @@ FIRST_CYCLES = 4
 """That are simulated to see where corrections land if deadlines are missed."""
 
 
-def _simulated(costs: JobCosts, timing: Timing, speed: Fraction, options: Options, tasks: Sequence[Task]) -> Outcome:
+def _simulated(costs: Costs, timing: Timing, speed: Fraction, options: Options, tasks: Sequence[Task]) -> Outcome:
     from sched_sim.design.simulate import simulate
     from sched_sim.design.steady import run_until_steady
 

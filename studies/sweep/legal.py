@@ -9,8 +9,7 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from sched_sim.costs.methods import TWO_RATE_METHODS
-from sched_sim.design.timing import Feedback
+from sched_sim.design.method import Law
 from sched_sim.errors import InputError
 
 Ints: TypeAlias = npt.NDArray[Any]
@@ -23,26 +22,6 @@ LONGEST_OPEN = 1_000_000
 
 MOST_DESIGNS = 1 << 61
 """What is counted, and what is counted with, stays below: no int64 overflows."""
-
-
-class Law(NamedTuple):
-    """L runs from M + after to N - before; if `only_first`, an L that was not asked for is M + after alone.
-
-    undelayed: M is 0."""
-
-    after: int
-    before: int
-    only_first: bool
-    undelayed: bool = False
-
-
-def law_of(method: str, feedback: Feedback) -> Law:
-    """What L a method may have (see `sched_sim.design.timing`). The serial methods land at m, whatever L is."""
-    if method in TWO_RATE_METHODS:
-        return Law(1, 0, only_first=False, undelayed=True)
-    if method != "dual-rate":
-        return Law(0, 0, only_first=True)
-    return Law(1, 0, only_first=False) if feedback == "next-step" else Law(0, 1, only_first=False)
 
 
 class Designs(NamedTuple):

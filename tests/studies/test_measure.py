@@ -10,8 +10,8 @@ import pytest
 from filters.systems.example import example_system
 from filters.systems.navigation import vehicle
 from sched_sim.costs.methods import KINDS, SYSTEM_METHODS
+from sched_sim.design.methods import select
 from sched_sim.design.options import Options
-from sched_sim.design.pieces import select
 from sched_sim.errors import InputError
 from studies.measure import BackendName, measure
 from studies.user_system import load_system

@@ -14,8 +14,9 @@ from reports.steffes.curves import achieved_curve, hr_limit, knee, speed_grid
 from reports.steffes.figures import Speeds, achieved_figure, cost_figure, least_speed_figure, table4_figure
 from sched_sim.costs.table_file import load_costs
 from sched_sim.design.least_speed import achieved_l, least_speed, staircase
+from sched_sim.design.methods import select
 from sched_sim.design.options import Options
-from sched_sim.design.pieces import DualRateCosts, select
+from sched_sim.design.pieces import DualRateCosts
 from sched_sim.design.simulate import simulate
 from sched_sim.design.timing import Timing
 from sched_sim.errors import InputError

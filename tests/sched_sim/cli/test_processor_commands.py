@@ -12,8 +12,8 @@ import pytest
 
 from sched_sim.costs.table_file import load_costs
 from sched_sim.design.least_speed import least_speed
+from sched_sim.design.methods import select
 from sched_sim.design.options import Options
-from sched_sim.design.pieces import select
 from sched_sim.design.simulate import simulate
 from sched_sim.design.timing import Timing
 from sched_sim.processors.part import on_part

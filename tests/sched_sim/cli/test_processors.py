@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 from sched_sim.costs.table_file import load_costs
+from sched_sim.design.methods import select
 from sched_sim.design.options import Options
-from sched_sim.design.pieces import select
 from sched_sim.design.simulate import simulate
 from sched_sim.design.timing import Timing
 from sched_sim.processors.part import on_part

@@ -10,8 +10,9 @@ import pytest
 
 from sched_sim.costs.methods import DELAYED_METHODS
 from sched_sim.costs.table_file import TABLES, costs_text, load_costs, read_costs, shipped_tables
+from sched_sim.design.methods import select
 from sched_sim.design.options import Options
-from sched_sim.design.pieces import DualRateCosts, LarsenCosts, StandardCosts, select
+from sched_sim.design.pieces import DualRateCosts, LarsenCosts, StandardCosts
 from sched_sim.errors import InputError
 
 BY_HAND = """

@@ -13,10 +13,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from sched_sim.design.analysis import NOT_LANDED, achieved_l, least_period
+from sched_sim.design.methods import METHODS
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import DualRateCosts, JobCosts, LarsenCosts, RecalculateCosts, StandardCosts
 from sched_sim.errors import InputError
-from studies.sweep.legal import Legal, law_of
+from studies.sweep.legal import Legal
 from tests.command_line import Run
 from tests.designs import Design, designs
 
@@ -111,7 +112,7 @@ def test_a_grid_of_more_designs_than_can_be_counted_is_refused(
     N: list[int], M: list[int] | None, L: list[int] | None, said: str
 ) -> None:
     with pytest.raises(InputError, match=said):
-        Legal(law_of("dual-rate", "next-step"), N, M, L)
+        Legal(METHODS["dual-rate"].law("next-step"), N, M, L)
 
 
 TABLE = """

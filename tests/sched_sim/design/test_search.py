@@ -11,8 +11,9 @@ from hypothesis import strategies as st
 
 from sched_sim.costs.table_file import load_costs
 from sched_sim.design.least_speed import least_speed
+from sched_sim.design.methods import select
 from sched_sim.design.options import Options
-from sched_sim.design.pieces import StandardCosts, select
+from sched_sim.design.pieces import StandardCosts
 from sched_sim.design.search import least_speed_by_simulation, search_resolution
 from sched_sim.design.simulate import simulate
 from sched_sim.design.steady import run_until_steady

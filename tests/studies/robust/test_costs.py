@@ -13,8 +13,9 @@ from filters.robust_jobs import robust_jobs
 from sched_sim.costs.methods import ROBUST_METHODS
 from sched_sim.costs.table_file import TABLES, costs_text
 from sched_sim.design.least_speed import least_speed
+from sched_sim.design.methods import select
 from sched_sim.design.options import Options
-from sched_sim.design.pieces import RobustCosts, StandardCosts, select
+from sched_sim.design.pieces import RobustCosts, StandardCosts
 from sched_sim.design.simulate import simulate
 from sched_sim.design.timing import Timing
 from studies.robust.costs import SYSTEMS, N, SystemName, parallel_costs, robust_case, robust_costs

@@ -7,17 +7,18 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from sched_sim.costs.methods import DELAYED_METHODS, METHODS, TWO_RATE_METHODS
+from sched_sim.costs.methods import DELAYED_METHODS, TWO_RATE_METHODS
 from sched_sim.costs.table_file import load_costs
+from sched_sim.design.methods import METHODS
 from sched_sim.design.options import Options
-from sched_sim.design.timing import Timing, check_dual_rate, check_two_rate, latest_feedback_step
+from sched_sim.design.timing import Timing
 from sched_sim.errors import InputError
 from studies.sweep.grid import Grid
-from studies.sweep.legal import Legal, law_of
+from studies.sweep.legal import Legal
 
 STEFFES = load_costs("steffes2014")
 
-METHOD = st.sampled_from(METHODS)
+METHOD = st.sampled_from([*METHODS])
 FEEDBACK = st.sampled_from(["next-step", "same-step"])
 
 
@@ -28,10 +29,7 @@ def axis(least: int) -> st.SearchStrategy[tuple[int, ...]]:
 def is_legal(method, feedback, N, M, L):
     try:
         timing = Timing(N, M, L)
-        if method == "dual-rate":
-            check_dual_rate(timing, feedback)
-        if method in TWO_RATE_METHODS:
-            check_two_rate(timing)
+        METHODS[method].check(timing, feedback)
     except InputError:
         return False
     return M == 0 or method not in TWO_RATE_METHODS
@@ -42,7 +40,7 @@ def legal_designs(method, feedback, Ns, Ms, Ls):
     for N in Ns:
         for M in Ms or range(N + 1):
             only_m = method in ("standard", "recalculate", "larsen")
-            latest = latest_feedback_step(N, feedback) if method == "dual-rate" else N
+            latest = N - 1 if method == "dual-rate" and feedback == "same-step" else N
             every_L = [M] if only_m else range(latest + 1)
             for L in Ls or every_L:
                 if is_legal(method, feedback, N, M, L):
@@ -57,7 +55,7 @@ def combinations_without_a_design(designs, Ns, Ms, Ls):
 
 @given(METHOD, FEEDBACK, axis(1), st.none() | axis(0), st.none() | axis(0), st.data())
 def test_legal_designs_are_those_of_the_filtered_product(method, feedback, Ns, Ms, Ls, data):
-    legal = Legal(law_of(method, feedback), Ns, Ms, Ls)
+    legal = Legal(METHODS[method].law(feedback), Ns, Ms, Ls)
     expected = list(legal_designs(method, feedback, Ns, Ms, Ls))
     assert legal.size == len(expected)
     assert legal.left_out == combinations_without_a_design(expected, Ns, Ms, Ls)

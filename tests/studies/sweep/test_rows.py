@@ -120,7 +120,7 @@ def test_context_switches_go_through_the_simulation(method):
     switch = Fraction(1, 100)
     found = steffes(6, 2, None, method, speeds=(), context_switch=switch)
     for row in found:
-        from sched_sim.design.pieces import select
+        from sched_sim.design.methods import select
 
         options = Options(context_switch=switch)
         costs = select(load_costs("steffes2014"), method, options)

@@ -1,0 +1,71 @@
+"""Every method by its name."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from fractions import Fraction
+from typing import TypeAlias, cast
+
+from sched_sim.costs.methods import MULTIRATE_METHODS, ROBUST_METHODS
+from sched_sim.costs.table import CostTable
+from sched_sim.design import dual_rate, serial, two_rate
+from sched_sim.design.method import Exact, InTicks, Method
+from sched_sim.design.options import Options
+from sched_sim.design.pieces import (
+    Costs,
+    DualRateCosts,
+    JobCosts,
+    LarsenCosts,
+    MultirateCosts,
+    RecalculateCosts,
+    RobustCosts,
+    StandardCosts,
+    Statistic,
+)
+from sched_sim.errors import InputError
+
+AnyMethod: TypeAlias = Method[Costs, JobCosts[int]]
+
+
+def _any(method: Method[Exact, InTicks]) -> AnyMethod:
+    """To stand beside others; it is given no pieces but its own."""
+    return cast("AnyMethod", method)
+
+
+_BY_PIECES: Mapping[type, AnyMethod] = {
+    StandardCosts: _any(serial.STANDARD),
+    RecalculateCosts: _any(serial.RECALCULATE),
+    LarsenCosts: _any(serial.LARSEN),
+    DualRateCosts: _any(dual_rate.DUAL_RATE),
+    MultirateCosts: _any(two_rate.MULTIRATE),
+    RobustCosts: _any(two_rate.ROBUST),
+}
+
+METHODS: Mapping[str, AnyMethod] = {
+    "standard": _BY_PIECES[StandardCosts],
+    "recalculate": _BY_PIECES[RecalculateCosts],
+    "larsen": _BY_PIECES[LarsenCosts],
+    "dual-rate": _BY_PIECES[DualRateCosts],
+    **dict.fromkeys(MULTIRATE_METHODS, _BY_PIECES[MultirateCosts]),
+    **dict.fromkeys(ROBUST_METHODS, _BY_PIECES[RobustCosts]),
+}
+
+
+def method_of(costs: JobCosts[Fraction] | JobCosts[int]) -> AnyMethod:
+    """The method that has such pieces."""
+    return _BY_PIECES[type(costs)]
+
+
+def select(table: CostTable, method: str, options: Options, statistic: Statistic = "minimum") -> Costs:
+    """The costs that `method` runs with under `options`, as fractions of the table's unit.
+
+    Raises InputError for an unknown method and for an entry that the table lacks.
+    """
+
+    def cost(kind: str) -> Fraction:
+        value: Fraction = getattr(table.entry(method, kind), statistic)
+        return value
+
+    if method not in METHODS:
+        raise InputError(f"method {method!r} is unknown: choose from {', '.join(METHODS)}")
+    return METHODS[method].pieces(cost, options)

@@ -1,0 +1,104 @@
+"""Standard, recalculate and Larsen: the HR job of step m does all of the update (Steffes 2014, Fig. 1)."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable
+from dataclasses import replace
+from fractions import Fraction
+
+from sched_sim.design.hr_loop import HrSource, OnLanding
+from sched_sim.design.method import CostOf, CycleWork, Law, Method
+from sched_sim.design.options import Options
+from sched_sim.design.pieces import LarsenCosts, RecalculateCosts, StandardCosts
+from sched_sim.design.timing import Feedback, Timing
+from sched_sim.schedule.jobs import HR, Job, Parts, step_at
+
+
+class Serial(HrSource):
+    """An HR job each step.
+
+    plain: work of an ordinary one; accumulate: of those of steps k+2 .. m; update: what that of step m does besides.
+    """
+
+    def __init__(
+        self, plain: int, accumulate: int, update: Parts, timing: Timing, period: int, on_landing: OnLanding
+    ) -> None:
+        super().__init__(timing, period, on_landing)
+        self.plain: Parts = (("P", plain),)
+        self.accumulate: Parts = (("P", accumulate),)
+        self.update: Parts = (*(self.accumulate if self.M >= 2 else self.plain), *update)
+        self.update_work = sum(work for _, work in self.update)
+
+    def release(self) -> tuple[Job, ...]:
+        step, start = self.step, self.next_release
+        self.step, self.next_release = step + 1, start + self.period
+        since_k = step % self.N
+        if since_k == self.M % self.N and step >= self.M:
+            work, parts, then = self.update_work, self.update, self._landed
+        else:
+            parts, then = self.accumulate if 2 <= since_k < self.M else self.plain, None
+            work = parts[0][1]
+        return (Job("hr", step, HR, start, self.next_release, work, parts, then),)
+
+    def state(self, now: int) -> Hashable:
+        return super().state(now), self.M < self.N or self.step >= self.N
+
+    def _landed(self, job: Job, now: int) -> tuple[Job, ...]:
+        k = job.step - self.M
+        self.on_landing(k // self.N, step_at(now, self.period) - k)
+        return ()
+
+
+def law(_feedback: Feedback) -> Law:
+    return Law(0, 0, only_first=True)
+
+
+def _standard_pieces(cost: CostOf, _options: Options) -> StandardCosts[Fraction]:
+    return StandardCosts(cost("propagate"), cost("update"))
+
+
+def _standard_source(
+    costs: StandardCosts[int], timing: Timing, _options: Options, period: int, on_landing: OnLanding
+) -> Serial:
+    update = (("U", costs.update),)
+    return Serial(costs.propagate, costs.propagate, update, replace(timing, M=0), period, on_landing)
+
+
+def _standard_work(costs: StandardCosts[Fraction], timing: Timing) -> CycleWork:
+    return CycleWork(timing.N * costs.propagate + costs.update)
+
+
+def _recalculate_pieces(cost: CostOf, _options: Options) -> RecalculateCosts[Fraction]:
+    return RecalculateCosts(cost("propagate"), cost("update"), cost("replay"))
+
+
+def _recalculate_source(
+    costs: RecalculateCosts[int], timing: Timing, _options: Options, period: int, on_landing: OnLanding
+) -> Serial:
+    replay = (("R", timing.M * costs.replay),) if timing.M else ()
+    update = (("U", costs.update), *replay)
+    return Serial(costs.propagate, costs.propagate, update, timing, period, on_landing)
+
+
+def _recalculate_work(costs: RecalculateCosts[Fraction], timing: Timing) -> CycleWork:
+    return CycleWork(timing.N * costs.propagate + costs.update + timing.M * costs.replay)
+
+
+def _larsen_pieces(cost: CostOf, _options: Options) -> LarsenCosts[Fraction]:
+    return LarsenCosts(cost("propagate"), cost("propagate_accumulate"), cost("update"))
+
+
+def _larsen_source(
+    costs: LarsenCosts[int], timing: Timing, _options: Options, period: int, on_landing: OnLanding
+) -> Serial:
+    return Serial(costs.propagate, costs.accumulate, (("U", costs.update),), timing, period, on_landing)
+
+
+def _larsen_work(costs: LarsenCosts[Fraction], timing: Timing) -> CycleWork:
+    products = max(timing.M - 1, 0)
+    return CycleWork((timing.N - products) * costs.propagate + products * costs.accumulate + costs.update)
+
+
+STANDARD = Method(_standard_pieces, _standard_source, _standard_work, law)
+RECALCULATE = Method(_recalculate_pieces, _recalculate_source, _recalculate_work, law, lands_in_step_m=True)
+LARSEN = Method(_larsen_pieces, _larsen_source, _larsen_work, law, lands_in_step_m=True)
