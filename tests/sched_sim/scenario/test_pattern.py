@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from sched_sim.scenario import Sensor
-from sched_sim.scenario_pattern import going_back, in_flight
+from sched_sim.scenario.pattern import going_back, in_flight
 from tests.scenarios import HR, LR, sensor
 
 PREDICT = 100.0
