@@ -11,6 +11,9 @@ from filters.choice import check_choice
 from filters.covariance_forms import joseph, short, textbook
 from filters.covariance_forms.form import CovarianceForm
 
+ALLOCATION_FREE = True
+
+
 CovarianceFormName: TypeAlias = Literal["textbook", "joseph", "short"]
 
 COVARIANCE_FORMS: dict[CovarianceFormName, CovarianceForm] = {

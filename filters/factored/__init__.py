@@ -12,6 +12,9 @@ from filters.covariance_forms import CovarianceFormName, covariance_form
 from filters.factored import conventional, square_root, u_d
 from filters.factored.form import FactoredForm
 
+ALLOCATION_FREE = True
+
+
 FactoredFormName: TypeAlias = Literal["conventional", "square-root", "u-d"]
 
 _FACTORISATIONS: dict[FactoredFormName, FactoredForm] = {"square-root": square_root.FORM, "u-d": u_d.FORM}

@@ -9,6 +9,9 @@ from filters.modular.predictors import extended_predictor, linear_predictor, uns
 from filters.modular.sigma_points import maccormack, merwe
 from filters.modular.space import space
 
+ALLOCATION_FREE = True
+
+
 __all__ = [
     "Measurement",
     "ModularFilter",

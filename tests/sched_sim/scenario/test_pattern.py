@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from sched_sim.scenario import Sensor
 from sched_sim.scenario.pattern import going_back, in_flight
+from sched_sim.scenario.scenario import Sensor
 from tests.scenarios import HR, LR, sensor
 
 PREDICT = 100.0

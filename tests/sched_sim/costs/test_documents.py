@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from sched_sim.costs.table_file import SHIPPED
+from sched_sim.costs.table_file import TABLES
 from tests.command_line import Run, is_refused
 
 HEAD = 'name = "c"\nunit = "operation"\n'
@@ -22,7 +22,7 @@ def test_samples_are_no_cost_table(sched_sim: Run, tmp_path: Path, text: str) ->
     is_refused(result, ["cost table 'samples.toml' is a samples file", "simulate --scenario FILE`", "[costs.METHOD]"])
 
 
-@pytest.mark.parametrize("text", [TABLE, (SHIPPED / "counted-9-3-3.toml").read_text(encoding="utf-8")])
+@pytest.mark.parametrize("text", [TABLE, (TABLES / "counted-9-3-3.toml").read_text(encoding="utf-8")])
 def test_a_cost_table_is_no_file_of_samples(sched_sim: Run, tmp_path: Path, text: str) -> None:
     (tmp_path / "table.toml").write_text(text, encoding="utf-8")
     (tmp_path / "s.toml").write_text(
