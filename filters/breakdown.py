@@ -18,7 +18,7 @@ from filters.kernels.backends import BackendName, function_for
 from filters.kernels.definite import is_semidefinite
 from filters.noises import check_noises
 from filters.problem import Problem
-from filters.systems.system import System
+from filters.system import System
 
 
 def first_indefinite(covariances: FloatArray, scratch: FloatArray) -> int:

@@ -24,7 +24,7 @@ from filters.measured import Measurements
 from filters.problem import check_problem
 from filters.records import Correction, Estimate, new_correction, new_workspace
 from filters.running import running
-from filters.systems.system import System
+from filters.system import System
 
 GainTime: TypeAlias = Literal["at-update", "precomputed"]
 Feedback: TypeAlias = Literal["next-step", "same-step"]

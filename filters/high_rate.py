@@ -6,7 +6,7 @@ from filters.arrays import FloatArray
 from filters.covariance_forms.form import CovarianceForm
 from filters.kernels.dense import add_vectors, matvec
 from filters.records import Transition, Workspace
-from filters.systems.system import System
+from filters.system import System
 
 
 def hr_restart(system: System, j: int, x: FloatArray, u: FloatArray, x_next: FloatArray) -> Transition:

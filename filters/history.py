@@ -8,7 +8,7 @@ import numpy as np
 
 from filters.arrays import FloatArray
 from filters.records import Correction
-from filters.systems.system import System
+from filters.system import System
 
 
 class History(NamedTuple):

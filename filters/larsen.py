@@ -17,7 +17,7 @@ from filters.records import Correction, Estimate, Workspace, new_correction, new
 from filters.running import running
 from filters.standard import propagate
 from filters.standard import update as update_at_once
-from filters.systems.system import System
+from filters.system import System
 from filters.update import update_error
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from filters.arrays import FloatArray
 from filters.covariance_forms.form import CovarianceForm
 from filters.records import Correction, Estimate, Transition, Workspace
-from filters.systems.system import System
+from filters.system import System
 from filters.update import update_covariance, update_error
 
 

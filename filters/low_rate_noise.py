@@ -13,7 +13,7 @@ from filters.high_rate import hr_propagate
 from filters.kernels.dense import add
 from filters.low_rate import lr_propagate
 from filters.records import Transition, Workspace, new_transition
-from filters.systems.system import System
+from filters.system import System
 
 LowRateNoise: TypeAlias = Literal["exact", "sum", "euler"]
 

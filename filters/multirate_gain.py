@@ -21,10 +21,10 @@ from filters.measured import Measurements
 from filters.problem import check_measurement_noise, check_multirate_problem, check_system
 from filters.records import Correction, new_correction
 from filters.running import running
+from filters.system import System
 from filters.systems.coarse import over
 from filters.systems.lossy import lossy
 from filters.systems.shaped import shaped
-from filters.systems.system import System
 from filters.systems.trial import first_input, try_functions
 from filters.update import update_error
 

@@ -15,7 +15,7 @@ from filters.arrays import FloatArray
 from filters.kernels.backends import BackendName, arguments_for, function_for
 from filters.kernels.definite import is_covariance
 from filters.problem import check_noise
-from filters.systems.system import System
+from filters.system import System
 
 
 def check_noises(system: System, Q: range, R: range, backend: BackendName = "reference") -> None:

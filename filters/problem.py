@@ -11,9 +11,9 @@ from filters.arrays import FloatArray, as_floats, check_unmasked
 from filters.kind import check_kind
 from filters.measured import Measured, Measurements, measured
 from filters.records import Estimate
+from filters.system import System
 from filters.systems.lossy import lossy
 from filters.systems.shaped import shaped
-from filters.systems.system import System
 from filters.systems.trial import first_input, try_functions
 
 
@@ -127,7 +127,7 @@ def _start_and_inputs(system: System, x0: ArrayLike, P0: ArrayLike, inputs: Arra
 
 def check_system(name: str, system: object) -> None:
     """Raises ValueError, naming the argument, unless it is a `System` of whole sizes, made of functions."""
-    check_kind(name, system, System, "a filters.systems.system.System, as linear_system(...) returns one")
+    check_kind(name, system, System, "a filters.system.System, as linear_system(...) returns one")
     for function in ("f", "F", "Q", "h", "H", "R"):
         given = getattr(system, function)
         if not callable(given):

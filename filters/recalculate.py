@@ -16,7 +16,7 @@ from filters.measured import Measurements
 from filters.problem import check_problem
 from filters.records import Estimate, new_correction, new_estimate, new_workspace
 from filters.running import running
-from filters.systems.system import System
+from filters.system import System
 
 
 @running("system")

@@ -39,7 +39,7 @@ from filters.records import (
     new_workspace,
 )
 from filters.samples import Sample, sample
-from filters.systems.system import System
+from filters.system import System
 
 
 class Job(NamedTuple):

@@ -22,7 +22,7 @@ from filters.records import (
     new_workspace,
 )
 from filters.simulation import simulate_truth
-from filters.systems.system import System
+from filters.system import System
 from filters.update import update_covariance, update_error
 
 WARM_UP = 12  # steps with a measurement each, after which the covariance is far from its start

@@ -12,8 +12,8 @@ from filters.normal import normal
 from filters.problem import check_system
 from filters.running import running
 from filters.seed import check_seed
+from filters.system import System
 from filters.systems.shaped import shaped
-from filters.systems.system import System
 
 
 class Truth(NamedTuple):

@@ -28,7 +28,7 @@ from filters.records import (
     new_workspace,
 )
 from filters.running import running
-from filters.systems.system import System
+from filters.system import System
 from filters.update import update_covariance, update_error
 
 

@@ -10,8 +10,8 @@ from filters.arrays import FloatArray
 from filters.noises import check_noises
 from filters.problem import check_covariance, check_system
 from filters.running import running
+from filters.system import System
 from filters.systems.shaped import shaped
-from filters.systems.system import System
 
 
 class TrueCovariance(NamedTuple):

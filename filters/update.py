@@ -6,7 +6,7 @@ from filters.arrays import FloatArray
 from filters.covariance_forms.form import CovarianceForm
 from filters.kernels.dense import matvec, subtract_vectors
 from filters.records import Correction, Estimate, Workspace
-from filters.systems.system import System
+from filters.system import System
 
 
 def update_covariance(

@@ -18,7 +18,7 @@ from filters.covariance_forms import CovarianceFormName
 from filters.kernels.counted import Operations, count
 from filters.kernels.uncountable import UncountableError
 from filters.registry import ALL_METHODS, Job
-from filters.systems.system import System
+from filters.system import System
 from sched_sim.costs.table import Cost, CostTable
 from sched_sim.errors import InputError
 from studies.job_times import ARGUMENT_SETS, Progress, Protocol, seconds_per_run, silent

@@ -6,14 +6,14 @@ import numpy as np
 
 from filters.arrays import FloatArray
 from filters.problem import as_array, check_covariance, check_measurement_noise
-from filters.systems.system import System
+from filters.system import System
 from filters.systems.trial import check_result, trials
 from sched_sim.bounds import MOST_STATES, short
 from sched_sim.errors import InputError
 from studies.user_function import explained, returned_by
 
 HOW = (
-    "name a function without arguments that returns a filters.systems.system.System, as in --system mymodule:my_system "
+    "name a function without arguments that returns a filters.system.System, as in --system mymodule:my_system "
     "for a file mymodule.py in this folder"
 )
 

@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 
 from filters.arrays import FloatArray
 from filters.simulation import simulate_truth
+from filters.system import System
 from filters.systems.example import example_system
 from filters.systems.linear import linear_system
-from filters.systems.system import System
 
 Landing = Literal["at-arrival", "next-step", "same-step"]
 """When a correction reaches the state: in step m itself, or in step l with one of the dual-rate feedbacks."""

@@ -8,7 +8,7 @@ import numpy as np
 
 from filters.arrays import FloatArray
 from filters.records import Workspace, new_workspace
-from filters.systems.system import System
+from filters.system import System
 
 
 class FactoredWorkspace(NamedTuple):

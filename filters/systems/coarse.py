@@ -8,8 +8,8 @@ import numpy as np
 
 from filters.choice import check_choice
 from filters.problem import check_system
+from filters.system import System
 from filters.systems.linear import LinearParameters, linear_system
-from filters.systems.system import System
 
 CoarseNoise: TypeAlias = Literal["averaged", "sampled"]
 

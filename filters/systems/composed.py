@@ -15,7 +15,7 @@ from filters.modular.predictors import ExtendedMotion, LinearMotion, NumericMoti
 from filters.modular.space import NOTHING, Space
 from filters.modular.workspace import Workspace, new_workspace
 from filters.records import Estimate
-from filters.systems.system import System
+from filters.system import System
 
 
 class Scratch(NamedTuple):

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from filters.arrays import FloatArray
+from filters.system import System
 from filters.systems.linear import linear_system
-from filters.systems.system import System
 
 PERIOD = 8  # steps after which the matrices repeat
 

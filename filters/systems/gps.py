@@ -16,8 +16,8 @@ import numpy as np
 from filters.arrays import FloatArray
 from filters.kernels.dense import matvec
 from filters.simulation import Truth, simulate_truth
+from filters.system import System
 from filters.systems.coarse import CoarseNoise
-from filters.systems.system import System
 
 POSITION, VELOCITY, CLOCK_BIAS, CLOCK_DRIFT = slice(0, 3), slice(3, 6), 6, 7
 

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from filters.arrays import FloatArray
 from filters.kernels.dense import add_matvec, matvec
 from filters.problem import as_array, check_covariance
-from filters.systems.system import System
+from filters.system import System
 
 
 class LinearParameters(NamedTuple):

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from filters.arrays import FloatArray
-from filters.systems.system import System
+from filters.system import System
 
 
 class LossyParameters(NamedTuple):

@@ -13,7 +13,7 @@ import numpy as np
 
 from filters.arrays import FloatArray
 from filters.simulation import Truth, simulate_truth
-from filters.systems.system import System
+from filters.system import System
 
 EAST, NORTH, HEADING, SPEED, GYRO_BIAS, ACCELEROMETER_BIAS = range(6)
 

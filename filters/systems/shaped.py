@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from filters.arrays import FloatArray
-from filters.systems.system import System
+from filters.system import System
 
 
 class ShapedParameters(NamedTuple):

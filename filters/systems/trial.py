@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from filters.arrays import FloatArray, check_unmasked
-from filters.systems.system import System
+from filters.system import System
 
 UNWRITTEN = np.finfo(np.float64).max
 """What out holds before the call: no model gives it."""

@@ -14,9 +14,9 @@ from filters.larsen import extrapolated_update
 from filters.records import Estimate, new_correction, new_estimate, new_workspace
 from filters.simulation import simulate_truth
 from filters.standard import propagate, update
+from filters.system import System
 from filters.systems.example import example_system
 from filters.systems.linear import linear_system
-from filters.systems.system import System
 
 M = 6
 FORM = covariance_form("textbook")

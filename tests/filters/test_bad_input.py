@@ -90,7 +90,7 @@ GOOD = problem(example_system(3, 2, 1), 5, 2, 4, 12, seed=0)
         ({"inputs": None}, "inputs is None; give a row of 2 numbers for each step$"),
         ({"inputs": np.zeros(12)}, r"inputs has shape \(12,\); give a row of 2 numbers for each step$"),
         ({"x0": np.zeros(3) + 1j}, "x0 is no array of numbers: it is complex"),
-        ({"system": None}, "system is None; give a filters.systems.system.System"),
+        ({"system": None}, "system is None; give a filters.system.System"),
         ({"system": example_system}, r"system is the function example_system, .* call it: system = example_system\("),
         ({"system": (GOOD.system, np.zeros(3))}, "system is a tuple with the System in it; unpack it: system, x0 ="),
     ],

@@ -18,9 +18,9 @@ from filters.registry import DELAYED_METHODS
 from filters.robust.records import Predicted
 from filters.robust.run import run as run_robust
 from filters.robust.step import WAYS, WayName, step
+from filters.system import System
 from filters.systems.example import example_system
 from filters.systems.linear import linear_system
-from filters.systems.system import System
 from filters.true_covariance import true_covariance
 from tests.filters.cases import Case, each_case
 from tests.filters.robust.cases import random_model

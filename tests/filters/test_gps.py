@@ -8,6 +8,7 @@ from scipy.stats import chi2
 
 from filters import multirate_gain, standard
 from filters.arrays import FloatArray
+from filters.system import System
 from filters.systems.gps import (
     CLOCK_BIAS,
     CLOCK_DRIFT,
@@ -19,7 +20,6 @@ from filters.systems.gps import (
     pseudoranges,
     simulate_flight,
 )
-from filters.systems.system import System
 from filters.true_covariance import true_covariance
 
 STEPS = 240

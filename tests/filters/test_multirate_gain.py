@@ -17,12 +17,12 @@ from filters.history import History
 from filters.kernels.counted import Operations, count
 from filters.records import new_correction
 from filters.registry import MULTIRATE_METHODS
+from filters.system import System
 from filters.systems.coarse import over
 from filters.systems.example import example_system
 from filters.systems.gps import gps
 from filters.systems.linear import linear_system
 from filters.systems.navigation import simulate_drive, vehicle
-from filters.systems.system import System
 from tests.strategies import Problem, problem, seeds, systems
 
 each_form = pytest.mark.parametrize("form", FACTORED_FORMS)
@@ -221,7 +221,7 @@ NOISELESS = np.array([[1.0, 1.0], [1.0, 1.0]])
         (3, {"P0": np.zeros((3, 2))}, {}, r"P0 has shape \(3, 2\), the system needs \(3, 3\)"),
         (3, {"inputs": np.zeros((12, 3))}, {}, r"inputs has shape \(12, 3\), the system needs \(12, 2\)"),
         (3, {"measurements": np.zeros((12, 2))}, {}, r"measurements has shape \(12, 2\), the system needs \(13, 2\)"),
-        (3, {}, {"coarse": 7}, "coarse is 7; give a filters.systems.system.System"),
+        (3, {}, {"coarse": 7}, "coarse is 7; give a filters.system.System"),
         (3, {}, {"form": "cholesky"}, "form='cholesky' is unknown"),
         (3, {}, {"update": "fast"}, "update='fast' is unknown"),
         (3, {}, {"backend": "gpu"}, "backend='gpu' is unknown"),

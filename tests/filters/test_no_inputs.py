@@ -9,9 +9,9 @@ from filters.covariance_forms import COVARIANCE_FORMS
 from filters.kernels.counted import count
 from filters.registry import ALL_METHODS, DELAYED_METHODS, MULTIRATE_METHODS
 from filters.simulation import simulate_truth
+from filters.system import System
 from filters.systems.example import example_system
 from filters.systems.linear import linear_system
-from filters.systems.system import System
 
 MATRICES = {name: value[0] for name, value in example_system(4, 1, 2).parameters._asdict().items()}
 WITH = linear_system(**MATRICES)

@@ -13,8 +13,8 @@ from filters.covariance_forms import COVARIANCE_FORMS
 from filters.factored import FACTORED_FORMS
 from filters.registry import DELAYED_METHODS
 from filters.simulation import simulate_truth
+from filters.system import System
 from filters.systems.example import example_system
-from filters.systems.system import System
 from filters.true_covariance import true_covariance
 from tests.strategies import problem
 

@@ -12,10 +12,10 @@ from filters.arrays import FloatArray
 from filters.kernels.backends import BackendName
 from filters.registry import DELAYED_METHODS
 from filters.simulation import simulate_truth
+from filters.system import System
 from filters.systems.example import example_system
 from filters.systems.linear import linear_system
 from filters.systems.shaped import shaped
-from filters.systems.system import System
 from filters.true_covariance import true_covariance
 from tests.strategies import problem
 

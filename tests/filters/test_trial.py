@@ -10,8 +10,8 @@ import pytest
 
 from filters import dual_rate, larsen, multirate_gain, recalculate, standard
 from filters.arrays import FloatArray
+from filters.system import System
 from filters.systems.example import example_system
-from filters.systems.system import System
 from tests.strategies import Problem, problem
 
 GOOD = problem(example_system(3, 2, 2), 5, 2, 4, 12, seed=0)

@@ -8,9 +8,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from filters import multirate_gain, standard
+from filters.system import System
 from filters.systems.example import example_system
 from filters.systems.linear import linear_system
-from filters.systems.system import System
 from filters.true_covariance import true_covariance
 from tests.strategies import problem, seeds, systems
 

@@ -12,8 +12,8 @@ from filters.covariance_forms import COVARIANCE_FORMS, CovarianceFormName
 from filters.factored import FACTORED_FORMS, FactoredFormName
 from filters.history import History
 from filters.registry import DELAYED_METHODS
+from filters.system import System
 from filters.systems.linear import linear_system
-from filters.systems.system import System
 from filters.true_covariance import true_covariance
 from tests.filters.cases import CASES, Case, each_case, relative_difference
 from tests.filters.test_laws import check_laws

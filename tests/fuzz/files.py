@@ -119,7 +119,7 @@ DOCUMENTS = {
 }
 
 SYSTEM = {
-    "head": "import numpy as np\nfrom filters.systems.system import System",
+    "head": "import numpy as np\nfrom filters.system import System",
     "f": "def f(j, x, u, p, out):\n    out[0] = x[0] + 0.01 * x[1]\n    out[1] = x[1] + 0.01 * u[0]",
     "F": "def F(j, x, u, p):\n    return np.array([[1.0, 0.01], [0.0, 1.0]])",
     "h": "def h(k, x, p, out):\n    out[0] = np.sin(x[0])",

@@ -83,7 +83,7 @@ def inverting():
 PENDULUM = """
 import numpy as np
 from numpy import cos, sin
-from filters.systems.system import System
+from filters.system import System
 
 def f(j, x, u, p, out):
     out[0] = x[0] + 0.005 * x[1]

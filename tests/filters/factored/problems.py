@@ -7,8 +7,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from hypothesis import strategies as st
 
+from filters.system import System
 from filters.systems.linear import linear_system
-from filters.systems.system import System
 
 Array = Any
 

@@ -24,7 +24,7 @@ import numpy as np
 from filters.high_rate import hr_restart
 from filters.kernels.backends import arguments_for, function_for
 import model
-from filters.systems.system import System
+from filters.system import System
 
 def unused():
     raise AssertionError

@@ -28,9 +28,9 @@ from filters.modular import (
 )
 from filters.modular.predictors import Predictor
 from filters.modular.space import minus
+from filters.system import System
 from filters.systems.composed import composed_system
 from filters.systems.linear import linear_system
-from filters.systems.system import System
 
 F = np.array([[1.0, 0.3], [-0.2, 0.9]])
 B = np.array([[0.0], [0.3]])
