@@ -7,8 +7,8 @@ from math import inf
 from time import perf_counter
 from typing import Any, NamedTuple
 
-from filters.kernels.backends import arguments_for, function_for
-from filters.kernels.repeat import repeat
+from filters.backends.choose import arguments_for, function_for
+from filters.backends.repeat import repeat
 
 REPETITIONS = 1000
 

@@ -11,10 +11,10 @@ from __future__ import annotations
 import numpy as np
 
 from filters.arrays import FloatArray
+from filters.backends.choose import BackendName, function_for
 from filters.covariance_forms import CovarianceFormName
 from filters.factored import FactoredFormName
 from filters.history import History
-from filters.kernels.backends import BackendName, function_for
 from filters.kernels.definite import is_semidefinite
 from filters.noises import check_noises
 from filters.problem import Problem

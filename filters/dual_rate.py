@@ -11,13 +11,13 @@ from typing import Any, Literal, NamedTuple, TypeAlias
 import numpy as np
 
 from filters.arrays import FloatArray
+from filters.backends.choose import BackendName, arguments_for, function_for
 from filters.breakdown import check_history, sturdier
 from filters.choice import check_choice
 from filters.covariance_forms import CovarianceFormName, covariance_form
 from filters.covariance_forms.form import CovarianceForm
 from filters.high_rate import hr_restart, hr_update
 from filters.history import History, HistoryRecorder
-from filters.kernels.backends import BackendName, arguments_for, function_for
 from filters.low_rate import lr_correct, lr_gain, lr_update
 from filters.low_rate_noise import NOISE_METHODS, LowRateNoise, NoiseMethod
 from filters.measured import Measurements

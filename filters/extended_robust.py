@@ -12,9 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from filters.arrays import FloatArray
+from filters.backends.choose import BackendName, arguments_for, function_for
 from filters.breakdown import breakdown, first_broken
 from filters.choice import check_choice
-from filters.kernels.backends import BackendName, arguments_for, function_for
 from filters.kernels.dense import store_vector
 from filters.kind import check_kind
 from filters.robust.check import check_start

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from filters.arrays import FloatArray
+from filters.backends.choose import BackendName, arguments_for, function_for
 from filters.breakdown import check_history, sturdier
 from filters.covariance_forms import CovarianceFormName, covariance_form
 from filters.covariance_forms.form import CovarianceForm
 from filters.history import History, HistoryRecorder
-from filters.kernels.backends import BackendName, arguments_for, function_for
 from filters.kernels.dense import add_vectors, matvec
 from filters.measured import Measurements
 from filters.problem import check_problem

@@ -9,13 +9,13 @@ from __future__ import annotations
 import numpy as np
 
 from filters.arrays import FloatArray
+from filters.backends.choose import BackendName, arguments_for, function_for
 from filters.breakdown import check_history, sturdier
 from filters.covariance_forms import CovarianceFormName
 from filters.factored import FactoredFormName, factored_form
 from filters.factored.form import FactoredForm
 from filters.factored.workspace import FactoredWorkspace, new_factored_workspace
 from filters.history import History, HistoryRecorder
-from filters.kernels.backends import BackendName, arguments_for, function_for
 from filters.kernels.dense import add_vectors
 from filters.measured import Measurements
 from filters.problem import check_measurement_noise, check_multirate_problem, check_system

@@ -12,7 +12,7 @@ from typing import Any, Literal
 import numpy as np
 
 from filters.arrays import FloatArray
-from filters.kernels.backends import BackendName, arguments_for, function_for
+from filters.backends.choose import BackendName, arguments_for, function_for
 from filters.kernels.definite import is_covariance
 from filters.problem import check_noise
 from filters.system import System

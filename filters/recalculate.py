@@ -8,10 +8,10 @@ from __future__ import annotations
 
 from filters import standard
 from filters.arrays import FloatArray
+from filters.backends.choose import BackendName, arguments_for, function_for
 from filters.breakdown import check_history, sturdier
 from filters.covariance_forms import CovarianceFormName, covariance_form
 from filters.history import History, HistoryRecorder
-from filters.kernels.backends import BackendName, arguments_for, function_for
 from filters.measured import Measurements
 from filters.problem import check_problem
 from filters.records import Estimate, new_correction, new_estimate, new_workspace

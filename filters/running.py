@@ -8,7 +8,7 @@ from typing import Literal
 
 import numpy as np
 
-from filters.kernels.numba_error import gist, is_numbas
+from filters.backends.numba_error import gist, is_numbas
 from filters.systems.shaped import misshapen
 
 

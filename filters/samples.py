@@ -8,9 +8,9 @@ import numpy as np
 
 from filters import standard
 from filters.arrays import FloatArray
+from filters.backends.choose import arguments_for, function_for
 from filters.covariance_forms import COVARIANCE_FORMS
 from filters.high_rate import hr_propagate, hr_restart
-from filters.kernels.backends import arguments_for, function_for
 from filters.problem import as_array
 from filters.records import (
     Correction,

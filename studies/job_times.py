@@ -15,9 +15,9 @@ from contextlib import contextmanager
 from time import thread_time_ns
 from typing import Any, Literal, NamedTuple, TypeVar
 
-from filters.kernels.backends import arguments_for, function_for
-from filters.kernels.numba_error import gist, is_numbas
-from filters.kernels.repeat import repeat
+from filters.backends.choose import arguments_for, function_for
+from filters.backends.numba_error import gist, is_numbas
+from filters.backends.repeat import repeat
 from filters.registry import Job
 from sched_sim.errors import InputError
 

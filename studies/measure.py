@@ -14,9 +14,9 @@ from fractions import Fraction
 from importlib.metadata import version
 from typing import Any, Literal, TypeVar
 
+from filters.backends.counted import Operations, count
+from filters.backends.uncountable import UncountableError
 from filters.covariance_forms import CovarianceFormName
-from filters.kernels.counted import Operations, count
-from filters.kernels.uncountable import UncountableError
 from filters.registry import ALL_METHODS, Job
 from filters.system import System
 from sched_sim.costs.table import Cost, CostTable

@@ -14,9 +14,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from filters.arrays import Flags, FloatArray
+from filters.backends.choose import BackendName, arguments_for, function_for
 from filters.covariance_forms import covariance_form
 from filters.dual_rate import HighRateTask
-from filters.kernels.backends import BackendName, arguments_for, function_for
 from filters.kernels.dense import copy
 from filters.low_rate_noise import NOISE_METHODS
 from filters.modular.arrivals import Arrivals, TooOld, arrivals

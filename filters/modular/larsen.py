@@ -27,7 +27,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from filters.arrays import Flags, FloatArray
-from filters.kernels.backends import BackendName
+from filters.backends.choose import BackendName
 from filters.kernels.dense import (
     add_matmul_blocked,
     copy,

@@ -8,8 +8,8 @@ from typing import Literal, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike
 
+from filters.backends.choose import BackendName
 from filters.choice import check_choice
-from filters.kernels.backends import BackendName
 from filters.modular import dual_rate, larsen, recalculate
 from filters.modular.arrivals import TooOld, in_order, last_arrival
 from filters.modular.composition import ModularFilter, check_composed

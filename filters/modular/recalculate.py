@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from filters.arrays import Flags, FloatArray
-from filters.kernels.backends import BackendName
+from filters.backends.choose import BackendName
 from filters.kernels.dense import store, store_vector
 from filters.kernels.place import IntArray
 from filters.modular.arrivals import Arrivals, TooOld, arrivals

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from filters.arrays import FloatArray
-from filters.kernels.backends import BackendName, arguments_for, function_for
+from filters.backends.choose import BackendName, arguments_for, function_for
 from filters.modular.arrivals import Arrivals
 from filters.modular.breakdown import PREDICTOR, SOUND, breakdown, new_failure
 from filters.modular.chain import chain

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from filters.arrays import FloatArray
+from filters.backends.choose import BackendName, arguments_for, function_for
 from filters.breakdown import breakdown, first_broken
 from filters.choice import check_choice
-from filters.kernels.backends import BackendName, arguments_for, function_for
 from filters.measured import Measurements, measured
 from filters.problem import as_array
 from filters.robust.check import check_inputs, check_start

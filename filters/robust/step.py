@@ -9,8 +9,8 @@ from typing import Any, Literal, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike
 
+from filters.backends.choose import BackendName, function_for
 from filters.choice import check_choice
-from filters.kernels.backends import BackendName, function_for
 from filters.kernels.definite import is_semidefinite
 from filters.robust.block_step import BlockWorkspace, block_step, new_block_workspace
 from filters.robust.blocks import NATURAL, RECOMMENDED

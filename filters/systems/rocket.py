@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from filters.arrays import FloatArray
-from filters.kernels.backends import BackendName, arguments_for, function_for
+from filters.backends.choose import BackendName, arguments_for, function_for
 from filters.systems.rocket_motion import Airframe, integrate
 
 RATE_HZ, FINE_STEPS = 100, 4

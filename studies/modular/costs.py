@@ -13,7 +13,7 @@ from typing import Any, Literal, NamedTuple, TypeAlias, get_args
 import numpy as np
 
 from filters.arrays import FloatArray
-from filters.kernels.counted import count
+from filters.backends.counted import count
 from filters.modular import (
     ModularFilter,
     Sensor,

@@ -16,8 +16,8 @@ from typing import Literal, NamedTuple, TypeAlias, get_args
 import numpy as np
 
 from filters.arrays import FloatArray
-from filters.kernels.backends import BackendName
-from filters.kernels.counted import count
+from filters.backends.choose import BackendName
+from filters.backends.counted import count
 from filters.modular import Measurement, ModularFilter, ModularHistory, observe, run
 from filters.modular.jobs import modular_jobs
 from filters.registry import ALL_METHODS

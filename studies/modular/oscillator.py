@@ -20,7 +20,7 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 
 from filters.arrays import FloatArray
-from filters.kernels.backends import BackendName
+from filters.backends.choose import BackendName
 from studies.modular.nees import Consistency, consistency
 from studies.modular.oscillator_run import (
     AMPLITUDES,

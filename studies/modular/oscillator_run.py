@@ -11,7 +11,7 @@ from typing import Literal, NamedTuple, TypeAlias
 import numpy as np
 
 from filters.arrays import FloatArray
-from filters.kernels.backends import BackendName
+from filters.backends.choose import BackendName
 from filters.modular import Measurement, ModularFilter, ModularHistory, observe, run
 from filters.normal import normal
 from filters.systems.spring_mass import (

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from filters.arrays import FloatArray
-from filters.kernels.backends import BackendName
+from filters.backends.choose import BackendName
 from filters.modular import Measurement, observe, run
 from filters.modular.space import minus
 from filters.systems.rocket import Flight, random_rocket, simulate_flight

@@ -11,8 +11,8 @@ from typing import Any, Literal, NamedTuple, TypeAlias, get_args
 
 import numpy as np
 
+from filters.backends.counted import Operations, count
 from filters.kernels import dense, solve
-from filters.kernels.counted import Operations, count
 from filters.registry import MULTIRATE_METHODS
 from filters.systems.gps import gps
 

@@ -8,7 +8,7 @@ from typing import Literal, TypeAlias, get_args
 
 import numpy as np
 
-from filters.kernels.counted import Operations, count
+from filters.backends.counted import Operations, count
 from filters.robust.model import RobustModel, Weights, prepared, weights
 from filters.robust.parallel_step import parallel_step_flops
 from filters.robust.records import Predicted

@@ -10,7 +10,7 @@ from typing import Literal, NamedTuple, TypeAlias, get_args
 
 import numpy as np
 
-from filters.kernels.counted import Operations, count
+from filters.backends.counted import Operations, count
 from filters.registry import ALL_METHODS
 from filters.robust.blocks import block_sizes
 from filters.robust.model import RobustModel, prepared, weights

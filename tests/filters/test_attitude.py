@@ -10,7 +10,7 @@ import pytest
 
 from filters import extended_robust
 from filters.arrays import FloatArray
-from filters.kernels.backends import BACKENDS, BackendName
+from filters.backends.choose import BACKENDS, BackendName
 from filters.robust.blocks import block_sizes
 from filters.robust.model import prepared
 from filters.systems.attitude import (

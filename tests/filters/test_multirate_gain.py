@@ -11,10 +11,10 @@ from hypothesis import strategies as st
 
 from filters import multirate_gain, standard
 from filters.arrays import FloatArray
+from filters.backends.counted import Operations, count
 from filters.covariance_forms import COVARIANCE_FORMS
 from filters.factored import FACTORED_FORMS
 from filters.history import History
-from filters.kernels.counted import Operations, count
 from filters.records import new_correction
 from filters.registry import MULTIRATE_METHODS
 from filters.system import System

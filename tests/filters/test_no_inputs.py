@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from filters.backends.counted import count
 from filters.covariance_forms import COVARIANCE_FORMS
-from filters.kernels.counted import count
 from filters.registry import ALL_METHODS, DELAYED_METHODS, MULTIRATE_METHODS
 from filters.simulation import simulate_truth
 from filters.system import System

@@ -10,7 +10,7 @@ import pytest
 
 from filters import extended_robust
 from filters.arrays import FloatArray
-from filters.kernels.backends import BackendName
+from filters.backends.choose import BackendName
 from filters.robust.blocks import block_sizes
 from filters.robust.model import prepared, without_measurement
 from filters.systems.position import (

@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 import pytest
 
+from filters.backends.choose import arguments_for, function_for
+from filters.backends.counted import Operations, count
+from filters.backends.repeat import repeat
 from filters.covariance_forms import COVARIANCE_FORMS
 from filters.factored.form import FactoredForm
-from filters.kernels.backends import arguments_for, function_for
-from filters.kernels.counted import Operations, count
-from filters.kernels.repeat import repeat
 from filters.multirate_gain import covariance_gain
 from filters.registry import ALL_METHODS, DELAYED_METHODS, MULTIRATE_METHODS, Job
 from filters.systems.example import example_system

@@ -9,7 +9,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from filters.arrays import FloatArray
-from filters.kernels.backends import BackendName
+from filters.backends.choose import BackendName
 from filters.systems.rocket import BURN_S, Flight, Rocket, rail_attitude, random_rocket, simulate_flight
 from filters.systems.rocket_filter import (
     GRAVITY,

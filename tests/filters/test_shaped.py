@@ -9,7 +9,7 @@ import pytest
 
 from filters import multirate_gain
 from filters.arrays import FloatArray
-from filters.kernels.backends import BackendName
+from filters.backends.choose import BackendName
 from filters.registry import DELAYED_METHODS
 from filters.simulation import simulate_truth
 from filters.system import System

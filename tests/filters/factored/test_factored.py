@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 
+from filters.backends.choose import BACKENDS, BackendName, function_for
+from filters.backends.counted import count
 from filters.covariance_forms import COVARIANCE_FORMS, CovarianceFormName, covariance_form
 from filters.factored import FACTORED_FORMS, FactoredFormName, factored_form
 from filters.factored.form import FactoredForm
 from filters.factored.workspace import new_factored_workspace
-from filters.kernels.backends import BACKENDS, BackendName, function_for
-from filters.kernels.counted import count
 from tests.filters.factored.problems import Problem, close, problem, problems
 
 each_form = pytest.mark.parametrize(

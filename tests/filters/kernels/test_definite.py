@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from filters.kernels.backends import BACKENDS, BackendName, function_for
+from filters.backends.choose import BACKENDS, BackendName, function_for
 from filters.kernels.definite import ROUNDING, SYMMETRIC, covariance_root, is_covariance, is_semidefinite
 
 

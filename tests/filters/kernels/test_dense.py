@@ -10,9 +10,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from filters.backends.choose import BACKENDS, BackendName, function_for
+from filters.backends.counted import Operations, count
 from filters.kernels import dense, solve
-from filters.kernels.backends import BACKENDS, BackendName, function_for
-from filters.kernels.counted import Operations, count
 
 lengths = st.integers(1, 7)
 seeds = st.integers(0, 2**31 - 1)

@@ -10,8 +10,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from filters.backends.choose import BACKENDS, BackendName, function_for
 from filters.kernels import elimination, givens, inversion, place, schur
-from filters.kernels.backends import BACKENDS, BackendName, function_for
 
 sizes = st.integers(1, 7)
 seeds = st.integers(0, 2**31 - 1)

@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from filters.arrays import FloatArray
-from filters.kernels.backends import BackendName
+from filters.backends.choose import BackendName
 from filters.modular import (
     Measurement,
     ModularFilter,

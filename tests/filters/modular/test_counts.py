@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from filters.arrays import FloatArray
-from filters.kernels.backends import arguments_for, function_for
-from filters.kernels.counted import Operations, count
-from filters.kernels.counted_scalar import plain
+from filters.backends.choose import arguments_for, function_for
+from filters.backends.counted import Operations, count
+from filters.backends.counted_scalar import plain
 from filters.modular import (
     ModularFilter,
     Sensor,

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from filters import larsen
 from filters.arrays import FloatArray
-from filters.kernels.counted import Operations, count
+from filters.backends.counted import Operations, count
 from filters.modular import (
     Measurement,
     ModularFilter,

@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from filters.kernels.counted import Operations, count
+from filters.backends.counted import Operations, count
 from filters.kernels.givens import triangularise
 from filters.robust.block_step import BlockWorkspace, new_block_workspace
 from filters.robust.blocks import NATURAL, RECOMMENDED

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from filters.kernels.backends import BACKENDS, BackendName
+from filters.backends.choose import BACKENDS, BackendName
 from filters.robust.blocks import NATURAL, RECOMMENDED
 from filters.robust.model import RobustModel, prepared, weights
 from filters.robust.records import Predicted

@@ -10,7 +10,7 @@ from statistics import fmean
 import numpy as np
 import pytest
 
-from filters.kernels.counted import count
+from filters.backends.counted import count
 from filters.modular.jobs import modular_jobs
 from filters.modular.problem import unscented_parts
 from filters.systems.rocket import RATE_HZ

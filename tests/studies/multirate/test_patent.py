@@ -6,7 +6,7 @@ from fractions import Fraction
 
 import pytest
 
-from filters.kernels.counted import Operations
+from filters.backends.counted import Operations
 from studies.multirate.patent import (
     CYCLES,
     comparison,

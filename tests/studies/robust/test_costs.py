@@ -8,7 +8,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from filters.kernels.backends import arguments_for, function_for
+from filters.backends.choose import arguments_for, function_for
 from filters.robust_jobs import robust_jobs
 from sched_sim.costs.methods import ROBUST_METHODS
 from sched_sim.costs.table_file import TABLES, costs_text

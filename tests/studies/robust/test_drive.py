@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from filters.arrays import FloatArray
-from filters.kernels.backends import BACKENDS, BackendName
+from filters.backends.choose import BACKENDS, BackendName
 from filters.systems.attitude import attitude, attitude_scaling, write_rate_matrix
 from filters.systems.drive import (
     FIX_EVERY,

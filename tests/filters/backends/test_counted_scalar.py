@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from filters.kernels.counted_scalar import Scalar, Tally, UncountedError
+from filters.backends.counted_scalar import Scalar, Tally, UncountedError
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,7 @@ from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
-from filters.kernels.counted_scalar import Scalar, plain
+from filters.backends.counted_scalar import Scalar, plain
 
 Kind: TypeAlias = Literal["function", "sqrt", "multiply", "nothing", "question"]
 """question: its answer is a truth value, which is not counted."""

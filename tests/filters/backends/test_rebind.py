@@ -10,8 +10,8 @@ import scipy.linalg
 from numpy import eye
 from scipy.linalg import expm
 
-from filters.kernels.dependencies import Dependencies
-from filters.kernels.rebind import Versions
+from filters.backends.dependencies import Dependencies
+from filters.backends.rebind import Versions
 
 
 def leaf(x: int) -> int:

@@ -6,10 +6,10 @@ from collections.abc import Callable
 from types import FunctionType
 from typing import Any, Literal, NamedTuple, TypeAlias
 
+from filters.backends.bind import bind
+from filters.backends.compiled import compiled, inlined
+from filters.backends.vectorised import vectorised
 from filters.choice import check_choice
-from filters.kernels.bind import bind
-from filters.kernels.compiled import compiled, inlined
-from filters.kernels.vectorised import vectorised
 
 BackendName: TypeAlias = Literal["reference", "compiled", "numpy"]
 

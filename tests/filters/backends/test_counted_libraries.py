@@ -13,8 +13,8 @@ import pytest
 import scipy.linalg as sl
 from numpy import zeros
 
-from filters.kernels.counted import Operations, count
-from filters.kernels.uncountable import UncountableError
+from filters.backends.counted import Operations, count
+from filters.backends.uncountable import UncountableError
 
 X = np.array([0.3, 0.4])
 TABLE = np.diag([1.0, 2.0])

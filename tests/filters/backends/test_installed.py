@@ -10,8 +10,8 @@ import pytest
 import scipy.linalg
 from scipy.linalg import expm
 
+from filters.backends.installed import is_foreign, is_installed
 from filters.kernels.dense import matmul
-from filters.kernels.installed import is_foreign, is_installed
 
 
 def own() -> None: ...

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from scipy.special import erf
 
-from filters.kernels.counted_functions import OF_MATH, elementwise
-from filters.kernels.counted_scalar import Scalar, Tally
+from filters.backends.counted_functions import OF_MATH, elementwise
+from filters.backends.counted_scalar import Scalar, Tally
 
 FUNCTION, SQRT, MULTIPLY, NOTHING = Tally(function=1), Tally(sqrt=1), Tally(multiply=1), Tally()
 

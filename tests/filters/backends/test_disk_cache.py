@@ -15,14 +15,14 @@ import numpy as np
 import pytest
 from numba import njit
 
-from filters.kernels.compiled import compiled, inlined
-from filters.kernels.dependencies import dependencies
-from filters.kernels.disk_cache import DiskCache
+from filters.backends.compiled import compiled, inlined
+from filters.backends.dependencies import dependencies
+from filters.backends.disk_cache import DiskCache
 
 PROGRAM = """
 import numpy as np
 from filters.high_rate import hr_restart
-from filters.kernels.backends import arguments_for, function_for
+from filters.backends.choose import arguments_for, function_for
 import model
 from filters.system import System
 

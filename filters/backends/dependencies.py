@@ -19,7 +19,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from filters.kernels.installed import is_foreign
+from filters.backends.installed import is_foreign
 
 # What comes from these is known by its name and the library's version; numba has its own code for it.
 _LIBRARIES = frozenset({*sys.stdlib_module_names, "numba", "numpy"})

@@ -8,10 +8,10 @@ from typing import Any, cast
 import numpy as np
 
 from filters.arrays import FloatArray
+from filters.backends.rebind import Versions
+from filters.backends.vectorised_blocks import BLOCK_VERSIONS, or_nan
+from filters.backends.vectorised_factors import FACTOR_VERSIONS
 from filters.kernels import dense, solve
-from filters.kernels.rebind import Versions
-from filters.kernels.vectorised_blocks import BLOCK_VERSIONS, or_nan
-from filters.kernels.vectorised_factors import FACTOR_VERSIONS
 
 
 def vectorised(function: FunctionType) -> Any:

@@ -14,9 +14,9 @@ from typing import Any
 
 import numpy as np
 
-from filters.kernels.bind import like
-from filters.kernels.dependencies import Dependencies, dependencies, is_of_library, named_attributes, named_values
-from filters.kernels.installed import is_foreign
+from filters.backends.bind import like
+from filters.backends.dependencies import Dependencies, dependencies, is_of_library, named_attributes, named_values
+from filters.backends.installed import is_foreign
 
 Wrap = Callable[[FunctionType, FunctionType, Dependencies], Any]
 

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from filters.arrays import FloatArray
+from filters.backends.vectorised_blocks import or_nan
 from filters.kernels import definite, sequential, triangular, u_d
-from filters.kernels.vectorised_blocks import or_nan
 
 
 def _is_covariance(P: FloatArray, scratch: FloatArray) -> bool:

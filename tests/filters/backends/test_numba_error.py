@@ -10,8 +10,8 @@ import scipy.linalg as sl
 from scipy.linalg import expm
 from scipy.special import erf
 
-from filters.kernels.backends import function_for
-from filters.kernels.numba_error import gist, is_numbas
+from filters.backends.choose import function_for
+from filters.backends.numba_error import gist, is_numbas
 
 
 def by_module(x: float) -> Any:

@@ -76,7 +76,7 @@ PROGRAM = """
 import importlib, sys
 from pathlib import Path
 from types import FunctionType
-from filters.kernels.backends import function_for
+from filters.backends.choose import function_for
 import constants, model
 
 kinds = [value for value in vars(model).values() if isinstance(value, FunctionType)]

@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from filters.kernels.counted import count
+from filters.backends.counted import count
+from filters.backends.uncountable import UncountableError, uncountable
 from filters.kernels.dense import matmul
-from filters.kernels.uncountable import UncountableError, uncountable
 
 KEPT = {"last": np.zeros(1)}
 

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from numba import njit
 
-from filters.kernels.counted import Operations, count
-from filters.kernels.counted_scalar import Scalar, Tally
-from filters.kernels.uncountable import UncountableError
+from filters.backends.counted import Operations, count
+from filters.backends.counted_scalar import Scalar, Tally
+from filters.backends.uncountable import UncountableError
 
 
 class Pair(NamedTuple):

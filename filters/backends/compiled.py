@@ -23,9 +23,9 @@ from types import FunctionType
 from typing import Any
 from uuid import NAMESPACE_URL, uuid5
 
-from filters.kernels.dependencies import Dependencies
-from filters.kernels.disk_cache import DiskCache
-from filters.kernels.rebind import Versions
+from filters.backends.dependencies import Dependencies
+from filters.backends.disk_cache import DiskCache
+from filters.backends.rebind import Versions
 
 
 def compiled(function: FunctionType) -> Any:

@@ -9,11 +9,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from filters.kernels.bind import like
-from filters.kernels.counted_libraries import BUILTINS, counted_version
-from filters.kernels.counted_scalar import Scalar, Tally
-from filters.kernels.rebind import Versions
-from filters.kernels.uncountable import uncountable
+from filters.backends.bind import like
+from filters.backends.counted_libraries import BUILTINS, counted_version
+from filters.backends.counted_scalar import Scalar, Tally
+from filters.backends.rebind import Versions
+from filters.backends.uncountable import uncountable
 
 
 class Operations(NamedTuple):

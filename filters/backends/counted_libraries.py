@@ -14,11 +14,11 @@ from typing import Any
 
 import numpy as np
 
-from filters.kernels.bind import like
-from filters.kernels.counted_functions import OF_MATH, elementwise
-from filters.kernels.counted_scalar import Scalar, UncountedError
-from filters.kernels.dependencies import is_of_library
-from filters.kernels.installed import is_installed
+from filters.backends.bind import like
+from filters.backends.counted_functions import OF_MATH, elementwise
+from filters.backends.counted_scalar import Scalar, UncountedError
+from filters.backends.dependencies import is_of_library
+from filters.backends.installed import is_installed
 
 
 class _FloatType(type):

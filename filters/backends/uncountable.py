@@ -7,8 +7,8 @@ import traceback
 from pathlib import Path
 from types import FrameType
 
-from filters.kernels.counted_scalar import UncountedError
-from filters.kernels.installed import is_installed
+from filters.backends.counted_scalar import UncountedError
+from filters.backends.installed import is_installed
 
 _REMEDY = "write it with + - * / and functions of single numbers, such as np.sin or math.sin, in arrays of its own"
 
@@ -34,7 +34,7 @@ def uncountable(error: Exception) -> UncountableError | None:
 
 
 def _is_machinery(frame: FrameType) -> bool:
-    return is_installed(frame.f_code.co_filename) or _module(frame).startswith("filters.kernels.counted")
+    return is_installed(frame.f_code.co_filename) or _module(frame).startswith("filters.backends.counted")
 
 
 def _module(frame: FrameType) -> str:
