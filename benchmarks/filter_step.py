@@ -11,8 +11,8 @@ import numpy as np
 from filterpy.kalman import KalmanFilter
 
 from benchmarks.timing import Result, times_faster
-from filters import standard
 from filters.arrays import FloatArray
+from filters.delayed import standard
 from filters.simulation import simulate_truth
 from filters.systems.example import example_system
 from filters.systems.linear import linear_system

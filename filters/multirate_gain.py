@@ -12,6 +12,7 @@ from filters.arrays import FloatArray
 from filters.backends.choose import BackendName, arguments_for, function_for
 from filters.breakdown import check_history, sturdier
 from filters.covariance_forms import CovarianceFormName
+from filters.delayed.update import update_error
 from filters.factored import FactoredFormName, factored_form
 from filters.factored.form import FactoredForm
 from filters.factored.workspace import FactoredWorkspace, new_factored_workspace
@@ -26,7 +27,6 @@ from filters.systems.coarse import over
 from filters.systems.lossy import lossy
 from filters.systems.shaped import shaped
 from filters.systems.trial import first_input, try_functions
-from filters.update import update_error
 
 
 def state_update(

@@ -14,22 +14,18 @@ from typing import Any, NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
 
-from filters import dual_rate, larsen, multirate_gain, recalculate, standard
+from filters import multirate_gain
 from filters.arrays import FloatArray
 from filters.covariance_forms import CovarianceFormName, covariance_form
 from filters.covariance_forms.form import CovarianceForm
+from filters.delayed import dual_rate, larsen, recalculate, standard
+from filters.delayed.high_rate import hr_propagate, hr_restart, hr_update
+from filters.delayed.low_rate import lr_correct, lr_gain, lr_propagate, lr_update
+from filters.delayed.low_rate_noise import HalvedTransition, hr_propagate_euler, hr_propagate_sum, lr_propagate_euler
 from filters.factored import FactoredFormName, factored_form
 from filters.factored.form import FactoredForm
 from filters.factored.workspace import new_factored_workspace
-from filters.high_rate import hr_propagate, hr_restart, hr_update
 from filters.history import History
-from filters.low_rate import lr_correct, lr_gain, lr_propagate, lr_update
-from filters.low_rate_noise import (
-    HalvedTransition,
-    hr_propagate_euler,
-    hr_propagate_sum,
-    lr_propagate_euler,
-)
 from filters.problem import check_system
 from filters.records import (
     Transition,

@@ -6,11 +6,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from filters import standard
 from filters.arrays import FloatArray
 from filters.backends.choose import arguments_for, function_for
 from filters.covariance_forms import COVARIANCE_FORMS
-from filters.high_rate import hr_propagate, hr_restart
+from filters.delayed import standard
+from filters.delayed.high_rate import hr_propagate, hr_restart
+from filters.delayed.update import update_covariance, update_error
 from filters.problem import as_array
 from filters.records import (
     Correction,
@@ -23,7 +24,6 @@ from filters.records import (
 )
 from filters.simulation import simulate_truth
 from filters.system import System
-from filters.update import update_covariance, update_error
 
 WARM_UP = 12  # steps with a measurement each, after which the covariance is far from its start
 DELAY = 4  # steps from k to m

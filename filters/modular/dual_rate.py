@@ -1,6 +1,6 @@
 """The dual rate filter for one sensor and linear or extended parts: Steffes 2014, Eqs. (13) to (19).
 
-The tasks are those of `filters.dual_rate`: the high-rate one carries state, Phi and Q, the low-rate one has the
+The tasks are those of `filters.delayed.dual_rate`: the high-rate one carries state, Phi and Q, the low-rate one has the
 covariance at the steps k in which the sensor measures, and its correction is added L steps later. In the steps between
 the estimate is that of a filter which has not got the measurement yet. One that is missing leaves its cycle without
 correction.
@@ -16,9 +16,9 @@ from numpy.typing import ArrayLike
 from filters.arrays import Flags, FloatArray
 from filters.backends.choose import BackendName, arguments_for, function_for
 from filters.covariance_forms import covariance_form
-from filters.dual_rate import HighRateTask
+from filters.delayed.dual_rate import HighRateTask
+from filters.delayed.low_rate_noise import NOISE_METHODS
 from filters.kernels.dense import copy
-from filters.low_rate_noise import NOISE_METHODS
 from filters.modular.arrivals import Arrivals, TooOld, arrivals
 from filters.modular.breakdown import PREDICTOR, Failure, breakdown
 from filters.modular.composition import ModularFilter, Sensor

@@ -12,8 +12,9 @@ from typing import Literal, NamedTuple, TypeAlias, get_args
 
 import numpy as np
 
-from filters import multirate_gain, standard
+from filters import multirate_gain
 from filters.arrays import FloatArray
+from filters.delayed import standard
 from filters.multirate_gain import cycle_in_use
 from filters.system import System
 from filters.systems.coarse import CoarseNoise, over

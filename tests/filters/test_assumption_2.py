@@ -9,11 +9,11 @@ import pytest
 
 from filters.arrays import FloatArray
 from filters.covariance_forms import covariance_form
+from filters.delayed.larsen import extrapolated_update
+from filters.delayed.standard import propagate, update
 from filters.kernels.dense import matmul
-from filters.larsen import extrapolated_update
 from filters.records import Estimate, new_correction, new_estimate, new_workspace
 from filters.simulation import simulate_truth
-from filters.standard import propagate, update
 from filters.system import System
 from filters.systems.example import example_system
 from filters.systems.linear import linear_system

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from filters import dual_rate, larsen
 from filters.backends.choose import function_for
+from filters.delayed import dual_rate, larsen
 from filters.systems.example import example_system
 from filters.systems.linear import linear_system
 from tests.strategies import problem

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 from scipy.stats import chi2
 
-from filters import multirate_gain, standard
+from filters import multirate_gain
 from filters.arrays import FloatArray
+from filters.delayed import standard
 from filters.system import System
 from filters.systems.gps import (
     CLOCK_BIAS,

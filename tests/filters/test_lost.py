@@ -9,9 +9,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from filters import multirate_gain, standard
+from filters import multirate_gain
 from filters.arrays import FloatArray
 from filters.covariance_forms import COVARIANCE_FORMS
+from filters.delayed import standard
 from filters.factored import FACTORED_FORMS
 from filters.robust.run import run as run_robust
 from filters.robust.step import WAYS, step

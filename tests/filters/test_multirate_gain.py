@@ -9,10 +9,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from filters import multirate_gain, standard
+from filters import multirate_gain
 from filters.arrays import FloatArray
 from filters.backends.counted import Operations, count
 from filters.covariance_forms import COVARIANCE_FORMS
+from filters.delayed import standard
 from filters.factored import FACTORED_FORMS
 from filters.history import History
 from filters.records import new_correction

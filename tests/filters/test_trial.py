@@ -8,8 +8,9 @@ from typing import Any, NamedTuple
 import numpy as np
 import pytest
 
-from filters import dual_rate, larsen, multirate_gain, recalculate, standard
+from filters import multirate_gain
 from filters.arrays import FloatArray
+from filters.delayed import dual_rate, larsen, recalculate, standard
 from filters.system import System
 from filters.systems.example import example_system
 from tests.strategies import Problem, problem

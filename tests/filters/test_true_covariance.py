@@ -7,7 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from filters import multirate_gain, standard
+from filters import multirate_gain
+from filters.delayed import standard
 from filters.system import System
 from filters.systems.example import example_system
 from filters.systems.linear import linear_system

@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 from scipy.linalg import solve_discrete_are
 
-from filters import multirate_gain, standard
+from filters import multirate_gain
 from filters.arrays import FloatArray
 from filters.covariance_forms import COVARIANCE_FORMS, CovarianceFormName
+from filters.delayed import standard
 from filters.factored import FACTORED_FORMS, FactoredFormName
 from filters.history import History
 from filters.registry import DELAYED_METHODS

@@ -15,9 +15,9 @@ import pytest
 from scipy.linalg import expm
 
 from filters.backends.dependencies import dependencies
+from filters.delayed.standard import filter_all
 from filters.modular import recalculate
 from filters.robust import run
-from filters.standard import filter_all
 
 
 class Record(NamedTuple):
@@ -188,7 +188,7 @@ def test_filters_can_be_kept_on_disk(function: FunctionType) -> None:
 def test_digests_are_the_same_in_every_process() -> None:
     program = (
         "from filters.backends.dependencies import dependencies\n"
-        "from filters.standard import filter_all\n"
+        "from filters.delayed.standard import filter_all\n"
         "flags = lambda x: x in {'a', 'b', 'c'}\n"
         "print(*(dependencies(function).digest for function in (filter_all, flags)))"
     )

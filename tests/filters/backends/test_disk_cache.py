@@ -21,7 +21,7 @@ from filters.backends.disk_cache import DiskCache
 
 PROGRAM = """
 import numpy as np
-from filters.high_rate import hr_restart
+from filters.delayed.high_rate import hr_restart
 from filters.backends.choose import arguments_for, function_for
 import model
 from filters.system import System

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from filters import dual_rate, larsen, standard
 from filters.arrays import FloatArray
+from filters.delayed import dual_rate, larsen, standard
 from filters.modular import ModularFilter, run, unscented_corrector, unscented_predictor
 from filters.modular.updates import UPDATES, UpdateName
 from tests.filters.modular import cases

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from filters import recalculate
+from filters.delayed import recalculate
 from filters.modular import Measurement, run
 from tests.filters.modular.cases import (
     CASES,

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from filters import dual_rate
+from filters.delayed import dual_rate
 from filters.modular import Sensor, extended_corrector, extended_predictor, run
 from tests.filters.modular.cases import ONE_SENSOR, height, measured, measured_rows, pendulum_case, with_timing
 

@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from filters import larsen
 from filters.arrays import FloatArray
+from filters.delayed import larsen
 from filters.modular import (
     Measurement,
     ModularFilter,

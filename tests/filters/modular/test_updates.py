@@ -11,9 +11,9 @@ from filterpy.kalman import KalmanFilter
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from filters import larsen
 from filters.arrays import FloatArray
 from filters.backends.counted import Operations, count
+from filters.delayed import larsen
 from filters.modular import (
     Measurement,
     ModularFilter,

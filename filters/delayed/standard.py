@@ -9,6 +9,7 @@ from filters.backends.choose import BackendName, arguments_for, function_for
 from filters.breakdown import check_history, sturdier
 from filters.covariance_forms import CovarianceFormName, covariance_form
 from filters.covariance_forms.form import CovarianceForm
+from filters.delayed.update import update_covariance, update_error
 from filters.history import History
 from filters.kernels.dense import (
     add_vectors,
@@ -29,7 +30,6 @@ from filters.records import (
 )
 from filters.running import running
 from filters.system import System
-from filters.update import update_covariance, update_error
 
 
 def propagate(

@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from filters import standard
 from filters.covariance_forms import COVARIANCE_FORMS
+from filters.delayed import standard
 from filters.systems.example import example_system
 from tests.filters.oracle import textbook_kalman_filter
 from tests.strategies import Problem, problem, systems

@@ -16,10 +16,10 @@ from filters.breakdown import check_history, sturdier
 from filters.choice import check_choice
 from filters.covariance_forms import CovarianceFormName, covariance_form
 from filters.covariance_forms.form import CovarianceForm
-from filters.high_rate import hr_restart, hr_update
+from filters.delayed.high_rate import hr_restart, hr_update
+from filters.delayed.low_rate import lr_correct, lr_gain, lr_update
+from filters.delayed.low_rate_noise import NOISE_METHODS, LowRateNoise, NoiseMethod
 from filters.history import History, HistoryRecorder
-from filters.low_rate import lr_correct, lr_gain, lr_update
-from filters.low_rate_noise import NOISE_METHODS, LowRateNoise, NoiseMethod
 from filters.measured import Measurements
 from filters.problem import check_problem
 from filters.records import Correction, Estimate, new_correction, new_workspace

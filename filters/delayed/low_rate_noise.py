@@ -9,9 +9,9 @@ import numpy as np
 
 from filters.arrays import FloatArray
 from filters.covariance_forms.form import CovarianceForm
-from filters.high_rate import hr_propagate
+from filters.delayed.high_rate import hr_propagate
+from filters.delayed.low_rate import lr_propagate
 from filters.kernels.dense import add
-from filters.low_rate import lr_propagate
 from filters.records import Transition, Workspace, new_transition
 from filters.system import System
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from filters import dual_rate
 from filters.arrays import FloatArray
+from filters.delayed import dual_rate
 from filters.systems.example import example_system
 from tests.filters.cases import relative_difference, standard_run
 from tests.strategies import problem

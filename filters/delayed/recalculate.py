@@ -6,11 +6,11 @@ followed by M propagations. Nothing is done twice in other steps.
 
 from __future__ import annotations
 
-from filters import standard
 from filters.arrays import FloatArray
 from filters.backends.choose import BackendName, arguments_for, function_for
 from filters.breakdown import check_history, sturdier
 from filters.covariance_forms import CovarianceFormName, covariance_form
+from filters.delayed import standard
 from filters.history import History, HistoryRecorder
 from filters.measured import Measurements
 from filters.problem import check_problem

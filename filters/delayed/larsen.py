@@ -9,16 +9,16 @@ from filters.backends.choose import BackendName, arguments_for, function_for
 from filters.breakdown import check_history, sturdier
 from filters.covariance_forms import CovarianceFormName, covariance_form
 from filters.covariance_forms.form import CovarianceForm
+from filters.delayed.standard import propagate
+from filters.delayed.standard import update as update_at_once
+from filters.delayed.update import update_error
 from filters.history import History, HistoryRecorder
 from filters.kernels.dense import add_vectors, matvec
 from filters.measured import Measurements
 from filters.problem import check_problem
 from filters.records import Correction, Estimate, Workspace, new_correction, new_estimate, new_workspace
 from filters.running import running
-from filters.standard import propagate
-from filters.standard import update as update_at_once
 from filters.system import System
-from filters.update import update_error
 
 
 def propagate_accumulate(

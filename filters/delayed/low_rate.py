@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from filters.arrays import FloatArray
 from filters.covariance_forms.form import CovarianceForm
+from filters.delayed.update import update_covariance, update_error
 from filters.records import Correction, Estimate, Transition, Workspace
 from filters.system import System
-from filters.update import update_covariance, update_error
 
 
 def lr_propagate(

@@ -1,0 +1,1 @@
+"""Filters of delayed measurements: standard, recalculate, Larsen, dual-rate."""
