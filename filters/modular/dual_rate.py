@@ -60,7 +60,7 @@ def run(
             fit the sensor; a measurement is taken between the sensor's steps or arrives too late for L; and as
             `late.run`.
     """
-    from filters.systems.composed import composed_system  # which is made of parts of this package
+    from filters.modular.as_system import composed_system  # which is made of parts of this package
 
     check_linearised(composed, "dual-rate")
     sensor = _only_sensor(composed)

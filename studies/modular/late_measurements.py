@@ -19,9 +19,9 @@ from filters.arrays import FloatArray
 from filters.backends.choose import BackendName
 from filters.backends.counted import count
 from filters.modular import Measurement, ModularFilter, ModularHistory, observe, run
+from filters.modular.as_system import composed_system
 from filters.modular.jobs import modular_jobs
 from filters.registry import ALL_METHODS
-from filters.systems.composed import composed_system
 from filters.systems.spring_mass import Instrument, frequency, tracker
 from studies.modular.oscillator_run import (
     ACCELERATION_SIGMA,

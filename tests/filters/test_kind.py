@@ -11,13 +11,13 @@ import pytest
 from filters import extended_robust, multirate_gain
 from filters.kind import check_kind
 from filters.modular import dual_rate, larsen, observe, recalculate, run
+from filters.modular.as_system import composed_system
 from filters.modular.jobs import modular_jobs
 from filters.modular.late import Late
 from filters.registry import ALL_METHODS, DELAYED_METHODS
 from filters.simulation import simulate_truth
 from filters.system import System
 from filters.systems.coarse import over
-from filters.systems.composed import composed_system
 from filters.systems.example import example_system
 from filters.true_covariance import true_covariance
 from tests.filters.modular.cases import linear_case

@@ -26,10 +26,10 @@ from filters.modular import (
     unscented_corrector,
     unscented_predictor,
 )
+from filters.modular.as_system import composed_system
 from filters.modular.predictors import Predictor
 from filters.modular.space import minus
 from filters.system import System
-from filters.systems.composed import composed_system
 from filters.systems.linear import linear_system
 
 F = np.array([[1.0, 0.3], [-0.2, 0.9]])
