@@ -13,8 +13,8 @@ from benchmarks.timing import Result, repeated, seconds
 from filters.robust.model import prepared, weights
 from filters.robust.records import Predicted
 from filters.robust.step import JOBS, WAYS, WayName, step
+from filters.robust.uncertain import linearised
 from filters.systems.attitude import attitude, attitude_scaling, attitude_uncertainty
-from filters.systems.uncertain import linearised
 
 STATE = np.array([0.1, -0.05, 1.2, 0.01, -0.02, 0.03])
 TURN_RATES = np.array([0.2, -0.1, 0.3])

@@ -1,4 +1,4 @@
-"""Linear algebra as plain loops, and the ways to run them: as they are, compiled, counted, by NumPy calls.
+"""Linear algebra as plain loops.
 
 Every kernel writes its result into `out` and allocates nothing, because an allocation costs as much as a small
 matrix product and would distort a measured cost. `out` never shares memory with an input unless a docstring allows it.

@@ -11,8 +11,7 @@ from filters.arrays import FloatArray
 from filters.kernels.dense import copy
 from filters.kernels.place import IntArray
 from filters.robust.blocks import block_sizes, block_starts, place_blocks, template
-from filters.robust.model import RobustModel, Weights
-from filters.robust.records import Predicted
+from filters.robust.records import Predicted, RobustModel, Weights
 
 
 class BlockWorkspace(NamedTuple):

@@ -15,8 +15,7 @@ import numpy as np
 from filters.arrays import FloatArray
 from filters.kernels.dense import copy
 from filters.kernels.place import IntArray, place, place_both_ways, place_diagonal
-from filters.robust.model import RobustModel, Weights
-from filters.robust.records import Predicted
+from filters.robust.records import Predicted, RobustModel, Weights
 
 NATURAL = (0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10)
 RECOMMENDED = (1, 2, 9, 4, 6, 8, 0, 7, 5, 3, 10)

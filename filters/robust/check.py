@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from filters.arrays import FloatArray
-
-if TYPE_CHECKING:
-    from filters.robust.model import RobustModel
+from filters.robust.records import RobustModel
 
 
 def check_parameters(mu: float, xi: float) -> None:

@@ -10,8 +10,7 @@ from filters.arrays import FloatArray
 from filters.kernels.dense import add_matvec
 from filters.kernels.place import clear, place
 from filters.kernels.schur import add_diagonal, add_outer, complement, decorrelate
-from filters.robust.model import RobustModel, Weights
-from filters.robust.records import Predicted
+from filters.robust.records import Predicted, RobustModel, Weights
 
 
 class ClosedWorkspace(NamedTuple):

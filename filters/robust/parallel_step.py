@@ -8,10 +8,9 @@ import numpy as np
 
 from filters.arrays import FloatArray
 from filters.robust.blocks import RECOMMENDED, assemble, block_sizes, block_starts
-from filters.robust.model import RobustModel, Weights
 from filters.robust.parallel import Pattern, greedy
 from filters.robust.parallel_cost import step_flops
-from filters.robust.records import Predicted
+from filters.robust.records import Predicted, RobustModel, Weights
 
 
 def step_pattern(

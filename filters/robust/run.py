@@ -15,8 +15,8 @@ from filters.choice import check_choice
 from filters.measured import Measurements, measured
 from filters.problem import as_array
 from filters.robust.check import check_inputs, check_start
-from filters.robust.model import RobustModel, Weights, prepared, weights, without_measurement
-from filters.robust.records import Predicted
+from filters.robust.model import prepared, weights, without_measurement
+from filters.robust.records import Predicted, RobustModel, Weights
 from filters.robust.step import JOBS, REMEDY, WAYS, WayName, step
 
 

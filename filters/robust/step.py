@@ -16,8 +16,8 @@ from filters.robust.block_step import BlockWorkspace, block_step, new_block_work
 from filters.robust.blocks import NATURAL, RECOMMENDED
 from filters.robust.check import check_inputs, check_start
 from filters.robust.closed import new_closed_workspace, step_closed
-from filters.robust.model import RobustModel, prepared, weights
-from filters.robust.records import Predicted
+from filters.robust.model import prepared, weights
+from filters.robust.records import Predicted, RobustModel
 from filters.robust.solvers import (
     by_dense_lu,
     by_givens,

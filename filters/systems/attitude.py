@@ -14,7 +14,7 @@ import numpy as np
 
 from filters.arrays import FloatArray
 from filters.choice import check_choice
-from filters.systems.uncertain import Scaling, UncertainSystem, Uncertainty, no_uncertainty
+from filters.robust.uncertain import Scaling, UncertainSystem, Uncertainty, no_uncertainty
 
 ROLL, PITCH, YAW, GYRO_BIAS = 0, 1, 2, slice(3, 6)
 

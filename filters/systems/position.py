@@ -15,8 +15,8 @@ import numpy as np
 
 from filters.arrays import FloatArray
 from filters.choice import check_choice
+from filters.robust.uncertain import Scaling, UncertainSystem, Uncertainty, no_uncertainty
 from filters.systems.attitude import wrapped
-from filters.systems.uncertain import Scaling, UncertainSystem, Uncertainty, no_uncertainty
 
 LATITUDE, LONGITUDE, HEIGHT, NORTH, EAST, DOWN, ACCELEROMETER_BIAS = 0, 1, 2, 3, 4, 5, slice(6, 9)
 

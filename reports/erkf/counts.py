@@ -11,7 +11,7 @@ from filters.robust.model import prepared, weights
 from filters.robust.parallel import Schedule, greedy, sameh_kuck
 from filters.robust.parallel_cost import time_units
 from filters.robust.parallel_step import step_pattern
-from filters.systems.uncertain import linearised
+from filters.robust.uncertain import linearised
 from studies.robust.costs import SYSTEMS, SystemName, robust_case
 from studies.robust.counts import PENALTIES, Penalty, counts, dense_counts, kalman_counts
 

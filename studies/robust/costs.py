@@ -9,14 +9,14 @@ from typing import Literal, TypeAlias, get_args
 import numpy as np
 
 from filters.backends.counted import Operations, count
-from filters.robust.model import RobustModel, Weights, prepared, weights
+from filters.robust.jobs import RobustCase, Start, robust_jobs
+from filters.robust.model import prepared, weights
 from filters.robust.parallel_step import parallel_step_flops
-from filters.robust.records import Predicted
+from filters.robust.records import Predicted, RobustModel, Weights
 from filters.robust.step import JOBS, WAYS
-from filters.robust_jobs import RobustCase, Start, robust_jobs
+from filters.robust.uncertain import linearised
 from filters.systems.attitude import attitude, attitude_scaling, attitude_uncertainty
 from filters.systems.position import position, position_scaling, position_uncertainty
-from filters.systems.uncertain import linearised
 from sched_sim.costs.table import Cost, CostTable
 from studies.job_times import Progress, silent
 from studies.measure import BackendName, cost_table

@@ -13,13 +13,13 @@ import numpy as np
 from filters.backends.counted import Operations, count
 from filters.registry import ALL_METHODS
 from filters.robust.blocks import block_sizes
-from filters.robust.model import RobustModel, prepared, weights
-from filters.robust.records import Predicted
+from filters.robust.model import prepared, weights
+from filters.robust.records import Predicted, RobustModel
 from filters.robust.step import JOBS, STUDIED, StepJob
+from filters.robust.uncertain import linearised
 from filters.systems.attitude import attitude_uncertainty
 from filters.systems.example import example_system
 from filters.systems.position import position_uncertainty
-from filters.systems.uncertain import linearised
 from studies.robust.costs import SYSTEMS, SystemName, robust_case
 
 Penalty: TypeAlias = Literal["infinite", "finite"]

@@ -19,9 +19,9 @@ from typing import Any, NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from filters import extended_robust
 from filters.arrays import FloatArray
-from filters.extended_robust import ExtendedHistory
+from filters.robust import extended as extended_robust
+from filters.robust.extended import ExtendedHistory
 from filters.systems.attitude import AttitudeRows, attitude, attitude_scaling, attitude_uncertainty
 from filters.systems.drive import (
     FIX_EVERY,

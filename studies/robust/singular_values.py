@@ -15,12 +15,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from filters import extended_robust
 from filters.arrays import FloatArray
-from filters.extended_robust import ExtendedHistory
+from filters.robust import extended as extended_robust
+from filters.robust.extended import ExtendedHistory
+from filters.robust.uncertain import Scaling
 from filters.systems.drive import FIX_EVERY, RATE_HZ, START, CargoDrive, simulate_cargo_drive
 from filters.systems.position import position, position_scaling, position_uncertainty
-from filters.systems.uncertain import Scaling
 from studies.robust.drive import (
     LIMIT_ALL,
     LIMIT_BIAS,

@@ -8,11 +8,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from filters import extended_robust
 from filters.arrays import FloatArray
 from filters.backends.choose import BACKENDS, BackendName
+from filters.robust import extended as extended_robust
 from filters.robust.blocks import block_sizes
 from filters.robust.model import prepared
+from filters.robust.uncertain import UncertainSystem, linearised
 from filters.systems.attitude import (
     ATTITUDE_ROWS,
     AttitudeRows,
@@ -22,7 +23,6 @@ from filters.systems.attitude import (
     wrapped,
     write_rate_matrix,
 )
-from filters.systems.uncertain import UncertainSystem, linearised
 
 X = np.array([0.1, -0.05, 1.2, 0.01, -0.02, 0.03])
 RATES = np.array([0.2, -0.1, 0.3])

@@ -8,13 +8,14 @@ from typing import Any
 import numpy as np
 import pytest
 
-from filters import extended_robust, multirate_gain
+from filters import multirate_gain
 from filters.kind import check_kind
 from filters.modular import dual_rate, larsen, observe, recalculate, run
 from filters.modular.as_system import composed_system
 from filters.modular.jobs import modular_jobs
 from filters.modular.late import Late
 from filters.registry import ALL_METHODS, DELAYED_METHODS
+from filters.robust import extended as extended_robust
 from filters.simulation import simulate_truth
 from filters.system import System
 from filters.systems.coarse import over

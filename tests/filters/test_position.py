@@ -8,11 +8,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from filters import extended_robust
 from filters.arrays import FloatArray
 from filters.backends.choose import BackendName
+from filters.robust import extended as extended_robust
 from filters.robust.blocks import block_sizes
 from filters.robust.model import prepared, without_measurement
+from filters.robust.uncertain import UncertainSystem, linearised
 from filters.systems.position import (
     curvature_radii,
     gravity,
@@ -21,7 +22,6 @@ from filters.systems.position import (
     position_uncertainty,
     write_body_to_ned,
 )
-from filters.systems.uncertain import UncertainSystem, linearised
 
 LATITUDE, LONGITUDE, HEIGHT = np.radians(-22.0075), np.radians(-47.8909), 850.0
 X = np.array([LATITUDE, LONGITUDE, HEIGHT, 8, -5, 0.3, 0.04, -0.03, 0.05])

@@ -7,11 +7,11 @@ from typing import Any
 import numpy as np
 
 from filters.robust.blocks import NATURAL, assemble, block_sizes, block_starts
-from filters.robust.model import RobustModel, prepared, weights, without_measurement
-from filters.robust.records import Predicted
+from filters.robust.model import prepared, weights, without_measurement
+from filters.robust.records import Predicted, RobustModel
+from filters.robust.uncertain import linearised
 from filters.systems.attitude import AttitudeRows, attitude, attitude_scaling, attitude_uncertainty
 from filters.systems.position import PositionRows, position, position_scaling, position_uncertainty
-from filters.systems.uncertain import linearised
 
 Array = Any
 

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from filters.robust.model import RobustModel, prepared, weights
-from filters.robust.records import Predicted
+from filters.robust.model import prepared, weights
+from filters.robust.records import Predicted, RobustModel
 from filters.robust.run import run
 from filters.robust.step import step
 from tests.filters.robust.cases import attitude_model, random_model, start

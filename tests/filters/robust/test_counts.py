@@ -11,8 +11,8 @@ from filters.backends.counted import Operations, count
 from filters.kernels.givens import triangularise
 from filters.robust.block_step import BlockWorkspace, new_block_workspace
 from filters.robust.blocks import NATURAL, RECOMMENDED
-from filters.robust.model import RobustModel, prepared, weights
-from filters.robust.records import Predicted
+from filters.robust.model import prepared, weights
+from filters.robust.records import Predicted, RobustModel
 from filters.robust.solvers import (
     by_dense_lu,
     by_givens,

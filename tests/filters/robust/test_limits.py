@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from filters.robust.model import RobustModel, prepared
-from filters.robust.records import Predicted
+from filters.robust.model import prepared
+from filters.robust.records import Predicted, RobustModel
 from filters.robust.step import WAYS, WayName, step
 from tests.filters.robust.cases import Array, close, random_model, start
 

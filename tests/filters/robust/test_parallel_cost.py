@@ -16,10 +16,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from filters.robust.blocks import NATURAL, RECOMMENDED
-from filters.robust.model import RobustModel, weights
+from filters.robust.model import weights
 from filters.robust.parallel import Pattern, Schedule, greedy, pivot_order, sameh_kuck
 from filters.robust.parallel_cost import back_substitution_flops, flops, span_units, step_flops, time_units
 from filters.robust.parallel_step import parallel_step_flops, step_pattern
+from filters.robust.records import RobustModel
 
 PROCESSORS = (1, 4, 16, 64, 256, 1024)
 ORDERS = {"natural": NATURAL, "recommended": RECOMMENDED}

@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 
 from filters.backends.choose import BACKENDS, BackendName
 from filters.robust.blocks import NATURAL, RECOMMENDED
-from filters.robust.model import RobustModel, prepared, weights
-from filters.robust.records import Predicted
+from filters.robust.model import prepared, weights
+from filters.robust.records import Predicted, RobustModel
 from filters.robust.run import run
 from filters.robust.step import JOBS, STUDIED, WAYS, WayName, step
 from tests.filters.robust.cases import (

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from filters.backends.choose import arguments_for, function_for
-from filters.robust_jobs import robust_jobs
+from filters.robust.jobs import robust_jobs
 from sched_sim.costs.methods import ROBUST_METHODS
 from sched_sim.costs.table_file import TABLES, costs_text
 from sched_sim.design.least_speed import least_speed

@@ -9,6 +9,7 @@ import pytest
 
 from filters.arrays import FloatArray
 from filters.backends.choose import BACKENDS, BackendName
+from filters.robust.uncertain import UncertainSystem
 from filters.systems.attitude import attitude, attitude_scaling, write_rate_matrix
 from filters.systems.drive import (
     FIX_EVERY,
@@ -22,7 +23,6 @@ from filters.systems.drive import (
     wrap,
 )
 from filters.systems.position import position, position_scaling
-from filters.systems.uncertain import UncertainSystem
 from studies.robust import drive as study
 from studies.robust.drive import AttitudeMethod, AttitudeResult, PositionMethod, PositionResult
 

@@ -9,7 +9,7 @@ from operator import attrgetter
 import numpy as np
 import pytest
 
-from filters import extended_robust
+from filters.robust import extended as extended_robust
 from studies.robust.singular_values import CASES, WAYS, Agreement, Case, Comparison, compare, singular_values
 
 LIMITS = [case for case in CASES if np.isinf(case.method.mu) and case.scaled]

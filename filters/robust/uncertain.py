@@ -13,7 +13,7 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 
 from filters.arrays import FloatArray
-from filters.robust.model import RobustModel
+from filters.robust.records import RobustModel
 
 Parameters: TypeAlias = Any  # of one system: a named tuple of floats
 

@@ -18,11 +18,13 @@ from filters.choice import check_choice
 from filters.kernels.dense import store_vector
 from filters.kind import check_kind
 from filters.robust.check import check_start
-from filters.robust.model import RobustModel, Weights, prepared, weights, without_measurement
-from filters.robust.records import Predicted
+from filters.robust.model import prepared, weights, without_measurement
+from filters.robust.records import Predicted, RobustModel, Weights
 from filters.robust.step import JOBS, REMEDY, STUDIED, StepJob
+from filters.robust.uncertain import Scaling, UncertainSystem, Uncertainty, linearised
 from filters.running import running
-from filters.systems.uncertain import Scaling, UncertainSystem, Uncertainty, linearised
+
+ALLOCATION_FREE = False
 
 
 class ExtendedHistory(NamedTuple):

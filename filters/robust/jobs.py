@@ -7,13 +7,15 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from filters.arrays import FloatArray
-from filters.extended_robust import ExtendedWorkspace, Setting, robust_step
 from filters.kernels.dense import add_vectors
 from filters.registry import Job
+from filters.robust.extended import ExtendedWorkspace, Setting, robust_step
 from filters.robust.model import prepared, weights
 from filters.robust.records import Predicted
 from filters.robust.step import JOBS, WAYS, WayName
-from filters.systems.uncertain import Scaling, UncertainSystem, Uncertainty, linearised
+from filters.robust.uncertain import Scaling, UncertainSystem, Uncertainty, linearised
+
+ALLOCATION_FREE = False
 
 
 class Start(NamedTuple):
