@@ -6,7 +6,7 @@ import warnings
 from typing import Any, TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 FloatArray: TypeAlias = NDArray[np.float64]
 Flags: TypeAlias = NDArray[np.bool_]
@@ -39,3 +39,12 @@ def without_mask(values: Any) -> Any:
     if isinstance(values, np.ma.MaskedArray):
         return values.tolist()
     return [without_mask(value) for value in values] if isinstance(values, list | tuple) else values
+
+
+def as_array(name: str, value: ArrayLike) -> FloatArray:
+    """A contiguous copy. Raises ValueError, naming it, unless it is an array of real numbers, none of them masked."""
+    check_unmasked(name, value)
+    try:
+        return as_floats(value)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise ValueError(f"{name} is no array of numbers: {error}") from error

@@ -12,6 +12,7 @@ from filters.arrays import FloatArray
 from filters.backends.choose import BackendName, arguments_for, function_for
 from filters.breakdown import check_history, sturdier
 from filters.covariance_forms import CovarianceFormName
+from filters.covariances import check_measurement_noise
 from filters.delayed.update import update_error
 from filters.factored import FactoredFormName, factored_form
 from filters.factored.form import FactoredForm
@@ -19,7 +20,7 @@ from filters.factored.workspace import FactoredWorkspace, new_factored_workspace
 from filters.history import History, HistoryRecorder
 from filters.kernels.dense import add_vectors
 from filters.measured import Measurements
-from filters.problem import check_measurement_noise, check_multirate_problem, check_system
+from filters.problem import check_multirate_problem, check_system
 from filters.records import Correction, new_correction
 from filters.running import running
 from filters.system import System

@@ -13,8 +13,8 @@ import numpy as np
 
 from filters.arrays import FloatArray
 from filters.backends.choose import BackendName, arguments_for, function_for
+from filters.covariances import check_noise
 from filters.kernels.definite import is_covariance
-from filters.problem import check_noise
 from filters.system import System
 
 

@@ -7,7 +7,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from filters.arrays import FloatArray, as_floats, check_unmasked
+from filters.arrays import FloatArray, as_array
+from filters.covariances import check_covariance, check_noise
 from filters.kind import check_kind
 from filters.measured import Measured, Measurements, measured
 from filters.records import Estimate
@@ -69,46 +70,6 @@ def check_multirate_problem(
     return Problem(shaped(system), start, moves, found)
 
 
-def check_covariance(name: str, P: FloatArray) -> None:
-    """Raises ValueError unless P (n, n) is finite, symmetric, and positive semidefinite, up to rounding."""
-    if not np.isfinite(P).all():
-        raise ValueError(f"{name} holds a value that is not finite")
-    scale = np.abs(P).max(initial=0.0)
-    if not np.allclose(P, np.transpose(P), rtol=0.0, atol=1e-9 * scale):
-        raise ValueError(
-            f"{name} is not symmetric, so it is no covariance; give half the sum of it and its transpose "
-            f"if that is meant"
-        )
-    smallest = np.linalg.eigvalsh(P)[0]
-    if smallest < -1e-9 * scale:
-        raise ValueError(f"{name} is no covariance: its smallest eigenvalue is {smallest:.3g}, which is negative")
-
-
-def check_noise(name: str, noise: FloatArray, step: int) -> None:
-    """Raises ValueError unless the Q or R that a system gives in this step is a covariance."""
-    _check_noise_is_finite(name, noise, step)
-    check_covariance(f"step {step}: {name} of the system", noise)
-
-
-def check_measurement_noise(R: FloatArray, k: int) -> None:
-    """Raises ValueError unless R (p, p) of step k is finite, symmetric and positive definite beyond rounding."""
-    _check_noise_is_finite("R", R, k)
-    if not np.allclose(R, R.T, rtol=1e-9, atol=0.0):
-        raise ValueError(f"R of step {k} is not symmetric; it is the covariance of the measurement noise")
-    eigenvalues = np.linalg.eigvalsh(R)
-    if not eigenvalues[0] > len(R) * np.finfo(np.float64).eps * abs(eigenvalues[-1]):
-        raise ValueError(
-            f"R of step {k} is not positive definite: its smallest eigenvalue is {eigenvalues[0]:.3g}; give each "
-            f"measurement noise of its own (a positive variance), or leave out those that follow from the others"
-        )
-
-
-def _check_noise_is_finite(name: str, noise: FloatArray, step: int) -> None:
-    if not np.isfinite(noise).all():
-        lost = ", and None in place of a measurement, or of a number of one, that says nothing" if name == "R" else ""
-        raise ValueError(f"step {step}: {name} of the system gives a value that is not finite; give numbers{lost}")
-
-
 def _start_and_inputs(system: System, x0: ArrayLike, P0: ArrayLike, inputs: ArrayLike) -> tuple[Estimate, FloatArray]:
     """The system is tried too, at x0."""
     check_system("system", system)
@@ -146,15 +107,6 @@ def _check_system(system: System, x: FloatArray, inputs: FloatArray) -> None:
     try_functions(system, x, first_input(inputs))
     for name, covariance in (("Q", system.Q(0, system.parameters)), ("R", system.R(0, system.parameters))):
         check_noise(name, covariance, 0)
-
-
-def as_array(name: str, value: ArrayLike) -> FloatArray:
-    """A contiguous copy. Raises ValueError, naming it, unless it is an array of real numbers, none of them masked."""
-    check_unmasked(name, value)
-    try:
-        return as_floats(value)
-    except (TypeError, ValueError, OverflowError) as error:
-        raise ValueError(f"{name} is no array of numbers: {error}") from error
 
 
 def _numbers(name: str, value: ArrayLike, needed: tuple[int, ...]) -> FloatArray:

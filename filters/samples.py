@@ -6,13 +6,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from filters.arrays import FloatArray
+from filters.arrays import FloatArray, as_array
 from filters.backends.choose import arguments_for, function_for
 from filters.covariance_forms import COVARIANCE_FORMS
 from filters.delayed import standard
 from filters.delayed.high_rate import hr_propagate, hr_restart
 from filters.delayed.update import update_covariance, update_error
-from filters.problem import as_array
 from filters.records import (
     Correction,
     Estimate,

@@ -7,8 +7,9 @@ from typing import NamedTuple
 import numpy as np
 
 from filters.arrays import FloatArray
+from filters.covariances import check_covariance
 from filters.noises import check_noises
-from filters.problem import check_covariance, check_system
+from filters.problem import check_system
 from filters.running import running
 from filters.system import System
 from filters.systems.shaped import shaped

@@ -186,6 +186,15 @@ def test_only_main_imports_the_command_line():
     assert importers - cli <= {"sched_sim.__main__"}
 
 
+def test_no_files_import_one_another_in_a_circle():
+    """Not even when they run, or for types alone: what imports nothing that is left is taken away until all is."""
+    graph = grimp.build_graph(*PACKAGES, cache_dir=None)
+    imported = {name: set(graph.find_modules_directly_imported_by(name)) for name in graph.modules}
+    while free := {name for name, others in imported.items() if not others & imported.keys()}:
+        imported = {name: others for name, others in imported.items() if name not in free}
+    assert sorted(imported) == []
+
+
 def test_the_command_line_imports_nothing_slow():
     slow = {"matplotlib.pyplot", "numba", "pyarrow", "simpy"}
     code = f"import sys, sched_sim.cli; print(*sorted({slow!r} & set(sys.modules)))"

@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from filters.arrays import FloatArray, as_floats, check_unmasked
+from filters.covariances import check_covariance
 from filters.kernels.definite import is_semidefinite
 from filters.modular.space import Space
-from filters.problem import check_covariance
 from filters.robust.check import check_positive_definite
 
 

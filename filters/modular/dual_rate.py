@@ -20,6 +20,7 @@ from filters.delayed.dual_rate import HighRateTask
 from filters.delayed.low_rate_noise import NOISE_METHODS
 from filters.kernels.dense import copy
 from filters.modular.arrivals import Arrivals, TooOld, arrivals
+from filters.modular.as_system import composed_system
 from filters.modular.breakdown import PREDICTOR, Failure, breakdown
 from filters.modular.composition import ModularFilter, Sensor
 from filters.modular.correction import correction
@@ -60,8 +61,6 @@ def run(
             fit the sensor; a measurement is taken between the sensor's steps or arrives too late for L; and as
             `late.run`.
     """
-    from filters.modular.as_system import composed_system  # which is made of parts of this package
-
     check_linearised(composed, "dual-rate")
     sensor = _only_sensor(composed)
     N, lands = sensor.every, sensor.every if L is None else L

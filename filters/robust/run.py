@@ -8,12 +8,11 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from filters.arrays import FloatArray
+from filters.arrays import FloatArray, as_array
 from filters.backends.choose import BackendName, arguments_for, function_for
 from filters.breakdown import breakdown, first_broken
 from filters.choice import check_choice
 from filters.measured import Measurements, measured
-from filters.problem import as_array
 from filters.robust.check import check_inputs, check_start
 from filters.robust.model import prepared, weights, without_measurement
 from filters.robust.records import Predicted, RobustModel, Weights

@@ -7,9 +7,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from filters.arrays import FloatArray
+from filters.arrays import FloatArray, as_array
+from filters.covariances import check_covariance
 from filters.kernels.dense import add_matvec, matvec
-from filters.problem import as_array, check_covariance
 from filters.system import System
 
 

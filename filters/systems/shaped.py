@@ -14,6 +14,7 @@ import numpy as np
 
 from filters.arrays import FloatArray
 from filters.system import System
+from filters.systems.linear import is_linear
 
 
 class ShapedParameters(NamedTuple):
@@ -27,8 +28,6 @@ def shaped(system: System) -> System:
 
     One that `linear_system` made is known to have the right ones, and stays as it is.
     """
-    from filters.systems.linear import is_linear  # which is made of checks that know this module
-
     if is_linear(system):
         return system
     return System(*system[:3], _f, _F, _Q, _h, _H, _R, ShapedParameters(system))

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from filters.arrays import FloatArray
-from filters.problem import as_array, check_covariance, check_measurement_noise
+from filters.arrays import FloatArray, as_array
+from filters.covariances import check_covariance, check_measurement_noise
 from filters.system import System
 from filters.systems.trial import check_result, trials
 from sched_sim.bounds import MOST_STATES, short
