@@ -8,8 +8,10 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from sched_sim.cli import options as opt
+from sched_sim.cli.design_flags import with_options
 from sched_sim.cli.output import say
 from sched_sim.cli.outputs import refuse_one_file_for_two
+from sched_sim.design.options import Options
 
 if TYPE_CHECKING:
     from sched_sim.costs.table import CostTable
@@ -21,6 +23,7 @@ ChartMethods = Annotated[
 Picture = Annotated[Path, typer.Option("--output", "-o", help="FILE.svg, .pdf or .png.", rich_help_panel=opt.OUTPUT)]
 
 
+@with_options
 def gantt(
     N: opt.Steps,
     M: opt.Delay = None,
@@ -30,13 +33,8 @@ def gantt(
     cycles: opt.Cycles = 1,
     costs: opt.Costs = None,
     statistic: opt.WhichCost = "minimum",
-    lr_propagate_by: opt.LrPropagateBy = "m",
-    feedback: opt.FeedbackIn = "next-step",
-    gain: opt.GainAt = "at-update",
-    low_rate_noise: opt.Noise = "exact",
     processor: opt.OnProcessor = None,
-    cpus: opt.Cpus = 1,
-    context_switch: opt.ContextSwitch = "0",
+    options: Options = Options(),
     tasks: opt.Tasks = None,
     hr_hz: opt.HrHz = None,
     output: Picture = Path("gantt.svg"),
@@ -57,7 +55,6 @@ def gantt(
     check_picture(output, "--output")
     inputs = [("--costs", costs), ("--processor", processor), ("--tasks", tasks)]
     refuse_one_file_for_two([("--output", output)], inputs)
-    options = opt.make_options(lr_propagate_by, feedback, gain, low_rate_noise, cpus, context_switch)
     part = opt.make_processor(processor)
     table, others, rate = opt.costs_on(costs, part), opt.make_tasks(tasks), opt.hr_rate(hr_hz)
     panels = []

@@ -7,12 +7,13 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from sched_sim.cli import options as opt
+from sched_sim.cli.design_flags import with_options
 from sched_sim.cli.output import lines, print_csv, print_json, print_table, say, units
 from sched_sim.cli.progress import simulations
 from sched_sim.costs.table import SECONDS
+from sched_sim.design.options import Options
 
 if TYPE_CHECKING:
-    from sched_sim.design.options import Options
     from sched_sim.design.pieces import Costs
     from sched_sim.design.timing import Timing
     from sched_sim.schedule.tasks import Task
@@ -23,6 +24,7 @@ LARGEST_DENOMINATOR = 10_000
 """A fraction with a larger one (of measured costs) tells a person nothing; --format json has it."""
 
 
+@with_options
 def minimum(
     N: opt.Steps,
     M: opt.Delay = None,
@@ -30,13 +32,8 @@ def minimum(
     method: opt.Methods = None,
     costs: opt.Costs = None,
     statistic: opt.WhichCost = "minimum",
-    lr_propagate_by: opt.LrPropagateBy = "m",
-    feedback: opt.FeedbackIn = "next-step",
-    gain: opt.GainAt = "at-update",
-    low_rate_noise: opt.Noise = "exact",
     processor: opt.OnProcessor = None,
-    cpus: opt.Cpus = 1,
-    context_switch: opt.ContextSwitch = "0",
+    options: Options = Options(),
     tasks: opt.Tasks = None,
     hr_hz: opt.HrHz = None,
     format: opt.Format = "table",
@@ -54,7 +51,6 @@ def minimum(
     from sched_sim.design.least_speed import least_speed
     from sched_sim.design.methods import METHODS, select
 
-    options = opt.make_options(lr_propagate_by, feedback, gain, low_rate_noise, cpus, context_switch)
     part = opt.make_processor(processor)
     table, others, rate = opt.costs_on(costs, part), opt.make_tasks(tasks), opt.hr_rate(hr_hz)
     design = f"N={N} M={_given(M, 'none')} L={_given(L, 'latest')}"

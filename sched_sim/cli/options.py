@@ -14,12 +14,12 @@ from sched_sim.costs.methods import METHODS as NAMES
 from sched_sim.costs.methods import Method
 from sched_sim.costs.table import CostTable, default_methods
 from sched_sim.costs.table_file import COUNTED, PAPERS, load_costs
-from sched_sim.design.options import Gain, LowRateNoise, Options
+from sched_sim.design.options import Options
 from sched_sim.design.pieces import Statistic
-from sched_sim.design.timing import Feedback, Timing
+from sched_sim.design.timing import Timing
 from sched_sim.errors import InputError
 from sched_sim.schedule.tasks import Task
-from sched_sim.ticks import exact, positive
+from sched_sim.ticks import positive
 
 if TYPE_CHECKING:
     from sched_sim.design.least_speed import LeastSpeed
@@ -52,13 +52,6 @@ def none_or_more(text: str) -> int:
     number = whole(text)
     if number < 0:
         raise typer.BadParameter(f"{number} is too small: give at least 0.")
-    return number
-
-
-def one_or_two(text: str) -> int:
-    number = whole(text)
-    if number not in (1, 2):
-        raise typer.BadParameter(f"{number} is not possible: give 1 or 2.")
     return number
 
 
@@ -115,54 +108,12 @@ WhichCost = Annotated[
     Statistic,
     typer.Option("--statistic", help="Which of a measured cost's figures to plan with.", rich_help_panel=DESIGN),
 ]
-LrPropagateBy = Annotated[
-    Literal["m", "l"],
-    typer.Option(
-        "--lr-propagate-by",
-        help="Deadline of LR propagate: step m (the paper's rule) or step l, which needs less power for small M.",
-        rich_help_panel=DESIGN,
-    ),
-]
-FeedbackIn = Annotated[
-    Feedback,
-    typer.Option(
-        "--feedback",
-        help="Apply the correction in the HR job of the next step (the paper), or as soon as it is known.",
-        rich_help_panel=DESIGN,
-    ),
-]
-GainAt = Annotated[
-    Gain,
-    typer.Option("--gain", help="Compute H, R, K in the LR update, or before it (III.D).", rich_help_panel=DESIGN),
-]
-Noise = Annotated[
-    LowRateNoise,
-    typer.Option("--low-rate-noise", help="Q over N steps by Eq. 18, 23 or 24.", rich_help_panel=DESIGN),
-]
-Cpus = Annotated[
-    int,
-    typer.Option(
-        "--cpus",
-        help="2: HR jobs on one processor, LR jobs on another.",
-        parser=one_or_two,
-        metavar="1|2",
-        rich_help_panel=PROCESSOR,
-    ),
-]
 OnProcessor = Annotated[
     str | None,
     typer.Option(
         "--processor",
         help="Turn counted operations into time on this part: a shipped one by name (see `sched-sim processors`), or "
         "your own TOML file by path. Costs are then in seconds.",
-        rich_help_panel=PROCESSOR,
-    ),
-]
-ContextSwitch = Annotated[
-    str,
-    typer.Option(
-        "--context-switch",
-        help="Work charged each time a job is dispatched and another ran last, in cost units.",
         rich_help_panel=PROCESSOR,
     ),
 ]
@@ -208,24 +159,6 @@ def given_options(context: typer.Context, wanted: Callable[[str], bool]) -> list
         and (source := context.get_parameter_source(str(parameter.name)))
         and source.name != "DEFAULT"
     ]
-
-
-def make_options(
-    lr_propagate_by: Literal["m", "l"],
-    feedback: Feedback,
-    gain: Gain,
-    low_rate_noise: LowRateNoise,
-    cpus: int,
-    context_switch: str,
-) -> Options:
-    return Options(
-        feedback=feedback,
-        lr_propagate_by=lr_propagate_by,
-        gain=gain,
-        low_rate_noise=low_rate_noise,
-        cpus=2 if cpus == 2 else 1,
-        context_switch=exact(context_switch, "--context-switch"),
-    )
 
 
 def make_timing(N: int, M: int | None, L: int | None, method: str, options: Options) -> Timing:

@@ -8,15 +8,16 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from sched_sim.cli import options as opt
+from sched_sim.cli.design_flags import with_options
 from sched_sim.cli.output import lines, print_csv, print_json, print_table
 from sched_sim.cli.parts import MEANING, TASKS_ON_PARTS
 from sched_sim.costs.methods import METHODS
 from sched_sim.costs.table_file import COUNTED
+from sched_sim.design.options import Options
 
 if TYPE_CHECKING:
     from fractions import Fraction
 
-    from sched_sim.design.options import Options
     from sched_sim.design.pieces import Statistic
     from sched_sim.design.timing import Timing
     from sched_sim.processors.part import Part
@@ -59,6 +60,7 @@ DesignSteps = Annotated[
 ]
 
 
+@with_options
 def processors(
     context: typer.Context,
     N: DesignSteps = None,
@@ -67,13 +69,8 @@ def processors(
     method: RunMethods = None,
     costs: Counts = None,
     statistic: opt.WhichCost = "minimum",
-    lr_propagate_by: opt.LrPropagateBy = "m",
-    feedback: opt.FeedbackIn = "next-step",
-    gain: opt.GainAt = "at-update",
-    low_rate_noise: opt.Noise = "exact",
     processor: Parts = None,
-    cpus: opt.Cpus = 1,
-    context_switch: opt.ContextSwitch = "0",
+    options: Options = Options(),
     tasks: opt.Tasks = None,
     hr_hz: opt.HrHz = None,
     format: opt.Format = "table",
@@ -96,7 +93,6 @@ def processors(
         missing = "-N" if N is None else "--hr-hz"
         raise InputError(f"{missing} is missing: which processors can run a method depends on -N and --hr-hz")
     else:
-        options = opt.make_options(lr_propagate_by, feedback, gain, low_rate_noise, cpus, context_switch)
         methods = opt.known_methods(method or ["dual-rate"])
         designs = {name: opt.make_timing(N, M, L, name, options) for name in methods}
         rate, others = positive(hr_hz, "--hr-hz"), opt.make_tasks(tasks)

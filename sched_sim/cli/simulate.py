@@ -11,14 +11,15 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from sched_sim.cli import options as opt
+from sched_sim.cli.design_flags import with_options
 from sched_sim.cli.output import lines, print_csv, print_json, print_table, say
 from sched_sim.cli.outputs import refuse_one_file_for_two
 from sched_sim.cli.progress import progress_bar
+from sched_sim.design.options import Options
 from sched_sim.errors import InputError
 from sched_sim.shares import percent
 
 if TYPE_CHECKING:
-    from sched_sim.design.options import Options
     from sched_sim.design.pieces import Costs
     from sched_sim.design.timing import Timing
     from sched_sim.schedule.outcome import Response, Slice
@@ -61,6 +62,7 @@ WITH_SCENARIO = ("scenario", "gantt", "trace", "histogram", "format")
 """The parameters that go together with --scenario; what the others say, the scenario says itself."""
 
 
+@with_options
 def simulate(
     context: typer.Context,
     N: opt.StepsOrNone = None,
@@ -71,13 +73,8 @@ def simulate(
     cycles: opt.Cycles = 3,
     costs: opt.Costs = None,
     statistic: opt.WhichCost = "minimum",
-    lr_propagate_by: opt.LrPropagateBy = "m",
-    feedback: opt.FeedbackIn = "next-step",
-    gain: opt.GainAt = "at-update",
-    low_rate_noise: opt.Noise = "exact",
     processor: opt.OnProcessor = None,
-    cpus: opt.Cpus = 1,
-    context_switch: opt.ContextSwitch = "0",
+    options: Options = Options(),
     tasks: opt.Tasks = None,
     gantt: GanttFile = None,
     trace: TraceFiles = None,
@@ -123,7 +120,6 @@ def simulate(
         check_picture(gantt, "--gantt")
     for path in trace or ():
         check_trace(path)
-    options = opt.make_options(lr_propagate_by, feedback, gain, low_rate_noise, cpus, context_switch)
     timing = opt.make_timing(N, M, L, method, options)
     part = opt.make_processor(processor)
     table, others, rate = opt.costs_on(costs, part), opt.make_tasks(tasks), opt.hr_rate(hr_hz)

@@ -8,11 +8,13 @@ import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from sched_sim.cli import options as opt
+from sched_sim.cli.design_flags import Axes, with_axes
 from sched_sim.cli.output import lines, print_csv, print_json, print_table, say
 from sched_sim.cli.outputs import refuse_one_file_for_two
 from sched_sim.cli.parts import TASKS_ON_PARTS, WORDS
@@ -59,15 +61,10 @@ WhichCost = Annotated[
     Statistic | None,
     typer.Option("--statistic", help="Which of a measured cost's figures to plan with.", rich_help_panel=opt.DESIGN),
 ]
-LrPropagateBys = Annotated[Axis, _values("--lr-propagate-by", "Deadline of LR propagate: m (default), l or m,l.")]
-FeedbackIns = Annotated[Axis, _values("--feedback", "next-step (default), same-step or next-step,same-step.")]
-Gains = Annotated[Axis, _values("--gain", "at-update (default), precomputed or at-update,precomputed.")]
-Noises = Annotated[Axis, _values("--low-rate-noise", "exact (default), sum, euler or several: exact,sum,euler.")]
 Speeds = Annotated[
     Axis,
     _values("--speed", "Cost units per HR period: 0.6:1.6:0.05; by default each design's least.", opt.PROCESSOR),
 ]
-CpuCounts = Annotated[Axis, _values("--cpus", "1 (default), 2 or 1,2 processors.", opt.PROCESSOR)]
 Processors = Annotated[
     Axis,
     _values(
@@ -85,7 +82,6 @@ HrRates = Annotated[
         opt.PROCESSOR,
     ),
 ]
-ContextSwitches = Annotated[Axis, _values("--context-switch", "Work charged at each switch of jobs.", opt.PROCESSOR)]
 Simulate = Annotated[
     bool | None,
     typer.Option("--simulate/--no-simulate", help="Simulate every point too.", rich_help_panel=opt.OUTPUT),
@@ -120,6 +116,7 @@ Workers = Annotated[
 ]
 
 
+@with_axes
 def sweep(
     grid: GridFile = None,
     N: Ns = None,
@@ -129,12 +126,7 @@ def sweep(
     method: MethodNames = None,
     costs: Tables = None,
     statistic: WhichCost = None,
-    lr_propagate_by: LrPropagateBys = None,
-    feedback: FeedbackIns = None,
-    gain: Gains = None,
-    low_rate_noise: Noises = None,
-    cpus: CpuCounts = None,
-    context_switch: ContextSwitches = None,
+    options: Axes = MappingProxyType({}),
     processor: Processors = None,
     hr_hz: HrRates = None,
     tasks: opt.Tasks = None,
@@ -164,12 +156,7 @@ def sweep(
         "method": method,
         "costs": costs,
         "statistic": statistic,
-        "lr_propagate_by": lr_propagate_by,
-        "feedback": feedback,
-        "gain": gain,
-        "low_rate_noise": low_rate_noise,
-        "cpus": cpus,
-        "context_switch": context_switch,
+        **options,
         "processor": processor,
         "hr_hz": hr_hz,
         "tasks": tasks,

@@ -1,8 +1,12 @@
-"""How the method runs on the processor: the choices the paper leaves to the designer."""
+"""How the method runs on the processor: the choices the paper leaves to the designer.
+
+A choice is declared here once. The flags of the commands, the axes of a sweep and the columns of its rows are made from
+the fields of `Options`.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Literal
 
@@ -13,25 +17,54 @@ Gain = Literal["at-update", "precomputed"]
 LowRateNoise = Literal["exact", "sum", "euler"]
 
 
+FILTER, PROCESSOR = "filter", "processor"
+"""What a choice is of."""
+
+
 @dataclass(frozen=True, slots=True)
 class Options:
     """Choices for the dual-rate filter and the processor; the defaults are the paper's.
 
+    lr_propagate_by: the deadline of LR propagate: start of step m (the paper's rule), or of step l.
     feedback: the correction is applied by the HR job of the next step (Fig. 2), or at HR priority as soon as
         the low-rate (LR) update finishes.
-    lr_propagate_by: the deadline of LR propagate: start of step m (the paper's rule), or of step l.
     gain: K computed in the LR update, or before the measurement arrives (Sec. III.D).
     low_rate_noise: Q over a low-rate interval by Eq. (18), (23) or (24).
     cpus: HR and LR jobs share one processor, or have one each (Sec. III.B).
     context_switch: work charged to a job each time it is dispatched and another job ran last, in cost units.
     """
 
-    feedback: Feedback = "next-step"
-    lr_propagate_by: Literal["m", "l"] = "m"
-    gain: Gain = "at-update"
-    low_rate_noise: LowRateNoise = "exact"
-    cpus: Literal[1, 2] = 1
-    context_switch: Fraction = Fraction(0)
+    lr_propagate_by: Literal["m", "l"] = field(
+        default="m",
+        metadata={
+            "of": FILTER,
+            "help": "Deadline of LR propagate: step m (the paper's rule), or step l: needs less power for small M.",
+        },
+    )
+    feedback: Feedback = field(
+        default="next-step",
+        metadata={
+            "of": FILTER,
+            "help": "Apply the correction in the HR job of the next step (the paper), or as soon as it is known.",
+        },
+    )
+    gain: Gain = field(
+        default="at-update",
+        metadata={"of": FILTER, "help": "Compute H, R, K in the LR update, or before it (III.D)."},
+    )
+    low_rate_noise: LowRateNoise = field(
+        default="exact", metadata={"of": FILTER, "help": "Q over N steps by Eq. 18, 23 or 24."}
+    )
+    cpus: Literal[1, 2] = field(
+        default=1, metadata={"of": PROCESSOR, "help": "2: HR jobs on one processor, LR jobs on another."}
+    )
+    context_switch: Fraction = field(
+        default=Fraction(0),
+        metadata={
+            "of": PROCESSOR,
+            "help": "Work charged each time a job is dispatched and another ran last, in cost units.",
+        },
+    )
 
     def __post_init__(self) -> None:
         if self.context_switch < 0:

@@ -3,20 +3,29 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import Field, fields
 from fractions import Fraction
 from itertools import product
 from pathlib import Path
-from typing import Annotated, Any, Literal, get_args
+from typing import TYPE_CHECKING, Annotated, Any, Literal, get_args, get_type_hints
 
-from pydantic import BaseModel, ConfigDict, Field, PlainValidator, StrictBool, ValidationError, ValidationInfo
+from pydantic import (
+    BaseModel,
+    ConfigDict,
+    PlainValidator,
+    StrictBool,
+    ValidationError,
+    ValidationInfo,
+    create_model,
+)
+from pydantic import Field as Bounds
 
 from sched_sim.bounds import MOST_STEPS, short
 from sched_sim.costs.methods import METHODS
 from sched_sim.costs.table import CostTable, default_methods
 from sched_sim.costs.table_file import COUNTED, PAPERS, load_costs, shipped_tables
-from sched_sim.design.options import Gain, LowRateNoise, Options
+from sched_sim.design.options import Options
 from sched_sim.design.pieces import Statistic
-from sched_sim.design.timing import Feedback
 from sched_sim.errors import InputError
 from sched_sim.files.toml_problems import problems
 from sched_sim.files.toml_reader import read_toml
@@ -80,7 +89,7 @@ def _one_of(*known: Any) -> PlainValidator:
     return PlainValidator(validated)
 
 
-class Settings(BaseModel):
+class _Settings(BaseModel):
     """The axes of the grid as the user gave them, and what to do at each point; a field that is not set has its
     default."""
 
@@ -93,17 +102,11 @@ class Settings(BaseModel):
     method: Annotated[tuple[str, ...], _one_of(*METHODS)] = ()
     costs: Annotated[tuple[str, ...], _names_of("cost table")] = ()
     statistic: Statistic = "minimum"
-    lr_propagate_by: Annotated[tuple[str, ...], _one_of("m", "l")] = ("m",)
-    feedback: Annotated[tuple[str, ...], _one_of(*get_args(Feedback))] = ("next-step",)
-    gain: Annotated[tuple[str, ...], _one_of(*get_args(Gain))] = ("at-update",)
-    low_rate_noise: Annotated[tuple[str, ...], _one_of(*get_args(LowRateNoise))] = ("exact",)
-    cpus: Annotated[tuple[str, ...], _one_of(1, 2)] = ("1",)
-    context_switch: Annotated[tuple[Fraction, ...], PlainValidator(_works)] = (Fraction(0),)
     processor: Annotated[tuple[str, ...], _names_of("processor")] = ()
     hr_hz: Annotated[tuple[Fraction, ...], PlainValidator(_speeds)] = ()
     tasks: Annotated[str | None, PlainValidator(_path)] = None
     simulate: StrictBool = False
-    cycles: Annotated[int, Field(strict=True, ge=1, le=MOST_STEPS)] = 3
+    cycles: Annotated[int, Bounds(strict=True, ge=1, le=MOST_STEPS)] = 3
 
     def sweep(self) -> Sweep:
         """Raises InputError without N, for speeds said twice, a file that cannot be read, a cost table that lacks an
@@ -156,13 +159,29 @@ class Settings(BaseModel):
         return tuple(sorted(1 / rate for rate in self.hr_hz)) or self.speed
 
     def _options(self) -> tuple[Options, ...]:
-        combinations: Any = product(
-            self.feedback, self.lr_propagate_by, self.gain, self.low_rate_noise, self.cpus, self.context_switch
-        )
-        return tuple(
-            Options(feedback, by, gain, noise, 2 if cpus == "2" else 1, switch)
-            for feedback, by, gain, noise, cpus, switch in combinations
-        )
+        axes = (getattr(self, choice.name) for choice in fields(Options))
+        return tuple(Options(*combination) for combination in product(*axes))
+
+
+def _axis(choice: Field[Any]) -> tuple[Any, Any]:
+    """What pydantic needs to know of the values of a choice of `Options`."""
+    known = get_args(get_type_hints(Options)[choice.name])
+    kind = type(choice.default)
+    if not known:
+        return Annotated[tuple[Any, ...], PlainValidator(_works)], (choice.default,)
+
+    def validated(given: Any, info: ValidationInfo) -> tuple[Any, ...]:
+        return tuple(map(kind, words(given, _called(info), list(map(str, known)))))
+
+    return Annotated[tuple[Any, ...], PlainValidator(validated)], (choice.default,)
+
+
+if TYPE_CHECKING:
+    Settings = _Settings
+else:
+    Settings = create_model(
+        "Settings", __base__=_Settings, **{choice.name: _axis(choice) for choice in fields(Options)}
+    )
 
 
 def settings(flags: Mapping[str, Any], file: Path | None = None) -> Settings:

@@ -6,29 +6,29 @@ import json
 import sqlite3
 from collections.abc import Iterable, Mapping, Sequence
 from contextlib import closing
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
+from fractions import Fraction
 from functools import cached_property
 from hashlib import sha256
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 from zlib import crc32
 
+from sched_sim.design.options import Options
 from sched_sim.errors import InputError
 from studies.sweep.grid import Block
 from studies.sweep.rows import Column, Row
 
 APPLICATION_ID = 0x53575031
 
+KINDS: Mapping[type, Literal["text", "int", "float"]] = {str: "text", int: "int", Fraction: "float"}
+"""Of the columns for choices of `Options`."""
+
 BLOCK_COLUMNS = (
     Column("costs", "text"),
     Column("processor", "text"),
     Column("method", "text"),
-    Column("lr_propagate_by", "text"),
-    Column("feedback", "text"),
-    Column("gain", "text"),
-    Column("low_rate_noise", "text"),
-    Column("cpus", "int"),
-    Column("context_switch", "float"),
+    *(Column(choice.name, KINDS[type(choice.default)]) for choice in fields(Options)),
 )
 
 SQL_TYPES = {"int": "INTEGER", "bool": "INTEGER", "float": "REAL", "text": "TEXT"}
@@ -174,16 +174,6 @@ def _declared(columns: Iterable[Column]) -> str:
 
 
 def _block_row(block: Block) -> Row:
-    options = block.options
-    return (
-        block.number,
-        block.table,
-        block.processor,
-        block.method,
-        options.lr_propagate_by,
-        options.feedback,
-        options.gain,
-        options.low_rate_noise,
-        options.cpus,
-        float(options.context_switch),
-    )
+    choices = (getattr(block.options, choice.name) for choice in fields(Options))
+    shown = (float(value) if isinstance(value, Fraction) else value for value in choices)
+    return (block.number, block.table, block.processor, block.method, *shown)

@@ -1,0 +1,104 @@
+"""The flags of the choices that `sched_sim.design.options` declares."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Mapping
+from dataclasses import Field, fields
+from fractions import Fraction
+from functools import wraps
+from typing import Annotated, Any, get_args, get_type_hints
+
+import typer
+
+from sched_sim.cli import options as opt
+from sched_sim.design import options
+from sched_sim.design.options import Options
+from sched_sim.ticks import exact
+
+Command = Callable[..., None]
+PANELS = {options.FILTER: opt.DESIGN, options.PROCESSOR: opt.PROCESSOR}
+Axes = Mapping[str, "list[str] | None"]
+"""Values of each choice, as a user gives them."""
+
+
+def with_options(command: Command) -> Command:
+    """The command, with a flag for each choice in place of its parameter `options`."""
+
+    def chosen(given: Mapping[str, Any]) -> Options:
+        return Options(**{choice.name: _value(choice, given[choice.name]) for choice in fields(Options)})
+
+    return _with_flags(command, _flag, chosen)
+
+
+def with_axes(command: Command) -> Command:
+    """The command, with a flag for each choice, of one or several values, in place of its parameter `options`: it is
+    given the `Axes`."""
+    return _with_flags(command, _axis, dict)
+
+
+def _with_flags(
+    command: Command, flag: Callable[[Field[Any]], inspect.Parameter], joined: Callable[[Mapping[str, Any]], Any]
+) -> Command:
+    signature = inspect.signature(command, eval_str=True)
+    names = [choice.name for choice in fields(Options)]
+
+    @wraps(command)
+    def flagged(**given: Any) -> None:
+        chosen = joined({name: given.pop(name) for name in names})
+        command(**given, options=chosen)
+
+    parameters: list[inspect.Parameter] = []
+    for parameter in signature.parameters.values():
+        parameters += map(flag, fields(Options)) if parameter.name == "options" else [parameter]
+    flagged.__signature__ = signature.replace(parameters=parameters)  # type: ignore[attr-defined]
+    flagged.__annotations__ = {parameter.name: parameter.annotation for parameter in parameters}
+    return flagged
+
+
+def _flag(choice: Field[Any]) -> inspect.Parameter:
+    values = _values(choice)
+    if not values:
+        return _parameter(choice, str, str(choice.default), choice.metadata["help"])
+    if isinstance(choice.default, int):
+        more = {"parser": _one_of(values), "metavar": "|".join(map(str, values))}
+        return _parameter(choice, int, choice.default, choice.metadata["help"], **more)
+    return _parameter(choice, get_type_hints(Options)[choice.name], choice.default, choice.metadata["help"])
+
+
+def _axis(choice: Field[Any]) -> inspect.Parameter:
+    text, values = choice.metadata["help"], _values(choice)
+    if values:
+        others = ", ".join(str(value) for value in values if value != choice.default)
+        text = f"{choice.default} (default), {others} or several: {','.join(map(str, values))}. {text}"
+    return _parameter(choice, list[str] | None, None, text, metavar="VALUES")
+
+
+def _parameter(choice: Field[Any], kind: Any, default: Any, text: str, **more: Any) -> inspect.Parameter:
+    panel = PANELS[choice.metadata["of"]]
+    option = typer.Option(flag_of(choice.name), help=text, rich_help_panel=panel, **more)
+    keyword = inspect.Parameter.POSITIONAL_OR_KEYWORD
+    return inspect.Parameter(choice.name, keyword, default=default, annotation=Annotated[kind, option])
+
+
+def flag_of(name: str) -> str:
+    return f"--{name.replace('_', '-')}"
+
+
+def _values(choice: Field[Any]) -> tuple[Any, ...]:
+    """What there is to choose from; none where any number will do."""
+    return get_args(get_type_hints(Options)[choice.name])
+
+
+def _value(choice: Field[Any], given: Any) -> Any:
+    return exact(given, flag_of(choice.name)) if isinstance(choice.default, Fraction) else given
+
+
+def _one_of(values: tuple[int, ...]) -> Callable[[str], int]:
+    def chosen(text: str) -> int:
+        number = opt.whole(text)
+        if number not in values:
+            raise typer.BadParameter(f"{number} is not possible: give {' or '.join(map(str, values))}.")
+        return number
+
+    return chosen
