@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from fractions import Fraction
 from typing import NamedTuple
 
@@ -159,18 +159,10 @@ def method_panel(
 def option_notes(options: Options) -> list[str]:
     """What differs from the paper's choices."""
     notes = []
-    if options.feedback == "same-step":
-        notes.append("same-step feedback")
-    if options.lr_propagate_by == "l":
-        notes.append("LR propagate by $l$")
-    if options.gain == "precomputed":
-        notes.append("precomputed gain")
-    if options.low_rate_noise != "exact":
-        notes.append(f"low-rate noise: {options.low_rate_noise}")
-    if options.cpus == 2:
-        notes.append("2 CPUs")
-    if options.context_switch:
-        notes.append(f"context switch {_number(options.context_switch)}")
+    for choice in fields(options):
+        value = getattr(options, choice.name)
+        if value != choice.default:
+            notes.append(choice.metadata["note"].format(_number(value) if isinstance(value, Fraction) else value))
     return notes
 
 

@@ -187,12 +187,13 @@ def unseen(
     costs: Costs, timing: Timing, speed: Fraction, cycles: int, options: Options, tasks: Sequence[Task]
 ) -> str | None:
     """What is still to come after so many measurement cycles without a miss, in words; None if nothing new."""
+    from sched_sim.design.least_speed import has_closed_form
     from sched_sim.design.load import loads
 
     shown = f"{cycles} {'cycle is' if cycles == 1 else 'cycles are'} shown"
     if (most := max(loads(costs, timing, speed, options, tasks))) > 1:
         return f"{shown}; the work is {_above(most)} of what the processor can do, and piles up without end"
-    if not tasks and not options.context_switch:
+    if has_closed_form(options, tasks):
         return None
     from sched_sim.design.steady import run_until_steady
 

@@ -18,7 +18,7 @@ LowRateNoise = Literal["exact", "sum", "euler"]
 
 
 FILTER, PROCESSOR = "filter", "processor"
-"""What a choice is of."""
+"""What a choice is of. Its help says what it does, its note, beside a picture, that it is not the default."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,6 +38,7 @@ class Options:
         default="m",
         metadata={
             "of": FILTER,
+            "note": "LR propagate by ${}$",
             "help": "Deadline of LR propagate: step m (the paper's rule), or step l: needs less power for small M.",
         },
     )
@@ -45,23 +46,27 @@ class Options:
         default="next-step",
         metadata={
             "of": FILTER,
+            "note": "{} feedback",
             "help": "Apply the correction in the HR job of the next step (the paper), or as soon as it is known.",
         },
     )
     gain: Gain = field(
         default="at-update",
-        metadata={"of": FILTER, "help": "Compute H, R, K in the LR update, or before it (III.D)."},
+        metadata={"of": FILTER, "note": "{} gain", "help": "Compute H, R, K in the LR update, or before it (III.D)."},
     )
     low_rate_noise: LowRateNoise = field(
-        default="exact", metadata={"of": FILTER, "help": "Q over N steps by Eq. 18, 23 or 24."}
+        default="exact",
+        metadata={"of": FILTER, "note": "low-rate noise: {}", "help": "Q over N steps by Eq. 18, 23 or 24."},
     )
     cpus: Literal[1, 2] = field(
-        default=1, metadata={"of": PROCESSOR, "help": "2: HR jobs on one processor, LR jobs on another."}
+        default=1,
+        metadata={"of": PROCESSOR, "note": "{} CPUs", "help": "2: HR jobs on one processor, LR jobs on another."},
     )
     context_switch: Fraction = field(
         default=Fraction(0),
         metadata={
             "of": PROCESSOR,
+            "note": "context switch {}",
             "help": "Work charged each time a job is dispatched and another ran last, in cost units.",
         },
     )

@@ -19,7 +19,7 @@ from sched_sim.schedule.clock import Clock, OnProgress
 from sched_sim.schedule.jobs import RecurringSource
 from sched_sim.schedule.length import check_simulation
 from sched_sim.schedule.outcome import Schedule, Slice
-from sched_sim.schedule.processor import OnSlice, Processor
+from sched_sim.schedule.processor import OnSlice, Platform, Processor
 from sched_sim.schedule.tasks import Task, TaskSource, check_cpus, work_and_times
 from sched_sim.ticks import positive, ticks_per_unit, to_ticks
 
@@ -70,8 +70,7 @@ def simulate(
         [*workload.sources, *clock],
         workload.period,
         steps * workload.period,
-        options.cpus,
-        workload.context_switch,
+        workload.platform,
         keep if keep_slices else on_slice,
     )
     processor.run()
@@ -87,7 +86,7 @@ class Workload(NamedTuple):
 
     sources: tuple[RecurringSource, ...]
     period: int
-    context_switch: int
+    platform: Platform
 
 
 def workload_in_ticks(
@@ -103,4 +102,5 @@ def workload_in_ticks(
     in_ticks = converted(costs, lambda work: to_ticks(work, resolution))
     source = method_of(costs).source(in_ticks, timing, options, period, on_landing)
     task_sources = (TaskSource(task, speed, resolution) for task in tasks)
-    return Workload((source, *task_sources), period, to_ticks(options.context_switch, resolution))
+    platform = Platform(options.cpus, to_ticks(options.context_switch, resolution))
+    return Workload((source, *task_sources), period, platform)

@@ -72,7 +72,7 @@ def run_until_steady(
     hyperperiod = hyperperiod_steps(timing, tasks) * period
     watch = Watch(workload.sources, period, hyperperiod)
     horizon = min(at_most or longest, longest) * period
-    processor = Processor([watch, *workload.sources], period, horizon, options.cpus, workload.context_switch, None)
+    processor = Processor([watch, *workload.sources], period, horizon, workload.platform)
     watch.processor = processor
     processor.run()
     schedule = replace(processor.schedule(), achieved=achieved)

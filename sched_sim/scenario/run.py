@@ -13,7 +13,7 @@ from sched_sim.schedule.clock import Clock, OnProgress
 from sched_sim.schedule.jobs import Source, step_at
 from sched_sim.schedule.length import check_simulation
 from sched_sim.schedule.outcome import Response, Schedule, Slice
-from sched_sim.schedule.processor import OnSlice, Processor
+from sched_sim.schedule.processor import OnSlice, Platform, Processor
 from sched_sim.schedule.tasks import TaskSource, work_and_times
 from sched_sim.ticks import ticks_per_unit, to_ticks
 
@@ -110,10 +110,10 @@ def run_scenario(
     composed = ComposedFilter(scenario, costs, period, record.landed)
     of_tasks = [TaskSource(task, speed, resolution) for task in tasks]
     clock = [] if on_progress is None else [Clock(period, scenario.steps, on_progress)]
-    context_switch = to_ticks(scenario.context_switch, resolution)
+    platform = Platform(scenario.cpus, to_ticks(scenario.context_switch, resolution))
     horizon = scenario.steps * period
     sources: list[Source] = [composed, *of_tasks, *clock]
-    processor = Processor(sources, period, horizon, scenario.cpus, context_switch, record.ended)
+    processor = Processor(sources, period, horizon, platform, record.ended)
     processor.run()
     schedule = processor.schedule()
     record.settle()

@@ -1,4 +1,4 @@
-"""The simulated preemptive processor: fixed priorities, immediate preemption, exact integer time.
+"""The simulated preemptive processor: immediate preemption, exact integer time.
 
 At one instant, finishes come first, then releases, then dispatch: a job that finishes exactly at its deadline has met
 it, and an LR update that finishes exactly at the start of step j is applied in step j. The ready queues are our own,
@@ -11,6 +11,7 @@ from collections import defaultdict
 from collections.abc import Callable, Generator, Hashable, Sequence
 from heapq import heapify, heappop, heappush, heapreplace
 from itertools import chain
+from typing import NamedTuple
 
 import simpy
 
@@ -18,6 +19,13 @@ from sched_sim.schedule.jobs import Job, Source
 from sched_sim.schedule.outcome import Response, Schedule, Slice
 
 OnSlice = Callable[[Slice], None]
+
+
+class Platform(NamedTuple):
+    """How jobs run. cpus: how many processors; context_switch: in ticks."""
+
+    cpus: int
+    context_switch: int
 
 
 class Cpu:
@@ -52,22 +60,21 @@ class Tally:
 
 
 class Processor:
-    """Runs the jobs of `sources` from time 0 to `horizon` on `cpus` processors; all times in ticks."""
+    """Runs the jobs of `sources` from time 0 to `horizon`; all times in ticks."""
 
     def __init__(
         self,
         sources: Sequence[Source],
         period: int,
         horizon: int,
-        cpus: int,
-        context_switch: int,
-        on_slice: OnSlice | None,
+        platform: Platform,
+        on_slice: OnSlice | None = None,
     ) -> None:
         self.sources = sources
         self.period = period
         self.horizon = horizon
-        self.cpus = tuple(Cpu(number) for number in range(cpus))
-        self.context_switch = context_switch
+        self.cpus = tuple(Cpu(number) for number in range(platform.cpus))
+        self.context_switch = platform.context_switch
         self.on_slice = on_slice
         self.tallies: defaultdict[str, Tally] = defaultdict(Tally)
         self.first_miss: tuple[int, str, bool] | None = None

@@ -13,7 +13,7 @@ from sched_sim.design.simulate import simulate
 from sched_sim.design.timing import Feedback, Timing
 from sched_sim.errors import InputError
 from sched_sim.schedule.jobs import Job
-from sched_sim.schedule.processor import Processor
+from sched_sim.schedule.processor import Platform, Processor
 from sched_sim.schedule.tasks import Task
 
 DUAL_RATE = DualRateCosts(hr=6, hr_restart=1, hr_update=2, lr_propagate=3, lr_gain=0, lr_update=5)
@@ -47,8 +47,7 @@ def ran(*jobs: Job, horizon: int = 100, context_switch: int = 0) -> list[tuple[s
         [Given(job) for job in jobs],
         period=10,
         horizon=horizon,
-        cpus=1,
-        context_switch=context_switch,
+        platform=Platform(1, context_switch),
         on_slice=lambda piece: slices.append((piece.kind, piece.start, piece.end)),
     )
     processor.run()
@@ -103,7 +102,7 @@ def test_a_job_that_finishes_exactly_at_its_deadline_has_met_it() -> None:
 def test_the_worst_lateness_is_that_of_the_job_that_missed_its_deadline_by_most(late: tuple[int, ...]) -> None:
     """Each alone, for 5 ticks."""
     jobs = [job("late", 10, 10 * i, 5, deadline=10 * i + 5 - ticks) for i, ticks in enumerate(late)]
-    processor = Processor([Given(one) for one in jobs], 10, 100, cpus=1, context_switch=0, on_slice=None)
+    processor = Processor([Given(one) for one in jobs], 10, 100, Platform(1, 0))
     processor.run()
     found = processor.schedule().responses["late"]
     assert (found.worst_lateness, found.misses) == (3, sum(ticks > 0 for ticks in late))
@@ -113,7 +112,7 @@ def test_the_first_miss_is_that_of_the_earliest_deadline_and_of_several_the_one_
     """They finish at 8, 10, 12 and 14."""
     deadlines = {"a": 7, "b": 5, "c": 5, "d": 6}
     jobs = [job(kind, 10, 0, 8 if kind == "a" else 2, deadline) for kind, deadline in deadlines.items()]
-    processor = Processor([Given(one) for one in jobs], 10, 100, cpus=1, context_switch=0, on_slice=None)
+    processor = Processor([Given(one) for one in jobs], 10, 100, Platform(1, 0))
     processor.run()
     assert processor.schedule().first_miss == ("b", False)
 
@@ -131,7 +130,7 @@ def test_a_state_says_what_is_left_of_a_running_job_and_of_its_context_switch(
             return super().release()
 
     sources = [Given(job("one", 10, 4, 10, deadline=20)), Observer(job("other", 20, now, 1))]
-    processor = Processor(sources, 10, 100, cpus=1, context_switch=3, on_slice=None)
+    processor = Processor(sources, 10, 100, Platform(1, 3))
     processor.run()
     assert states == [((("one", 4 - now, 20 - now, left, overhead), ()),)]
 
