@@ -94,7 +94,7 @@ def staircase(costs: Costs, N: int, M: int, options: Options = Options()) -> lis
 
 def has_closed_form(options: Options, tasks: Sequence[Task]) -> bool:
     """Whether the least speed needs no simulation."""
-    return not tasks and not options.context_switch
+    return not tasks and not options.context_switch and options.policy == "fixed"
 
 
 def _in_ticks(costs: Costs, *others: Fraction) -> tuple[int, JobCosts[int]]:

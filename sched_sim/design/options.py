@@ -12,6 +12,7 @@ from typing import Literal
 
 from sched_sim.design.timing import Feedback
 from sched_sim.errors import InputError
+from sched_sim.schedule.policy import Policy
 
 Gain = Literal["at-update", "precomputed"]
 LowRateNoise = Literal["exact", "sum", "euler"]
@@ -32,6 +33,7 @@ class Options:
     low_rate_noise: Q over a low-rate interval by Eq. (18), (23) or (24).
     cpus: HR and LR jobs share one processor, or have one each (Sec. III.B).
     context_switch: work charged to a job each time it is dispatched and another job ran last, in cost units.
+    policy: the processor runs the job of the most urgent priority, or the one whose deadline comes first.
     """
 
     lr_propagate_by: Literal["m", "l"] = field(
@@ -68,6 +70,14 @@ class Options:
             "of": PROCESSOR,
             "note": "context switch {}",
             "help": "Work charged each time a job is dispatched and another ran last, in cost units.",
+        },
+    )
+    policy: Policy = field(
+        default="fixed",
+        metadata={
+            "of": PROCESSOR,
+            "note": "{} scheduling",
+            "help": "Which job runs: the most urgent by fixed priorities, or by its deadline.",
         },
     )
 

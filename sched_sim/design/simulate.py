@@ -102,5 +102,5 @@ def workload_in_ticks(
     in_ticks = converted(costs, lambda work: to_ticks(work, resolution))
     source = method_of(costs).source(in_ticks, timing, options, period, on_landing)
     task_sources = (TaskSource(task, speed, resolution) for task in tasks)
-    platform = Platform(options.cpus, to_ticks(options.context_switch, resolution))
+    platform = Platform(options.cpus, to_ticks(options.context_switch, resolution), options.policy)
     return Workload((source, *task_sources), period, platform)

@@ -17,21 +17,23 @@ import simpy
 
 from sched_sim.schedule.jobs import Job, Source
 from sched_sim.schedule.outcome import Response, Schedule, Slice
+from sched_sim.schedule.policy import RANKS, Policy
 
 OnSlice = Callable[[Slice], None]
 
 
 class Platform(NamedTuple):
-    """How jobs run. cpus: how many processors; context_switch: in ticks."""
+    """How jobs run. cpus: how many processors; context_switch: in ticks; policy: which job each of them runs."""
 
     cpus: int
     context_switch: int
+    policy: Policy = "fixed"
 
 
 class Cpu:
     """One processor: the jobs that are ready, the one that runs, and the one that ran last.
 
-    ready: a heap of (priority, order of release, job); entry: that of the running job;
+    ready: a heap of (rank, order of release, job); entry: that of the running job;
     since: when it was dispatched; finish: when it will finish if nothing preempts it; busy: ticks it has run.
     """
 
@@ -75,6 +77,7 @@ class Processor:
         self.horizon = horizon
         self.cpus = tuple(Cpu(number) for number in range(platform.cpus))
         self.context_switch = platform.context_switch
+        self.rank = RANKS[platform.policy]
         self.on_slice = on_slice
         self.tallies: defaultdict[str, Tally] = defaultdict(Tally)
         self.first_miss: tuple[int, str, bool] | None = None
@@ -115,7 +118,7 @@ class Processor:
         One process with its state in local names and no small methods: this loop is what every simulated second costs.
         """
         timeout, horizon, cpus = environment.timeout, self.horizon, self.cpus
-        tallies, on_slice, context_switch = self.tallies, self.on_slice, self.context_switch
+        tallies, on_slice, context_switch, rank = self.tallies, self.on_slice, self.context_switch, self.rank
         releases = [(source.next_release, order, source) for order, source in enumerate(self.sources)]
         heapify(releases)
         order_of_release = now = instants = 0
@@ -141,7 +144,7 @@ class Processor:
                     if job.then is not None:
                         for new in job.then(job, now):
                             order_of_release += 1
-                            heappush(cpus[new.cpu].ready, (new.priority, order_of_release, new))
+                            heappush(cpus[new.cpu].ready, (rank(new), order_of_release, new))
             if now == horizon:
                 self._ended.succeed()
                 break
@@ -149,7 +152,7 @@ class Processor:
             while until == now:  # 2. releases
                 for new in source.release():
                     order_of_release += 1
-                    heappush(cpus[new.cpu].ready, (new.priority, order_of_release, new))
+                    heappush(cpus[new.cpu].ready, (rank(new), order_of_release, new))
                 heapreplace(releases, (source.next_release, order, source))
                 until, order, source = releases[0]
             if until > horizon:
@@ -157,7 +160,7 @@ class Processor:
             next_finish = -1
             for cpu in cpus:  # 3. dispatch
                 ready, running = cpu.ready, cpu.running
-                if ready and (running is None or ready[0][0] < running.priority):
+                if ready and (running is None or ready[0][0] < cpu.entry[0]):
                     if running is None:
                         cpu.entry = heappop(ready)
                     else:
