@@ -14,7 +14,17 @@ from operator import index
 
 import numpy as np
 
-from sched_sim.design.demand import DualRateDemand, Ints, Quotient, choose, largest, quotient, smaller, whole_numbers
+from sched_sim.design.demand import (
+    DualRateDemand,
+    Flags,
+    Ints,
+    Quotient,
+    choose,
+    largest,
+    quotient,
+    smaller,
+    whole_numbers,
+)
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import (
     DualRateCosts,
@@ -179,7 +189,7 @@ def _landing_next_step(demand: DualRateDemand, period: Ints) -> Ints:
     return np.where(before_next_k | ((end == N) & fits), end, NOT_LANDED)
 
 
-def _exceed(demand: Quotient, period: Ints) -> Ints:
+def _exceed(demand: Quotient, period: Ints) -> Flags:
     return demand.numerator > demand.denominator * period
 
 

@@ -7,14 +7,17 @@ HR period (in ticks) that it takes at least.
 from __future__ import annotations
 
 from operator import index
-from typing import Any, NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
+import numpy.typing as npt
 
 from sched_sim.design.pieces import DualRateCosts
 
-Ints: TypeAlias = Any
-"""An array of integers: of any integer type, or (dtype=object) of Python's, which cannot overflow."""
+Ints: TypeAlias = npt.NDArray[np.int64]
+"""An array of integers: int64, or (dtype=object, which types do not tell apart) Python's, which cannot overflow."""
+
+Flags: TypeAlias = npt.NDArray[np.bool_]
 
 
 class Quotient(NamedTuple):
@@ -24,7 +27,7 @@ class Quotient(NamedTuple):
     denominator: Ints
     code: Ints
 
-    def exceeds(self, other: Quotient) -> Ints:
+    def exceeds(self, other: Quotient) -> Flags:
         return self.numerator * other.denominator > other.numerator * self.denominator
 
 
@@ -33,7 +36,7 @@ def quotient(numerator: Ints, denominator: Ints | int, code: int) -> Quotient:
     return Quotient(numerator, 0 * numerator + denominator, np.full(numerator.shape, code))
 
 
-def whole_numbers(values: Any) -> Ints:
+def whole_numbers(values: npt.ArrayLike) -> Ints:
     """An array of some integer type, or of Python's integers. Raises TypeError for what is no whole number."""
     array = np.asarray(values)
     if array.dtype.kind not in "iu":
@@ -41,7 +44,7 @@ def whole_numbers(values: Any) -> Ints:
     return array
 
 
-def choose(condition: Ints, yes: Quotient, no: Quotient) -> Quotient:
+def choose(condition: Flags, yes: Quotient, no: Quotient) -> Quotient:
     """`yes` where the condition holds, else `no`."""
     return Quotient(*(np.where(condition, a, b) for a, b in zip(yes, no, strict=True)))
 
@@ -90,29 +93,30 @@ class DualRateDemand(NamedTuple):
     def hr_work(self, first: Ints | int, end: Ints | int) -> Ints:
         """All HR jobs of steps first .. end-1 without HR updates, 0 <= first <= end <= N."""
         c = self.costs
+        steps: Ints = np.subtract(end, first)
         once = self._zero + (np.less_equal(first, 1) & np.greater(end, 1))
-        restarts = np.where(self.N == 1, np.subtract(end, first), once)
-        return np.subtract(end, first) * c.hr + restarts * (c.hr_restart - c.hr)
+        restarts: Ints = np.where(self.N == 1, steps, once)
+        return steps * c.hr + restarts * (c.hr_restart - c.hr)
 
     def before_lr(self, steps: Ints | int) -> Ints:
         """HR work that LR jobs have to wait for between k and the start of step k + `steps` (at least 1)."""
         return self.hr_job(0) if self.separate else self.hr_work(0, steps)
 
     @property
-    def lr_early(self) -> Any:
+    def lr_early(self) -> int:
         """LR work before the update: propagate, and the gain if it is precomputed."""
         return self.costs.lr_propagate + self.costs.lr_gain
 
-    def update_window(self, end: Ints, code: int, more: Any = 0) -> Quotient:
+    def update_window(self, end: Ints, code: int, more: Ints | int = 0) -> Quotient:
         """The LR update, and `more`, between m and the start of step `end`."""
         hr = self._zero if self.separate else self.hr_work(self.M, end)
         return quotient(hr + self.costs.lr_update + more, end - self.M, code)
 
-    def total_window(self, end: Ints, code: int, more: Any = 0) -> Quotient:
+    def total_window(self, end: Ints, code: int, more: Ints | int = 0) -> Quotient:
         """All LR work, and `more`, between k and the start of step `end`."""
         return quotient(self.before_lr(end) + self.lr_early + self.costs.lr_update + more, end, code)
 
-    def propagate_window(self, code: int, more: Any = 0) -> Quotient:
+    def propagate_window(self, code: int, more: Ints | int = 0) -> Quotient:
         """LR propagate (and gain) between k and m; nothing where m = k."""
         M = np.maximum(self.M, 1)
         work = np.where(self.M == 0, self._zero, self.before_lr(M) + self.lr_early + more)
@@ -125,11 +129,12 @@ class DualRateDemand(NamedTuple):
         update, total = c.lr_update * scale, (self.lr_early + c.lr_update) * scale
         if self.separate:
             first = self.hr_job(0) * scale
-            return np.maximum(M + self._steps(update, period), self._steps(first + total, period))
+            done: Ints = np.maximum(M + self._steps(update, period), self._steps(first + total, period))
+            return done
         slack = period - c.hr * scale
         saved = (c.hr_restart - c.hr) * scale
         by_update = M + self._steps(update + saved * (self._zero + (M <= 1)), slack)
-        end = np.maximum(np.maximum(by_update, self._steps(total + saved, slack)), 2)
+        end: Ints = np.maximum(np.maximum(by_update, self._steps(total + saved, slack)), 2)
         within_first = (M == 0) & (period - self.hr_job(0) * scale >= total)
         return np.where(within_first, 1, end)
 
