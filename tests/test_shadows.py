@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from studies.measure.user_function import returned_by
+from studies.measurement.user_function import returned_by
 
 
 def test_python_m_finds_the_library(tmp_path: Path) -> None:

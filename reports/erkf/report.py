@@ -9,6 +9,7 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
+from reports.charts.chart import gantt, image
 from reports.erkf import counts as ways
 from reports.erkf import tables
 from reports.erkf.cost_figure import Way, cost_figure
@@ -18,7 +19,6 @@ from reports.erkf.parallel import parallel_figure
 from reports.erkf.results import Results
 from reports.erkf.schedule import millions, one_period, speed_figure, two_rates
 from reports.erkf.singular import singular_figure
-from reports.gantt.chart import gantt, image
 from reports.pages.machine import legend, residue, timed_on
 from reports.pages.numbers import percent
 from reports.pages.render import csv_bytes, render

@@ -7,8 +7,8 @@ from matplotlib.figure import Figure
 
 from filters.systems.rocket import BURN_S
 from filters.systems.spring_mass import period_s
+from reports.charts.chart import gantt
 from reports.drawing.picture import image
-from reports.gantt.chart import gantt
 from reports.modular import oscillator, rocket, schedule, tables, words
 from reports.modular.costs import cost_figure
 from reports.modular.late import late_figure

@@ -15,7 +15,7 @@ from sched_sim.design.options import Options
 from sched_sim.design.pieces import MultirateCosts
 from sched_sim.design.timing import Timing
 from sched_sim.processors.part import Part, on_part
-from studies.measure.methods import measure
+from studies.measurement.methods import measure
 
 
 class Form(NamedTuple):

@@ -7,7 +7,7 @@ from fractions import Fraction
 from math import ceil, floor
 from typing import Any
 
-from reports.gantt.chart import image
+from reports.charts.chart import image
 from reports.multirate import tables
 from reports.multirate.accuracy import Curve, Family, start_figure, steady_figure
 from reports.multirate.costs import Form, every, least_time_of, our_forms, patents_form, time_of

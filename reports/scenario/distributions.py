@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
 from matplotlib.ticker import MaxNLocator
 
+from reports.charts.lanes import shortened
 from reports.drawing.style import (
     FILLS,
     INK,
@@ -27,7 +28,6 @@ from reports.drawing.style import (
     page,
     text_width_mm,
 )
-from reports.gantt.lanes import shortened
 from sched_sim.scenario.distribution import finished_or_not
 from sched_sim.scenario.run import JobFigures, Outcome, SensorFigures
 from sched_sim.scenario.scenario import Scenario, Sensor

@@ -7,8 +7,8 @@ from dataclasses import replace
 from math import ceil
 from typing import NamedTuple
 
-from reports.gantt.intervals import jobs
-from reports.gantt.panels import Mark, Panel
+from reports.charts.intervals import jobs
+from reports.charts.panels import Mark, Panel
 from sched_sim.scenario.draws import fates
 from sched_sim.scenario.run import Outcome, run_scenario
 from sched_sim.scenario.scenario import Scenario, Sensor

@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
+from reports.charts.panels import METHOD_NAMES
 from reports.drawing.legend import draw_legend, legend_height, line_entry
 from reports.drawing.style import (
     FONT_PT,
@@ -21,7 +22,6 @@ from reports.drawing.style import (
     page,
     text_width_mm,
 )
-from reports.gantt.panels import METHOD_NAMES
 from sched_sim.costs.methods import KINDS
 from sched_sim.costs.table import CostTable
 from sched_sim.design.timing import Timing

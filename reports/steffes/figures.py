@@ -10,10 +10,10 @@ from matplotlib.figure import Figure
 from matplotlib.patheffects import AbstractPathEffect, withStroke
 from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullLocator
 
+from reports.charts.panels import METHOD_NAMES
 from reports.drawing.legend import draw_legend, legend_height, line_entry
 from reports.drawing.placing import spread
 from reports.drawing.style import GREY, INK, METHOD_LINES, PALE, SMALL_PT, TITLE_PT, WIDTH_MM, axes_at, drawing, page
-from reports.gantt.panels import METHOD_NAMES
 from reports.steffes.comparisons import SPEED_UNIT, Speeds, cost_figure, table4_figure
 from reports.steffes.curves import achieved_curve, hr_limit, knee, speed_grid
 from sched_sim.costs.methods import DELAYED_METHODS

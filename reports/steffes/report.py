@@ -5,7 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import Any
 
-from reports.gantt.chart import gantt, image, method_panel
+from reports.charts.chart import gantt, image, method_panel
 from reports.pages.machine import legend, marked, timed_on
 from reports.pages.render import csv_bytes, render
 from reports.steffes.comparisons import Speeds, cost_figure, table4_figure

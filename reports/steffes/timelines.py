@@ -12,14 +12,14 @@ from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
 from matplotlib.ticker import FixedFormatter, FixedLocator
 
+from reports.charts.chart import frame
+from reports.charts.intervals import JobSpan, bars, jobs, rows
+from reports.charts.lanes import Lane, draw_lanes, fills_of
+from reports.charts.marks import draw_marks
+from reports.charts.panels import METHOD_NAMES, Panel, cycle_marks
+from reports.charts.scale import Scale
 from reports.drawing.legend import draw_legend, fill_entries, legend_height
 from reports.drawing.style import GREY, INK, SMALL_PT, WIDTH_MM, axes_at, drawing, page, text_width_mm
-from reports.gantt.chart import frame
-from reports.gantt.intervals import JobSpan, bars, jobs, rows
-from reports.gantt.lanes import Lane, draw_lanes, fills_of
-from reports.gantt.marks import draw_marks
-from reports.gantt.panels import METHOD_NAMES, Panel, cycle_marks
-from reports.gantt.scale import Scale
 from sched_sim.costs.table import CostTable
 from sched_sim.design.methods import select
 from sched_sim.design.options import Options

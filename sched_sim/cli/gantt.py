@@ -46,9 +46,9 @@ def gantt(
     """
     from functools import partial
 
+    from reports.charts.chart import gantt as draw
+    from reports.charts.chart import method_panel, save
     from reports.drawing.picture import check_picture
-    from reports.gantt.chart import gantt as draw
-    from reports.gantt.chart import method_panel, save
     from sched_sim.design.least_speed import least_speed
     from sched_sim.design.methods import select
 

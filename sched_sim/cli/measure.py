@@ -144,9 +144,9 @@ def measure(
     from sched_sim.cli.update_form import update_form
     from sched_sim.costs.table_file import write_costs
     from sched_sim.files.writable import check_writable
-    from studies.measure.methods import measure as run
-    from studies.measure.user_function import explained
-    from studies.measure.user_system import load_system
+    from studies.measurement.methods import measure as run
+    from studies.measurement.user_function import explained
+    from studies.measurement.user_system import load_system
 
     if output is not None:
         check_writable(output, "--output")

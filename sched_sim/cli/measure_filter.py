@@ -42,9 +42,9 @@ def measure_own_filter(
     format: Format,
 ) -> None:
     """Measure, print, and write the file of samples."""
-    from studies.measure.samples import measure_filter
-    from studies.measure.user_filter import load_filter
-    from studies.measure.user_function import explained
+    from studies.measurement.samples import measure_filter
+    from studies.measurement.user_filter import load_filter
+    from studies.measurement.user_function import explained
 
     if backend == "numpy":
         raise InputError(f"--backend numpy does not go with --filter {name}: give --backend compiled or counted")

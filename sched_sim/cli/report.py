@@ -38,7 +38,7 @@ def _steffes(thorough: bool) -> dict[str, bytes]:
     from reports.steffes.report import build
     from sched_sim.cli.progress import progress_bar
     from sched_sim.costs.methods import DELAYED_METHODS
-    from studies.measure.methods import measure
+    from studies.measurement.methods import measure
 
     with progress_bar("Measuring") as progress:
         measured = measure(

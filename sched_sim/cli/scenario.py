@@ -58,8 +58,8 @@ def simulate_scenario(
 
         save(distributions_figure(scenario, outcome), histogram, "--histogram")
     if gantt is not None:
-        from reports.gantt.chart import gantt as draw
-        from reports.gantt.chart import save
+        from reports.charts.chart import gantt as draw
+        from reports.charts.chart import save
         from reports.scenario.panel import scenario_panel
 
         save(draw([scenario_panel(scenario, outcome)]), gantt, "--gantt")

@@ -151,8 +151,8 @@ def simulate(
             on_progress=progress,
         )
     if gantt is not None:
-        from reports.gantt.chart import gantt as draw
-        from reports.gantt.chart import method_panel, save
+        from reports.charts.chart import gantt as draw
+        from reports.charts.chart import method_panel, save
 
         panel = method_panel(table, method, timing, pace, cycles, options, others, statistic=statistic)
         save(draw([panel]), gantt, "--gantt")

@@ -26,8 +26,8 @@ from filters.modular import (
 )
 from filters.modular.jobs import modular_jobs
 from filters.registry import Job
-from studies.measure.job_times import Progress, Protocol, seconds_per_run, silent
-from studies.measure.methods import QUICK, THOROUGH, where_timed
+from studies.measurement.job_times import Progress, Protocol, seconds_per_run, silent
+from studies.measurement.methods import QUICK, THOROUGH, where_timed
 
 Kind: TypeAlias = Literal["linear", "extended", "unscented"]
 Part: TypeAlias = Literal["predict", "correct"]

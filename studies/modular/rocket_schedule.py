@@ -48,8 +48,8 @@ from sched_sim.scenario.scenario import Late, Scenario, Sensor
 from sched_sim.schedule.jobs import HR, LR
 from sched_sim.schedule.outcome import Slice
 from sched_sim.schedule.tasks import Task
-from studies.measure.samples import measure_filter
-from studies.measure.user_filter import UserFilter
+from studies.measurement.samples import measure_filter
+from studies.measurement.user_filter import UserFilter
 
 Progress: TypeAlias = Callable[[int, int, str], None]
 Costs: TypeAlias = Mapping[PredictorName, SampledCosts]

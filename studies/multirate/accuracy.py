@@ -15,12 +15,12 @@ import numpy as np
 from filters import multirate_gain
 from filters.arrays import FloatArray
 from filters.delayed import standard
+from filters.error_covariance import true_covariance
 from filters.multirate_gain import cycle_in_use
 from filters.system import System
 from filters.systems.coarse import CoarseNoise, over
 from filters.systems.gps import POSITION, gps, gps_coarse, gps_start
 from filters.systems.linear import linear_system
-from filters.true_covariance import true_covariance
 
 GOOD = 1.05
 """A ratio up to which the loss is called small."""

@@ -18,8 +18,8 @@ from filters.robust.uncertain import linearised
 from filters.systems.attitude import attitude, attitude_scaling, attitude_uncertainty
 from filters.systems.position import position, position_scaling, position_uncertainty
 from sched_sim.costs.table import Cost, CostTable
-from studies.measure.job_times import Progress, silent
-from studies.measure.methods import BackendName, cost_table
+from studies.measurement.job_times import Progress, silent
+from studies.measurement.methods import BackendName, cost_table
 
 SystemName: TypeAlias = Literal["attitude", "position"]
 SYSTEMS: tuple[SystemName, ...] = get_args(SystemName)

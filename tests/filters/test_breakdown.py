@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 from filters import multirate_gain
 from filters.covariance_forms import COVARIANCE_FORMS
+from filters.error_covariance import true_covariance
 from filters.factored import FACTORED_FORMS
 from filters.kernels.definite import is_semidefinite
 from filters.registry import DELAYED_METHODS
@@ -21,7 +22,6 @@ from filters.robust.step import WAYS, WayName, step
 from filters.system import System
 from filters.systems.example import example_system
 from filters.systems.linear import linear_system
-from filters.true_covariance import true_covariance
 from tests.filters.cases import Case, each_case
 from tests.filters.robust.cases import random_model
 from tests.filters.test_unstable import without_data

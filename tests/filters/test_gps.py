@@ -9,6 +9,7 @@ from scipy.stats import chi2
 from filters import multirate_gain
 from filters.arrays import FloatArray
 from filters.delayed import standard
+from filters.error_covariance import true_covariance
 from filters.system import System
 from filters.systems.gps import (
     CLOCK_BIAS,
@@ -21,7 +22,6 @@ from filters.systems.gps import (
     pseudoranges,
     simulate_flight,
 )
-from filters.true_covariance import true_covariance
 
 STEPS = 240
 

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from filters import multirate_gain
+from filters.error_covariance import true_covariance
 from filters.kind import check_kind
 from filters.modular import dual_rate, larsen, observe, recalculate, run
 from filters.modular.as_system import composed_system
@@ -20,7 +21,6 @@ from filters.simulation import simulate_truth
 from filters.system import System
 from filters.systems.coarse import over
 from filters.systems.example import example_system
-from filters.true_covariance import true_covariance
 from tests.filters.modular.cases import linear_case
 
 GOOD = linear_case()

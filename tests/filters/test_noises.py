@@ -10,12 +10,12 @@ import pytest
 from filters import multirate_gain
 from filters.arrays import FloatArray
 from filters.covariance_forms import COVARIANCE_FORMS
+from filters.error_covariance import true_covariance
 from filters.factored import FACTORED_FORMS
 from filters.registry import DELAYED_METHODS
 from filters.simulation import simulate_truth
 from filters.system import System
 from filters.systems.example import example_system
-from filters.true_covariance import true_covariance
 from tests.strategies import problem
 
 STEPS = 17

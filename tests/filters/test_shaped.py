@@ -10,13 +10,13 @@ import pytest
 from filters import multirate_gain
 from filters.arrays import FloatArray
 from filters.backends.choose import BackendName
+from filters.error_covariance import true_covariance
 from filters.registry import DELAYED_METHODS
 from filters.simulation import simulate_truth
 from filters.system import System
 from filters.systems.example import example_system
 from filters.systems.linear import linear_system
 from filters.systems.shaped import shaped
-from filters.true_covariance import true_covariance
 from tests.strategies import problem
 
 GOOD = problem(example_system(3, 2, 2), 5, 2, 4, 17, seed=0)

@@ -10,12 +10,12 @@ from filters import multirate_gain
 from filters.arrays import FloatArray
 from filters.covariance_forms import COVARIANCE_FORMS, CovarianceFormName
 from filters.delayed import standard
+from filters.error_covariance import true_covariance
 from filters.factored import FACTORED_FORMS, FactoredFormName
 from filters.history import History
 from filters.registry import DELAYED_METHODS
 from filters.system import System
 from filters.systems.linear import linear_system
-from filters.true_covariance import true_covariance
 from tests.filters.cases import CASES, Case, each_case, relative_difference
 from tests.filters.test_laws import check_laws
 from tests.strategies import problem, unstable_system

@@ -105,7 +105,7 @@ def test_a_dollar_sign_is_drawn_as_one(sched_sim: Run, tmp_path: Path) -> None:
 
 
 def test_a_name_of_any_length_is_measured_a_few_times(monkeypatch: pytest.MonkeyPatch) -> None:
-    from reports.gantt import lanes
+    from reports.charts import lanes
 
     measured = []
     width = lanes.text_width_mm

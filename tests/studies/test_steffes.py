@@ -9,7 +9,7 @@ import pytest
 from filters.systems.example import example_system
 from sched_sim.costs.methods import DELAYED_METHODS
 from sched_sim.costs.table_file import load_costs
-from studies.measure.methods import measure
+from studies.measurement.methods import measure
 from studies.steffes import cases, cells, deviation, entries, least_speeds
 
 

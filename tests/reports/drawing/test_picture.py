@@ -8,8 +8,8 @@ import matplotlib as mpl
 import pytest
 from matplotlib.figure import Figure
 
+from reports.charts.chart import gantt, method_panel
 from reports.drawing.picture import image, save
-from reports.gantt.chart import gantt, method_panel
 from reports.steffes.timelines import dual_rate_timeline
 from sched_sim.costs.table_file import load_costs
 from sched_sim.design.timing import Timing

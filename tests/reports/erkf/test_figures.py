@@ -9,6 +9,8 @@ import pytest
 from matplotlib.figure import Figure
 
 from filters.arrays import FloatArray
+from reports.charts.chart import gantt
+from reports.charts.intervals import jobs
 from reports.erkf.cost_figure import Way, cost_figure
 from reports.erkf.drive import (
     attitude_figure,
@@ -21,8 +23,6 @@ from reports.erkf.drive import (
 from reports.erkf.parallel import parallel_figure
 from reports.erkf.schedule import millions, one_period, speed_figure, two_rates
 from reports.erkf.singular import WAYS, singular_figure
-from reports.gantt.chart import gantt
-from reports.gantt.intervals import jobs
 from sched_sim.design.least_speed import least_speed
 from sched_sim.design.pieces import RobustCosts
 from sched_sim.design.timing import Timing

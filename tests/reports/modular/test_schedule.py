@@ -16,9 +16,9 @@ from matplotlib.patches import Rectangle
 
 from filters.arrays import FloatArray
 from filters.systems.rocket_filter import SENSORS, PredictorName
-from reports.gantt.chart import gantt
-from reports.gantt.intervals import bars as bars_of
-from reports.gantt.intervals import never_ran
+from reports.charts.chart import gantt
+from reports.charts.intervals import bars as bars_of
+from reports.charts.intervals import never_ran
 from reports.modular.schedule import (
     LEVELS,
     landing_figure,

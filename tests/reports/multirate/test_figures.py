@@ -7,7 +7,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from reports.gantt.intervals import bars
+from reports.charts.intervals import bars
 from reports.multirate.accuracy import Curve, Family, start_figure, steady_figure
 from reports.multirate.costs import least_time_of, our_forms, patents_form
 from reports.multirate.figures import load_figure, one_loop_panel, rates_figure, two_rates_panel

@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from reports.gantt.chart import gantt
+from reports.charts.chart import gantt
 from reports.scenario.distributions import distributions_figure
 from reports.scenario.panel import scenario_panel
 from sched_sim.scenario.run import JobFigures, Outcome, SensorFigures, run_scenario

@@ -9,8 +9,8 @@ from fractions import Fraction
 import pytest
 from matplotlib.collections import PolyCollection
 
-from reports.gantt.chart import gantt
-from reports.gantt.intervals import bars, jobs, rows
+from reports.charts.chart import gantt
+from reports.charts.intervals import bars, jobs, rows
 from reports.scenario.panel import LEAST_BAR_MM, Late, first_late, scenario_panel, window
 from sched_sim.scenario.draws import fates
 from sched_sim.scenario.run import run_scenario

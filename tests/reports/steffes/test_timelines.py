@@ -8,8 +8,8 @@ import pytest
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import to_rgba
 
+from reports.charts.intervals import jobs
 from reports.drawing.style import FILLS
-from reports.gantt.intervals import jobs
 from reports.steffes.timelines import dual_rate_timeline, serial_timeline, unused
 from sched_sim.costs.table_file import load_costs
 from sched_sim.design.methods import select

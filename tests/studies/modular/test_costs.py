@@ -6,7 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from studies.measure.job_times import Protocol
+from studies.measurement.job_times import Protocol
 from studies.modular import costs as modular_costs
 from studies.modular.costs import DT, KINDS, PARTS, STATES, jobs, move, move_jacobian, operations, see, see_jacobian
 

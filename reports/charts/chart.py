@@ -8,14 +8,14 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
+from reports.charts.intervals import jobs, never_ran, rows
+from reports.charts.lanes import draw_lanes, fills_of, lanes, shortened
+from reports.charts.marks import draw_marks
+from reports.charts.panels import Panel, method_panel
+from reports.charts.scale import Scale
 from reports.drawing.legend import draw_legend, fill_entries, legend_height, sign_entries
 from reports.drawing.picture import image, save
 from reports.drawing.style import FONT_PT, INK, PALE, RED, TITLE_PT, WIDTH_MM, axes_at, drawing, page, text_width_mm
-from reports.gantt.intervals import jobs, never_ran, rows
-from reports.gantt.lanes import draw_lanes, fills_of, lanes, shortened
-from reports.gantt.marks import draw_marks
-from reports.gantt.panels import Panel, method_panel
-from reports.gantt.scale import Scale
 
 __all__ = ["Panel", "gantt", "image", "method_panel", "save"]
 

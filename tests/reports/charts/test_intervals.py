@@ -10,8 +10,8 @@ from itertools import pairwise
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
+from reports.charts.intervals import bars, jobs, never_ran, overdue_work, rows, waits
 from reports.drawing.placing import spread, worst_shift
-from reports.gantt.intervals import bars, jobs, never_ran, overdue_work, rows, waits
 from sched_sim.design.least_speed import least_speed
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import DualRateCosts

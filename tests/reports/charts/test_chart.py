@@ -10,10 +10,10 @@ from fractions import Fraction
 import pytest
 from matplotlib.collections import PolyCollection
 
+from reports.charts.chart import Panel, gantt
+from reports.charts.intervals import bars, jobs
+from reports.charts.panels import cycle_marks, method_panel
 from reports.drawing.style import RED
-from reports.gantt.chart import Panel, gantt
-from reports.gantt.intervals import bars, jobs
-from reports.gantt.panels import cycle_marks, method_panel
 from sched_sim.costs.table_file import load_costs
 from sched_sim.design.options import Options
 from sched_sim.design.timing import Timing
@@ -170,7 +170,7 @@ def test_too_many_steps_are_refused() -> None:
 
 
 def test_drawing_does_not_import_pyplot() -> None:
-    modules = "reports.gantt.chart, reports.steffes.timelines, reports.steffes.figures"
+    modules = "reports.charts.chart, reports.steffes.timelines, reports.steffes.figures"
     code = f"import sys, {modules}; print('matplotlib.pyplot' in sys.modules)"
     run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert run.stdout.strip() == "False"

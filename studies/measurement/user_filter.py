@@ -9,7 +9,7 @@ from filters.modular.composition import ModularFilter
 from filters.modular.jobs import modular_jobs
 from filters.registry import Job
 from sched_sim.errors import InputError
-from studies.measure.user_function import explained, returned_by
+from studies.measurement.user_function import explained, returned_by
 
 HOW = (
     "name a function without arguments that returns a filters.modular.ModularFilter, or with it a typical state, "

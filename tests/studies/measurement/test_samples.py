@@ -14,7 +14,7 @@ import pytest
 from sched_sim.cli.measure_filter import noise
 from sched_sim.costs.sample_file import SampledCosts, read_sampled_costs
 from sched_sim.errors import InputError
-from studies.measure.user_filter import load_filter
+from studies.measurement.user_filter import load_filter
 from tests.command_line import Run, is_refused
 
 OWN_FILTER = """
@@ -184,7 +184,7 @@ def test_below_the_times_it_is_said_what_a_sample_means_for_misses(
 ) -> None:
     about = {"source": "2 samples", "protocol": {"repetitions": 7}}
     costs = SampledCosts("c", "second", {"predict": times(100, 100)}, {}, about)
-    monkeypatch.setattr("studies.measure.samples.measure_filter", lambda *_, **__: costs)
+    monkeypatch.setattr("studies.measurement.samples.measure_filter", lambda *_, **__: costs)
     out = sched_sim("measure --filter own_filter:cart").out
     assert "a mean of 7 executions hides single slow ones" in out
     assert "no probability of a miss follows from these samples" in out

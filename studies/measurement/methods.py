@@ -21,7 +21,7 @@ from filters.registry import ALL_METHODS, Job
 from filters.system import System
 from sched_sim.costs.table import Cost, CostTable
 from sched_sim.errors import InputError
-from studies.measure.job_times import ARGUMENT_SETS, Progress, Protocol, seconds_per_run, silent
+from studies.measurement.job_times import ARGUMENT_SETS, Progress, Protocol, seconds_per_run, silent
 
 BackendName = Literal["compiled", "counted", "numpy"]
 

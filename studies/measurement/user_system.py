@@ -10,7 +10,7 @@ from filters.system import System
 from filters.systems.trial import check_result, trials
 from sched_sim.bounds import MOST_STATES, short
 from sched_sim.errors import InputError
-from studies.measure.user_function import explained, returned_by
+from studies.measurement.user_function import explained, returned_by
 
 HOW = (
     "name a function without arguments that returns a filters.system.System, as in --system mymodule:my_system "

@@ -11,10 +11,10 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.patheffects import withStroke
 
+from reports.charts.callouts import Callout, callouts, label_fits, shown_label
+from reports.charts.intervals import TASK, Bar, JobSpan, Row, bars, jobs, overdue_work, rows, waits
+from reports.charts.scale import Scale
 from reports.drawing.style import FILLS, FONT_PT, GREY, INK, RED, SMALL_PT, TASK_FILLS, Fill, drawable, text_width_mm
-from reports.gantt.callouts import Callout, callouts, label_fits, shown_label
-from reports.gantt.intervals import TASK, Bar, JobSpan, Row, bars, jobs, overdue_work, rows, waits
-from reports.gantt.scale import Scale
 from sched_sim.schedule.outcome import Schedule
 
 Fills = Mapping[str, Fill]

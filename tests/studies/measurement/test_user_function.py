@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from sched_sim.errors import InputError
-from studies.measure.user_function import returned_by
+from studies.measurement.user_function import returned_by
 
 
 @pytest.mark.parametrize(

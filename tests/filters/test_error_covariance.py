@@ -9,10 +9,10 @@ from hypothesis import strategies as st
 
 from filters import multirate_gain
 from filters.delayed import standard
+from filters.error_covariance import true_covariance
 from filters.system import System
 from filters.systems.example import example_system
 from filters.systems.linear import linear_system
-from filters.true_covariance import true_covariance
 from tests.strategies import problem, seeds, systems
 
 

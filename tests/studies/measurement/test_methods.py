@@ -13,8 +13,8 @@ from sched_sim.costs.methods import KINDS, SYSTEM_METHODS
 from sched_sim.design.methods import select
 from sched_sim.design.options import Options
 from sched_sim.errors import InputError
-from studies.measure.methods import BackendName, measure
-from studies.measure.user_system import load_system
+from studies.measurement.methods import BackendName, measure
+from studies.measurement.user_system import load_system
 from tests.command_line import Run
 
 OWN_SYSTEM = """

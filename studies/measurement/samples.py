@@ -11,9 +11,9 @@ from fractions import Fraction
 from typing import Any, Literal, TypeAlias
 
 from sched_sim.costs.sample_file import SampledCosts
-from studies.measure.job_times import Progress, Protocol, seconds_per_run, silent
-from studies.measure.methods import counted, nonzero, where_timed
-from studies.measure.user_filter import UserFilter
+from studies.measurement.job_times import Progress, Protocol, seconds_per_run, silent
+from studies.measurement.methods import counted, nonzero, where_timed
+from studies.measurement.user_filter import UserFilter
 
 Backend: TypeAlias = Literal["compiled", "counted"]
 
