@@ -1,1 +1,47 @@
 """Estimation with delayed measurements; knows nothing of scheduling."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from filters.lazy import lazily
+
+if TYPE_CHECKING:
+    from filters import modular, multirate_gain
+    from filters.backends.counted import Operations, count
+    from filters.delayed import dual_rate, larsen, recalculate, standard
+    from filters.error_covariance import true_covariance
+    from filters.history import History
+    from filters.system import System
+    from filters.systems.example import example_system
+    from filters.systems.linear import linear_system
+
+__all__ = [
+    "History",
+    "Operations",
+    "System",
+    "count",
+    "dual_rate",
+    "example_system",
+    "larsen",
+    "linear_system",
+    "modular",
+    "multirate_gain",
+    "recalculate",
+    "standard",
+    "true_covariance",
+]
+
+__getattr__, __dir__ = lazily(
+    __name__,
+    {
+        "filters": "modular multirate_gain",
+        "filters.backends.counted": "Operations count",
+        "filters.delayed": "dual_rate larsen recalculate standard",
+        "filters.error_covariance": "true_covariance",
+        "filters.history": "History",
+        "filters.system": "System",
+        "filters.systems.example": "example_system",
+        "filters.systems.linear": "linear_system",
+    },
+)

@@ -1,1 +1,17 @@
 """What is asked: cost measurement, sweeps and the declared studies."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from sched_sim.lazy import lazily
+
+if TYPE_CHECKING:
+    from studies.measurement.methods import measure
+    from studies.measurement.samples import measure_filter
+
+__all__ = ["measure", "measure_filter"]
+
+__getattr__, __dir__ = lazily(
+    __name__, {"studies.measurement.methods": "measure", "studies.measurement.samples": "measure_filter"}
+)
