@@ -87,6 +87,12 @@ def test_the_composed_filter_runs_on_data(folder: Path, monkeypatch: pytest.Monk
     assert not np.array_equal(x[120], without_gps[120])
 
 
+def test_the_answer_from_python_is_the_one_shown(capsys: pytest.CaptureFixture[str]) -> None:
+    shown = block("python", "from sched_sim import")
+    exec(shown, {})
+    assert capsys.readouterr().out.strip() == shown.rpartition("# ")[2].strip()
+
+
 def test_the_table_of_least_speeds_is_what_the_analysis_gives() -> None:
     """Each row of "What it finds": printed, from the paper's costs, from counted operations."""
     timing = None
