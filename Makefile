@@ -25,14 +25,18 @@ LOCK_ENV = env -u VIRTUAL_ENV -u UV_INDEX -u UV_DEFAULT_INDEX -u UV_INDEX_URL -u
 LOCK_UV  = $(or $(UV),build/uv/bin/uv)
 
 .DEFAULT_GOAL := help
-.PHONY: help run test lint types imports unit exhaust bench install lock clean
+.PHONY: help run publish test lint types imports unit exhaust bench install lock clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z]*\):.*## /\1|/p' Makefile | while IFS='|' read -r name what; do \
 		printf '  make %-8s %s\n' "$$name" "$$what"; done
 
-run: $(STAMP) ## measure, simulate, analyse and write the report
+run: $(STAMP) ## measure, simulate, analyse and write the report to build/reports
 	$(BIN)/sched-sim report
+
+publish: $(STAMP) ## write all reports anew where they are kept, in reports/published
+	for name in steffes2014 patent-multirate erkf modular; do \
+		$(BIN)/sched-sim report $$name --output reports/published || exit 1; done
 
 test: lint types imports unit ## all that CI checks: the next four
 

@@ -1,4 +1,4 @@
-"""`sched-sim report`: measure, simulate, analyse and write the published report."""
+"""`sched-sim report`: measure, simulate, analyse and write a report."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ Thorough = Annotated[
 ]
 
 
-def report(name: Name = "steffes2014", thorough: Thorough = False, output: Folder = Path("reports/published")) -> None:
+def report(name: Name = "steffes2014", thorough: Thorough = False, output: Folder = Path("build/reports")) -> None:
     """Regenerate a report: HTML, Markdown, figures (SVG), tables (CSV). All but patent-multirate measure filters here.
 
     sched-sim report --thorough
     sched-sim report patent-multirate
     sched-sim report erkf
-    sched-sim report modular
+    sched-sim report modular --output mine
     """
     from reports.pages.render import make_folder, write_report
 
