@@ -117,7 +117,7 @@ def _run(folder: Path, case: Case) -> Result:
         with (
             patch.object(sys, "argv", ["sched-sim", *case.arguments]),
             patch("sched_sim.cli.app.app", COMMAND),
-            patch("studies.sweep.run.workers._Team", side_effect=OSError),  # no processes
+            patch("studies.sweep.workers._Team", side_effect=OSError),  # no processes
             redirect_stdout(out),
             redirect_stderr(err),
             _bounded(),

@@ -11,7 +11,7 @@ from reports.charts.intervals import bars
 from reports.multirate.accuracy import Curve, Family, start_figure, steady_figure
 from reports.multirate.costs import least_time_of, our_forms, patents_form
 from reports.multirate.figures import load_figure, one_loop_panel, rates_figure, two_rates_panel
-from sched_sim.design.load import load
+from sched_sim.design.load import utilization
 from sched_sim.design.timing import Timing
 from sched_sim.processors.part import on_part
 from sched_sim.processors.part_file import load_part
@@ -31,7 +31,7 @@ def test_load_against_n() -> None:
     curves = [line for line in figure.axes[0].lines if len(line.get_xdata()) == 20]
     for form, curve in zip(forms, curves, strict=True):
         costs = least_time_of(form, PATENT)
-        expected = [100 * float(load(costs, Timing(n, 0, n), Fraction(1))) for n in range(1, 21)]
+        expected = [100 * float(utilization(costs, Timing(n, 0, n), Fraction(1))) for n in range(1, 21)]
         assert list(curve.get_ydata()) == expected
     rings = [(line.get_xdata()[0], line.get_ydata()[0]) for line in figure.axes[0].lines if line.get_markersize() == 9]
     assert rings == [(1, 16.7), (5, 4.1)]

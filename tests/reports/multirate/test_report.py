@@ -11,7 +11,7 @@ from reports.multirate import tables
 from reports.multirate.costs import every, least_time_of, our_forms, patents_form, time_of
 from reports.multirate.report import build
 from reports.multirate.results import PERIODS, SHOWN, Results, results
-from sched_sim.design.load import load
+from sched_sim.design.load import utilization
 from sched_sim.processors.part_file import load_part, shipped_parts
 from studies.multirate import patent
 from studies.multirate.accuracy import largest_good
@@ -73,7 +73,7 @@ def test_the_three_cases_are_those_of_the_patent() -> None:
     costs = least_time_of(patents_form(), load_part("patent"))
     cases = zip(tables.CASES, patent.loads(), strict=True)
     for case, printed in cases:
-        assert 100 * load(costs, every(case.n), 1 / case.rate_hz) == printed.complete_percent
+        assert 100 * utilization(costs, every(case.n), 1 / case.rate_hz) == printed.complete_percent
     assert [row["computed, %"] for row in rows("loads.csv")] == ["4.17", "16.69", "4.10"]
     assert [row["with state update, %"] for row in rows("loads.csv")] == ["4.36", "17.45", "4.10"]
 

@@ -107,9 +107,9 @@ def test_ctrl_c_while_a_module_is_imported(tmp_path: Path, module: str) -> None:
     (tmp_path / "interrupted.py").write_text(
         "import builtins, os, signal\n"
         "imported = builtins.__import__\n"
-        "def stop(name, *rest):\n"
+        "def stop(name, *rest, **more):\n"
         f"    if name == {module!r}: os.kill(os.getpid(), {signal.SIGINT.value})\n"
-        "    return imported(name, *rest)\n"
+        "    return imported(name, *rest, **more)\n"
         "builtins.__import__ = stop\n"
         "from sched_sim.cli import main\n"
         "main()\n"

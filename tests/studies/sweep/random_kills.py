@@ -24,9 +24,10 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import ClassVar
 
+from studies.sweep import run as sweeping
+from studies.sweep import workers
 from studies.sweep.export import export
-from studies.sweep.run import Sweep, run, workers
-from studies.sweep.run import run as sweeping
+from studies.sweep.run import Sweep, run
 from studies.sweep.settings import settings
 from tests.deaths import killed_at_call
 

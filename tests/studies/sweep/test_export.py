@@ -7,8 +7,8 @@ import pytest
 from pyarrow import parquet
 
 from sched_sim.errors import InputError
+from studies.sweep import export as exporting
 from studies.sweep.export import check_export, export
-from studies.sweep.run import export as exporting
 from studies.sweep.run import run
 from studies.sweep.settings import settings
 from tests.full_disk import room_for

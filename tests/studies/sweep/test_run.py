@@ -8,10 +8,10 @@ from contextlib import contextmanager
 import pytest
 
 from sched_sim.errors import InputError
+from studies.sweep import run as sweeping
 from studies.sweep.export import export
 from studies.sweep.rows import rows_of
 from studies.sweep.run import run
-from studies.sweep.run import run as sweeping
 from studies.sweep.settings import settings
 from studies.sweep.stopping import stop_signals
 from studies.sweep.workers import WorkerDeathError

@@ -72,13 +72,14 @@ def test_every_option_is_an_axis():
                 "low_rate_noise": "exact,sum,euler",
                 "cpus": "1,2",
                 "context_switch": "0,1/3",
+                "policy": "fixed,edf",
             }
         )
         .sweep()
         .grid
     )
-    assert len(set(grid.options)) == 2 * 2 * 2 * 3 * 2 * 2
-    assert Options("same-step", "l", "precomputed", "euler", 2, Fraction(1, 3)) in grid.options
+    assert len(set(grid.options)) == 2 * 2 * 2 * 3 * 2 * 2 * 2
+    assert Options("l", "same-step", "precomputed", "euler", 2, Fraction(1, 3), "edf") in grid.options
 
 
 def test_a_cost_table_of_the_file_lies_beside_it(tmp_path):
