@@ -54,7 +54,7 @@ unit: $(STAMP) ## pytest, the slow tests too
 	$(BIN)/python -m pytest -n 2 --dist worksteal
 
 exhaust: $(STAMP) ## what takes too long for `make test`, with its figures (EXHAUST_SHARE=0.01: a hundredth of it)
-	$(BIN)/python -m pytest -n 2 --dist worksteal -m exhaust
+	$(BIN)/python -m pytest -v -n 2 --dist worksteal -m exhaust
 
 bench: $(STAMP) ## the benchmarks (installs the extra `bench`)
 	@if [ -n "$(UV)" ]; then $(UV_SYNC) --extra bench; else \
