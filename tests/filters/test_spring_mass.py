@@ -78,7 +78,7 @@ def test_transition_and_noise_are_those_of_white_jerk(dt_s: float) -> None:
     A, density = np.diag([1.0, 1.0], 1), np.diag([0.0, 0.0, JERK_NOISE**2])
     both = expm(np.block([[-A, density], [np.zeros((3, 3)), A.T]]) * dt_s)
     F = both[3:, 3:].T
-    np.testing.assert_allclose(transition(dt_s), F, rtol=1e-12, atol=1e-14)
+    np.testing.assert_allclose(transition(dt_s), F, rtol=1e-12, atol=1e-13)
     np.testing.assert_allclose(white_jerk(dt_s, JERK_NOISE), F @ both[:3, 3:], rtol=1e-9)
 
 
