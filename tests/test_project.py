@@ -196,7 +196,7 @@ def test_no_files_import_one_another_in_a_circle():
 
 
 def test_the_command_line_imports_nothing_slow():
-    slow = {"matplotlib.pyplot", "numba", "pyarrow", "simpy"}
+    slow = {"matplotlib.pyplot", "numba", "pyarrow", "pydantic", "simpy"}
     code = f"import sys, sched_sim.cli; print(*sorted({slow!r} & set(sys.modules)))"
     run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert run.stdout.split() == [], "import it inside the command that needs it"

@@ -51,7 +51,7 @@ def _with_flags(
     parameters: list[inspect.Parameter] = []
     for parameter in signature.parameters.values():
         parameters += map(flag, fields(Options)) if parameter.name == "options" else [parameter]
-    flagged.__signature__ = signature.replace(parameters=parameters)  # type: ignore[attr-defined]
+    flagged.__signature__ = signature.replace(parameters=parameters)  # type: ignore[attr-defined]  # typer reads it
     flagged.__annotations__ = {parameter.name: parameter.annotation for parameter in parameters}
     return flagged
 

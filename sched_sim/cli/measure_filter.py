@@ -14,10 +14,10 @@ from sched_sim.cli.options import given_options
 from sched_sim.cli.output import Format, print_csv, print_json, print_table, say
 from sched_sim.cli.outputs import module_files, refuse_one_file_for_two
 from sched_sim.cli.progress import progress_bar
-from sched_sim.costs.sample_file import SampledCosts, write_sampled_costs
 from sched_sim.errors import InputError
 
 if TYPE_CHECKING:
+    from sched_sim.costs.sample_file import SampledCosts
     from sched_sim.scenario.scenario import Samples
 
 SIZES = ("states", "inputs", "measurements")
@@ -64,6 +64,8 @@ def measure_own_filter(
         shown = [_timed(row) if timed else {key: row[key] for key in ("job", *KINDS, "operations")} for row in rows]
         print_table(f"{table}, in {'ns' if timed else 'operations'}", shown, _note(costs) if timed else "")
     if output is not None:
+        from sched_sim.costs.sample_file import write_sampled_costs
+
         write_sampled_costs(costs, output)
         say(f"Wrote {output}; name it as `costs` in a scenario: sched-sim simulate --scenario FILE")
 

@@ -46,7 +46,7 @@ def minimum(
     """
     from sched_sim.cli.parts import MEANING, fit_row, fit_words, fixed_by, least_row
     from sched_sim.cli.update_form import update_form, update_note
-    from sched_sim.costs.table_file import COUNTED
+    from sched_sim.costs.table import COUNTED
     from sched_sim.design.fit import fit
     from sched_sim.design.least_speed import least_speed
     from sched_sim.design.methods import METHODS, select

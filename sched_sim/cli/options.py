@@ -12,8 +12,7 @@ import typer
 from sched_sim.bounds import MOST_STEPS, short
 from sched_sim.costs.methods import METHODS as NAMES
 from sched_sim.costs.methods import Method
-from sched_sim.costs.table import CostTable, default_methods
-from sched_sim.costs.table_file import COUNTED, PAPERS, load_costs
+from sched_sim.costs.table import COUNTED, PAPERS, CostTable, default_methods
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import Statistic
 from sched_sim.design.timing import Timing
@@ -197,6 +196,8 @@ def hr_rate(text: str | None) -> Fraction | None:
 
 def costs_on(name: str | None, processor: Part | None) -> CostTable:
     """The cost table of this name or path, in seconds on the processor if there is one."""
+    from sched_sim.costs.table_file import load_costs
+
     if processor is None:
         return load_costs(PAPERS if name is None else name)
     from sched_sim.processors.part import on_part

@@ -12,7 +12,7 @@ from sched_sim.cli.design_flags import with_options
 from sched_sim.cli.output import lines, print_csv, print_json, print_table
 from sched_sim.cli.parts import MEANING, TASKS_ON_PARTS
 from sched_sim.costs.methods import METHODS
-from sched_sim.costs.table_file import COUNTED
+from sched_sim.costs.table import COUNTED
 from sched_sim.design.options import Options
 
 if TYPE_CHECKING:

@@ -18,7 +18,7 @@ from sched_sim.cli.design_flags import Axes, with_axes
 from sched_sim.cli.output import lines, print_csv, print_json, print_table, say
 from sched_sim.cli.outputs import refuse_one_file_for_two
 from sched_sim.cli.parts import TASKS_ON_PARTS, WORDS
-from sched_sim.costs.table_file import COUNTED, PAPERS
+from sched_sim.costs.table import COUNTED, PAPERS
 from sched_sim.design.pieces import Statistic
 
 if TYPE_CHECKING:

@@ -12,6 +12,9 @@ from sched_sim.costs.operations import Counts
 from sched_sim.errors import InputError
 from sched_sim.ticks import positive
 
+PAPERS, COUNTED = "steffes2014", "counted-9-3-3"
+"""The tables that are meant if the user names none: of the paper; with a processor, counted operations."""
+
 SECONDS: Mapping[str, Fraction] = {
     **dict.fromkeys(("second", "seconds", "s"), Fraction(1)),
     "ms": Fraction(1, 10**3),

@@ -21,8 +21,6 @@ from sched_sim.files.toml_writer import toml_number, toml_tables, toml_value
 from sched_sim.files.writable import write
 
 TABLES = Path(__file__).parent / "tables"
-PAPERS, COUNTED = "steffes2014", "counted-9-3-3"
-"""The tables that are meant if the user names none: of the paper; with a processor, counted operations."""
 
 Entries = dict[str, Any]
 """One method's entries, by job kind."""

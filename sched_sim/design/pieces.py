@@ -85,7 +85,7 @@ Costs: TypeAlias = JobCosts[Fraction]
 
 def converted(costs: JobCosts[Number], convert: Callable[[Number], Other]) -> JobCosts[Other]:
     """The same pieces in other numbers."""
-    return cast("JobCosts[Other]", type(costs)(*map(convert, works(costs))))  # type: ignore[arg-type]
+    return cast("JobCosts[Other]", type(costs)(*map(convert, works(costs))))  # type: ignore[arg-type]  # each of one kind
 
 
 def works(costs: JobCosts[Number]) -> tuple[Number, ...]:

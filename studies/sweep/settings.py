@@ -22,8 +22,8 @@ from pydantic import Field as Bounds
 
 from sched_sim.bounds import MOST_STEPS, short
 from sched_sim.costs.methods import METHODS
-from sched_sim.costs.table import CostTable, default_methods
-from sched_sim.costs.table_file import COUNTED, PAPERS, load_costs, shipped_tables
+from sched_sim.costs.table import COUNTED, PAPERS, CostTable, default_methods
+from sched_sim.costs.table_file import load_costs, shipped_tables
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import Statistic
 from sched_sim.errors import InputError
