@@ -17,6 +17,8 @@ from filters.modular.workspace import Workspace, new_workspace
 from filters.records import Estimate
 from filters.system import System
 
+ALLOCATION_FREE = False  # the matrices it returns are new arrays
+
 
 class Scratch(NamedTuple):
     """What Jacobians by differences are taken with."""

@@ -237,7 +237,7 @@ def test_a_breakdown_is_named_in_every_form(update: Update) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("update", ["joseph", "u-d"])
+@pytest.mark.parametrize("update", [pytest.param("joseph", marks=pytest.mark.exhaust), "u-d"])
 def test_compiled_equals_reference(update: Update) -> None:
     (position, _) = LINEAR.composed.sensors
     case = LINEAR.with_sensors(position)

@@ -123,8 +123,11 @@ def test_kill_9_of_a_worker(tmp_path, uninterrupted):
 
 @pytest.mark.parametrize(
     ("number", "to_all"),
-    [(signal.SIGINT, True), (signal.SIGINT, False), (signal.SIGTERM, False)],
-    ids=["ctrl-c", "sigint", "sigterm"],
+    [
+        pytest.param(signal.SIGINT, True, id="ctrl-c"),
+        pytest.param(signal.SIGINT, False, id="sigint", marks=pytest.mark.exhaust),
+        pytest.param(signal.SIGTERM, False, id="sigterm"),
+    ],
 )
 def test_signals(tmp_path, uninterrupted, number, to_all):
     """Ctrl-C goes to every process of the terminal."""
