@@ -28,12 +28,16 @@ def problems(error: ValidationError, model: type[BaseModel], document: Mapping[s
     for item in error.errors():
         path = [part for part in item["loc"] if not str(part).startswith("function-")]
         where = _where(path, document)
-        message = _message(item, path, model)
-        given = _given(item)
-        lines.append(f"{where}: {message}{given}" if where else message)
+        message = problem(item, path, model)
+        lines.append(f"{where}: {message}" if where else message)
     if len(lines) > MOST_PROBLEMS:
         lines[MOST_PROBLEMS:] = [f"and {len(lines) - MOST_PROBLEMS} more"]
     return "; ".join(lines)
+
+
+def problem(item: ErrorDetails, path: At, model: type[BaseModel]) -> str:
+    """One error, without its place: what is wrong and what was there."""
+    return _message(item, path, model) + (_given(item) if path else "")
 
 
 def _message(item: ErrorDetails, path: At, model: type[BaseModel]) -> str:

@@ -1,4 +1,4 @@
-"""Writing TOML that `toml_file.read_toml` reads back."""
+"""Writing TOML that `toml_reader.read_toml` reads back."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import json
 import re
 from collections.abc import Mapping
 from fractions import Fraction
+from operator import methodcaller
 from typing import Any
 
 BARE = re.compile(r"[A-Za-z0-9_-]+")
@@ -23,10 +24,10 @@ def toml_number(value: Fraction) -> str:
 
 
 def toml_value(value: Any) -> str:
-    """A scalar, list or inline table; JSON writes strings, numbers and booleans as TOML does."""
+    """A scalar, also one of NumPy's, a list or an inline table; JSON writes strings, numbers, booleans as TOML does."""
     if isinstance(value, Mapping):
         return "{ " + ", ".join(f"{toml_key(name)} = {toml_value(item)}" for name, item in value.items()) + " }"
-    return json.dumps(value, ensure_ascii=False)
+    return json.dumps(value, ensure_ascii=False, default=methodcaller("item"))
 
 
 def toml_tables(name: str, values: Mapping[str, Any]) -> list[str]:

@@ -19,6 +19,7 @@ from pydantic import (
     create_model,
 )
 from pydantic import Field as Bounds
+from pydantic_core import ErrorDetails
 
 from sched_sim.bounds import MOST_STEPS, short
 from sched_sim.costs.methods import METHODS
@@ -27,7 +28,7 @@ from sched_sim.costs.table_file import load_costs, shipped_tables
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import Statistic
 from sched_sim.errors import InputError
-from sched_sim.files.toml_problems import problems
+from sched_sim.files.toml_problems import problem, problems
 from sched_sim.files.toml_reader import read_toml
 from sched_sim.processors.part import on_part
 from sched_sim.processors.part_file import load_part, shipped_parts
@@ -42,9 +43,10 @@ ALL = "all"
 
 def _called(info: ValidationInfo) -> str:
     """What the message calls the field: a flag by its name; that of a file's key stands before the message."""
-    field = str(info.field_name)
-    if info.context != "flags":
-        return "the value"
+    return _flag(str(info.field_name)) if info.context == "flags" else "the value"
+
+
+def _flag(field: str) -> str:
     return f"-{field}" if len(field) == 1 else f"--{field.replace('_', '-')}"
 
 
@@ -213,4 +215,10 @@ def _validated(given: Mapping[str, Any], kind: Literal["flags", "file"], prefix:
     except ValidationError as error:
         if kind == "file":
             raise InputError(prefix + problems(error, Settings)) from None
-        raise InputError("; ".join(item["msg"].removeprefix("Value error, ") for item in error.errors())) from None
+        raise InputError("; ".join(map(_told, error.errors()))) from None
+
+
+def _told(item: ErrorDetails) -> str:
+    if item["type"] == "value_error":  # of our own validators, which name the flag
+        return item["msg"].removeprefix("Value error, ")
+    return f"{_flag(str(item['loc'][0]))}: {problem(item, item['loc'], Settings)}"

@@ -116,6 +116,7 @@ def test_all_errors_of_a_file_are_told_with_path_and_value(tmp_path):
         ({"N": "5", "lr_propagate_by": "k"}, "--lr-propagate-by 'k' is unknown: choose from m, l"),
         ({"N": "5", "costs": "nothere"}, "cost table 'nothere' not found"),
         ({"N": "5", "speed": "fast"}, "--speed is 'fast'"),
+        ({"N": "5", "cycles": 2**63 - 1}, "^--cycles: must be at most 10,000,000 .given: 9223372036854775807"),
         ({"N": "x", "cpus": "3"}, "-N is 'x'.*; --cpus '3' is unknown"),
     ],
 )
