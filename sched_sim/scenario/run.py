@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from collections import Counter, defaultdict
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from typing import NamedTuple
 
 from sched_sim.scenario.distribution import wilson
 from sched_sim.scenario.scenario import Scenario, needed_parts
-from sched_sim.scenario.source import ComposedFilter, Measurement, correct_kind
+from sched_sim.scenario.source import ComposedFilter, correct_kind
 from sched_sim.schedule.clock import Clock, OnProgress
-from sched_sim.schedule.jobs import Source, step_at
+from sched_sim.schedule.jobs import Job, Source, step_at
 from sched_sim.schedule.length import check_simulation
-from sched_sim.schedule.outcome import Response, Schedule, Slice
+from sched_sim.schedule.outcome import Response, Schedule
 from sched_sim.schedule.processor import OnSlice, Platform, Processor
 from sched_sim.schedule.tasks import TaskSource, work_and_times
 from sched_sim.ticks import ticks_per_unit, to_ticks
@@ -90,8 +91,8 @@ def run_scenario(
 ) -> Outcome:
     """Simulate it: the same outcome every time, from its seed.
 
-    on_slice: called as slices end, `finished` only where a correction has landed; those that go together have the
-    slices of the first. on_progress: called about a hundred times.
+    on_slice: called as slices end; corrections that go together have the slices of the first.
+    on_progress: called about a hundred times.
     """
     check_simulation(scenario.steps, scenario.tasks, f"scenario {scenario.name!r}: steps")
     parts = needed_parts(scenario.sensors, scenario.late)
@@ -106,100 +107,42 @@ def run_scenario(
     )
     period = to_ticks(speed, resolution)
     costs = {part: [to_ticks(cost, resolution) for cost in scenario.costs[part]] for part in parts}
-    record = Record(scenario, on_slice)
-    composed = ComposedFilter(scenario, costs, period, record.landed)
+    composed = ComposedFilter(scenario, costs, period)
     of_tasks = [TaskSource(task, speed, resolution) for task in tasks]
     clock = [] if on_progress is None else [Clock(period, scenario.steps, on_progress)]
     platform = Platform(scenario.cpus, to_ticks(scenario.context_switch, resolution))
-    horizon = scenario.steps * period
     sources: list[Source] = [composed, *of_tasks, *clock]
-    processor = Processor(sources, period, horizon, platform, record.ended)
+    finishes: defaultdict[str, list[Finish]] = defaultdict(list)
+
+    def on_finish(job: Job, now: int) -> None:
+        finishes[job.kind].append(Finish(job.step, job.release, job.deadline, now))
+
+    processor = Processor(sources, period, scenario.steps * period, platform, on_slice, on_finish)
     processor.run()
     schedule = processor.schedule()
-    record.settle()
-
-    pending = defaultdict(list)
-    for measurement in composed.pending:
-        pending[measurement.sensor].append(measurement)
-    filed = dict(schedule.responses)
-    for number, sensor in enumerate(scenario.sensors):
-        kind = correct_kind(sensor)
-        if record.finished[kind] or pending[number]:
-            preemptions = filed[kind].preemptions if kind in filed else 0
-            filed[kind] = _response(record.finished[kind], pending[number], preemptions, horizon)
-    schedule = replace(schedule, responses=filed)
     sensors = {}
     for number, sensor in enumerate(scenario.sensors):
-        achieved = Counter(step_at(job.end, period) - job.step for job in record.finished[correct_kind(sensor)])
-        arrived = achieved.total() + len(pending[number])
+        achieved = Counter(step_at(done.end, period) - done.step for done in finishes[correct_kind(sensor)])
+        arrived = achieved.total() + sum(waiting.sensor == number for waiting in composed.pending)
         sensors[sensor.name] = SensorFigures(composed.taken[number], composed.dropped[number], arrived, achieved)
     kinds = ["predict", *map(correct_kind, scenario.sensors), *(f"task:{task.name}" for task in tasks)]
-    jobs = {kind: _figures(record.finished[kind], filed.get(kind), period) for kind in kinds}
-    missed = [job.deadline for ended in record.finished.values() for job in ended if job.end > job.deadline]
-    missed += [measurement.due for measurement in composed.pending if measurement.due <= horizon]
-    missed += [processor.first_miss[0]] if processor.first_miss else []
-    return Outcome(jobs, sensors, schedule, min(missed) / period if missed else None)
+    jobs = {kind: _figures(finishes[kind], schedule.responses.get(kind), period) for kind in kinds}
+    return Outcome(jobs, sensors, schedule, processor.first_miss[0] / period if processor.first_miss else None)
 
 
-class Record:
-    """What ends as the simulated time goes on. finished: the last slice of each job, by kind."""
+class Finish(NamedTuple):
+    """Of a job: the step it belongs to; when it was released, was due and ended, in ticks."""
 
-    def __init__(self, scenario: Scenario, on_slice: OnSlice | None) -> None:
-        self.kinds = [correct_kind(sensor) for sensor in scenario.sensors]
-        self.on_slice = on_slice
-        self.finished: defaultdict[str, list[Slice]] = defaultdict(list)
-        self.held: Slice | None = None  # of a correction that lands, or catches up, at this very instant
-        self.landing: list[Measurement] = []  # at this very instant, with that slice
-
-    def landed(self, measurement: Measurement, _now: int) -> None:
-        self.landing.append(measurement)
-
-    def ended(self, piece: Slice) -> None:
-        self.settle()
-        if piece.finished and piece.kind in self.kinds:
-            self.held = piece
-            return
-        if piece.finished:
-            self.finished[piece.kind].append(piece)
-        self._tell(piece)
-
-    def settle(self) -> None:
-        """By now it is known whether the correction has landed."""
-        if self.held is not None:
-            piece = self.held._replace(finished=bool(self.landing))
-            for one in self.landing:
-                kind = self.kinds[one.sensor]
-                job = piece._replace(kind=kind, step=one.step, release=one.arrival, deadline=one.due)
-                self.finished[kind].append(job)
-            self.held = None
-            self.landing.clear()
-            self._tell(piece)
-
-    def _tell(self, piece: Slice) -> None:
-        if self.on_slice is not None:
-            self.on_slice(piece)
+    step: int
+    release: int
+    deadline: int
+    end: int
 
 
-def _response(landed: Sequence[Slice], pending: Sequence[Measurement], preemptions: int, horizon: int) -> Response:
-    """Of a sensor's corrections: the processor's own figures count each catching-up, and not those that go together."""
-    overdue = [horizon - measurement.due for measurement in pending if measurement.due <= horizon]
-    late = [job.end - job.deadline for job in landed if job.end > job.deadline]
-    responses = [job.end - job.release for job in landed]
-    return Response(
-        releases=len(landed) + len(pending),
-        finished=len(landed),
-        worst=max(responses, default=0),
-        total=sum(responses),
-        misses=len(late) + len(overdue),
-        worst_lateness=max([*late, *overdue], default=0),
-        preemptions=preemptions,
-    )
-
-
-def _figures(finished: Sequence[Slice], filed: Response | None, period: int) -> JobFigures:
-    """filed: None if no such job was released."""
-    if filed is None:
+def _figures(finishes: Sequence[Finish], response: Response | None, period: int) -> JobFigures:
+    """response: None if no such job was released."""
+    if response is None:
         return JobFigures(0, [], 0, 0)
-    unfinished_misses = filed.misses - sum(job.end > job.deadline for job in finished)
-    responses = [(job.end - job.release) / period for job in finished]
-    return JobFigures(filed.releases, responses, filed.misses, len(finished) + unfinished_misses)
+    unfinished_misses = response.misses - sum(done.end > done.deadline for done in finishes)
+    responses = [(done.end - done.release) / period for done in finishes]
+    return JobFigures(response.releases, responses, response.misses, len(finishes) + unfinished_misses)

@@ -40,7 +40,7 @@ from __future__ import annotations
 
 from bisect import bisect_left, bisect_right, insort
 from collections import defaultdict
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from functools import partial
 from itertools import groupby
 from operator import itemgetter
@@ -84,24 +84,17 @@ class Awaited(NamedTuple):
     arrives: int | None
 
 
-OnLanding = Callable[[Measurement, int], None]
-"""Called with a measurement and the time, in ticks, when its correction has landed."""
-
-
 class ComposedFilter(Source):
     """Releases the jobs; `period` (the HR period) and `costs`, by part, in ticks.
 
     taken, dropped: measurements so far, by the number of the sensor; pending: arrived and not landed, sorted.
     """
 
-    def __init__(
-        self, scenario: Scenario, costs: Mapping[str, Sequence[int]], period: int, on_landing: OnLanding
-    ) -> None:
+    def __init__(self, scenario: Scenario, costs: Mapping[str, Sequence[int]], period: int) -> None:
         self.scenario = scenario
         self.sensors = scenario.sensors
         self.costs = costs
         self.period = period
-        self.on_landing = on_landing
         self.step = 0
         self.next_release = 0
         self.taken = [0] * len(self.sensors)
@@ -135,7 +128,7 @@ class ComposedFilter(Source):
         return tuple(jobs)
 
     def at_horizon(self) -> tuple[Job, ...]:
-        return tuple(self._job(measurement, (), None) for waiting in self.waiting.values() for measurement in waiting)
+        return tuple(self._job((one,), (), None) for waiting in self.waiting.values() for one in waiting)
 
     def _order(self, one: Measurement) -> tuple[int, bool, int, int]:
         """Of corrections that are released at one instant."""
@@ -203,7 +196,7 @@ class ComposedFilter(Source):
         sensor, draws = self.sensors[first.sensor], self.streams[first.sensor]
         if self._is_larsens(first):
             late = total(self.costs[f"correct_late.{sensor.name}"], draws)
-            return self._job(first, (("CO", late),), partial(self._land, together))
+            return self._job(together, (("CO", late),), partial(self._land, together))
         aim = now // self.period
         kind = "correct_accumulate" if self._waits(aim, together) else "correct"
         work = sum(total(self.costs[f"{kind}.{self.sensors[one.sensor].name}"], draws) for one in together)
@@ -214,9 +207,9 @@ class ComposedFilter(Source):
         replay = self._replay(first, aim - back, [*again, *self._applied_after(after)])
         parts = (("CO", work), ("RP", replay)) if replay else (("CO", work),)
         if not self.scenario.preempted(sensor):
-            return self._job(first, parts, partial(self._land, together))
+            return self._job(together, parts, partial(self._land, together))
         ahead = frozenset(one for one in self.pending if self._is_ahead(one, together))
-        return self._job(first, parts, partial(self._finish, Branch(together, aim, len(self.landed), ahead)))
+        return self._job(together, parts, partial(self._finish, Branch(together, aim, len(self.landed), ahead)))
 
     def _is_ahead(self, one: Measurement, together: Together) -> bool:
         """Whether the correction of one that has arrived lands before these do; those that wait for them do not."""
@@ -270,15 +263,15 @@ class ComposedFilter(Source):
             applied_to = step_at(now, self.period) if self._is_larsens(one) else one.step
             self.landed.append((applied_to, one))
             insort(self.applied, (applied_to, one), key=itemgetter(0))
-            self.on_landing(one, now)
         return self._next(job.priority, now) if job.priority in self.waiting else ()
 
-    def _job(self, measurement: Measurement, parts: Parts, then: Then | None) -> Job:
-        sensor = self.sensors[measurement.sensor]
-        work = sum(time for _, time in parts)
-        cpu = self.corrector_cpu
-        kind, k = correct_kind(sensor), measurement.step
-        return Job(kind, k, sensor.priority, measurement.arrival, measurement.due, work, parts, then, cpu)
+    def _job(self, together: Together, parts: Parts, then: Then | None) -> Job:
+        one, *others = together
+        sensor = self.sensors[one.sensor]
+        work, cpu = sum(time for _, time in parts), self.corrector_cpu
+        job = Job(correct_kind(sensor), one.step, sensor.priority, one.arrival, one.due, work, parts, then, cpu)
+        job.companions = tuple(self._job((other,), (), None) for other in others)
+        return job
 
 
 def correct_kind(sensor: Sensor) -> str:

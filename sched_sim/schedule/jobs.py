@@ -14,7 +14,8 @@ LR = 20
 
 
 Then: TypeAlias = "Callable[[Job, int], tuple[Job, ...]]"
-"""Called with a job and the time when it finishes; may return jobs to release at that instant."""
+"""Called with a job and the time when it has done its parts; may return jobs to release at that instant. If the job is
+one of them, it has not finished: see `Job.go_on`."""
 
 
 class Job:
@@ -24,13 +25,14 @@ class Job:
     deadline: the last instant at which it may finish;
     remaining: work left to do, at first the sum of its parts;
     parts: (label, work) in the order they are done;
-    then: called with the job and the time when it finishes; may return jobs to release at that instant;
+    then: see `Then`;
+    companions: jobs that are done as this one is, with no work of their own;
     overhead: context-switch work charged and not yet done;
     held: the release came while an earlier job of the same chain was unfinished.
     """
 
-    __slots__ = ("cpu", "deadline", "held", "kind", "overhead", "parts", "priority", "release", "remaining",
-                 "step", "then")  # fmt: skip
+    __slots__ = ("companions", "cpu", "deadline", "held", "kind", "overhead", "parts", "priority", "release",
+                 "remaining", "step", "then")  # fmt: skip
 
     def __init__(
         self,
@@ -53,11 +55,12 @@ class Job:
         self.parts = parts
         self.then = then
         self.cpu = cpu
+        self.companions: tuple[Job, ...] = ()
         self.overhead = 0
         self.held = False
 
     def go_on(self, parts: Parts, then: Then | None) -> Job:
-        """The same job with more to do, when it has just finished and its `then` finds that it has not.
+        """The same job with more to do, for its `then` to return.
 
         It is still the one that ran last: if nothing else runs first, no context switch is charged.
         """

@@ -20,6 +20,8 @@ from sched_sim.schedule.outcome import Response, Schedule, Slice
 from sched_sim.schedule.policy import RANKS, Policy
 
 OnSlice = Callable[[Slice], None]
+OnFinish = Callable[[Job, int], None]
+"""Called with each job that finishes, and when."""
 
 
 class Platform(NamedTuple):
@@ -71,6 +73,7 @@ class Processor:
         horizon: int,
         platform: Platform,
         on_slice: OnSlice | None = None,
+        on_finish: OnFinish | None = None,
     ) -> None:
         self.sources = sources
         self.period = period
@@ -79,6 +82,7 @@ class Processor:
         self.context_switch = platform.context_switch
         self.rank = RANKS[platform.policy]
         self.on_slice = on_slice
+        self.on_finish = on_finish
         self.tallies: defaultdict[str, Tally] = defaultdict(Tally)
         self.first_miss: tuple[int, str, bool] | None = None
         self.instants = 0
@@ -118,7 +122,8 @@ class Processor:
         One process with its state in local names and no small methods: this loop is what every simulated second costs.
         """
         timeout, horizon, cpus = environment.timeout, self.horizon, self.cpus
-        tallies, on_slice, context_switch, rank = self.tallies, self.on_slice, self.context_switch, self.rank
+        tallies, on_slice, on_finish = self.tallies, self.on_slice, self.on_finish
+        context_switch, rank = self.context_switch, self.rank
         releases = [(source.next_release, order, source) for order, source in enumerate(self.sources)]
         heapify(releases)
         order_of_release = now = instants = 0
@@ -131,20 +136,25 @@ class Processor:
                         continue
                     cpu.running = None
                     cpu.busy += now - cpu.since
-                    tally = tallies[job.kind]
-                    tally.finished += 1
-                    response = now - job.release
-                    tally.total += response
-                    if response > tally.worst:
-                        tally.worst = response
-                    if now > job.deadline:
-                        self._missed(job, now)
-                    if on_slice is not None:
-                        on_slice(self._slice(job, cpu.since, now, finished=True))
-                    if job.then is not None:
-                        for new in job.then(job, now):
-                            order_of_release += 1
-                            heappush(cpus[new.cpu].ready, (rank(new), order_of_release, new))
+                    piece = None if on_slice is None else self._slice(job, cpu.since, now, finished=True)
+                    following = () if job.then is None else job.then(job, now)
+                    goes_on = job in following
+                    if on_slice is not None and piece is not None:
+                        on_slice(piece._replace(finished=not goes_on))
+                    for done in () if goes_on else (job, *job.companions):
+                        tally = tallies[done.kind]
+                        tally.finished += 1
+                        response = now - done.release
+                        tally.total += response
+                        if response > tally.worst:
+                            tally.worst = response
+                        if now > done.deadline:
+                            self._missed(done, now)
+                        if on_finish is not None:
+                            on_finish(done, now)
+                    for new in following:
+                        order_of_release += 1
+                        heappush(cpus[new.cpu].ready, (rank(new), order_of_release, new))
             if now == horizon:
                 self._ended.succeed()
                 break
@@ -208,12 +218,13 @@ class Processor:
                 if self.on_slice is not None:
                     self.on_slice(piece)
                 unfinished.append(cpu.running)
-        for job in unfinished:
-            if self.on_slice is not None:
+        if self.on_slice is not None:
+            for job in unfinished:
                 self.on_slice(self._slice(job, self.horizon, self.horizon, finished=False))
-            self.tallies[job.kind].releases += 1
-            if job.deadline <= self.horizon:
-                self._missed(job, self.horizon)
+        for waiting in [each for job in unfinished for each in (job, *job.companions)]:
+            self.tallies[waiting.kind].releases += 1
+            if waiting.deadline <= self.horizon:
+                self._missed(waiting, self.horizon)
         for tally in self.tallies.values():
             tally.releases += tally.finished
         return Schedule(

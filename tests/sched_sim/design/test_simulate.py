@@ -117,6 +117,38 @@ def test_the_first_miss_is_that_of_the_earliest_deadline_and_of_several_the_one_
     assert processor.schedule().first_miss == ("b", False)
 
 
+def test_a_job_that_goes_on_is_booked_once_and_its_companions_with_it() -> None:
+    """It does 5, then 3 more, while something more urgent takes 2; a companion was released at 1 and is due at 9."""
+    first = job("first", 20, 0, 5, deadline=20)
+    first.then = lambda done, _now: (done.go_on((("more", 3),), None),)
+    first.companions = (job("companion", 20, 1, 0, deadline=9),)
+    slices: list[tuple[int, int, bool]] = []
+    finishes: list[tuple[str, int]] = []
+    processor = Processor(
+        [Given(first), Given(job("urgent", 10, 6, 2))],
+        10,
+        100,
+        Platform(1, 0),
+        lambda piece: slices.append((piece.start, piece.end, piece.finished)),
+        lambda done, now: finishes.append((done.kind, now)),
+    )
+    processor.run()
+    responses = processor.schedule().responses
+    assert slices == [(0, 5, False), (5, 6, False), (6, 8, True), (8, 10, True)]
+    assert finishes == [("urgent", 8), ("first", 10), ("companion", 10)]
+    assert (responses["first"].finished, responses["first"].worst, responses["first"].misses) == (1, 10, 0)
+    assert (responses["companion"].finished, responses["companion"].worst, responses["companion"].misses) == (1, 9, 1)
+
+
+def test_a_companion_of_a_job_that_has_not_finished_has_not_either() -> None:
+    first = job("first", 20, 0, 200, deadline=200)
+    first.companions = (job("companion", 20, 1, 0, deadline=90),)
+    processor = Processor([Given(first)], 10, 100, Platform(1, 0))
+    processor.run()
+    companion = processor.schedule().responses["companion"]
+    assert (companion.releases, companion.finished, companion.misses, companion.worst_lateness) == (1, 0, 1, 10)
+
+
 @pytest.mark.parametrize(("now", "left", "overhead"), [(5, 12, 2), (6, 11, 1), (7, 10, 0), (9, 8, 0)])
 def test_a_state_says_what_is_left_of_a_running_job_and_of_its_context_switch(
     now: int, left: int, overhead: int
