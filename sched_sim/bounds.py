@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from decimal import Decimal
 from fractions import Fraction
+from operator import index
 
 from sched_sim.errors import InputError
 
@@ -69,7 +70,21 @@ def check_size(number: Decimal | Fraction, what: str, given: object) -> None:
         )
 
 
-def check_whole(value: int, what: str, most: int = MOST_STEPS) -> None:
-    """Raises InputError for a whole number above `most`, by default of HR steps."""
-    if value > most:
-        raise InputError(f"{what} is {short(value)}: give at most {most:,}")
+def whole(value: int, what: str, most: int = MOST_STEPS) -> int:
+    """A whole number, also one of NumPy's. Raises InputError for anything else, and for one above `most`, by default of
+    HR steps."""
+    try:
+        number = index(value)
+    except TypeError:
+        raise InputError(f"{what} is {short(repr(value))}: give a whole number") from None
+    if number > most:
+        raise InputError(f"{what} is {short(number)}: give at most {most:,}")
+    return number
+
+
+def at_least_one(value: int, what: str) -> int:
+    """`whole`, and at least 1."""
+    number = whole(value, what)
+    if number < 1:
+        raise InputError(f"{what} is {short(number)}: give at least 1")
+    return number

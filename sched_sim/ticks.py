@@ -9,12 +9,16 @@ from collections.abc import Iterable
 from decimal import Decimal
 from fractions import Fraction
 from math import lcm
+from typing import TypeAlias
 
 from sched_sim.bounds import check_digits, check_size, short
 from sched_sim.errors import InputError
 
+Number: TypeAlias = int | float | str | Decimal | Fraction
+"""As people write one: 0.78 means 78/100, "77/100" itself."""
 
-def exact(value: int | str | float | Decimal | Fraction, what: str) -> Fraction:
+
+def exact(value: Number, what: str) -> Fraction:
     """The exact fraction that `value` writes: "0.78" is 78/100, "77/100" too; a float stands for its
     shortest decimal. A Decimal comes from a file, where a quotient has quotes.
 
@@ -50,7 +54,7 @@ def _written(value: int | str | float | Decimal, what: str) -> int | str | Decim
     return number
 
 
-def positive(value: int | str | float | Decimal | Fraction, what: str) -> Fraction:
+def positive(value: Number, what: str) -> Fraction:
     """`exact`, and greater than zero."""
     number = exact(value, what)
     if number <= 0:

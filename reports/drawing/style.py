@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import cache
+from io import StringIO
 from typing import NamedTuple
 
 import matplotlib.style
@@ -138,7 +139,17 @@ def page(height_mm: float, width_mm: float = WIDTH_MM) -> Figure:
             f"the picture would be {height_mm / 1000:.3g} m high: at most {TALLEST_MM / 1000:g} m are drawn; leave out "
             f"tasks, sensors or methods"
         )
-    return Figure(figsize=(width_mm / 25.4, height_mm / 25.4))
+    return Page(figsize=(width_mm / 25.4, height_mm / 25.4))
+
+
+class Page(Figure):
+    """A figure that a notebook shows as SVG."""
+
+    def _repr_svg_(self) -> str:
+        text = StringIO()
+        with drawing():
+            self.savefig(text, format="svg")
+        return text.getvalue()
 
 
 def axes_at(figure: Figure, left: float, top: float, width: float, height: float) -> Axes:

@@ -7,13 +7,15 @@ from collections.abc import Callable, Mapping
 from dataclasses import Field, fields
 from fractions import Fraction
 from functools import wraps
-from typing import Annotated, Any, get_args, get_type_hints
+from typing import Annotated, Any, get_type_hints
 
 import typer
 
 from sched_sim.cli import options as opt
+from sched_sim.cli.streams import flag_of
 from sched_sim.design import options
 from sched_sim.design.options import Options
+from sched_sim.errors import option
 from sched_sim.ticks import exact
 
 Command = Callable[..., None]
@@ -76,22 +78,17 @@ def _axis(choice: Field[Any]) -> inspect.Parameter:
 
 def _parameter(choice: Field[Any], kind: Any, default: Any, text: str, **more: Any) -> inspect.Parameter:
     panel = PANELS[choice.metadata["of"]]
-    option = typer.Option(flag_of(choice.name), help=text, rich_help_panel=panel, **more)
+    info = typer.Option(flag_of(choice.name), help=text, rich_help_panel=panel, **more)
     keyword = inspect.Parameter.POSITIONAL_OR_KEYWORD
-    return inspect.Parameter(choice.name, keyword, default=default, annotation=Annotated[kind, option])
-
-
-def flag_of(name: str) -> str:
-    return f"--{name.replace('_', '-')}"
+    return inspect.Parameter(choice.name, keyword, default=default, annotation=Annotated[kind, info])
 
 
 def _values(choice: Field[Any]) -> tuple[Any, ...]:
-    """What there is to choose from; none where any number will do."""
-    return get_args(get_type_hints(Options)[choice.name])
+    return options.choices()[choice.name]
 
 
 def _value(choice: Field[Any], given: Any) -> Any:
-    return exact(given, flag_of(choice.name)) if isinstance(choice.default, Fraction) else given
+    return exact(given, option(choice.name)) if isinstance(choice.default, Fraction) else given
 
 
 def _one_of(values: tuple[int, ...]) -> Callable[[str], int]:

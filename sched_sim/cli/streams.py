@@ -14,7 +14,7 @@ from contextlib import contextmanager, suppress
 from io import TextIOBase, TextIOWrapper
 
 from sched_sim.cli.output import say
-from sched_sim.errors import InputError
+from sched_sim.errors import SPELLING, InputError
 
 
 class Stdout(TextIOWrapper):
@@ -39,6 +39,7 @@ class Closed(TextIOBase):
 def run() -> int:
     """Run the command that `sys.argv` says; its exit code."""
     _open_streams()
+    spelling = SPELLING.set(flag_of)
     try:
         code = _command()
         sys.stdout.flush()
@@ -52,7 +53,14 @@ def run() -> int:
         if _folder_is_there():
             raise
         return _refuse("the current folder has been deleted: change to one that exists")
+    finally:
+        SPELLING.reset(spelling)
     return code
+
+
+def flag_of(name: str) -> str:
+    """That of an argument."""
+    return f"-{name}" if len(name) == 1 else f"--{name.replace('_', '-')}"
 
 
 def _command() -> int:

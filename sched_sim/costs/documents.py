@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from sched_sim.costs.methods import METHODS
-from sched_sim.errors import InputError
+from sched_sim.errors import InputError, option
 
 PREDICT = ("predict", "predict_accumulate")
 CORRECT = ("correct", "correct_accumulate", "correct_late")
@@ -26,8 +26,8 @@ def refuse_cost_table(document: Mapping[str, Any], what: str) -> None:
     """Raises InputError, with the use of such a file, for a cost table where samples are needed."""
     if "samples" not in document and ("costs" in document or _holds(document, "operations", METHODS)):
         raise InputError(
-            f"{what} is a cost table, of methods: give it to --costs of `minimum`, `simulate` or `sweep`, and here a "
-            f"file that `sched-sim measure --filter` writes"
+            f"{what} is a cost table, of methods: give it to {option('costs')} of `minimum`, `simulate` or `sweep`, "
+            f"and here a file that `sched-sim measure --filter` writes"
         )
 
 

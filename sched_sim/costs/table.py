@@ -9,7 +9,8 @@ from typing import Any
 
 from sched_sim.costs.methods import DELAYED_METHODS, METHODS
 from sched_sim.costs.operations import Counts
-from sched_sim.errors import InputError
+from sched_sim.errors import InputError, option
+from sched_sim.html_table import html_table
 from sched_sim.ticks import positive
 
 PAPERS, COUNTED = "steffes2014", "counted-9-3-3"
@@ -97,11 +98,19 @@ class CostTable:
     def _remedy(self, method: str, kind: str) -> str:
         others = self.found_in(method, kind)
         if others is not None:
-            return f"use --costs {' or '.join([*others, 'a table that `sched-sim measure` writes'])}"
+            return f"use {option('costs')} {' or '.join([*others, 'a table that `sched-sim measure` writes'])}"
         return (
-            f"add the line `{kind} = ...` there, choose a --method or option that does not need it, or measure it "
-            f"with `sched-sim measure`"
+            f"add the line `{kind} = ...` there, choose a {option('method')} or option that does not need it, or "
+            f"measure it with `sched-sim measure`"
         )
+
+    def _repr_html_(self) -> str:
+        rows = [
+            (method, kind, cost.minimum, cost.median, cost.p95)
+            for method, kinds in self.costs.items()
+            for kind, cost in kinds.items()
+        ]
+        return html_table(f"{self.shown}, in {self.unit}", ("method", "job", "minimum", "median", "p95"), rows)
 
     def normalised(self) -> CostTable:
         """The same costs with the standard filter's propagate + update as the unit, as Steffes prints them."""

@@ -144,14 +144,14 @@ def _shipped_with(method: str, kind: str) -> list[str]:
     return [name for name in shipped_tables() if kind in load_costs(name).costs.get(method, {})]
 
 
-def read_costs(path: Path, shown: str = "") -> CostTable:
+def read_costs(path: str | Path, shown: str = "") -> CostTable:
     """The table in `path`; `shown` is what the user called it.
 
     Raises InputError that lists every wrong entry of the file with its value.
     """
     shown = shown or str(path)
     remedy = f"give one of {', '.join(shipped_tables())}, or the path of a TOML file"
-    document = read_toml(path, f"cost table {shown!r}", remedy)
+    document = read_toml(Path(path), f"cost table {shown!r}", remedy)
     refuse_samples(document, f"cost table {shown!r}")
     try:
         checked = _CostFile.model_validate(document)

@@ -11,7 +11,7 @@ from sched_sim.design.method import CostOf, CycleWork, Law, Method
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import DualRateCosts
 from sched_sim.design.timing import Feedback, Timing
-from sched_sim.errors import InputError
+from sched_sim.errors import InputError, option
 from sched_sim.schedule.jobs import HR, LR, Job, Parts, Then, step_at
 
 
@@ -144,21 +144,22 @@ def law(feedback: Feedback) -> Law:
     return Law(1, 0, only_first=False) if feedback == "next-step" else Law(0, 1, only_first=False)
 
 
-INSTEAD = "choose --method recalculate or larsen, which correct the state in that very step"
-"""Where M = N leaves no step."""
+def _another_method() -> str:
+    """Where M = N leaves no step."""
+    return f"choose {option('method')} recalculate or larsen, which correct the state in that very step"
 
 
 def check(timing: Timing, feedback: Feedback) -> None:
     """Raises InputError unless M < L <= N (next-step) or M <= L < N (same-step)."""
     N, M, L = timing.N, timing.M, timing.L
     if feedback == "next-step" and L <= M:
-        advice = f"give L from {M + 1} to N={N} (same-step feedback allows L = M)" if M < N else INSTEAD
+        advice = f"give L from {M + 1} to N={N} (same-step feedback allows L = M)" if M < N else _another_method()
         raise InputError(
             f"L={L} must be > M={M}: the dual-rate correction cannot land in the step in which the measurement "
             f"arrives; {advice}"
         )
     if feedback == "same-step" and L >= N:
-        advice = f"give L from {M} to {N - 1}" if M < N else INSTEAD
+        advice = f"give L from {M} to {N - 1}" if M < N else _another_method()
         raise InputError(f"L={L} must be < N={N} with same-step feedback: the correction lands during step l; {advice}")
 
 

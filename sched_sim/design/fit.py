@@ -14,6 +14,7 @@ from sched_sim.design.search import OnProgress
 from sched_sim.design.steady import run_until_steady
 from sched_sim.design.timing import Timing
 from sched_sim.schedule.tasks import Task
+from sched_sim.ticks import Number, positive
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,7 +43,7 @@ class Fit:
 def fit(
     costs: Costs,
     timing: Timing,
-    hr_hz: Fraction,
+    hr_hz: Number,
     options: Options = Options(),
     tasks: Sequence[Task] = (),
     on_progress: OnProgress = lambda _runs: None,
@@ -51,7 +52,7 @@ def fit(
 
     Raises InputError as `least_speed` does.
     """
-    pace = 1 / hr_hz
+    pace = 1 / positive(hr_hz, "hr_hz")
     least = least_speed(costs, timing, options, tasks, on_progress)
     busy = sum(loads(costs, timing, pace, options, tasks), Fraction(0)) / options.cpus
     if not has_closed_form(options, tasks):

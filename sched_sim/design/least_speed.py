@@ -13,8 +13,9 @@ from sched_sim.design.methods import method_of
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import Costs, JobCosts, converted, works
 from sched_sim.design.timing import Timing
+from sched_sim.errors import InputError
 from sched_sim.schedule.tasks import Task
-from sched_sim.ticks import positive, ticks_per_unit, to_ticks
+from sched_sim.ticks import Number, positive, ticks_per_unit, to_ticks
 
 if TYPE_CHECKING:
     from sched_sim.design.search import OnProgress
@@ -64,10 +65,19 @@ def least_speed(
     return LeastSpeed(speed, analysis.Binding(least.code.item()).name)
 
 
-def achieved_l(costs: Costs, timing: Timing, speed: Fraction, options: Options = Options()) -> int | None:
+def achieved_l(costs: Costs, timing: Timing, speed: Number, options: Options = Options()) -> int | None:
     """The L at which corrections land at `speed`, in closed form; None where an HR job overruns its step or nothing
-    lands before the next measurement. Without context-switch costs."""
-    positive(speed, "speed")
+    lands before the next measurement.
+
+    Raises InputError for options that have no closed form (`has_closed_form`).
+    """
+    speed = positive(speed, "speed")
+    method_of(costs)
+    if not has_closed_form(options, ()):
+        raise InputError(
+            f"options with context_switch={float(options.context_switch):g} and policy={options.policy!r} have no "
+            f"closed form: `simulate` says where corrections land"
+        )
     resolution, in_ticks = _in_ticks(costs, speed)
     N, M, period = (np.array([value], dtype=object) for value in (timing.N, timing.M, to_ticks(speed, resolution)))
     landed = analysis.achieved_l(in_ticks, N, M, period, options).item()

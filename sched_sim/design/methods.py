@@ -52,11 +52,16 @@ METHODS: Mapping[str, AnyMethod] = {
 
 
 def method_of(costs: JobCosts[Fraction] | JobCosts[int]) -> AnyMethod:
-    """The method that has such pieces."""
-    return _BY_PIECES[type(costs)]
+    """The method that has such pieces. Raises InputError for anything else."""
+    try:
+        return _BY_PIECES[type(costs)]
+    except KeyError:
+        raise InputError(
+            f"costs is a {type(costs).__name__}: give those of one method, as `select(table, method)` returns them"
+        ) from None
 
 
-def select(table: CostTable, method: str, options: Options, statistic: Statistic = "minimum") -> Costs:
+def select(table: CostTable, method: str, options: Options = Options(), statistic: Statistic = "minimum") -> Costs:
     """The costs that `method` runs with under `options`, as fractions of the table's unit.
 
     Raises InputError for an unknown method and for an entry that the table lacks.

@@ -6,13 +6,17 @@ the fields of `Options`.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import Literal
+from functools import cache
+from typing import Any, Literal, get_args, get_type_hints
 
+from sched_sim.bounds import short
 from sched_sim.design.timing import Feedback
 from sched_sim.errors import InputError
 from sched_sim.schedule.policy import Policy
+from sched_sim.ticks import exact
 
 Gain = Literal["at-update", "precomputed"]
 LowRateNoise = Literal["exact", "sum", "euler"]
@@ -82,5 +86,16 @@ class Options:
     )
 
     def __post_init__(self) -> None:
+        for name, known in choices().items():
+            value = getattr(self, name)
+            if known and value not in known:
+                raise InputError(f"{name} is {short(repr(value))}: choose from {', '.join(map(repr, known))}")
+        object.__setattr__(self, "context_switch", exact(self.context_switch, "context switch"))
         if self.context_switch < 0:
             raise InputError(f"context switch is {float(self.context_switch):g}: it must be 0 or more cost units")
+
+
+@cache
+def choices() -> Mapping[str, tuple[Any, ...]]:
+    """What there is to choose from, by the name of the field; nothing where any number will do."""
+    return {name: get_args(kind) for name, kind in get_type_hints(Options).items()}

@@ -9,7 +9,7 @@ from fractions import Fraction
 from itertools import chain
 from typing import NamedTuple
 
-from sched_sim.bounds import short
+from sched_sim.bounds import at_least_one, short
 from sched_sim.design.hr_loop import OnLanding
 from sched_sim.design.methods import method_of
 from sched_sim.design.options import Options
@@ -21,14 +21,14 @@ from sched_sim.schedule.length import check_simulation
 from sched_sim.schedule.outcome import Schedule, Slice
 from sched_sim.schedule.processor import OnSlice, Platform, Processor
 from sched_sim.schedule.tasks import Task, TaskSource, check_cpus, work_and_times
-from sched_sim.ticks import positive, ticks_per_unit, to_ticks
+from sched_sim.ticks import Number, positive, ticks_per_unit, to_ticks
 
 
 def simulate(
     costs: Costs,
     timing: Timing,
-    speed: Fraction,
-    cycles: int,
+    speed: Number,
+    cycles: int = 3,
     options: Options = Options(),
     tasks: Sequence[Task] = (),
     *,
@@ -40,13 +40,14 @@ def simulate(
     """Run one filter, and the user's tasks beside it, for `cycles` measurement cycles; where recalculate or Larsen's
     method has M = N, for a step more, in which the last measurement arrives.
 
-    costs: from `costs.select`; speed: cost units the processor does per HR period.
+    costs: from `select`; speed: cost units the processor does per HR period.
     keep_slices: return every `Slice`; without it memory does not grow with `cycles`.
     on_slice, on_landing: called as slices end and as corrections land, with a `Slice` and with
     (cycle, achieved L). on_progress: called about a hundred times.
     Raises InputError for a speed that is not positive, an L the method cannot have, a task on a missing CPU, and more
     than can be simulated (`sched_sim.bounds`).
     """
+    speed, cycles = positive(speed, "speed"), at_least_one(cycles, "cycles")
     check_simulation(cycles * timing.N, tasks, f"{short(cycles)} cycles of N={timing.N}")
     achieved: Counter[int] = Counter()
 
@@ -93,14 +94,14 @@ def workload_in_ticks(
     costs: Costs, timing: Timing, speed: Fraction, options: Options, tasks: Sequence[Task], on_landing: OnLanding
 ) -> Workload:
     """The fewest ticks per cost unit in which all is whole. Raises InputError as `simulate` does."""
-    positive(speed, "speed")
     check_cpus(tasks, options.cpus)
+    method = method_of(costs)
     costs = converted(costs, Fraction)
     of_tasks = chain.from_iterable(work_and_times(task, speed) for task in tasks)
     resolution = ticks_per_unit([speed, options.context_switch, *works(costs), *of_tasks])
     period = to_ticks(speed, resolution)
     in_ticks = converted(costs, lambda work: to_ticks(work, resolution))
-    source = method_of(costs).source(in_ticks, timing, options, period, on_landing)
+    source = method.source(in_ticks, timing, options, period, on_landing)
     task_sources = (TaskSource(task, speed, resolution) for task in tasks)
     platform = Platform(options.cpus, to_ticks(options.context_switch, resolution), options.policy)
     return Workload((source, *task_sources), period, platform)

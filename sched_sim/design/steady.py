@@ -19,7 +19,7 @@ from sched_sim.design.options import Options
 from sched_sim.design.pieces import Costs
 from sched_sim.design.simulate import workload_in_ticks
 from sched_sim.design.timing import Timing
-from sched_sim.errors import InputError
+from sched_sim.errors import InputError, option
 from sched_sim.schedule.jobs import Job, RecurringSource, Source
 from sched_sim.schedule.length import check_simulation
 from sched_sim.schedule.outcome import Schedule
@@ -102,7 +102,7 @@ def longest_run(timing: Timing, tasks: Sequence[Task]) -> int:
     if hyperperiod > LONGEST and not tasks:
         raise InputError(
             f"N={timing.N} is more than the {LONGEST} HR periods that are simulated to find what context switches "
-            f"cost: leave out --context-switch (what is left has a closed form), or look at one speed with "
+            f"cost: leave out {option('context_switch')} (what is left has a closed form), or look at one speed with "
             f"`sched-sim simulate --speed`"
         )
     if hyperperiod > LONGEST:

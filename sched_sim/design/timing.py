@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from sched_sim.bounds import check_whole
+from sched_sim.bounds import whole
 from sched_sim.errors import InputError
 
 Feedback = Literal["next-step", "same-step"]
@@ -25,7 +25,8 @@ class Timing:
     L: int
 
     def __post_init__(self) -> None:
-        check_whole(self.N, "N")
+        for name in ("N", "M", "L"):
+            object.__setattr__(self, name, whole(getattr(self, name), name))
         if self.N < 1:
             raise InputError(f"N={self.N} must be at least 1: it is the number of HR steps between measurements")
         if self.M < 0:

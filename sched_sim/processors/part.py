@@ -16,7 +16,7 @@ from fractions import Fraction
 
 from sched_sim.costs.operations import Counts, arithmetic
 from sched_sim.costs.table import Cost, CostTable
-from sched_sim.errors import InputError
+from sched_sim.errors import InputError, option
 
 FUNCTION = {"multiply": 13, "add": 17}
 """What a function (sin, cos, exp, ...) is charged as on a processor whose file does not time it: the cosine of fdlibm,
@@ -54,7 +54,7 @@ def on_part(table: CostTable, processor: Part) -> CostTable:
     if not table.operations:
         raise InputError(
             f"cost table {table.shown} has no operation counts to run on processor {processor.name!r}: use "
-            f"--costs counted-9-3-3, or count with `sched-sim measure --backend counted -o FILE`"
+            f"{option('costs')} counted-9-3-3, or count with `sched-sim measure --backend counted -o FILE`"
         )
     costs: dict[str, dict[str, Cost]] = {}
     lacking: dict[str, dict[str, str]] = {}

@@ -7,7 +7,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from sched_sim.scenario.distribution import wilson
+from sched_sim.html_table import html_table
+from sched_sim.scenario.distribution import finished_or_not, wilson
 from sched_sim.scenario.scenario import Scenario, needed_parts
 from sched_sim.scenario.source import ComposedFilter, correct_kind
 from sched_sim.schedule.clock import Clock, OnProgress
@@ -84,6 +85,39 @@ class Outcome:
     @property
     def misses(self) -> int:
         return sum(figures.misses for figures in self.jobs.values())
+
+    def _repr_html_(self) -> str:
+        """Quantiles of the responses are of all that were released, and those of l of all that arrived."""
+        jobs = [
+            (kind, of.released, len(of.responses), *_quantiles(of.responses, of.released), of.misses)
+            for kind, of in self.jobs.items()
+        ]
+        sensors = [
+            (name, *_counts(of), *_quantiles(list(of.achieved.elements()), of.arrived))
+            for name, of in self.sensors.items()
+        ]
+        return html_table(
+            "Response times, in HR periods", ("job", "released", "finished", *QUANTILES, "deadlines missed"), jobs
+        ) + html_table(
+            "Measurements, and the l - k at which their corrections landed",
+            ("sensor", *COUNTS, *QUANTILES),
+            sensors,
+        )
+
+
+COUNTS = ("taken", "dropped", "on the way", "arrived", "landed")
+QUANTILES = ("minimum", "mean", "median", "p95", "p99", "maximum")
+
+
+def _counts(figures: SensorFigures) -> tuple[int, ...]:
+    return figures.taken, figures.dropped, figures.on_the_way, figures.arrived, figures.achieved.total()
+
+
+def _quantiles(finished: Sequence[float], count: int) -> tuple[float | None, ...]:
+    if not finished:
+        return (None,) * len(QUANTILES)
+    figures = finished_or_not(finished, count - len(finished))
+    return tuple(figures[name] for name in QUANTILES)
 
 
 def run_scenario(

@@ -13,7 +13,7 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationEr
 from sched_sim.bounds import MOST_SENSORS, MOST_STEPS, short
 from sched_sim.costs.sample_file import SampledCosts, read_sampled_costs
 from sched_sim.costs.table import SECONDS
-from sched_sim.errors import InputError
+from sched_sim.errors import InputError, option
 from sched_sim.files.toml_numbers import Number, Positive, Whole, above_zero, whole
 from sched_sim.files.toml_problems import problems
 from sched_sim.files.toml_reader import read_toml
@@ -196,14 +196,14 @@ class _ScenarioFile(_Entry):
                 )
 
 
-def read_scenario(path: Path) -> Scenario:
+def read_scenario(path: str | Path) -> Scenario:
     """The scenario in `path`; files that it names are looked for in its folder.
 
     What it says itself of costs is taken as it stands, before what the costs file says, which is made slower by
     `times_slower` or turned into seconds on `processor`.
     Raises InputError that lists every wrong entry of the file with its value.
     """
-    what = f"--scenario {str(path)!r}"
+    what, path = f"{option('scenario')} {str(path)!r}", Path(path)
     document = read_toml(path, what, "give the path of a TOML file with [predictor] and [[sensor]] entries")
     try:
         checked = _ScenarioFile.model_validate(document)

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import NamedTuple
 
+from sched_sim.html_table import html_table
 from sched_sim.schedule.jobs import Parts
 
 
@@ -103,3 +104,25 @@ class Schedule:
     def utilization(self) -> Fraction:
         """The busy share of the processors' time, between 0 and 1."""
         return Fraction(self.busy, self.horizon * self.cpus)
+
+    def _repr_html_(self) -> str:
+        landed = ", ".join(f"{cycles} at L = {L}" for L, cycles in sorted(self.achieved.items())) or "none"
+        headings = ("job", "released", "finished", "worst response", "mean response", "deadlines missed", "preempted")
+        rows = [
+            (
+                kind,
+                of.releases,
+                of.finished,
+                Fraction(of.worst, self.period) if of.finished else None,
+                of.mean / self.period if of.finished else None,
+                of.misses,
+                of.preemptions,
+            )
+            for kind, of in self.responses.items()
+        ]
+        return html_table(
+            f"{self.horizon / self.period:g} HR periods, busy {float(self.utilization):.1%}; corrections landed: "
+            f"{landed}; responses in HR periods",
+            headings,
+            rows,
+        )

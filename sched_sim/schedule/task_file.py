@@ -11,7 +11,7 @@ from typing import Annotated, Self
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
 from sched_sim.bounds import MOST_TASKS
-from sched_sim.errors import InputError
+from sched_sim.errors import InputError, option
 from sched_sim.files.toml_numbers import Number, Positive, Whole
 from sched_sim.files.toml_problems import problems
 from sched_sim.files.toml_reader import read_toml
@@ -46,19 +46,20 @@ class _TaskFile(BaseModel):
     task: Annotated[list[TaskEntry], Field(min_length=1)]
 
 
-def read_tasks(path: Path) -> list[Task]:
+def read_tasks(path: str | Path) -> list[Task]:
     """The tasks in `path`; raises InputError that lists every wrong entry with its value."""
-    document = read_toml(path, f"--tasks {str(path)!r}", "give the path of a TOML file with [[task]] entries")
+    what = f"{option('tasks')} {str(path)!r}"
+    document = read_toml(Path(path), what, "give the path of a TOML file with [[task]] entries")
     try:
         tasks = [entry.task() for entry in _TaskFile.model_validate(document).task]
     except ValidationError as error:
         wrong = problems(error, _TaskFile, document)
         raise InputError(
-            f"--tasks {str(path)!r}: {wrong}; each [[task]] has name, period and offset in HR periods, cost "
+            f"{what}: {wrong}; each [[task]] has name, period and offset in HR periods, cost "
             f"in the unit of the cost table, and priority (smaller is more urgent; HR jobs 10, LR jobs 20)"
         ) from None
     if together := wrong_together(tasks):
-        raise InputError(f"--tasks {str(path)!r}: {'; '.join(together)}")
+        raise InputError(f"{what}: {'; '.join(together)}")
     return tasks
 
 

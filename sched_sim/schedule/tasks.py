@@ -6,9 +6,9 @@ from collections.abc import Hashable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from sched_sim.errors import InputError
+from sched_sim.errors import InputError, option
 from sched_sim.schedule.jobs import Job
-from sched_sim.ticks import to_ticks
+from sched_sim.ticks import exact, to_ticks
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,6 +29,8 @@ class Task:
     cpu: int = 1
 
     def __post_init__(self) -> None:
+        for figure in ("period", "cost", "offset"):
+            object.__setattr__(self, figure, exact(getattr(self, figure), f"task {self.name!r}: {figure}"))
         wrong = []
         if self.period <= 0:
             wrong.append(f"period {self.period} must be greater than 0 HR periods")
@@ -46,7 +48,9 @@ def check_cpus(tasks: Sequence[Task], cpus: int) -> None:
     """Raises InputError for a task on a processor that is not there."""
     for task in tasks:
         if task.cpu > cpus:
-            raise InputError(f"task {task.name!r}: cpu {task.cpu} is not there; give --cpus {task.cpu}, or cpu = 1")
+            raise InputError(
+                f"task {task.name!r}: cpu {task.cpu} is not there; give {option('cpus')} {task.cpu}, or cpu = 1"
+            )
 
 
 def work_and_times(task: Task, speed: Fraction) -> tuple[Fraction, Fraction, Fraction]:

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from sched_sim.errors import InputError
+from sched_sim.errors import InputError, option
 from sched_sim.files.writable import check_writable, writing
 from sched_sim.schedule.outcome import Slice
 from sched_sim.text import csv_cell, json_text
@@ -22,7 +22,7 @@ UNFINISHED = "unfinished"
 
 
 @contextmanager
-def open_trace(path: Path, microseconds_per_period: float = 1000.0) -> Iterator[Write]:
+def open_trace(path: str | Path, microseconds_per_period: float = 1000.0) -> Iterator[Write]:
     """A function that writes one slice to `path`, in the format of its suffix.
 
     CSV: a row for each piece of a slice, times in HR periods. JSON: one complete event for each piece, one HR period
@@ -30,9 +30,10 @@ def open_trace(path: Path, microseconds_per_period: float = 1000.0) -> Iterator[
     the end has a row of no length, or an instant event.
     The file is there once all is written. Raises InputError for another suffix and for a path that cannot be written.
     """
+    path = Path(path)
     check_trace(path)
     with (
-        writing(path, "--trace") as file,
+        writing(path, option("trace")) as file,
         WRITERS[path.suffix](getwriter("utf-8")(file), microseconds_per_period) as write,
     ):
         yield write
@@ -41,8 +42,8 @@ def open_trace(path: Path, microseconds_per_period: float = 1000.0) -> Iterator[
 def check_trace(path: Path) -> None:
     """Raises InputError as `open_trace` does: to be called before the work whose trace it is."""
     if path.suffix not in WRITERS:
-        raise InputError(f"--trace {str(path)!r}: the name must end in {' or '.join(sorted(WRITERS))}")
-    check_writable(path, "--trace")
+        raise InputError(f"{option('trace')} {str(path)!r}: the name must end in {' or '.join(sorted(WRITERS))}")
+    check_writable(path, option("trace"))
 
 
 @contextmanager

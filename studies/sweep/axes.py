@@ -7,7 +7,7 @@ from decimal import Decimal
 from fractions import Fraction
 from typing import Any, TypeVar
 
-from sched_sim.bounds import check_whole, short
+from sched_sim.bounds import short, whole
 from sched_sim.errors import InputError
 from sched_sim.ticks import exact
 
@@ -23,14 +23,13 @@ def whole_numbers(given: Scalar | Sequence[Scalar], what: str, at_least: int) ->
     Raises InputError for text that is no whole number or range of them, and for values below `at_least`.
     """
 
-    def whole(text: str) -> int:
+    def step(text: str) -> int:
         number = exact(text, what)
         if number.denominator != 1 or number < at_least:
             raise InputError(f"{what} {short(text)!r} must be a whole number, at least {at_least}")
-        check_whole(number.numerator, what)
-        return number.numerator
+        return whole(number.numerator, what)
 
-    return _values(given, what, whole)
+    return _values(given, what, step)
 
 
 def numbers(given: Scalar | Sequence[Scalar], what: str, *, zero: bool = False) -> tuple[Fraction, ...]:

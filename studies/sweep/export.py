@@ -52,19 +52,13 @@ def _spelled(row: Row, flags: Sequence[int]) -> list[Any]:
 
 def write_parquet(store: Store, file: IO[bytes]) -> None:
     """A typed column for each figure, null where there is none."""
-    import pyarrow as pa
     from pyarrow import parquet
 
-    types = {"int": pa.int64(), "bool": pa.bool_(), "float": pa.float64(), "text": pa.string()}
-    schema = pa.schema([(column.name, types[column.kind]) for column in store.columns])
-    with parquet.ParquetWriter(file, schema) as writer:
-        for rows in store.results(AT_A_TIME):
-            cells = zip(*rows, strict=True)
-            arrays = [
-                pa.array([bool(cell) for cell in column] if kind.kind == "bool" else column, types[kind.kind])
-                for kind, column in zip(store.columns, cells, strict=True)
-            ]
-            writer.write_table(pa.Table.from_arrays(arrays, schema=schema))
+    from studies.sweep.arrow import schema, tables
+
+    with parquet.ParquetWriter(file, schema(store.columns)) as writer:
+        for table in tables(store, AT_A_TIME):
+            writer.write_table(table)
 
 
 WRITERS: dict[str, Callable[[Store, IO[bytes]], None]] = {".csv": write_csv, ".parquet": write_parquet}

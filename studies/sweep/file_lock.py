@@ -6,7 +6,7 @@ import fcntl
 import os
 from pathlib import Path
 
-from sched_sim.errors import InputError
+from sched_sim.errors import InputError, option
 
 
 class FileLock:
@@ -23,7 +23,7 @@ class FileLock:
                 self._descriptor = os.open(self.path, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW, 0o666)
             except OSError as error:
                 raise InputError(
-                    f"results file {path} cannot be written: {error.strerror}; give another --results"
+                    f"results file {path} cannot be written: {error.strerror}; give another {option('results')}"
                 ) from None
             try:
                 self._take(path)
@@ -43,15 +43,17 @@ class FileLock:
             fcntl.flock(self._descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
             raise InputError(
-                f"results file {path} is being written by another sweep: wait for it, or give another --results"
+                f"results file {path} is being written by another sweep: wait for it, or give "
+                f"another {option('results')}"
             ) from None
         except OSError as error:
             raise InputError(
-                f"results file {path} cannot be locked: {error.strerror}; give another --results"
+                f"results file {path} cannot be locked: {error.strerror}; give another {option('results')}"
             ) from None
         if os.fstat(self._descriptor).st_size:
             raise InputError(
-                f"results file {path} cannot be locked: {self.path} holds something of yours; give another --results"
+                f"results file {path} cannot be locked: {self.path} holds something of yours; give "
+                f"another {option('results')}"
             )
 
     def _is_still_there(self) -> bool:

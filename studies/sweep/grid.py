@@ -15,7 +15,7 @@ from sched_sim.design.methods import METHODS, select
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import Costs, Statistic
 from sched_sim.design.timing import Timing, several_in_flight
-from sched_sim.errors import InputError
+from sched_sim.errors import InputError, option
 from sched_sim.schedule.tasks import Task, check_cpus
 from studies.sweep.legal import Designs, Legal
 
@@ -103,7 +103,8 @@ class Grid:
         pairs = sum(N + 1 for N in self.N) if self.M is None else len(self.N) * len(self.M)
         if pairs > MOST_PAIRS:
             raise InputError(
-                f"the grid has {pairs:,} pairs of N and M: at most {MOST_PAIRS:,}; give fewer values of -N or -M"
+                f"the grid has {pairs:,} pairs of N and M: at most {MOST_PAIRS:,}; give fewer values of "
+                f"{option('N')} or {option('M')}"
             )
         if not self.size:
             given = f"N={_extent(self.N)}, M={_extent(self.M)}, L={_extent(self.L)}"
@@ -117,7 +118,7 @@ class Grid:
         if self.tasks and len(units) > 1:
             raise InputError(
                 f"the costs of the tasks are in one unit, and those of the cost tables in {' and '.join(units)}: sweep "
-                f"--costs of one unit at a time"
+                f"{option('costs')} of one unit at a time"
             )
         for options in self.options:
             check_cpus(self.tasks, options.cpus)
@@ -133,8 +134,8 @@ class Grid:
             return several_in_flight(self.N[-1], self.M[0])
         return (
             "legal are M <= L <= N for standard, recalculate and larsen, M < L <= N for dual-rate (M <= L < N with "
-            "same-step feedback), and 1 <= L <= N without -M for the multirate and robust methods: choose -L and "
-            "--method so"
+            f"same-step feedback), and 1 <= L <= N without {option('M')} for the multirate and robust methods: choose "
+            f"{option('L')} and {option('method')} so"
         )
 
     @cached_property

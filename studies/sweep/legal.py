@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from sched_sim.design.method import Law
-from sched_sim.errors import InputError
+from sched_sim.errors import InputError, option
 
 Ints: TypeAlias = npt.NDArray[Any]
 
@@ -119,13 +119,18 @@ class Legal:
 
 def _check_size(N: Sequence[int], M: Sequence[int] | None, L: Sequence[int] | None) -> None:
     if M is None and N[-1] > LONGEST_OPEN:
-        raise InputError(f"N={N[-1]} with every M from 0 to N is too many: give -M, or N up to {LONGEST_OPEN:,}")
+        raise InputError(
+            f"N={N[-1]} with every M from 0 to N is too many: give {option('M')}, or N up to {LONGEST_OPEN:,}"
+        )
     largest = max(N[-1], *(axis[-1] for axis in (M, L) if axis is not None), 0)
     if largest >= MOST_DESIGNS:
         raise InputError(f"{largest} steps are too many in a grid: give N, M and L below {MOST_DESIGNS:.2g}")
     designs = len(N) * prod(N[-1] + 1 if axis is None else len(axis) for axis in (M, L))
     if designs >= MOST_DESIGNS:
-        raise InputError(f"a grid of up to {designs:.2g} designs is too large: give fewer values of N, -M and -L")
+        raise InputError(
+            f"a grid of up to {designs:.2g} designs is too large: give fewer values of N, {option('M')} and "
+            f"{option('L')}"
+        )
 
 
 def _undelayed(M: Sequence[int] | None) -> Sequence[int]:

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 from sched_sim.design.steady import hyperperiod_steps
 from sched_sim.design.timing import Timing
-from sched_sim.errors import InputError
+from sched_sim.errors import InputError, option
 from studies.sweep.grid import Chunk, Grid
 from studies.sweep.rows import Column, Row, columns, rows_of
 from studies.sweep.stopping import stop_signals
@@ -136,5 +136,5 @@ def _computed(sweep: Sweep, missing: list[range], workers: int, stopped: Callabl
         raise InputError(
             f"the simulation of point {point.start} (costs {point.block.table}, method {point.block.method}, N={N}, "
             f"M={M}, L={L}) ends its process each time, as when memory runs out: leave it out of the grid, or give "
-            f"fewer --workers; all finished points are kept"
+            f"fewer {option('workers')}; all finished points are kept"
         ) from None

@@ -7,7 +7,7 @@ from dataclasses import Field, fields
 from fractions import Fraction
 from itertools import product
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal, get_args, get_type_hints
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import (
     BaseModel,
@@ -25,9 +25,9 @@ from sched_sim.bounds import MOST_STEPS, short
 from sched_sim.costs.methods import METHODS
 from sched_sim.costs.table import COUNTED, PAPERS, CostTable, default_methods
 from sched_sim.costs.table_file import load_costs, shipped_tables
-from sched_sim.design.options import Options
+from sched_sim.design.options import Options, choices
 from sched_sim.design.pieces import Statistic
-from sched_sim.errors import InputError
+from sched_sim.errors import InputError, option
 from sched_sim.files.toml_problems import problem, problems
 from sched_sim.files.toml_reader import read_toml
 from sched_sim.processors.part import on_part
@@ -42,12 +42,8 @@ ALL = "all"
 
 
 def _called(info: ValidationInfo) -> str:
-    """What the message calls the field: a flag by its name; that of a file's key stands before the message."""
-    return _flag(str(info.field_name)) if info.context == "flags" else "the value"
-
-
-def _flag(field: str) -> str:
-    return f"-{field}" if len(field) == 1 else f"--{field.replace('_', '-')}"
+    """What the message calls the field; that of a file's key stands before the message."""
+    return option(str(info.field_name)) if info.context == "given" else "the value"
 
 
 def _periods(given: Any, info: ValidationInfo) -> tuple[int, ...]:
@@ -114,12 +110,17 @@ class _Settings(BaseModel):
         """Raises InputError without N, for speeds said twice, a file that cannot be read, a cost table that lacks an
         entry, and an empty grid."""
         if not self.N:
-            raise InputError("N is missing: give -N (such as -N 10 or -N 10:100:10), or N = ... in the grid file")
+            raise InputError(
+                f"N is missing: give {option('N')} (such as {option('N')} 10 or {option('N')} 10:100:10), or N = ... "
+                f"in the grid file"
+            )
         tables = self._tables()
         methods = self.method or default_methods(*tables)
         if not methods:
             has = "; ".join(f"{table.shown} has {', '.join(table.costs)}" for table in tables)
-            raise InputError(f"--costs: the cost tables have no method in common ({has}): sweep each by itself")
+            raise InputError(
+                f"{option('costs')}: the cost tables have no method in common ({has}): sweep each by itself"
+            )
         grid = Grid(
             N=self.N,
             M=self.M,
@@ -143,20 +144,20 @@ class _Settings(BaseModel):
         """Cost units per HR period: those asked for, or the seconds that a period has."""
         if self.speed and self.processor:
             raise InputError(
-                "--speed and --processor (speed and processor in a grid file) exclude each other: a part's speed "
-                "follows from --hr-hz"
+                f"{option('speed')} and {option('processor')} (speed and processor in a grid file) exclude each other: "
+                f"a part's speed follows from {option('hr_hz')}"
             )
         if self.speed and self.hr_hz:
             raise InputError(
-                "--speed and --hr-hz (speed and hr_hz in a grid file) exclude each other: both say how much is done in "
-                "an HR period"
+                f"{option('speed')} and {option('hr_hz')} (speed and hr_hz in a grid file) exclude each other: both "
+                f"say how much is done in an HR period"
             )
         for table in tables:
             if self.hr_hz and table.unit != "second":
                 raise InputError(
-                    f"--hr-hz (hr_hz in a grid file) needs costs in seconds, and those of cost table {table.shown} are "
-                    f'in {table.unit!r}: write times in seconds, with unit = "second", give --processor with counted '
-                    f"operations, or --speed instead"
+                    f"{option('hr_hz')} (hr_hz in a grid file) needs costs in seconds, and those of cost table "
+                    f'{table.shown} are in {table.unit!r}: write times in seconds, with unit = "second", give '
+                    f"{option('processor')} with counted operations, or {option('speed')} instead"
                 )
         return tuple(sorted(1 / rate for rate in self.hr_hz)) or self.speed
 
@@ -167,7 +168,7 @@ class _Settings(BaseModel):
 
 def _axis(choice: Field[Any]) -> tuple[Any, Any]:
     """What pydantic needs to know of the values of a choice of `Options`."""
-    known = get_args(get_type_hints(Options)[choice.name])
+    known = choices()[choice.name]
     kind = type(choice.default)
     if not known:
         return Annotated[tuple[Any, ...], PlainValidator(_works)], (choice.default,)
@@ -186,15 +187,15 @@ else:
     )
 
 
-def settings(flags: Mapping[str, Any], file: Path | None = None) -> Settings:
-    """Those of a grid file, if there is one, with those given by flags in their place.
+def settings(given: Mapping[str, Any], file: Path | None = None) -> Settings:
+    """Those of a grid file, if there is one, with those given in their place.
 
     Raises InputError that lists all that is wrong with the one or the other.
     """
-    given = _validated({name: value for name, value in flags.items() if value is not None}, "flags", "")
+    stated = _validated({name: value for name, value in given.items() if value is not None}, "given", "")
     if file is None:
-        return given
-    return _read(file).model_copy(update={name: getattr(given, name) for name in given.model_fields_set})
+        return stated
+    return _read(file).model_copy(update={name: getattr(stated, name) for name in stated.model_fields_set})
 
 
 def _read(path: Path) -> Settings:
@@ -209,16 +210,16 @@ def _read(path: Path) -> Settings:
     return found.model_copy(update=files | {"tasks": found.tasks and str(path.parent / found.tasks)})
 
 
-def _validated(given: Mapping[str, Any], kind: Literal["flags", "file"], prefix: str) -> Settings:
+def _validated(given: Mapping[str, Any], by: Literal["given", "file"], prefix: str) -> Settings:
     try:
-        return Settings.model_validate(given, context=kind)
+        return Settings.model_validate(given, context=by)
     except ValidationError as error:
-        if kind == "file":
+        if by == "file":
             raise InputError(prefix + problems(error, Settings)) from None
         raise InputError("; ".join(map(_told, error.errors()))) from None
 
 
 def _told(item: ErrorDetails) -> str:
-    if item["type"] == "value_error":  # of our own validators, which name the flag
+    if item["type"] == "value_error":  # of our own validators, which name it
         return item["msg"].removeprefix("Value error, ")
-    return f"{_flag(str(item['loc'][0]))}: {problem(item, item['loc'], Settings)}"
+    return f"{option(str(item['loc'][0]))}: {problem(item, item['loc'], Settings)}"

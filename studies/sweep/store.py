@@ -14,7 +14,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
 
-from sched_sim.errors import InputError
+from sched_sim.errors import InputError, option
 from sched_sim.files.writable import write
 from studies.sweep.file_lock import FileLock
 from studies.sweep.rows import Cell, Row
@@ -26,9 +26,9 @@ AT_A_TIME = 50_000
 REMEDIES = {
     "SQLITE_FULL": "make room there, and the same command goes on",
     "SQLITE_BUSY": "close the program that holds it, and the same command goes on",
-    "SQLITE_IOERR": "make room there, and the same command goes on, or give another --results",
-    "SQLITE_CANTOPEN": "give another --results",
-    "SQLITE_READONLY": "give another --results",
+    "SQLITE_IOERR": "make room there, and the same command goes on, or give another {results}",
+    "SQLITE_CANTOPEN": "give another {results}",
+    "SQLITE_READONLY": "give another {results}",
 }
 """By the errors of SQLite that are not of a damaged file."""
 
@@ -142,7 +142,8 @@ class Store:
 
     def _damaged(self, how: str, remedy: str = "") -> InputError:
         return InputError(
-            f"results file {self.path} is damaged: {how}; {remedy}give another --results, and all is computed anew"
+            f"results file {self.path} is damaged: {how}; {remedy}give another {option('results')}, and all is "
+            f"computed anew"
         )
 
     @contextmanager
@@ -156,6 +157,7 @@ class Store:
             remedy = next((REMEDIES[kind] for kind in REMEDIES if name.startswith(kind)), None)
             if remedy is None:
                 raise self._damaged(damage()) from error
+            remedy = remedy.format(results=option("results"))
             raise InputError(f"results file {self.path} cannot be read or written: {error}; {remedy}") from error
 
 
@@ -178,11 +180,13 @@ def _file_meant(path: Path) -> Path:
         where = Path(os.path.realpath(path))
         names = where.stat().st_nlink if os.path.lexists(where) and not where.is_dir() else 1
     except OSError as error:
-        raise InputError(f"results file {path} cannot be read: {error.strerror}; give another --results") from None
+        raise InputError(
+            f"results file {path} cannot be read: {error.strerror}; give another {option('results')}"
+        ) from None
     if names > 1:
         raise InputError(
             f"results file {path} has {names} names (hard links), and its write-ahead log would stand by one of them "
-            f"only: give a copy of it as --results, or another; it is left as it was"
+            f"only: give a copy of it as {option('results')}, or another; it is left as it was"
         )
     return where
 
@@ -193,5 +197,5 @@ def _refuse_remains(path: Path) -> None:
         if os.path.lexists(remains := f"{path}{kind}"):
             raise InputError(
                 f"results file {path} is not there, but {remains} is, which may hold rows of one that was: move that "
-                f"file back, or this one away, or give another --results"
+                f"file back, or this one away, or give another {option('results')}"
             )

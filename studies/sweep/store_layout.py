@@ -15,7 +15,7 @@ from typing import Any, Literal
 from zlib import crc32
 
 from sched_sim.design.options import Options
-from sched_sim.errors import InputError
+from sched_sim.errors import InputError, option
 from studies.sweep.grid import Block
 from studies.sweep.rows import Column, Row
 
@@ -111,23 +111,26 @@ def check_owner(path: Path, layout: Layout) -> None:
     header = _header(path)
     application, mark = (int.from_bytes(header[at : at + 4], "big") for at in (68, 60))
     if not header.startswith(b"SQLite format 3\0") or application != APPLICATION_ID:
-        raise InputError(f"{path} is not a results file of a sweep: give another --results; it is left as it was")
+        raise InputError(
+            f"{path} is not a results file of a sweep: give another {option('results')}; it is left as it was"
+        )
     if mark == layout.mark:
         return
     if mark == 0:
         raise InputError(
             f"results file {path} is of an earlier version, which kept no checksums of its rows: give another "
-            f"--results, and all points are computed anew; it is left as it was, for any SQLite program to read"
+            f"{option('results')}, and all points are computed anew; it is left as it was, for any SQLite program to "
+            f"read"
         )
     found = _description_in(path)
     if found is None or found == layout.description:
         raise InputError(
-            f"{path} is not a results file of this sweep, but another's or damaged: give another --results; it is left "
-            f"as it was"
+            f"{path} is not a results file of this sweep, but another's or damaged: give another {option('results')}; "
+            f"it is left as it was"
         )
     raise InputError(
         f"results file {path} belongs to another sweep ({_difference(found, layout.description)}): "
-        f"give another --results, or the sweep it belongs to; it is left as it was"
+        f"give another {option('results')}, or the sweep it belongs to; it is left as it was"
     )
 
 
@@ -139,7 +142,9 @@ def _header(path: Path) -> bytes:
         with path.open("rb") as file:
             return file.read(100)
     except OSError as error:
-        raise InputError(f"results file {path} cannot be read: {error.strerror}; give another --results") from None
+        raise InputError(
+            f"results file {path} cannot be read: {error.strerror}; give another {option('results')}"
+        ) from None
 
 
 def _description_in(path: Path) -> Any:

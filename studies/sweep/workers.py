@@ -57,12 +57,15 @@ def compute(
 
     Once `stopped()`, what has been computed is handed out and the rest left. When a worker dies, the spans that were
     under way are done again, each alone in the pool, and one that kills it there is cut down to the guilty point.
-    Where no workers can be started (a /dev/shm that cannot be written has no room for their locks), `work` runs here.
+    With 0 workers, and where none can be started (a /dev/shm that cannot be written has no room for their locks),
+    `work` runs here.
     Raises WorkerDeathError with that point, and whatever `work` raises.
     """
     try:
-        team = _Team(work, workers)
+        team = _Team(work, workers) if workers else None
     except OSError:
+        team = None
+    if team is None:
         yield from (work(task_of(span)) for span in spans if not stopped())
         return
     again: deque[_Trial] = deque()

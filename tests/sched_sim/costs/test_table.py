@@ -118,9 +118,9 @@ def test_an_unknown_table_lists_the_shipped_ones() -> None:
 
 
 def test_a_missing_entry_of_a_shipped_table_names_the_tables_that_have_it() -> None:
-    with pytest.raises(InputError, match=r"lr_gain: use --costs counted-9-3-3 or a table that"):
+    with pytest.raises(InputError, match=r"lr_gain: use costs counted-9-3-3 or a table that"):
         select(load_costs("steffes2014"), "dual-rate", Options(gain="precomputed"))
-    with pytest.raises(InputError, match=r"use --costs .*patent-multirate"):
+    with pytest.raises(InputError, match=r"use costs .*patent-multirate"):
         select(load_costs("steffes2014"), "multirate", Options())
 
 

@@ -268,7 +268,7 @@ def test_an_l_that_dual_rate_cannot_have_is_refused(feedback: Feedback, L: int) 
 
 def test_a_task_on_a_processor_that_is_not_there_is_refused() -> None:
     task = Task("camera", period=Fraction(2), cost=Fraction(1), priority=30, cpu=2)
-    with pytest.raises(InputError, match="task 'camera': cpu 2 is not there; give --cpus 2"):
+    with pytest.raises(InputError, match="task 'camera': cpu 2 is not there; give cpus 2"):
         simulate(DUAL_RATE, Timing(10, 4, 8), Fraction(10), 1, tasks=[task])
     assert simulate(DUAL_RATE, Timing(10, 4, 8), Fraction(10), 1, Options(cpus=2), [task]).misses == 0
 

@@ -116,7 +116,7 @@ def test_what_takes_too_long_to_simulate_is_refused_by_name(task: Task, told: st
 
 
 def test_a_cycle_that_takes_too_long_to_simulate_is_refused_with_context_switches() -> None:
-    with pytest.raises(InputError, match=r"N=1000000 .*leave out --context-switch .*simulate --speed"):
+    with pytest.raises(InputError, match=r"N=1000000 .*leave out context_switch .*simulate --speed"):
         least_speed(
             StandardCosts(Fraction(1), Fraction(1)), Timing(10**6, 0, 1), Options(context_switch=Fraction(1, 100))
         )

@@ -169,7 +169,7 @@ def test_an_unknown_processor_lists_the_shipped_ones_and_says_that_a_path_works(
 
 
 def test_a_table_without_counts_names_the_remedy() -> None:
-    with pytest.raises(InputError, match=r"steffes2014.*no operation counts.*'patent'.*--costs counted-9-3-3.*measure"):
+    with pytest.raises(InputError, match=r"steffes2014.*no operation counts.*'patent'.*costs counted-9-3-3.*measure"):
         on_part(load_costs("steffes2014"), load_part("patent"))
 
 

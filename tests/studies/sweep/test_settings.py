@@ -1,12 +1,14 @@
 """A sweep from flags and from a file."""
 
+from contextvars import copy_context
 from fractions import Fraction
 from pathlib import Path
 
 import pytest
 
+from sched_sim.cli.streams import flag_of
 from sched_sim.design.options import Options
-from sched_sim.errors import InputError
+from sched_sim.errors import SPELLING, InputError
 from studies.sweep.settings import settings
 from tests.command_line import Run, is_refused
 
@@ -121,8 +123,14 @@ def test_all_errors_of_a_file_are_told_with_path_and_value(tmp_path):
     ],
 )
 def test_errors_of_flags_name_the_flag(flags, why):
-    with pytest.raises(InputError, match=why):
+    """As the command line spells arguments; `test_library` has them as the library does."""
+
+    def sweep():
+        SPELLING.set(flag_of)
         settings(flags).sweep()
+
+    with pytest.raises(InputError, match=why):
+        copy_context().run(sweep)
 
 
 @pytest.mark.parametrize(("content", "why"), [(b"N = ", "is not valid TOML"), (b"\xff\xfe", "cannot be read")])

@@ -114,7 +114,7 @@ def test_what_is_not_this_sweeps_file_is_refused_and_not_touched(tmp_path, make,
     with pytest.raises(InputError, match=why) as error:
         SWEEP.open(path)
     assert str(path) in str(error.value)
-    assert "--results" in str(error.value)
+    assert "another results" in str(error.value)
     assert folder_bytes(tmp_path) == before
 
 
@@ -182,6 +182,6 @@ def test_a_damaged_file_is_an_error_that_names_it(tmp_path):
     path.write_bytes(content)
     with (
         SWEEP.open(path) as store,
-        pytest.raises(InputError, match=r"r\.sqlite is damaged: no row can be read; give another --results"),
+        pytest.raises(InputError, match=r"r\.sqlite is damaged: no row can be read; give another results"),
     ):
         list(store.results(100))

@@ -64,7 +64,7 @@ def test_no_other_values_than_the_true_ones_are_read(tmp_path, whole, change):
             errors.append(str(error))
     assert 20 < len(errors) <= 100
     assert all(
-        re.search(r"\d+\.sqlite is .*: give another --results|\d+\.sqlite is damaged.*give another --results", error)
+        re.search(r"\d+\.sqlite is .*: give another results|\d+\.sqlite is damaged.*give another results", error)
         for error in errors
     )
 
@@ -107,7 +107,7 @@ def test_many_damaged_rows_are_counted(tmp_path, whole):
     path = tmp_path / "r.sqlite"
     path.write_bytes(content)
     change_figure(path, range(40))
-    with pytest.raises(InputError, match=r"40 rows .* points 0, 1, .*, 19, \.\.\.; give another --results"):
+    with pytest.raises(InputError, match=r"40 rows .* points 0, 1, .*, 19, \.\.\.; give another results"):
         figures(path)
 
 

@@ -1,0 +1,80 @@
+"""What a person gives to the library: numbers as they write them, and errors that name the argument."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from decimal import Decimal
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import sched_sim
+from sched_sim import InputError, Options, Task, Timing, achieved_l, fit, least_speed, load_costs, select, simulate
+
+TABLE = load_costs("steffes2014")
+COSTS = select(TABLE, "dual-rate")
+TIMING = Timing(N=10, M=4, L=8)
+
+
+@pytest.mark.parametrize("speed", [0.8, "4/5", "0.8", Decimal("0.8"), Fraction(4, 5), np.float64(0.8)], ids=repr)
+def test_a_speed_is_what_it_writes(speed: Any) -> None:
+    assert simulate(COSTS, TIMING, speed, 3) == simulate(COSTS, TIMING, Fraction(4, 5), 3)
+    assert achieved_l(COSTS, TIMING, speed) == achieved_l(COSTS, TIMING, Fraction(4, 5))
+    assert fit(COSTS, TIMING, speed) == fit(COSTS, TIMING, Fraction(4, 5))
+
+
+def test_numbers_of_records() -> None:
+    assert Timing(np.int64(10), np.int32(4), 8) == TIMING
+    assert Task("control", 2, 0.1, 5) == Task("control", Fraction(2), Fraction(1, 10), 5)
+    assert Options(context_switch="1/100") == Options(context_switch=Fraction(1, 100))
+    tasks = [Task("control", 2, 0.1, 5)]
+    assert least_speed(COSTS, TIMING, tasks=tasks).speed > least_speed(COSTS, TIMING).speed
+
+
+BAD: dict[str, tuple[Callable[[], Any], str]] = {
+    "speed": (lambda: simulate(COSTS, TIMING, -1), "speed is -1: it must be greater than 0"),
+    "no speed": (lambda: achieved_l(COSTS, TIMING, "fast"), "speed is 'fast': give a finite number"),
+    "hr_hz": (lambda: fit(COSTS, TIMING, 0), "hr_hz is 0"),
+    "cycles": (lambda: simulate(COSTS, TIMING, 1, 0), "cycles is 0: give at least 1"),
+    "cycles as text": (lambda: simulate(COSTS, TIMING, 1, "3"), "cycles is '3': give a whole number"),  # type: ignore[arg-type]
+    "a table": (lambda: simulate(TABLE, TIMING, 1), "costs is a CostTable: give those of one method"),  # type: ignore[arg-type]
+    "a table too": (lambda: least_speed(TABLE, TIMING), "costs is a CostTable"),  # type: ignore[arg-type]
+    "a table three": (lambda: achieved_l(TABLE, TIMING, 1), "costs is a CostTable"),  # type: ignore[arg-type]
+    "N": (lambda: Timing(10.5, 4, 8), "N is 10.5: give a whole number"),  # type: ignore[arg-type]
+    "M": (lambda: Timing(10, "4", 8), "M is '4': give a whole number"),  # type: ignore[arg-type]
+    "policy": (lambda: Options(policy="first"), "policy is 'first': choose from 'fixed', 'edf'"),  # type: ignore[arg-type]
+    "gain": (lambda: Options(gain="early"), "gain is 'early': choose from"),  # type: ignore[arg-type]
+    "cpus": (lambda: Options(cpus=3), "cpus is 3: choose from 1, 2"),  # type: ignore[arg-type]
+    "period": (lambda: Task("a", "soon", 1, 5), "task 'a': period is 'soon'"),
+    "method": (lambda: select(TABLE, "dualrate"), "method 'dualrate' is unknown: choose from"),
+    "no costs": (lambda: load_costs("none"), "cost table 'none' not found: give one of"),
+    "no tasks": (lambda: sched_sim.read_tasks("none.toml"), "tasks 'none.toml' not found"),
+    "no scenario": (lambda: sched_sim.read_scenario("none.toml"), "scenario 'none.toml' not found"),
+    "no closed form": (
+        lambda: achieved_l(COSTS, TIMING, 1, Options(policy="edf")),
+        "options with context_switch=0 and policy='edf' have no closed form: `simulate` says",
+    ),
+    "another cpu": (
+        lambda: simulate(COSTS, TIMING, 1, tasks=[Task("a", 2, 1, 5, cpu=2)]),
+        "give cpus 2",
+    ),
+}
+
+
+@pytest.mark.parametrize("case", BAD)
+def test_errors_name_the_argument(case: str) -> None:
+    call, message = BAD[case]
+    with pytest.raises(InputError) as caught:
+        call()
+    assert str(caught.value).startswith(message) or message in str(caught.value)
+
+
+def test_a_trace_names_itself(tmp_path: Path) -> None:
+    with (
+        pytest.raises(InputError, match=r"trace '.*slices\.txt': the name must end in"),
+        sched_sim.open_trace(str(tmp_path / "slices.txt")),
+    ):
+        pass
