@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import statistics
 from collections.abc import Sequence
 from fractions import Fraction
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
 import typer
 
@@ -70,6 +69,8 @@ def measure_own_filter(
         say(f"Wrote {output}; name it as `costs` in a scenario: sched-sim simulate --scenario FILE")
 
 
+Number = TypeVar("Number", float, Fraction)
+
 KINDS = ("multiply", "add", "divide", "sqrt", "function")
 
 
@@ -80,8 +81,7 @@ def _row(costs: SampledCosts, part: str) -> dict[str, Any]:
     if costs.operations:
         counts = costs.operations[part]
         return {**row, "operations": int(values[0]), **{kind: counts.get(kind, 0) for kind in KINDS}}
-    p95 = statistics.quantiles(values, n=20)[-1]
-    median = statistics.median(values)
+    median, p95 = _median_and_p95(values)
     return {**row, "samples": len(values), "minimum": values[0], "median": median, "p95": p95, "maximum": values[-1]}
 
 
@@ -107,7 +107,7 @@ def what_a_sample_means(repetitions: int) -> str:
 
 def noise(samples: Samples) -> list[str]:
     """A line, if something else had the machine while these parts were timed."""
-    spread = {part: (statistics.median(times), _p95(times)) for part, times in samples.items() if len(times) > 1}
+    spread = {part: _median_and_p95(times) for part, times in samples.items() if len(times) > 1}
     loud = [
         f"p95 of {part} is {float(p95 / median):.1f} times its median"
         for part, (median, p95) in spread.items()
@@ -116,5 +116,7 @@ def noise(samples: Samples) -> list[str]:
     return [f"noisy: {', '.join(loud)}; repeat on an idle machine"] if loud else []
 
 
-def _p95(times: Sequence[Fraction]) -> Fraction:
-    return statistics.quantiles(times, n=20)[-1]
+def _median_and_p95(values: Sequence[Number]) -> tuple[Number, Number]:
+    from statistics import median, quantiles
+
+    return median(values), quantiles(values, n=20)[-1]

@@ -10,7 +10,6 @@ from typing import Any
 from sched_sim.costs.methods import DELAYED_METHODS, METHODS
 from sched_sim.costs.operations import Counts
 from sched_sim.errors import InputError, option
-from sched_sim.html_table import html_table
 from sched_sim.ticks import positive
 
 PAPERS, COUNTED = "steffes2014", "counted-9-3-3"
@@ -105,6 +104,8 @@ class CostTable:
         )
 
     def _repr_html_(self) -> str:
+        from sched_sim.html_table import html_table
+
         rows = [
             (method, kind, cost.minimum, cost.median, cost.p95)
             for method, kinds in self.costs.items()

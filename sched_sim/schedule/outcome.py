@@ -8,7 +8,6 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import NamedTuple
 
-from sched_sim.html_table import html_table
 from sched_sim.schedule.jobs import Parts
 
 
@@ -106,6 +105,8 @@ class Schedule:
         return Fraction(self.busy, self.horizon * self.cpus)
 
     def _repr_html_(self) -> str:
+        from sched_sim.html_table import html_table
+
         landed = ", ".join(f"{cycles} at L = {L}" for L, cycles in sorted(self.achieved.items())) or "none"
         headings = ("job", "released", "finished", "worst response", "mean response", "deadlines missed", "preempted")
         rows = [
