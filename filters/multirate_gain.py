@@ -6,6 +6,8 @@ computed over n dT, as if there were one measurement in that time, is divided am
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from filters.arrays import FloatArray
@@ -18,10 +20,11 @@ from filters.factored import FactoredFormName, factored_form
 from filters.factored.form import FactoredForm
 from filters.factored.workspace import FactoredWorkspace, new_factored_workspace
 from filters.history import History, HistoryRecorder
+from filters.jobs import JobKind
 from filters.kernels.dense import add_vectors
 from filters.measured import Measurements
 from filters.problem import check_multirate_problem, check_system
-from filters.records import Correction, new_correction
+from filters.records import Correction, Sample, new_correction
 from filters.running import running
 from filters.system import System
 from filters.systems.coarse import over
@@ -183,3 +186,29 @@ def run(
         recorder.correction(correction)
         recorder.state(x)
     return check_history(recorder.history(), given, n, sturdier(update, form), backend, coarse)
+
+
+def _state_update(system: System, _form: FactoredForm, at: Sample) -> tuple[Any, ...]:
+    correction = new_correction(system)._replace(K=at.correction.K)
+    return system, at.m + 1, at.now.x, at.u, at.y, correction, np.empty_like(at.now.x)
+
+
+def _covariance_gain(system: System, form: FactoredForm, at: Sample) -> tuple[Any, ...]:
+    """From k to m, with the system itself in place of the coarse one, for that has the same shapes."""
+    P = at.P_posterior
+    factors, predicted, posterior, K = (
+        np.empty_like(P),
+        np.empty_like(P),
+        np.empty_like(P),
+        np.empty_like(at.correction.K),
+    )
+    form.factor(P, factors)
+    x_last = at.reference.x + at.correction.delta_x
+    work = new_factored_workspace(system)
+    return system, form, at.m, at.m - at.k, x_last, at.u, at.now.x, factors, predicted, K, posterior, work
+
+
+JOBS: tuple[JobKind[FactoredForm], ...] = (
+    ("state_update", state_update, _state_update),
+    ("covariance_gain", covariance_gain, _covariance_gain),
+)

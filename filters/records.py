@@ -52,6 +52,24 @@ class Workspace(NamedTuple):
     n1: FloatArray  # (n,)
 
 
+class Sample(NamedTuple):
+    """A moment k at which a measurement is taken, and m, at which it is available.
+
+    reference: x_{k^-}, P_{k^-}. y (p,): the measurement. correction: what it says at k. P_posterior: P_{k^+}.
+    now: x_{m^-}, P_{m^-}, not corrected. transition: Phi_{k->m}, Q_{k->m}. u (m,): the input of step m.
+    """
+
+    k: int
+    m: int
+    reference: Estimate
+    y: FloatArray
+    correction: Correction
+    P_posterior: FloatArray
+    now: Estimate
+    transition: Transition
+    u: FloatArray
+
+
 def new_estimate(system: System) -> Estimate:
     """Memory for an estimate, zero."""
     n = system.states

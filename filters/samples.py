@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 
 from filters.arrays import FloatArray, as_array
@@ -13,9 +11,8 @@ from filters.delayed import standard
 from filters.delayed.high_rate import hr_propagate, hr_restart
 from filters.delayed.update import update_covariance, update_error
 from filters.records import (
-    Correction,
     Estimate,
-    Transition,
+    Sample,
     new_correction,
     new_estimate,
     new_transition,
@@ -26,24 +23,6 @@ from filters.system import System
 
 WARM_UP = 12  # steps with a measurement each, after which the covariance is far from its start
 DELAY = 4  # steps from k to m
-
-
-class Sample(NamedTuple):
-    """A moment k at which a measurement is taken, and m, at which it is available.
-
-    reference: x_{k^-}, P_{k^-}. y (p,): the measurement. correction: what it says at k. P_posterior: P_{k^+}.
-    now: x_{m^-}, P_{m^-}, not corrected. transition: Phi_{k->m}, Q_{k->m}. u (m,): the input of step m.
-    """
-
-    k: int
-    m: int
-    reference: Estimate
-    y: FloatArray
-    correction: Correction
-    P_posterior: FloatArray
-    now: Estimate
-    transition: Transition
-    u: FloatArray
 
 
 def sample(system: System, seed: int, index: int, x0: FloatArray | None = None) -> Sample:

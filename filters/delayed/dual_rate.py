@@ -16,13 +16,22 @@ from filters.breakdown import check_history, sturdier
 from filters.choice import check_choice
 from filters.covariance_forms import CovarianceFormName, covariance_form
 from filters.covariance_forms.form import CovarianceForm
-from filters.delayed.high_rate import hr_restart, hr_update
-from filters.delayed.low_rate import lr_correct, lr_gain, lr_update
-from filters.delayed.low_rate_noise import NOISE_METHODS, LowRateNoise, NoiseMethod
+from filters.delayed.high_rate import hr_propagate, hr_restart, hr_update
+from filters.delayed.low_rate import lr_correct, lr_gain, lr_propagate, lr_update
+from filters.delayed.low_rate_noise import (
+    NOISE_METHODS,
+    HalvedTransition,
+    LowRateNoise,
+    NoiseMethod,
+    hr_propagate_euler,
+    hr_propagate_sum,
+    lr_propagate_euler,
+)
 from filters.history import History, HistoryRecorder
+from filters.jobs import JobKind
 from filters.measured import Measurements
 from filters.problem import check_problem
-from filters.records import Correction, Estimate, new_correction, new_workspace
+from filters.records import Correction, Estimate, Sample, Transition, new_correction, new_transition, new_workspace
 from filters.running import running
 from filters.system import System
 
@@ -199,3 +208,64 @@ def _check_feedback_step(N: int, M: int, L: int, feedback: Feedback) -> None:
         )
     if feedback == "same-step" and L >= N:
         raise ValueError(f"L={L} must be < N={N} with same-step feedback: the correction lands during step l")
+
+
+def _hr_restart(system: System, _form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
+    return system, at.m, at.now.x, at.u, np.empty_like(at.now.x)
+
+
+def _hr_propagate(system: System, form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
+    x_next, following = np.empty_like(at.now.x), new_transition(system)
+    return system, form, at.m, at.now.x, at.transition, at.u, x_next, following, new_workspace(system)
+
+
+def _hr_propagate_euler(system: System, form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
+    x_next, following = np.empty_like(at.now.x), _halved(new_transition(system), at)
+    return system, form, at.m, at.now.x, _halved(at.transition, at), at.u, x_next, following, new_workspace(system)
+
+
+def _hr_update(system: System, _form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
+    return at.now.x, at.transition.Phi, at.correction.delta_x, np.empty_like(at.now.x), new_workspace(system)
+
+
+def _lr_propagate(system: System, form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
+    return form, at.P_posterior, at.transition, np.empty_like(at.P_posterior), new_workspace(system)
+
+
+def _lr_propagate_euler(system: System, form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
+    P_next = np.empty_like(at.P_posterior)
+    return form, at.P_posterior, _halved(at.transition, at), P_next, new_workspace(system)
+
+
+def _lr_update(system: System, form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
+    P_posterior, correction = np.empty_like(at.P_posterior), new_correction(system)
+    return system, form, at.k, at.y, at.reference, P_posterior, correction, new_workspace(system)
+
+
+def _lr_gain(system: System, form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
+    P_posterior, correction = np.empty_like(at.P_posterior), new_correction(system)
+    return system, form, at.k, at.reference, P_posterior, correction, new_workspace(system)
+
+
+def _lr_correct(system: System, _form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
+    correction = new_correction(system)
+    correction.K[:] = at.correction.K
+    return system, at.k, at.y, at.reference, correction
+
+
+def _halved(transition: Transition, at: Sample) -> HalvedTransition:
+    return HalvedTransition(transition.Phi, transition.Q.copy(), transition.Q.copy(), at.m)
+
+
+JOBS: tuple[JobKind[CovarianceForm], ...] = (
+    ("hr_restart", hr_restart, _hr_restart),
+    ("hr_propagate", hr_propagate, _hr_propagate),
+    ("hr_propagate_sum", hr_propagate_sum, _hr_propagate),
+    ("hr_propagate_euler", hr_propagate_euler, _hr_propagate_euler),
+    ("hr_update", hr_update, _hr_update),
+    ("lr_propagate", lr_propagate, _lr_propagate),
+    ("lr_propagate_euler", lr_propagate_euler, _lr_propagate_euler),
+    ("lr_update", lr_update, _lr_update),
+    ("lr_gain", lr_gain, _lr_gain),
+    ("lr_correct", lr_correct, _lr_correct),
+)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from filters.arrays import FloatArray
@@ -9,14 +11,15 @@ from filters.backends.choose import BackendName, arguments_for, function_for
 from filters.breakdown import check_history, sturdier
 from filters.covariance_forms import CovarianceFormName, covariance_form
 from filters.covariance_forms.form import CovarianceForm
-from filters.delayed.standard import propagate
+from filters.delayed.standard import PROPAGATE, propagate
 from filters.delayed.standard import update as update_at_once
 from filters.delayed.update import update_error
 from filters.history import History, HistoryRecorder
+from filters.jobs import JobKind
 from filters.kernels.dense import add_vectors, matvec
 from filters.measured import Measurements
 from filters.problem import check_problem
-from filters.records import Correction, Estimate, Workspace, new_correction, new_estimate, new_workspace
+from filters.records import Correction, Estimate, Sample, Workspace, new_correction, new_estimate, new_workspace
 from filters.running import running
 from filters.system import System
 
@@ -121,3 +124,20 @@ def run(
             recorder.reference(reference.P)
         recorder.state(estimate.x)
     return check_history(recorder.history(), given, N, sturdier(update), backend)
+
+
+def _propagate_accumulate(system: System, form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
+    after, Phi_next = new_estimate(system), np.empty_like(at.transition.Phi)
+    return system, form, at.m, at.now, at.transition.Phi, at.u, after, Phi_next, new_workspace(system)
+
+
+def _extrapolated_update(system: System, form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
+    after, correction, work = new_estimate(system), new_correction(system), new_workspace(system)
+    return system, form, at.k, at.y, at.reference, at.transition.Phi, at.now, after, correction, work
+
+
+JOBS: tuple[JobKind[CovarianceForm], ...] = (
+    PROPAGATE,
+    ("propagate_accumulate", propagate_accumulate, _propagate_accumulate),
+    ("update", extrapolated_update, _extrapolated_update),
+)

@@ -72,3 +72,6 @@ def run(
             recorder.reference(reference.P)
         recorder.state(estimate.x)
     return check_history(recorder.history(), given, N, sturdier(update), backend)
+
+
+JOBS = (standard.PROPAGATE, standard.UPDATE, ("replay", *standard.PROPAGATE[1:]))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from filters.arrays import FloatArray
@@ -11,6 +13,7 @@ from filters.covariance_forms import CovarianceFormName, covariance_form
 from filters.covariance_forms.form import CovarianceForm
 from filters.delayed.update import update_covariance, update_error
 from filters.history import History
+from filters.jobs import JobKind
 from filters.kernels.dense import (
     add_vectors,
     copy,
@@ -23,6 +26,7 @@ from filters.problem import check_problem
 from filters.records import (
     Correction,
     Estimate,
+    Sample,
     Workspace,
     new_correction,
     new_estimate,
@@ -147,3 +151,17 @@ def run(
         new_workspace(system),
     )
     return check_history(history, given, N, sturdier(update), backend)
+
+
+def _propagate(system: System, form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
+    return system, form, at.m, at.now, at.u, new_estimate(system), new_workspace(system)
+
+
+def _update(system: System, form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
+    after, correction = new_estimate(system), new_correction(system)
+    return system, form, at.k, at.y, at.reference, after, correction, new_workspace(system)
+
+
+PROPAGATE: JobKind[CovarianceForm] = ("propagate", propagate, _propagate)
+UPDATE: JobKind[CovarianceForm] = ("update", update, _update)
+JOBS = (PROPAGATE, UPDATE)

@@ -8,6 +8,7 @@ from typing import Any
 
 from numpy.typing import ArrayLike
 
+from filters.jobs import Job
 from filters.modular.arrivals import whole
 from filters.modular.composition import ModularFilter, unscented_parts
 from filters.modular.correction import correction
@@ -24,7 +25,6 @@ from filters.modular.prediction import prediction
 from filters.modular.space import NOTHING
 from filters.modular.typical import Moment, near, typical_moment
 from filters.modular.workspace import new_workspace
-from filters.registry import Job
 
 
 def modular_jobs(

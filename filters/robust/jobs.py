@@ -7,8 +7,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from filters.arrays import FloatArray
+from filters.jobs import Job
 from filters.kernels.dense import add_vectors
-from filters.registry import Job
 from filters.robust.extended import ExtendedWorkspace, Setting, robust_step
 from filters.robust.model import prepared, weights
 from filters.robust.records import Predicted
@@ -45,7 +45,7 @@ def inertial(system: UncertainSystem, x: FloatArray, u: FloatArray, correction: 
 
 
 def robust_jobs(case: RobustCase, seed: int = 0) -> dict[tuple[str, str], Job]:
-    """The jobs of the methods robust-inverse, robust-givens, ..., by method and kind; see `filters.registry.Job`."""
+    """The jobs of the methods robust-inverse, robust-givens, ..., by method and kind; see `filters.jobs.Job`."""
     return {
         (f"robust-{way}", kind): job
         for way in WAYS

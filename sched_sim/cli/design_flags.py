@@ -12,7 +12,7 @@ from typing import Annotated, Any, get_type_hints
 import typer
 
 from sched_sim.cli import options as opt
-from sched_sim.cli.streams import flag_of
+from sched_sim.cli.spelling import flag_of
 from sched_sim.design import options
 from sched_sim.design.options import Options
 from sched_sim.errors import option

@@ -14,6 +14,7 @@ from contextlib import contextmanager, suppress
 from io import TextIOBase, TextIOWrapper
 
 from sched_sim.cli.output import say
+from sched_sim.cli.spelling import flag_of
 from sched_sim.errors import SPELLING, InputError
 
 
@@ -56,11 +57,6 @@ def run() -> int:
     finally:
         SPELLING.reset(spelling)
     return code
-
-
-def flag_of(name: str) -> str:
-    """That of an argument."""
-    return f"-{name}" if len(name) == 1 else f"--{name.replace('_', '-')}"
 
 
 def _command() -> int:

@@ -18,7 +18,7 @@ from typing import Any, Literal, NamedTuple, TypeVar
 from filters.backends.choose import arguments_for, function_for
 from filters.backends.numba_error import gist, is_numbas
 from filters.backends.repeat import repeat
-from filters.registry import Job
+from filters.jobs import Job
 from sched_sim.errors import InputError
 
 ARGUMENT_SETS = 8

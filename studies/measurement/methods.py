@@ -17,7 +17,8 @@ from typing import Any, Literal, TypeVar
 from filters.backends.counted import Operations, count
 from filters.backends.uncountable import UncountableError
 from filters.covariance_forms import CovarianceFormName
-from filters.registry import ALL_METHODS, Job
+from filters.jobs import Job
+from filters.registry import ALL_METHODS
 from filters.system import System
 from sched_sim.costs.table import Cost, CostTable
 from sched_sim.errors import InputError

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
+from filters.jobs import Job
 from filters.modular.composition import ModularFilter
 from filters.modular.jobs import modular_jobs
-from filters.registry import Job
 from sched_sim.errors import InputError
 from studies.measurement.user_function import explained, returned_by
 

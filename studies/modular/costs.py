@@ -14,6 +14,7 @@ import numpy as np
 
 from filters.arrays import FloatArray
 from filters.backends.counted import count
+from filters.jobs import Job
 from filters.modular import (
     ModularFilter,
     Sensor,
@@ -25,7 +26,6 @@ from filters.modular import (
     unscented_predictor,
 )
 from filters.modular.jobs import modular_jobs
-from filters.registry import Job
 from studies.measurement.job_times import Progress, Protocol, seconds_per_run, silent
 from studies.measurement.methods import QUICK, THOROUGH, where_timed
 

@@ -13,8 +13,9 @@ from filters.backends.counted import Operations, count
 from filters.backends.repeat import repeat
 from filters.covariance_forms import COVARIANCE_FORMS
 from filters.factored.form import FactoredForm
+from filters.jobs import Job
 from filters.multirate_gain import covariance_gain
-from filters.registry import ALL_METHODS, DELAYED_METHODS, MULTIRATE_METHODS, Job
+from filters.registry import ALL_METHODS, DELAYED_METHODS, MULTIRATE_METHODS
 from filters.systems.example import example_system
 from filters.systems.navigation import simulate_drive
 from tests.filters.cases import CASES, Case, arrays_in

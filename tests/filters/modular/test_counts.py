@@ -11,6 +11,7 @@ from filters.arrays import FloatArray
 from filters.backends.choose import arguments_for, function_for
 from filters.backends.counted import Operations, count
 from filters.backends.counted_scalar import plain
+from filters.jobs import Job
 from filters.modular import (
     ModularFilter,
     Sensor,
@@ -24,7 +25,6 @@ from filters.modular import (
 from filters.modular.correctors import Corrector
 from filters.modular.jobs import modular_jobs
 from filters.modular.predictors import Predictor
-from filters.registry import Job
 from tests.filters.modular.cases import ATTITUDE, EXTENDED, UNSCENTED
 
 SIZES = [(2, 1), (4, 2), (9, 3)]

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from sched_sim.cli.streams import flag_of
+from sched_sim.cli.spelling import flag_of
 from sched_sim.design.options import Options
 from sched_sim.errors import SPELLING, InputError
 from studies.sweep.settings import settings
