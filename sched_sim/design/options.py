@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cache
-from typing import Any, Literal, get_args, get_type_hints
+from typing import Literal, get_args, get_type_hints
 
 from sched_sim.bounds import short
 from sched_sim.design.timing import Feedback
@@ -96,6 +96,6 @@ class Options:
 
 
 @cache
-def choices() -> Mapping[str, tuple[Any, ...]]:
+def choices() -> Mapping[str, tuple[object, ...]]:
     """What there is to choose from, by the name of the field; nothing where any number will do."""
     return {name: get_args(kind) for name, kind in get_type_hints(Options).items()}
