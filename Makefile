@@ -25,7 +25,7 @@ LOCK_ENV = env -u VIRTUAL_ENV -u UV_INDEX -u UV_DEFAULT_INDEX -u UV_INDEX_URL -u
 LOCK_UV  = $(or $(UV),build/uv/bin/uv)
 
 .DEFAULT_GOAL := help
-.PHONY: help run publish test lint types imports unit exhaust bench install lock clean
+.PHONY: help run publish docs test lint types imports unit exhaust bench install lock clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z]*\):.*## /\1|/p' Makefile | while IFS='|' read -r name what; do \
@@ -37,6 +37,10 @@ run: $(STAMP) ## measure, simulate, analyse and write the report to build/report
 publish: $(STAMP) ## write all reports anew where they are kept, in reports/published
 	for name in steffes2014 patent-multirate erkf modular; do \
 		$(BIN)/sched-sim report $$name --output reports/published || exit 1; done
+
+docs: $(STAMP) ## the documentation as a site, in build/docs; needs no network
+	$(BIN)/sphinx-build --quiet --nitpicky --keep-going -d build/doctrees docs build/docs
+	@echo build/docs/index.html
 
 test: lint types imports unit ## all that CI checks: the next four
 

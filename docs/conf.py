@@ -1,0 +1,31 @@
+"""The documentation site: `make docs` writes it to build/docs."""
+
+import sys
+from importlib.metadata import version as installed
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parent / "extensions"))
+
+project = "sched_sim"
+author = "the sched_sim authors"
+version = release = installed("sched-sim")
+extensions = ["myst_parser", "sphinx.ext.autodoc", "commands", "docstrings", "drawn", "equations", "published"]
+exclude_patterns = ["extensions"]
+nitpicky = True
+nitpick_ignore_regex = [
+    (r"py:\w+", r".*")
+]  # types of NumPy and of this house's own rooms: there is no inventory offline
+
+myst_enable_extensions = ["deflist", "dollarmath"]
+myst_heading_anchors = 3
+autodoc_typehints = "description"
+autodoc_member_order = "bysource"
+highlight_language = "text"
+
+html_theme = "furo"
+html_title = "sched_sim"
+html_static_path = ["wide.css"]
+html_css_files = ["wide.css"]
+html_copy_source = False
+html_show_sphinx = False
+html_theme_options = {"footer_icons": []}

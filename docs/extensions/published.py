@@ -1,0 +1,36 @@
+"""Links to published reports: to their Markdown, as it is read in the repository; on the site to their page."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from pathlib import Path
+from typing import Any
+
+from docutils import nodes
+from sphinx.addnodes import download_reference
+
+PUBLISHED = Path(__file__).parents[2] / "reports" / "published"
+
+
+def to_page(app: Any, doctree: nodes.document) -> None:
+    here = Path(app.env.doc2path(app.env.docname)).parent
+    for link in list(doctree.findall(download_reference)):
+        target = (here / link["reftarget"]).resolve()
+        if target.is_relative_to(PUBLISHED) and target.name == "index.md":
+            page = Path(app.srcdir, "published", target.parent.name, "index.html")
+            made = nodes.reference("", "", *link.children, refuri=os.path.relpath(page, here), internal=True)
+            link.replace_self(made)
+
+
+def copy(app: Any, _failed: Exception | None) -> None:
+    for page in PUBLISHED.glob("*/index.html"):
+        place = Path(app.outdir, "published", page.parent.name)
+        place.mkdir(parents=True, exist_ok=True)
+        shutil.copy(page, place)
+
+
+def setup(app: Any) -> dict[str, bool]:
+    app.connect("doctree-read", to_page)
+    app.connect("build-finished", copy)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}
