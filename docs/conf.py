@@ -7,7 +7,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).parent / "extensions"))
 
 project = "sched_sim"
-author = "the sched_sim authors"
+copyright = "the sched_sim authors"
 version = release = installed("sched-sim")
 extensions = ["myst_parser", "sphinx.ext.autodoc", "commands", "docstrings", "drawn", "equations", "published"]
 exclude_patterns = ["extensions"]
@@ -19,7 +19,10 @@ nitpick_ignore_regex = [
 myst_enable_extensions = ["deflist", "dollarmath"]
 myst_heading_anchors = 3
 autodoc_typehints = "description"
+autodoc_default_options = {"members": True}
+autodoc_preserve_defaults = True
 autodoc_member_order = "bysource"
+smartquotes = False  # --costs is no dash
 highlight_language = "text"
 
 html_theme = "furo"

@@ -22,7 +22,7 @@ class Drawn(SphinxDirective):
     def run(self) -> list[nodes.Node]:
         (line,) = self.content
         words = shlex.split(line)[1:]
-        pictures = Path(self.env.app.doctreedir) / "drawn"
+        pictures = Path(self.env.app.doctreedir, "drawn", self.env.docname)
         pictures.mkdir(parents=True, exist_ok=True)
         picture = pictures / words[-1]
         done = CliRunner().invoke(application, [*words[:-1], str(picture)])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import shutil
 from pathlib import Path
 from typing import Any
@@ -13,11 +14,16 @@ from sphinx.addnodes import download_reference
 PUBLISHED = Path(__file__).parents[2] / "reports" / "published"
 
 
+def link_as_file(_app: Any, _name: str, source: list[str]) -> None:
+    """MyST takes Markdown that is none of the site's pages for an error."""
+    source[0] = re.sub(r"(reports/published/[\w-]+/index)\.md", r"\1.html", source[0])
+
+
 def to_page(app: Any, doctree: nodes.document) -> None:
     here = Path(app.env.doc2path(app.env.docname)).parent
     for link in list(doctree.findall(download_reference)):
         target = (here / link["reftarget"]).resolve()
-        if target.is_relative_to(PUBLISHED) and target.name == "index.md":
+        if target.is_relative_to(PUBLISHED) and target.name == "index.html":
             page = Path(app.srcdir, "published", target.parent.name, "index.html")
             made = nodes.reference("", "", *link.children, refuri=os.path.relpath(page, here), internal=True)
             link.replace_self(made)
@@ -31,6 +37,7 @@ def copy(app: Any, _failed: Exception | None) -> None:
 
 
 def setup(app: Any) -> dict[str, bool]:
+    app.connect("source-read", link_as_file)
     app.connect("doctree-read", to_page)
     app.connect("build-finished", copy)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
