@@ -9,6 +9,7 @@ from typing import Any
 
 NAME = r"\*{0,2}\w+(?: \([^)]*\))?"  # of an argument, perhaps with its shape: P0 (n, n)
 ITEM = re.compile(rf"(?:^|(?<=[;.] ))({NAME}(?:, {NAME})*): ", re.MULTILINE)
+ONE = r"(\w+)(?: \([^)]*\))?"
 RAISES = re.compile(r"^Raises:\n((?: {4}.*\n?)+)", re.MULTILINE)
 
 
