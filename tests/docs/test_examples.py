@@ -2,7 +2,7 @@
 
 A `toml` or `python` block whose first line is the comment of a file name is that file. Other `python` blocks are run,
 with the names of those before; a `text` block behind one is what it prints. In a `console` block the lines behind a
-`$ sched-sim` are what it prints, in a `sh` block each line is a command; so is a whole command within a sentence.
+`$ sched-sim` are what it prints, in a `sh` block each line is a command; so is, within a sentence, one of a whole design.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ def blocks(page: Path) -> Iterator[tuple[str, str]]:
         if token.type == "fence":
             yield token.info, token.content
         for part in token.children or []:
-            if part.type == "code_inline" and re.match(r"sched-sim \w+ -(?!.*\.\.\.)", part.content):
+            if part.type == "code_inline" and re.match(r"sched-sim \w+ -N (?!.*\.\.\.)", part.content):
                 yield "sh", part.content
 
 

@@ -23,6 +23,7 @@ LOADED = {
     "link": "href",
     "use": "href",
 }
+ELSEWHERE = re.compile(r"(?!data:)\w+:|//")
 PACKAGES = ("sched_sim", "filters", "filters.modular", "studies", "reports")
 
 
@@ -60,10 +61,10 @@ def build(site: Path) -> dict[Path, Page]:
 
 def from_elsewhere(site: Path, pages: dict[Path, Page]) -> Iterator[str]:
     for path, page in pages.items():
-        yield from (f"{path.name}: {load}" for load in page.loads if re.match(r"\w+:|//", load))
+        yield from (f"{path.name}: {load}" for load in page.loads if ELSEWHERE.match(load))
     for path in site.rglob("*.css"):
         for url in re.findall(r"url\(\s*['\"]?([^)'\"]+)|@import\s+['\"]([^'\"]+)", path.read_text(encoding="utf-8")):
-            if re.match(r"(?!data:)\w+:|//", "".join(url)):
+            if ELSEWHERE.match("".join(url)):
                 yield f"{path.name}: {url}"
 
 
