@@ -30,10 +30,8 @@ def to_page(app: Any, doctree: nodes.document) -> None:
 
 
 def copy(app: Any, _failed: Exception | None) -> None:
-    for page in PUBLISHED.glob("*/index.html"):
-        place = Path(app.outdir, "published", page.parent.name)
-        place.mkdir(parents=True, exist_ok=True)
-        shutil.copy(page, place)
+    pictures = shutil.ignore_patterns("*.svg", "*.md")  # which are in the page itself
+    shutil.copytree(PUBLISHED, Path(app.outdir, "published"), ignore=pictures, dirs_exist_ok=True)
 
 
 def setup(app: Any) -> dict[str, bool]:

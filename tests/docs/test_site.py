@@ -56,7 +56,7 @@ def build(site: Path) -> dict[Path, Page]:
         [sys.executable, "-m", "sphinx", *options, str(ROOT / "docs"), str(site)], capture_output=True, text=True
     )
     assert made.returncode == 0, made.stderr
-    return {path: Page(path) for path in site.rglob("*.html") if "published" not in path.parts}
+    return {path: Page(path) for path in site.rglob("*.html")}
 
 
 def from_elsewhere(site: Path, pages: dict[Path, Page]) -> Iterator[str]:
