@@ -36,6 +36,6 @@ def copy(app: Any, _failed: Exception | None) -> None:
 
 def setup(app: Any) -> dict[str, bool]:
     app.connect("source-read", link_as_file)
-    app.connect("doctree-read", to_page)
+    app.connect("doctree-read", to_page, priority=100)  # before files to download are collected
     app.connect("build-finished", copy)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
