@@ -2,7 +2,7 @@
 
 A `toml` or `python` block whose first line is the comment of a file name is that file. Other `python` blocks are run,
 with the names of those before; a `text` block behind one is what it prints. In a `console` block the lines behind a
-`$ sched-sim` are what it prints, in a `sh` block each line is a command; so is one within a sentence, if it has a design.
+`$ sched-sim` are what it prints, in a `sh` block each line is a command; so is one with a design in a sentence.
 """
 
 from __future__ import annotations
