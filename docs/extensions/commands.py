@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any, Literal, get_args, get_origin
 
 import typer
@@ -12,10 +13,12 @@ from sphinx.util.docutils import SphinxDirective
 
 from sched_sim.cli.app import app as application
 
+VALUES = {bool: "", int: "COUNT", str: "VALUE", Path: "FILE"}
+
 
 def text(words: str) -> str:
     """Running text of a help as reStructuredText."""
-    return re.sub(r"`([^`]+)`", r"``\1``", re.sub(r"([*|\\]|_\b)", r"\\\1", words))
+    return re.sub(r"`([^`]+)`|(--[a-z][a-z-]+)", r"``\1\2``", re.sub(r"([*|\\]|_\b)", r"\\\1", words))
 
 
 def value(parameter: Any) -> str:
@@ -24,7 +27,7 @@ def value(parameter: Any) -> str:
     kind = get_args(annotation)[0] if get_origin(annotation) is list else annotation
     if get_origin(kind) is Literal:
         return "|".join(map(str, get_args(kind)))
-    return parameter.metavar or ("" if kind is bool else kind.__name__.upper())
+    return parameter.metavar or VALUES[kind]
 
 
 def option(parameter: Any) -> Iterator[str]:
