@@ -21,6 +21,7 @@ myst_heading_anchors = 3
 autodoc_typehints = "description"
 autodoc_default_options = {"members": True}
 autodoc_preserve_defaults = True
+autodoc_type_aliases = {"ArrayLike": "ArrayLike"}
 autodoc_member_order = "bysource"
 smartquotes = False  # --costs is no dash
 highlight_language = "text"

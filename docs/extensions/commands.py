@@ -17,7 +17,8 @@ VALUES = {bool: "", int: "COUNT", str: "VALUE", Path: "FILE"}
 
 
 def text(words: str) -> str:
-    """Running text of a help as reStructuredText."""
+    """Running text of a help, which has rich's markup, as reStructuredText."""
+    words = words.replace("\\[", "[")
     return re.sub(r"`([^`]+)`|(--[a-z][a-z-]+)", r"``\1\2``", re.sub(r"([*|\\]|_\b)", r"\\\1", words))
 
 

@@ -7,9 +7,9 @@ import re
 from collections.abc import Iterator
 from typing import Any
 
-NAME = r"\*{0,2}\w+(?: \([^)]*\))?"  # of an argument, perhaps with its shape: P0 (n, n)
-ITEM = re.compile(rf"(?:^|(?<=[;.] ))({NAME}(?:, {NAME})*): ", re.MULTILINE)
-ONE = r"(\w+)(?: \([^)]*\))?"
+NAME = r"(\w+)(\([^)]*\)| \([^)]*\))?"  # of an argument, perhaps with how it is called, f(x), or its shape, P0 (n, n)
+ITEM = re.compile(rf"(?:^|(?<=[;.] ))({NAME}(?:, {NAME})*): |^(\w+)\([^)]*\) (?=\w)", re.MULTILINE)
+FLOATS = r"~?numpy\.ndarray\[tuple\[~?typing\.Any, \.\.\.\], ~?numpy\.dtype\[~?numpy\.float64\]\]"
 RAISES = re.compile(r"^Raises:\n((?: {4}.*\n?)+)", re.MULTILINE)
 
 
@@ -20,16 +20,29 @@ def markup(text: str) -> str:
 
 def described(paragraph: str, arguments: set[str]) -> Iterator[str]:
     """The paragraph, and a field for each argument that it describes."""
-    items = [
-        item for item in ITEM.finditer(paragraph) if arguments >= set(re.findall(r"(\w+)(?: \([^)]*\))?", item[1]))
-    ]
-    starts = [item.start() for item in items]
-    yield markup(" ".join(paragraph[: min(starts, default=len(paragraph))].split()))
-    for item, end in zip(items, [*starts, len(paragraph)][1:], strict=True):
-        words = markup(" ".join(paragraph[item.end() : end].split()).rstrip(";"))
-        names = re.findall(r"(\w+)( \([^)]*\))?", item[1])
-        for name, shape in names:
-            yield f":param {name}: {markup(shape.strip()) + '; ' if shape else ''}{words}"
+    items = [item for item in ITEM.finditer(paragraph) if arguments.issuperset(names(item))]
+    ends = [*(item.start() for item in items), len(paragraph)]
+    yield markup(sentence(paragraph[: ends[0]]))
+    for item, end in zip(items, ends[1:], strict=True):
+        words = markup(sentence(paragraph[item.end() : end]))
+        for name, shape in names(item).items():
+            about = (
+                f"{markup(shape)}; "
+                if shape.startswith(" ")
+                else f"``{name}{shape}``{':' if item[1] else ''} "
+                if shape
+                else ""
+            )
+            yield f":param {name}: {about}{words}"
+
+
+def names(item: re.Match[str]) -> dict[str, str]:
+    """The arguments that an item is about, each with what is in parentheses behind it."""
+    return dict(re.findall(NAME, item[1] or item[0]))
+
+
+def sentence(text: str) -> str:
+    return re.sub(r";$", ".", " ".join(text.split()))
 
 
 def raises(text: str) -> str:
@@ -55,7 +68,15 @@ def is_no_alias(_app: Any, _what: str, _name: str, member: Any, _skip: bool, _op
     return True if (getattr(member, "__doc__", None) or "").startswith("Alias for field number") else None
 
 
+def types_as_written(app: Any, *_described: Any) -> None:
+    """Names of types that stand for longer ones stay names."""
+    for types in app.env.current_document.autodoc_annotations.values():
+        for name, words in types.items():
+            types[name] = re.sub(FLOATS, "FloatArray", re.sub(r"TypeAliasForwardRef\('(\w+)'\)", r"\1", words))
+
+
 def setup(app: Any) -> dict[str, bool]:
     app.connect("autodoc-process-docstring", as_text)
     app.connect("autodoc-skip-member", is_no_alias)
+    app.connect("object-description-transform", types_as_written, priority=400)  # autodoc's own comes after
     return {"parallel_read_safe": True, "parallel_write_safe": True}
