@@ -16,7 +16,7 @@ def by_givens(work: BlockWorkspace) -> None:
 
 
 def by_givens_per_column(work: BlockWorkspace) -> None:
-    """`by_givens` for each column of b anew, as in the paper's listing."""
+    """`by_givens` for each column of b anew, as the paper describes it."""
     N = len(work.T)
     for column in range(work.last.shape[1]):
         for i in range(N):

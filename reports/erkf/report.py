@@ -25,13 +25,13 @@ from reports.pages.render import csv_bytes, render
 from sched_sim.costs.methods import ROBUST_METHODS, RobustMethod
 from sched_sim.costs.table import CostTable
 from sched_sim.costs.table_file import load_costs
-from sched_sim.design.fit import fit
+from sched_sim.design.fit import Fit, fit
 from sched_sim.design.least_speed import least_speed
 from sched_sim.design.timing import Timing
 from sched_sim.processors.part import Part
 from sched_sim.processors.part_file import load_part, shipped_parts
 from studies.robust import drive
-from studies.robust.costs import HR_HZ, SYSTEMS, N, SystemName
+from studies.robust.costs import HR_HZ, SYSTEMS, N, SystemName, between_fixes
 
 TITLE = "The extended robust Kalman filter: which way to compute it, on which processor, and what it buys"
 SLOWEST = "leon3"
@@ -321,14 +321,17 @@ def _schedule(counted: Mapping[SystemName, CostTable], parts: list[Part], slowes
     costs = {method: tables.robust_costs_of(position, method) for method in ROBUST_METHODS}
     least = {method: least_speed(of, Timing(N, 0, N)).speed for method, of in costs.items()}
     serial = {method: of.inertial + of.robust_step for method, of in costs.items()}
-    able = {}
+    able: dict[str, dict[RobustMethod, Fit]] = {}
+    in_every_step: dict[str, dict[RobustMethod, Fit]] = {}
     for part in parts:
         on = {method: tables.on(position, part, method) for method in ROBUST_METHODS}
         if all(of is not None for of in on.values()):
-            able[part.name] = {m: fit(of, Timing(N, 0, N), Fraction(HR_HZ)) for m, of in on.items() if of is not None}
-    here = able[slowest.name]
+            for fits, timing in ((able, Timing(N, 0, N)), (in_every_step, Timing(1, 0, 1))):
+                fits[part.name] = {m: fit(of, timing, Fraction(HR_HZ)) for m, of in on.items() if of is not None}
+    here, here_in_every_step = able[slowest.name], in_every_step[slowest.name]
     alone = {m: tables.on(position, slowest, m) for m in ROBUST_METHODS}
     lacking = [part.name for part in parts if part.name not in able]
+    failing = [tables.WAYS[method] for method, found in here_in_every_step.items() if not found.fits]
     return {
         "serial": {method: f"{millions(speed, HR_HZ):.3g}" for method, speed in serial.items()},
         "least": {method: f"{millions(speed, HR_HZ):.2g}" for method, speed in least.items()},
@@ -340,6 +343,10 @@ def _schedule(counted: Mapping[SystemName, CostTable], parts: list[Part], slowes
         "able": len(able),
         "all_fit": all(found.fits for of_part in able.values() for found in of_part.values()),
         "lacking": lacking,
+        "every_step": {method: percent(found.needed) for method, found in here_in_every_step.items()},
+        "every_step_fails": f": the processor is too slow for {' and '.join(failing)}" if failing else "",
+        "every_step_all": [name for name, of in in_every_step.items() if all(found.fits for found in of.values())],
+        "without_fix": {f"robust-{way}": f"{float(share):.2f}" for way, share in between_fixes("position").items()},
         "least_soon": f"{millions(least_speed(costs['robust-givens'], Timing(N, 0, SOON)).speed, HR_HZ):.3g}",
     }
 

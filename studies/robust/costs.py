@@ -10,10 +10,10 @@ import numpy as np
 
 from filters.backends.counted import Operations, count
 from filters.robust.jobs import RobustCase, Start, robust_jobs
-from filters.robust.model import prepared, weights
+from filters.robust.model import prepared, weights, without_measurement
 from filters.robust.parallel_step import parallel_step_flops
 from filters.robust.records import Predicted, RobustModel, Weights
-from filters.robust.step import JOBS, WAYS
+from filters.robust.step import JOBS, WAYS, WayName
 from filters.robust.uncertain import linearised
 from filters.systems.attitude import attitude, attitude_scaling, attitude_uncertainty
 from filters.systems.position import position, position_scaling, position_uncertainty
@@ -77,7 +77,7 @@ def parallel_costs(name: SystemName, units: int) -> CostTable:
     table = robust_costs(name)
     model = prepared(linearised(case.system, case.scaling, case.uncertainty, case.start.x, case.start.u), case.mu)
     weight = weights(model, case.mu)
-    alone = _counted_solution(model, weight)
+    alone = _counted_solution(model, weight, "givens")
     whole = Operations(**table.operations[METHOD]["robust_step"])
     rotations = parallel_step_flops(model, weight, [units])[units]
     share = Operations(multiply=rotations * 2 // 3, add=rotations - rotations * 2 // 3)  # 4 and 2 in a column pair
@@ -94,10 +94,23 @@ def parallel_costs(name: SystemName, units: int) -> CostTable:
 METHOD = "robust-givens"
 
 
-def _counted_solution(model: RobustModel, weight: Weights) -> Operations:
+def between_fixes(name: SystemName) -> dict[WayName, Fraction]:
+    """Operations of a robust step without a measurement over those of one with it, by way; both without the
+    linearisation."""
+    case = robust_case(name)
+    model = linearised(case.system, case.scaling, case.uncertainty, case.start.x, case.start.u)
+    seen, unseen = (prepared(each, case.mu) for each in (model, without_measurement(model)))
+
+    def total(model: RobustModel, way: WayName) -> int:
+        return _counted_solution(model, weights(model, case.mu), way).total
+
+    return {way: Fraction(total(unseen, way), total(seen, way)) for way in WAYS}
+
+
+def _counted_solution(model: RobustModel, weight: Weights, way: WayName) -> Operations:
     """What the block system takes in sequence, without what forms it."""
     n, p = len(model.F), len(model.H)
-    job = JOBS["givens"]
+    job = JOBS[way]
     before, after = Predicted(np.ones(n), np.eye(n) + 0.1), Predicted(np.empty(n), np.empty((n, n)))
     y, c = np.full(p, 0.5), np.full(n, 0.5)
     return count(job.function, model, weight, before, y, c, after, job.workspace(model))

@@ -20,11 +20,12 @@ from reports.pages.stored import Rows
 from sched_sim.costs.methods import ROBUST_METHODS
 from sched_sim.costs.table import Cost, CostTable
 from sched_sim.costs.table_file import load_costs
+from sched_sim.design.fit import fit
 from sched_sim.design.least_speed import least_speed
 from sched_sim.design.pieces import StandardCosts
 from sched_sim.design.timing import Timing
-from sched_sim.processors.part_file import shipped_parts
-from studies.robust.costs import SYSTEMS, N
+from sched_sim.processors.part_file import load_part, shipped_parts
+from studies.robust.costs import HR_HZ, SYSTEMS, N, between_fixes
 from tests.command_line import Run
 from tests.reports import published
 
@@ -146,7 +147,38 @@ def test_every_processor_has_a_verdict_on_every_way() -> None:
         assert (row["fits"] == "no sqrt") == (row["load, %"] == "-")
         assert (row["fits"] == "yes") == (row["in use at l"] != "-")
     assert {row["fits"] for row in of if row["System"] == "position"} == {"yes", "no sqrt"}
-    assert "All 5 of these run every way" in text()
+    assert "All 5 of these run every way with one robust step for each fix" in text()
+
+
+def test_the_filter_of_the_drive_is_not_the_one_that_is_scheduled_and_the_page_says_what_it_would_take() -> None:
+    """A robust step in every period, N = 1, takes the whole speed that a step in one period does."""
+    leon3 = {
+        row["Way"]: row for row in rows("processors.csv") if (row["System"], row["Processor"]) == ("position", "leon3")
+    }
+    part, needed = load_part("leon3"), {}
+    for method, way in tables.WAYS.items():
+        costs = tables.on(load_costs("erkf-position"), part, method)
+        assert costs is not None
+        found = fit(costs, Timing(1, 0, 1), Fraction(HR_HZ))
+        needed[way] = f"{100 * float(found.needed):.2f}"
+        assert needed[way] == leon3[way]["in one period, %"]
+        assert found.fits == (way in ("pivoted LU", "closed form"))
+    inverse, givens, lu, closed = needed.values()
+    assert (inverse, givens, lu, closed) == ("1955.65", "116.44", "23.72", "16.74")
+    claim = (
+        f"With a robust step in every 400 Hz step the inverse needs {inverse} % of the leon3's speed, Givens {givens} "
+        f"%, LU {lu} % and the closed form {closed} %: the processor is too slow for explicit inverse and Givens."
+    )
+    assert claim in text()
+    assert f"{inverse} % of the leon3's speed by the inverse, {givens} % by Givens, {lu} % by LU and" in text()
+    assert "**These filters take a robust step in every 400 Hz step**" in text()
+    assert "with one in every period only desktop" in text()
+
+
+def test_a_step_without_a_measurement_is_compared_with_one_that_has_it() -> None:
+    shares = between_fixes("position")
+    assert shares["inverse"] < shares["closed"] < 0.5 < shares["givens"] < 1 < shares["lu"]
+    assert "0.40 times the operations by the inverse, 0.98 by Givens, 1.52 by LU and 0.47 in closed form" in text()
 
 
 def test_givens_and_pivoted_lu_agree_with_the_inverse_and_unpivoted_lu_does_not() -> None:
