@@ -18,8 +18,6 @@ if TYPE_CHECKING:
     from sched_sim.design.timing import Timing
     from sched_sim.schedule.tasks import Task
 
-"""Units of costs that are times: then work per second is a share of the processor on which they were found."""
-
 LARGEST_DENOMINATOR = 10_000
 """A fraction with a larger one (of measured costs) tells a person nothing; --format json has it."""
 
@@ -69,13 +67,14 @@ def minimum(
         person: dict[str, Any] = {"method": "standard (no delay)" if name == "standard" else name}
         if found is not None and part is not None and rate is not None:
             row |= fit_row(part, rate, found)
-            person |= fit_words(row) | {"fixed by": fixed_by(least.binding)}
+            person |= fit_words(part, rate, found) | {"fixed by": fixed_by(least.binding)}
         else:
             landed = _landing(work, timing, least.speed, options, others)
-            times = _absolute(rate, landed, float(least.speed), table.unit)
-            row |= ({} if rate is None else {"hr_hz": float(rate)}) | times
+            times = _absolute(rate, landed, least.speed, table.unit)
+            row |= {"achieved_l": landed} | ({} if rate is None else {"hr_hz": float(rate)})
+            row |= {key: float(value) for key, value in times.items()}
             person |= _speed(least.speed, table.unit) | {"fixed by": fixed_by(least.binding), "lands at L": landed}
-            person |= {_heading(key, table.unit): f"{value:.4g}" for key, value in times.items()}
+            person |= dict(_in_words(key, value, table.unit) for key, value in times.items())
         rows.append(row)
         shown.append(person)
     note = update_note(table, [row["method"] for row in rows])
@@ -104,30 +103,33 @@ def _landing(costs: Costs, timing: Timing, speed: Fraction, options: Options, ta
     return landed
 
 
-def _absolute(rate: Fraction | None, L: int, speed: float, unit: str) -> dict[str, float]:
+def _absolute(rate: Fraction | None, L: int, speed: Fraction, unit: str) -> dict[str, Fraction]:
     """What the design is in seconds: when the correction lands, the work per second the processor must do, and the
     highest rate that the processor of a table in units of time can run it at."""
-    times: dict[str, float] = {}
+    times: dict[str, Fraction] = {}
     if rate is not None:
-        hz = float(rate)
-        times |= {"correction_ms": 1000 * L / hz, "work_per_second": speed * hz * float(SECONDS.get(unit, 1))}
+        times |= {"correction_ms": 1000 * L / rate, "work_per_second": speed * rate * SECONDS.get(unit, 1)}
     if unit in SECONDS:
-        times["highest_hr_hz"] = 1 / (speed * float(SECONDS[unit]))
+        times["highest_hr_hz"] = 1 / (speed * SECONDS[unit])
     return times
 
 
 def _speed(speed: Fraction, unit: str) -> dict[str, str]:
     """Seconds per HR period as microseconds; the exact fraction where a person can read it."""
     if unit == "second":
-        return {"least speed, us": f"{1e6 * float(speed):.5g}"}
+        return {"least speed, us": f"{float(10**6 * speed):.5g}"}
     exactly = str(speed) if speed.denominator <= LARGEST_DENOMINATOR else "-"
     return {"least speed": f"{float(speed):.6g}", "exactly": exactly}
 
 
-def _heading(key: str, unit: str) -> str:
-    if key == "work_per_second":
-        return "share of processor" if unit in SECONDS else f"{units(unit)} per s"
-    return {"correction_ms": "lands after, ms", "highest_hr_hz": "highest HR Hz"}[key]
+def _in_words(key: str, value: Fraction, unit: str) -> tuple[str, str]:
+    """The heading of an absolute figure, and what stands below it."""
+    from sched_sim.cli.parts import HIGHEST_HR_HZ, WORDS
+
+    if key == "highest_hr_hz":
+        return HIGHEST_HR_HZ, WORDS[HIGHEST_HR_HZ][1](value)
+    work = "share of processor" if unit in SECONDS else f"{units(unit)} per s"
+    return {"correction_ms": "lands after, ms", "work_per_second": work}[key], f"{float(value):.4g}"
 
 
 def _given(value: int | None, otherwise: str) -> str:

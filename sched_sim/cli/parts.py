@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal
+from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 if TYPE_CHECKING:
     from sched_sim.design.fit import Fit
@@ -40,54 +40,74 @@ def fit_row(part: Part, hr_hz: Fraction, found: Fit | None) -> dict[str, Any]:
 
     found: None if the part's time for some operation is not known.
     """
-    row: dict[str, Any] = dict.fromkeys(KEYS) | {"processor": part.name, "hr_hz": float(hr_hz)}
+    return {
+        key: float(figure) if isinstance(figure, Fraction) else figure
+        for key, figure in _figures(part, hr_hz, found).items()
+    }
+
+
+def _figures(part: Part, hr_hz: Fraction, found: Fit | None) -> dict[str, Any]:
+    """Exactly, by their keys in a row."""
+    figures: dict[str, Any] = dict.fromkeys(KEYS) | {"processor": part.name, "hr_hz": hr_hz}
     if found is None:
-        return row
-    row |= {
-        "needed_share": float(found.needed),
-        "load": float(found.load),
-        "slack": float(found.slack),
+        return figures
+    figures |= {
+        "needed_share": found.needed,
+        "load": found.load,
+        "slack": found.slack,
         "fits": found.fits,
-        "highest_hr_hz": float(hr_hz / found.needed),
+        "highest_hr_hz": hr_hz / found.needed,
     }
     if part.clock_hz is not None:
-        row["needed_mhz"] = float(found.needed * part.clock_hz / 10**6)
+        figures["needed_mhz"] = found.needed * part.clock_hz / 10**6
     if found.landed is not None:
-        row |= {"achieved_l": found.landed, "correction_ms": float(1000 * found.landed / hr_hz)}
-    return row
+        figures |= {"achieved_l": found.landed, "correction_ms": 1000 * found.landed / hr_hz}
+    return figures
 
 
 KEYS = ("processor", "hr_hz", "needed_mhz", "needed_share", "load", "slack", "fits", "achieved_l", "correction_ms",
         "highest_hr_hz")  # fmt: skip
 
 
-def _up(digits: int) -> Callable[[float], str]:
+Figure: TypeAlias = Fraction | float
+
+
+def _up(digits: int) -> Callable[[Figure], str]:
     return lambda value: _rounded(value, digits, ROUND_CEILING)
 
 
-def _down(digits: int) -> Callable[[float], str]:
+def _down(digits: int) -> Callable[[Figure], str]:
     return lambda value: _rounded(value, digits, ROUND_FLOOR)
 
 
-def _rounded(value: float, digits: int, way: str) -> str:
-    """To so many digits, whole numbers in full: a need never looks smaller than it is, nor a limit larger."""
-    number = Decimal(value)
+def _rounded(value: Figure, digits: int, way: str) -> str:
+    """To so many digits, whole numbers in full: a need never looks smaller than it is, nor a limit larger.
+
+    Rounded once, of the exact number; a float stands for the shortest decimal that it is the nearest to.
+    """
+    exact = Fraction(repr(value)) if isinstance(value, float) else value
+    most = max(digits, len(str(abs(int(exact)))))
+    context = Context(prec=most, rounding=way)
+    number = context.divide(Decimal(exact.numerator), Decimal(exact.denominator))
     places = max(digits - 1 - number.adjusted(), 0)
-    return f"{number.quantize(Decimal(1).scaleb(-places), way):f}"
+    return f"{number.quantize(Decimal(1).scaleb(-places), context=context):f}"
 
 
-def _percent(rounded: Callable[[float], str]) -> Callable[[float], str]:
+def _percent(rounded: Callable[[Figure], str]) -> Callable[[Figure], str]:
     return lambda value: f"{rounded(100 * value)} %"
 
 
-WORDS: dict[str, tuple[str, Callable[[float], str]]] = {
+HIGHEST_HR_HZ = "highest HR Hz"
+
+WORDS: dict[str, tuple[str, Callable[[Any], str]]] = {
     "needs, MHz": ("needed_mhz", _up(4)),
     "of its speed": ("needed_share", _percent(_up(3))),
     "slack": ("slack", _percent(_down(3))),
     "load": ("load", _percent(_up(3))),
-    "lands after, ms": ("correction_ms", "{:.6g}".format),
-    "highest HR Hz": ("highest_hr_hz", _down(4)),
+    "lands after, ms": ("correction_ms", lambda value: f"{float(value):.6g}"),
+    HIGHEST_HR_HZ: ("highest_hr_hz", _down(4)),
 }
+"""Headings, keys of a row, and how their figures are written."""
 
 MEANING = (
     "of its speed: what the tightest deadline takes of the part; slack: the rest; load: the share of time it is busy"
@@ -97,9 +117,10 @@ MEANING = (
 TASKS_ON_PARTS = "the tasks of --tasks take the same seconds on every processor"
 
 
-def fit_words(row: dict[str, Any]) -> dict[str, str | None]:
-    """Of a `fit_row`."""
-    words = {heading: None if row[key] is None else shown(row[key]) for heading, (key, shown) in WORDS.items()}
-    if row["fits"] is False:
+def fit_words(part: Part, hr_hz: Fraction, found: Fit | None) -> dict[str, str | None]:
+    """As a person reads a `fit_row`."""
+    figures = _figures(part, hr_hz, found)
+    words = {heading: None if figures[key] is None else shown(figures[key]) for heading, (key, shown) in WORDS.items()}
+    if figures["fits"] is False:
         words["slack"] = "none"
-    return {"fits": {True: "yes", False: "no", None: None}[row["fits"]], **words}
+    return {"fits": {True: "yes", False: "no", None: None}[figures["fits"]], **words}

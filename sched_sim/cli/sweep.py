@@ -17,7 +17,7 @@ from sched_sim.cli import options as opt
 from sched_sim.cli.design_flags import Axes, with_axes
 from sched_sim.cli.output import lines, print_csv, print_json, print_table, say
 from sched_sim.cli.outputs import refuse_one_file_for_two
-from sched_sim.cli.parts import TASKS_ON_PARTS, WORDS
+from sched_sim.cli.parts import HIGHEST_HR_HZ, TASKS_ON_PARTS, WORDS
 from sched_sim.costs.table import COUNTED, PAPERS
 from sched_sim.design.pieces import Statistic
 
@@ -285,12 +285,12 @@ HEADINGS = {
     "highest_min_speed": "to",
     "min_speed": "least speed",
     "min_speed_exact": "exactly",
-    "highest_hr_hz": "highest HR Hz",
+    "highest_hr_hz": HIGHEST_HR_HZ,
     "binding": "fixed by",
 }
 
 
-FORMATS = {"highest_hr_hz": WORDS["highest HR Hz"][1]}
+FORMATS = {"highest_hr_hz": WORDS[HIGHEST_HR_HZ][1]}
 
 
 def _for_people(row: dict[str, Any], several_tables: bool, in_seconds: bool) -> dict[str, Any]:
