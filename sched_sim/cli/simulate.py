@@ -205,7 +205,7 @@ def unseen(
     if needed <= cycles:
         return None
     if steady.repeats:
-        return f"{shown}; with these tasks all is seen after {needed}: --cycles {needed}"
+        return f"{shown}; {'with these tasks ' if tasks else ''}all is seen after {needed}: --cycles {needed}"
     if steady.schedule.misses:
         return f"{shown}; a deadline is missed within {needed}: --cycles {needed}"
     return f"{shown}; work piles up slowly: after {needed} cycles it had not come to rest, and nothing was missed yet"

@@ -101,9 +101,9 @@ def longest_run(timing: Timing, tasks: Sequence[Task]) -> int:
         )
     if hyperperiod > LONGEST and not tasks:
         raise InputError(
-            f"N={timing.N} is more than the {LONGEST} HR periods that are simulated to find what context switches "
-            f"cost: leave out {option('context_switch')} (what is left has a closed form), or look at one speed with "
-            f"`sched-sim simulate --speed`"
+            f"N={timing.N} is more than the {LONGEST} HR periods that are simulated where context switches take time, "
+            f"or the earliest deadline comes first: leave out {option('context_switch')} and {option('policy')} (what "
+            f"is left has a closed form), or look at one speed with `sched-sim simulate --speed`"
         )
     if hyperperiod > LONGEST:
         periods = [f"{task.name} {float(task.period):g}" for task in tasks]

@@ -119,11 +119,24 @@ def test_with_tasks_the_landing_is_the_simulated_one_and_too_few_cycles_are_told
     (tmp_path / "tasks.toml").write_text(task.format("a", 7, 5) + task.format("b", 13, 15))
     line = "-N 10 -M 4 --method larsen --tasks tasks.toml --format json"
     assert json.loads(sched_sim(f"minimum {line} --hr-hz 400").out)[0]["correction_ms"] == 10.0
-    assert "all is seen after 91: --cycles 91" in sched_sim(f"simulate {line} --speed 1.8").err
+    assert "with these tasks all is seen after 91: --cycles 91" in sched_sim(f"simulate {line} --speed 1.8").err
     (tmp_path / "tasks.toml").write_text(task.format("c", 11, 5))  # first released with the update of m in step 44
     later = sched_sim(f"simulate {line} --speed 1.56")
     assert json.loads(later.out)["misses"] == 0
     assert "a deadline is missed within 7: --cycles 7" in later.err
+
+
+def test_where_there_are_no_tasks_none_are_spoken_of(sched_sim: Run) -> None:
+    line = "simulate -N 5 -M 3 -L 5 --speed 1.34 --context-switch 0.16 --policy edf --cycles 1"
+    assert sched_sim(line).err == "Note: 1 cycle is shown; all is seen after 2: --cycles 2\n"
+
+
+@pytest.mark.parametrize("option", ["--policy edf", "--context-switch 0.01"])
+def test_what_has_no_closed_form_is_named_where_n_is_too_long(sched_sim: Run, option: str) -> None:
+    is_refused(
+        sched_sim(f"minimum -N 300000 -M 10 --method larsen {option}"),
+        ["where context switches take time, or the earliest deadline", "leave out --context-switch and --policy"],
+    )
 
 
 def test_tasks_whose_periods_hardly_ever_meet_the_measurements_can_be_simulated(sched_sim: Run, tmp_path: Path) -> None:
