@@ -13,7 +13,7 @@ from operator import index
 from sched_sim.errors import InputError
 
 MOST_DIGITS = 50
-"""Of a number: exact arithmetic takes them all."""
+"""Digits of a number: exact arithmetic takes them all."""
 LARGEST_EXPONENT = 18
 """Costs and speeds of any unit lie between 1e-18 and 1e18."""
 MOST_STEPS = 10_000_000
@@ -23,13 +23,13 @@ MOST_JOBS = 20_000_000
 MOST_JOBS_TO_REPEAT = 1_000_000
 """Released until all has begun and been seen once: a search for the least speed simulates that some thirty times."""
 MOST_STATES = 200
-"""Of a system that is measured; inputs and measurements too. Its operations grow with the third power."""
+"""States of a measured system; inputs and measurements too. Its operations grow with the third power."""
 MOST_TASKS = 1_000
-"""Of the user's, beside the filter."""
+"""The user's, beside the filter."""
 MOST_SENSORS = 100
-"""Of a scenario: each is drawn, and compared with every other."""
+"""A scenario's: each is drawn, and compared with every other."""
 MOST_BYTES = 64_000_000
-"""Of an input file."""
+"""The size of an input file."""
 MOST_SHOWN = 60
 """Characters of a value in a message."""
 
@@ -57,8 +57,8 @@ def check_digits(value: int | Decimal | str, what: str) -> None:
         raise InputError(f"{what} is {short(value)}: give a number of at most {MOST_DIGITS} digits")
 
 
-def check_size(number: Decimal | Fraction, what: str, given: object) -> None:
-    """Raises InputError for a number far from 1, as no unit of cost, speed or time makes it. given: how it was
+def check_size(number: Decimal | Fraction, what: str, entry: object) -> None:
+    """Raises InputError for a number far from 1, as no unit of cost, speed or time makes it. entry: how it was
     written. A Decimal is not computed with: 1e999999999 fills the memory."""
     if isinstance(number, Decimal):
         far = number.is_finite() and bool(number) and abs(number.adjusted()) > LARGEST_EXPONENT
@@ -66,7 +66,7 @@ def check_size(number: Decimal | Fraction, what: str, given: object) -> None:
         far = bool(number) and not Fraction(1, 10**LARGEST_EXPONENT) <= abs(number) < 10 ** (LARGEST_EXPONENT + 1)
     if far:
         raise InputError(
-            f"{what} is {short(given)}: give a number between 1e-{LARGEST_EXPONENT} and 1e{LARGEST_EXPONENT}"
+            f"{what} is {short(entry)}: give a number between 1e-{LARGEST_EXPONENT} and 1e{LARGEST_EXPONENT}"
         )
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_HALF_EVEN, Decimal
 
 PROBABILITY_DIGITS, INTERVAL_DIGITS = 3, 2
-"""Of what is left to 0 or to 1, whichever is nearer. An interval has fewer, so that it holds its rounded estimate."""
+"""Digits of what is left to 0 or 1, whichever is nearer. An interval has fewer: it holds its rounded estimate."""
 
 
 def probability(value: float) -> str:

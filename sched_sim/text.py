@@ -21,7 +21,7 @@ def visible(text: str) -> str:
 
 
 def visible_lines(text: str) -> str:
-    """As `visible`, but the line ends stay; each line but the first is indented, so that it is seen to go on."""
+    """Text made `visible`, but the line ends stay; each line but the first is indented, so that it is seen to go on."""
     return "\n  ".join(visible(line) for line in text.split("\n"))
 
 

@@ -15,7 +15,7 @@ from sched_sim.bounds import check_digits, check_size, short
 from sched_sim.errors import InputError
 
 Number: TypeAlias = int | float | str | Decimal | Fraction
-"""As people write one: 0.78 means 78/100, "77/100" itself."""
+"""A number as people write it: 0.78 means 78/100, "77/100" itself."""
 
 
 def exact(value: Number, what: str) -> Fraction:

@@ -30,9 +30,9 @@ class Command(TyperCommand):
     """A command none of whose values is empty: typer would make the current folder of an empty path."""
 
     def parse_args(self, context: Any, arguments: list[str]) -> list[str]:
-        given, _, _ = self.make_parser(context).parse_args(list(arguments))
+        values, _, _ = self.make_parser(context).parse_args(list(arguments))
         for parameter in self.params:
-            value = given.get(parameter.name)
+            value = values.get(parameter.name)
             if value == "" or (isinstance(value, list | tuple) and "" in value):
                 option = parameter.opts[0]
                 name = option if option.startswith("-") else f"argument {str(parameter.name).upper()}"

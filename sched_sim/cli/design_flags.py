@@ -27,8 +27,8 @@ Axes = Mapping[str, "list[str] | None"]
 def with_options(command: Command) -> Command:
     """The command, with a flag for each choice in place of its parameter `options`."""
 
-    def chosen(given: Mapping[str, Any]) -> Options:
-        return Options(**{choice.name: _value(choice, given[choice.name]) for choice in fields(Options)})
+    def chosen(values: Mapping[str, Any]) -> Options:
+        return Options(**{choice.name: _value(choice, values[choice.name]) for choice in fields(Options)})
 
     return _with_flags(command, _flag, chosen)
 
@@ -46,9 +46,9 @@ def _with_flags(
     names = [choice.name for choice in fields(Options)]
 
     @wraps(command)
-    def flagged(**given: Any) -> None:
-        chosen = joined({name: given.pop(name) for name in names})
-        command(**given, options=chosen)
+    def flagged(**values: Any) -> None:
+        chosen = joined({name: values.pop(name) for name in names})
+        command(**values, options=chosen)
 
     parameters: list[inspect.Parameter] = []
     for parameter in signature.parameters.values():
@@ -87,8 +87,8 @@ def _values(choice: Field[Any]) -> tuple[Any, ...]:
     return options.choices()[choice.name]
 
 
-def _value(choice: Field[Any], given: Any) -> Any:
-    return exact(given, option(choice.name)) if isinstance(choice.default, Fraction) else given
+def _value(choice: Field[Any], value: Any) -> Any:
+    return exact(value, option(choice.name)) if isinstance(choice.default, Fraction) else value
 
 
 def _one_of(values: tuple[int, ...]) -> Callable[[str], int]:

@@ -156,12 +156,12 @@ def measure(
         return
     if robust is None and parallel is not None:
         raise InputError(f"--parallel {parallel} is for the robust filter: give --robust attitude or position too")
-    if robust is not None and (given := opt.given_options(context, lambda name: name in OF_A_SYSTEM)):
+    if robust is not None and (options := opt.given_options(context, lambda name: name in OF_A_SYSTEM)):
         raise InputError(
-            f"--robust {robust} measures the methods robust-... on a system of its own: leave out {', '.join(given)}"
+            f"--robust {robust} measures the methods robust-... on a system of its own: leave out {', '.join(options)}"
         )
-    if system is not None and (given := opt.given_options(context, lambda name: name in SIZES)):
-        raise InputError(f"--system {system!r}: leave out {', '.join(given)}: the system has its own")
+    if system is not None and (options := opt.given_options(context, lambda name: name in SIZES)):
+        raise InputError(f"--system {system!r}: leave out {', '.join(options)}: the system has its own")
     with progress_bar("Measuring") as progress:
         if robust is not None:
             table = _robust(robust, parallel, backend, thorough, progress)

@@ -26,10 +26,10 @@ OF_A_SYSTEM = (*SIZES, "system", "method", "update")
 
 def refuse_with_filter(name: str, context: typer.Context) -> None:
     """Raises InputError for options that were given beside --filter and have no meaning with it."""
-    given = given_options(context, lambda name: name in (*OF_A_SYSTEM, "robust", "parallel"))
-    if given:
+    options = given_options(context, lambda name: name in (*OF_A_SYSTEM, "robust", "parallel"))
+    if options:
         raise InputError(
-            f"--filter {name}: leave out {', '.join(given)}: the filter that it returns says all of that itself"
+            f"--filter {name}: leave out {', '.join(options)}: the filter that it returns says all of that itself"
         )
 
 

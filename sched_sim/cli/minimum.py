@@ -61,13 +61,13 @@ def minimum(
             continue
         work = select(table, name, options, statistic)
         with simulations(name) as on_progress:
-            found = None if part is None or rate is None else fit(work, timing, rate, options, others, on_progress)
-            least = least_speed(work, timing, options, others, on_progress) if found is None else found.least
+            verdict = None if part is None or rate is None else fit(work, timing, rate, options, others, on_progress)
+            least = least_speed(work, timing, options, others, on_progress) if verdict is None else verdict.least
         row = least_row(name, timing, least) | update_form(table, name)
         person: dict[str, Any] = {"method": "standard (no delay)" if name == "standard" else name}
-        if found is not None and part is not None and rate is not None:
-            row |= fit_row(part, rate, found)
-            person |= fit_words(part, rate, found) | {"fixed by": fixed_by(least.binding)}
+        if verdict is not None and part is not None and rate is not None:
+            row |= fit_row(part, rate, verdict)
+            person |= fit_words(part, rate, verdict) | {"fixed by": fixed_by(least.binding)}
         else:
             landed = _landing(work, timing, least.speed, options, others)
             times = _absolute(rate, landed, least.speed, table.unit)

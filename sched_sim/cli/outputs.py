@@ -20,18 +20,18 @@ def refuse_one_file_for_two(outputs: Named, inputs: Named = ()) -> None:
     """Raises InputError where a file to be written is another one to be written, or one to be read, however spelled."""
     written: list[tuple[str, Path]] = []
     for option, path in _files(outputs):
-        for other, there in written:
+        for writer, there in written:
             if _same(path, there):
                 raise InputError(
-                    f"{other} {there} and {option} {path} are one file, and only the last to be written would be left: "
-                    f"give each a file of its own"
+                    f"{writer} {there} and {option} {path} are one file, and only the last to be written would be "
+                    f"left: give each a file of its own"
                 )
         written.append((option, path))
-    for other, there in _files(inputs):
+    for reader, there in _files(inputs):
         for option, path in written:
             if _same(path, there):
                 raise InputError(
-                    f"{option} {path} would write over what {other} {there} reads: give {option} a file of its own"
+                    f"{option} {path} would write over what {reader} {there} reads: give {option} a file of its own"
                 )
 
 
@@ -47,12 +47,12 @@ def _files(named: Named) -> list[tuple[str, Path]]:
     return [(option, path) for option, path in paths if os.path.isfile(path) or not os.path.exists(path)]
 
 
-def _same(path: Path, other: Path) -> bool:
+def _same(path: Path, second: Path) -> bool:
     """Under other spellings, through links of either kind."""
-    if path == other:
+    if path == second:
         return True
     with suppress(OSError):  # the current folder may be gone
-        if os.path.exists(path) and os.path.exists(other):
-            return os.path.samefile(path, other)
-        return os.path.realpath(path) == os.path.realpath(other)
+        if os.path.exists(path) and os.path.exists(second):
+            return os.path.samefile(path, second)
+        return os.path.realpath(path) == os.path.realpath(second)
     return False

@@ -63,11 +63,11 @@ def _catching_up(scenario: Scenario, outcome: Outcome) -> Iterator[str]:
     from sched_sim.scenario.load import catching_up
 
     away = [sensor for sensor in scenario.sensors if _stay_away(outcome, sensor)]
-    found = catching_up(scenario) if away else {}
+    figures = catching_up(scenario) if away else {}
     for sensor in away:
-        if sensor.name in found and found[sensor.name].never:
+        if sensor.name in figures and figures[sensor.name].never:
             needed, left = (
-                _work(scenario, work) for work in (found[sensor.name].needed, max(found[sensor.name].left, 0.0))
+                _work(scenario, work) for work in (figures[sensor.name].needed, max(figures[sensor.name].left, 0.0))
             )
             yield (
                 f"corrections of {sensor.name} never catch up: a step that passes meanwhile takes {needed} to do "

@@ -35,33 +35,33 @@ def fixed_by(binding: str | None) -> str | None:
     return None if binding is None else BINDING_WORDS.get(binding, binding)
 
 
-def fit_row(part: Part, hr_hz: Fraction, found: Fit | None) -> dict[str, Any]:
+def fit_row(part: Part, hr_hz: Fraction, verdict: Fit | None) -> dict[str, Any]:
     """needed_share, load and slack: of the part's speed, its time, its speed. None: not known, or it does not land.
 
-    found: None if the part's time for some operation is not known.
+    verdict: None if the part's time for some operation is not known.
     """
     return {
         key: float(figure) if isinstance(figure, Fraction) else figure
-        for key, figure in _figures(part, hr_hz, found).items()
+        for key, figure in _figures(part, hr_hz, verdict).items()
     }
 
 
-def _figures(part: Part, hr_hz: Fraction, found: Fit | None) -> dict[str, Any]:
+def _figures(part: Part, hr_hz: Fraction, verdict: Fit | None) -> dict[str, Any]:
     """Exactly, by their keys in a row."""
     figures: dict[str, Any] = dict.fromkeys(KEYS) | {"processor": part.name, "hr_hz": hr_hz}
-    if found is None:
+    if verdict is None:
         return figures
     figures |= {
-        "needed_share": found.needed,
-        "load": found.load,
-        "slack": found.slack,
-        "fits": found.fits,
-        "highest_hr_hz": hr_hz / found.needed,
+        "needed_share": verdict.needed,
+        "load": verdict.load,
+        "slack": verdict.slack,
+        "fits": verdict.fits,
+        "highest_hr_hz": hr_hz / verdict.needed,
     }
     if part.clock_hz is not None:
-        figures["needed_mhz"] = found.needed * part.clock_hz / 10**6
-    if found.landed is not None:
-        figures |= {"achieved_l": found.landed, "correction_ms": 1000 * found.landed / hr_hz}
+        figures["needed_mhz"] = verdict.needed * part.clock_hz / 10**6
+    if verdict.landed is not None:
+        figures |= {"achieved_l": verdict.landed, "correction_ms": 1000 * verdict.landed / hr_hz}
     return figures
 
 
@@ -117,9 +117,9 @@ MEANING = (
 TASKS_ON_PARTS = "the tasks of --tasks take the same seconds on every processor"
 
 
-def fit_words(part: Part, hr_hz: Fraction, found: Fit | None) -> dict[str, str | None]:
-    """As a person reads a `fit_row`."""
-    figures = _figures(part, hr_hz, found)
+def fit_words(part: Part, hr_hz: Fraction, verdict: Fit | None) -> dict[str, str | None]:
+    """A `fit_row` in words."""
+    figures = _figures(part, hr_hz, verdict)
     words = {heading: None if figures[key] is None else shown(figures[key]) for heading, (key, shown) in WORDS.items()}
     if figures["fits"] is False:
         words["slack"] = "none"

@@ -183,7 +183,7 @@ def _verdicts(
     for part in parts:
         table = on_part(counts, part)
         for method, timing in designs.items():
-            found, reason = None, None
+            verdict, reason = None, None
             try:
                 work = select(table, method, options, statistic)
             except InputError as error:
@@ -193,9 +193,9 @@ def _verdicts(
                 reasons.append(f"{part.name}: {reason}")
             else:
                 with simulations(f"{method} on {part.name}") as on_progress:
-                    found = fit(work, timing, rate, options, tasks, on_progress)
-            least = None if found is None else found.least
-            row = least_row(method, timing, least) | update_form(counts, method) | fit_row(part, rate, found)
+                    verdict = fit(work, timing, rate, options, tasks, on_progress)
+            least = None if verdict is None else verdict.least
+            row = least_row(method, timing, least) | update_form(counts, method) | fit_row(part, rate, verdict)
             rows.append(row | {"reason": reason})
             name = {"method": method} if len(designs) > 1 else {}
             about = {"processor": part.name, "precision": part.precision, **name}

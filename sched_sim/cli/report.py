@@ -58,8 +58,8 @@ def _patent_multirate(_thorough: bool) -> dict[str, bytes]:
     from sched_sim.cli.progress import progress_bar
 
     with progress_bar("Computing") as progress:
-        found = results(progress)
-    return build(found)
+        figures = results(progress)
+    return build(figures)
 
 
 def _erkf(thorough: bool) -> dict[str, bytes]:
@@ -68,8 +68,8 @@ def _erkf(thorough: bool) -> dict[str, bytes]:
     from sched_sim.cli.progress import progress_bar
 
     with progress_bar("Measuring and simulating") as progress:
-        found = results(thorough, progress)
-    return build(found)
+        figures = results(thorough, progress)
+    return build(figures)
 
 
 def _modular(thorough: bool) -> dict[str, bytes]:
@@ -78,8 +78,8 @@ def _modular(thorough: bool) -> dict[str, bytes]:
     from sched_sim.cli.progress import progress_bar
 
     with progress_bar("Simulating and measuring") as progress:
-        found = results(thorough, progress)
-    return build(found)
+        figures = results(thorough, progress)
+    return build(figures)
 
 
 REPORTS: Mapping[str, Callable[[bool], dict[str, bytes]]] = {

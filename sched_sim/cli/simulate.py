@@ -135,8 +135,8 @@ def simulate(
         traces = [files.enter_context(open_trace(path, scale)) for path in trace or ()]
 
         def write(piece: Slice) -> None:
-            for one in traces:
-                one(piece)
+            for write_piece in traces:
+                write_piece(piece)
 
         progress = files.enter_context(progress_bar("Simulating"))
         schedule = run(
@@ -218,11 +218,11 @@ def _above(share: Fraction) -> str:
 
 def _refuse_beside_scenario(context: typer.Context, scenario: Path) -> None:
     """Raises InputError that names the options which the scenario would not follow."""
-    given = opt.given_options(context, lambda name: name not in WITH_SCENARIO)
-    if given:
+    options = opt.given_options(context, lambda name: name not in WITH_SCENARIO)
+    if options:
         raise InputError(
-            f"{', '.join(given)} and --scenario {scenario} exclude each other: the file says what is simulated; leave "
-            f"{'it' if len(given) == 1 else 'them'} out, or edit the file"
+            f"{', '.join(options)} and --scenario {scenario} exclude each other: the file says what is simulated; "
+            f"leave {'it' if len(options) == 1 else 'them'} out, or edit the file"
         )
 
 

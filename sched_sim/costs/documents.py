@@ -32,5 +32,5 @@ def refuse_cost_table(document: Mapping[str, Any], what: str) -> None:
 
 
 def _holds(document: Mapping[str, Any], table: str, keys: Iterable[str]) -> bool:
-    found = document.get(table)
-    return isinstance(found, Mapping) and not set(keys).isdisjoint(found)
+    entries = document.get(table)
+    return isinstance(entries, Mapping) and not set(keys).isdisjoint(entries)

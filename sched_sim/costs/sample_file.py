@@ -143,10 +143,10 @@ def write_sampled_costs(costs: SampledCosts, path: Path) -> None:
 
 def _flat(tables: _SampleTables | _OperationTables) -> dict[str, Any]:
     """The entries by part, "correct.gps"."""
-    found: dict[str, Any] = {part: entry for part in PREDICT if (entry := getattr(tables, part)) is not None}
+    entries: dict[str, Any] = {part: entry for part in PREDICT if (entry := getattr(tables, part)) is not None}
     for kind in CORRECT:
-        found |= {f"{kind}.{sensor}": entry for sensor, entry in getattr(tables, kind).items()}
-    return found
+        entries |= {f"{kind}.{sensor}": entry for sensor, entry in getattr(tables, kind).items()}
+    return entries
 
 
 def _nested(table: str, entries: Mapping[str, str]) -> list[str]:

@@ -107,8 +107,8 @@ class _CostFile(BaseModel):
 
     @model_validator(mode="after")
     def _one_cost_for_each_job(self) -> Self:
-        if self.unit in ("operation", "operations") and (found := list(self._contradictions())):
-            raise ValueError("; ".join(found))
+        if self.unit in ("operation", "operations") and (problems := list(self._contradictions())):
+            raise ValueError("; ".join(problems))
         return self
 
     def _contradictions(self) -> Iterator[str]:

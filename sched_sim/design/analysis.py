@@ -127,11 +127,11 @@ def _counted(costs: JobCosts[int]) -> JobCosts[int]:
 def _arrays(costs: JobCosts[int], N: Ints, *others: Ints) -> list[Ints]:
     """Flat, and of a type in which nothing overflows: the analysis multiplies the work of a cycle, or a period, by at
     most two numbers of steps."""
-    found = [whole_numbers(array).ravel() for array in (N, *others)]
-    steps = int(found[0].max(initial=0)) + 3
-    largest = max(int(array.max(initial=0)) for array in found)
+    arrays = [whole_numbers(array).ravel() for array in (N, *others)]
+    steps = int(arrays[0].max(initial=0)) + 3
+    largest = max(int(array.max(initial=0)) for array in arrays)
     fits = 8 * steps * max(steps * sum(works(costs)), largest) <= np.iinfo(np.int64).max
-    return [array.astype(np.int64 if fits else object) for array in found]
+    return [array.astype(np.int64 if fits else object) for array in arrays]
 
 
 def _longest_serial_job(costs: SerialCosts[int], N: Ints, M: Ints) -> Ints:

@@ -32,7 +32,7 @@ class Quotient(NamedTuple):
 
 
 def quotient(numerator: Ints, denominator: Ints | int, code: int) -> Quotient:
-    """Of an array and an array or a number."""
+    """An array over an array or a number."""
     return Quotient(numerator, 0 * numerator + denominator, np.full(numerator.shape, code))
 
 
@@ -52,13 +52,13 @@ def choose(condition: Flags, yes: Quotient, no: Quotient) -> Quotient:
 def largest(*quotients: Quotient) -> Quotient:
     """The elementwise maximum; the first of equals."""
     result = quotients[0]
-    for other in quotients[1:]:
-        result = choose(other.exceeds(result), other, result)
+    for quotient in quotients[1:]:
+        result = choose(quotient.exceeds(result), quotient, result)
     return result
 
 
-def smaller(one: Quotient, other: Quotient) -> Quotient:
-    return choose(one.exceeds(other), other, one)
+def smaller(first: Quotient, second: Quotient) -> Quotient:
+    return choose(first.exceeds(second), second, first)
 
 
 class DualRateDemand(NamedTuple):

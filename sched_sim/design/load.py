@@ -23,7 +23,7 @@ def utilization(costs: Costs, timing: Timing, speed: Fraction) -> Fraction:
 def loads(
     costs: Costs, timing: Timing, speed: Fraction, options: Options = Options(), tasks: Sequence[Task] = ()
 ) -> tuple[Fraction, ...]:
-    """As `utilization`, of each processor, the user's tasks included. At a share above 1 work piles up without end.
+    """Each processor's `utilization`, the user's tasks included. At a share above 1 work piles up without end.
 
     Raises InputError for a task on a processor that is not there.
     """

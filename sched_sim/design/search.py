@@ -53,14 +53,14 @@ def least_speed_by_simulation(
 
     too_slow = max(ceil(floor * resolution) - 1, 0)
     enough, steps = too_slow + 1, min(FIRST_LOOK, longest)
-    found = run(enough, steps)
-    while not found.repeats:
-        if found.schedule.misses or steps == longest:
-            steps = found.steps
-            too_slow, enough, found = _bisect(run, enough, steps, longest)
+    steady = run(enough, steps)
+    while not steady.repeats:
+        if steady.schedule.misses or steps == longest:
+            steps = steady.steps
+            too_slow, enough, steady = _bisect(run, enough, steps, longest)
         else:
             steps = min(4 * steps, longest)
-            found = run(enough, steps)
+            steady = run(enough, steps)
     binding = _binding(run(too_slow, steps).schedule, costs, timing, options) if too_slow else "load"
     return Fraction(enough, resolution), binding
 
@@ -72,7 +72,7 @@ def _bisect(run: Callable[[int, int], Steady], too_slow: int, steps: int, longes
         return outcome.schedule.misses > 0 or (steps == longest and not outcome.repeats)
 
     ahead = 1
-    while fails(found := run(too_slow + ahead, steps)):
+    while fails(steady := run(too_slow + ahead, steps)):
         too_slow, ahead = too_slow + ahead, 2 * ahead
     enough = too_slow + ahead
     while enough - too_slow > 1:
@@ -80,8 +80,8 @@ def _bisect(run: Callable[[int, int], Steady], too_slow: int, steps: int, longes
         if fails(outcome := run(middle, steps)):
             too_slow = middle
         else:
-            enough, found = middle, outcome
-    return too_slow, enough, found
+            enough, steady = middle, outcome
+    return too_slow, enough, steady
 
 
 def search_resolution(costs: Costs, options: Options, tasks: Sequence[Task]) -> int:

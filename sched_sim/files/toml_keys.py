@@ -20,7 +20,7 @@ def is_text_at(model: type[BaseModel], path: Sequence[int | str]) -> bool:
 
 
 def keys_of(table: type[BaseModel]) -> list[str]:
-    """As they are written in the file."""
+    """The keys as the file writes them."""
     return [field.alias or name for name, field in table.model_fields.items()]
 
 
@@ -52,8 +52,8 @@ def _within(annotation: Any, part: int | str) -> Any:
     """The type of what stands at `part` of a value of this type; None if it is not known."""
     table = _model(annotation)
     if table is not None:
-        found = [field.annotation for name, field in table.model_fields.items() if part in (name, field.alias)]
-        return found[0] if found else None
+        annotations = [field.annotation for name, field in table.model_fields.items() if part in (name, field.alias)]
+        return annotations[0] if annotations else None
     for choice in _choices(annotation):
         if get_origin(choice) in (list, dict):
             return get_args(choice)[-1]
@@ -61,8 +61,8 @@ def _within(annotation: Any, part: int | str) -> Any:
 
 
 def _model(annotation: Any) -> type[BaseModel] | None:
-    found = [choice for choice in _choices(annotation) if isinstance(choice, type) and issubclass(choice, BaseModel)]
-    return found[0] if found else None
+    models = [choice for choice in _choices(annotation) if isinstance(choice, type) and issubclass(choice, BaseModel)]
+    return models[0] if models else None
 
 
 def _choices(annotation: Any) -> list[Any]:

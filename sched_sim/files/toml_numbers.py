@@ -27,10 +27,10 @@ def number(value: Any) -> Fraction:
 
 
 def above_zero(value: Any) -> Fraction:
-    found = number(value)
-    if found <= 0:
+    fraction = number(value)
+    if fraction <= 0:
         raise ValueError("must be greater than 0")
-    return found
+    return fraction
 
 
 Whole = Annotated[int, BeforeValidator(whole)]

@@ -14,7 +14,7 @@ from sched_sim.files.toml_keys import entries_at, is_text_at, keys_of, no_such_k
 from sched_sim.files.toml_writer import toml_key
 
 MOST_PROBLEMS = 20
-"""Of a file, in one message."""
+"""A file's, in one message."""
 _NUMBER = re.compile(r"[+-]?\d+(\.\d+)?([eE][+-]?\d+)?")
 
 At = Sequence[int | str]

@@ -29,8 +29,8 @@ def read_toml(path: Path, what: str, remedy: str) -> dict[str, Any]:
         raise InputError(too_deep)
     try:
         document = tomllib.loads(text, parse_float=Decimal)
-        if found := list(_out_of_bounds(document, "")):
-            raise InputError(f"{what}: {'; '.join(found)}")
+        if problems := list(_out_of_bounds(document, "")):
+            raise InputError(f"{what}: {'; '.join(problems)}")
         return document
     except RecursionError:
         raise InputError(too_deep) from None
@@ -43,7 +43,7 @@ def read_toml(path: Path, what: str, remedy: str) -> dict[str, Any]:
 
 
 def _read(path: Path, what: str, remedy: str) -> str:
-    """Of a regular file: a device or a pipe may have no end. Some editors begin one with a byte order mark."""
+    """Text of a regular file: a device or a pipe may have no end. Some editors begin one with a byte order mark."""
     try:
         about = path.stat()
         if not stat.S_ISREG(about.st_mode):

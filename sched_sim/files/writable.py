@@ -112,7 +112,7 @@ def _takes_files(path: Path) -> bool:
 
 
 def _status(path: Path) -> os.stat_result | None:
-    """Of what is there, links followed; None if nothing is."""
+    """Status of what is there, links followed; None if nothing is."""
     try:
         return path.stat()
     except FileNotFoundError:

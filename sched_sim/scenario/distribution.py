@@ -14,7 +14,7 @@ PERCENTS = (50, 95, 99)
 
 @dataclass(frozen=True, slots=True)
 class Distribution:
-    """Of one or more values, in their unit. median, p95, p99: the least value that so large a share does not exceed."""
+    """Figures of values, in their unit. median, p95, p99: the least value that so large a share does not exceed."""
 
     minimum: float
     mean: float
@@ -32,7 +32,7 @@ class Distribution:
 
 
 def finished_or_not(values: Sequence[float], unfinished: int) -> dict[str, float | None]:
-    """As `Distribution.of`, where so many more values are not known yet and any of them may be long.
+    """`Distribution.of` where so many more values are not known yet and any of them may be long.
 
     minimum, mean, maximum: of the known values. median, p95, p99: of all; None where the unknown ones decide. At least
     one value is known.

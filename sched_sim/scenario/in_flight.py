@@ -22,4 +22,6 @@ def first_overlap(flights: Iterable[Flight]) -> tuple[Flight, Flight] | None:
     """The first two of which one is taken before the other has arrived; one that is taken in the very step in which the
     other arrives is not."""
     in_order = sorted(flights, key=lambda flight: (flight.taken, flight.arrives))
-    return next(((one, other) for one, other in pairwise(in_order) if other.taken < one.arrives), None)
+    return next(
+        ((flight, following) for flight, following in pairwise(in_order) if following.taken < flight.arrives), None
+    )

@@ -36,12 +36,12 @@ class CatchingUp(NamedTuple):
 def loads(scenario: Scenario) -> list[Load]:
     """Mean work over time, without context switches and without what corrections do again to catch up."""
     speed, last = float(scenario.speed), scenario.cpus - 1
-    found = [Load("predict", 0, _mixed(scenario, "predict") / speed)]
+    mean_loads = [Load("predict", 0, _mixed(scenario, "predict") / speed)]
     for sensor, again in zip(scenario.sensors, _replays(scenario), strict=True):
-        found.append(Load(f"correct {sensor.name}", last, _correct(scenario, sensor) / speed))
+        mean_loads.append(Load(f"correct {sensor.name}", last, _correct(scenario, sensor) / speed))
         if again:
-            found.append(Load(f"replay for {sensor.name}", last, again / speed, scenario.preempted(sensor)))
-    return [*found, *(Load(task.name, task.cpu - 1, _mean_work(task) / speed) for task in scenario.tasks)]
+            mean_loads.append(Load(f"replay for {sensor.name}", last, again / speed, scenario.preempted(sensor)))
+    return [*mean_loads, *(Load(task.name, task.cpu - 1, _mean_work(task) / speed) for task in scenario.tasks)]
 
 
 def demand(scenario: Scenario) -> list[float]:
@@ -53,22 +53,24 @@ def demand(scenario: Scenario) -> list[float]:
 
 
 def catching_up(scenario: Scenario) -> dict[str, CatchingUp]:
-    """Of each sensor whose corrections may have to: something overtakes them, and they are not carried along.
+    """Figures of each sensor whose corrections may have to: something overtakes them, and they are not carried along.
 
     needed: at the least; of the corrections made in that step, only more urgent ones have been.
     """
     replays = dict(zip(scenario.sensors, _replays(scenario), strict=True))
     predict = _mixed(scenario, "predict") if scenario.cpus == 1 else 0.0
-    found = {}
+    figures = {}
     for sensor in scenario.sensors:
         if not scenario.preempted(sensor) or _is_larsens(scenario, sensor):
             continue
-        urgent = [one for one in scenario.sensors if one.priority < sensor.priority]
+        urgent = [rival for rival in scenario.sensors if rival.priority < sensor.priority]
         tasks = [task for task in scenario.tasks if task.cpu == scenario.cpus and task.priority <= sensor.priority]
-        needed = _mean(scenario, "predict") + sum(_rate(one) * _correction(scenario, one) for one in urgent)
-        ahead = predict + sum(_correct(scenario, one) + replays[one] for one in urgent) + sum(map(_mean_work, tasks))
-        found[sensor.name] = CatchingUp(needed, float(scenario.speed) - ahead)
-    return found
+        needed = _mean(scenario, "predict") + sum(_rate(rival) * _correction(scenario, rival) for rival in urgent)
+        ahead = (
+            predict + sum(_correct(scenario, rival) + replays[rival] for rival in urgent) + sum(map(_mean_work, tasks))
+        )
+        figures[sensor.name] = CatchingUp(needed, float(scenario.speed) - ahead)
+    return figures
 
 
 def _replays(scenario: Scenario) -> list[float]:
@@ -91,10 +93,10 @@ def _correction(scenario: Scenario, sensor: Sensor) -> float:
     return _mean(scenario, f"{'correct_late' if _is_larsens(scenario, sensor) else 'correct'}.{sensor.name}")
 
 
-def _mixed(scenario: Scenario, part: str, of: Sensor | None = None) -> float:
+def _mixed(scenario: Scenario, part: str, sensor: Sensor | None = None) -> float:
     """The mean cost of a part that runs as "..._accumulate" while a measurement is in flight."""
-    name = "" if of is None else f".{of.name}"
-    share = in_flight(scenario.sensors, of) if scenario.late == "larsen" else 0.0
+    name = "" if sensor is None else f".{sensor.name}"
+    share = in_flight(scenario.sensors, sensor) if scenario.late == "larsen" else 0.0
     accumulating = share * _mean(scenario, f"{part}_accumulate{name}") if share else 0.0
     return accumulating + (1 - share) * _mean(scenario, f"{part}{name}")
 

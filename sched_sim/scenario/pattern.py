@@ -24,7 +24,7 @@ RAREST = 1 << 40
 
 
 class Arrivals:
-    """Of one sensor. at: the probability that a measurement arrives so many steps late, by lag; before: that it has
+    """One sensor's. at: the probability that a measurement arrives so many steps late, by lag; before: that it has
     arrived earlier than that."""
 
     def __init__(self, sensor: Sensor, longest: int) -> None:
@@ -41,7 +41,7 @@ class Arrivals:
         return _steps(self.every, self.offset, others, most)
 
     def sums(self, values: Floats, steps: Ints, last: Ints) -> Floats:
-        """Of values by lag, over its measurements that are at most `last` older than each of the steps."""
+        """Sums of values by lag, over its measurements that are at most `last` older than each of the steps."""
         lag = last - (last - (steps - self.offset)) % self.every
         sums = _rows(values, self.every).cumsum(axis=0).ravel()
         return np.where(lag >= 0, sums.take(lag, mode="clip"), 0.0)
@@ -61,7 +61,7 @@ def _rows(values: Floats, width: int) -> Floats:
 
 
 def _steps(every: int, offset: int, others: Sequence[Arrivals], most: int) -> Ints:
-    pattern = lcm(every, *(other.every for other in others)) // every
+    pattern = lcm(every, *(arrivals.every for arrivals in others)) // every
     return offset + every * np.arange(max(min(pattern, most), 1))
 
 
@@ -90,43 +90,43 @@ def _going_back(number: int, arrivals: Sequence[Arrivals], predict: float, corre
     now = taken + delays
     first = np.broadcast_to(own.at[delays], now.shape)  # it arrives then, and no late one before it in the row does
     work = np.broadcast_to(delays * predict, now.shape)
-    for other, (one, correction) in enumerate(zip(arrivals, corrections, strict=True)):
-        there = one.before + one.at if one.priority < own.priority else one.before
-        found = one.sums(there, now, delays - (other == number))
-        if one.priority == own.priority:
-            first = first * np.where(late, one.products(1 - one.at, now, delays + (other >= number)), 1)
-            if other < number:  # of the same step, and known not to arrive now
-                at, before = one.at[delays], one.before[delays]
-                of_step = (taken - one.offset) % one.every == 0
-                found = found + of_step * before * at / np.where(at < 1, 1 - at, np.inf)
-        work = work + correction * found
+    for index, (rival, correction) in enumerate(zip(arrivals, corrections, strict=True)):
+        there = rival.before + rival.at if rival.priority < own.priority else rival.before
+        counts = rival.sums(there, now, delays - (index == number))
+        if rival.priority == own.priority:
+            first = first * np.where(late, rival.products(1 - rival.at, now, delays + (index >= number)), 1)
+            if index < number:  # of the same step, and known not to arrive now
+                at, before = rival.at[delays], rival.before[delays]
+                of_step = (taken - rival.offset) % rival.every == 0
+                counts = counts + of_step * before * at / np.where(at < 1, 1 - at, np.inf)
+        work = work + correction * counts
     return float((first * late * work).sum()) / taken.size / own.every
 
 
-def in_flight(sensors: Sequence[Sensor], of: Sensor | None = None) -> float:
-    """The share of steps at whose start Larsen's method has a measurement in flight; or, of the steps in which `of`
+def in_flight(sensors: Sequence[Sensor], sensor: Sensor | None = None) -> float:
+    """The share of steps at whose start Larsen's method has a measurement in flight; or, of the steps in which `sensor`
     takes its undelayed measurements, that in which one still is when their corrections have landed.
 
     A lost measurement is waited for until the next late one is taken. At most: one that is lost while another is in
     flight counts too.
     """
-    late = [one for one in _arrivals(sensors) if one.sensor.delayed]
-    every, offset = (1, 0) if of is None else (min(of.every, RAREST), of.offset)
+    late = [arrivals for arrivals in _arrivals(sensors) if arrivals.sensor.delayed]
+    every, offset = (1, 0) if sensor is None else (min(sensor.every, RAREST), sensor.offset)
     steps = _steps(every, offset % every, late, MOST_CASES)
     flying = np.zeros(steps.size)
-    lags = [(steps - 1 - one.offset) % one.every for one in late]  # to the step before, from the last that was taken
-    surely = [lag for one, lag in zip(late, lags, strict=True) if one.sensor.least_delay > 0]
+    lags = [(steps - 1 - arrivals.offset) % arrivals.every for arrivals in late]  # to the step before, since the last
+    surely = [lag for arrivals, lag in zip(late, lags, strict=True) if arrivals.sensor.least_delay > 0]
     newest = np.min(surely, axis=0) if surely else np.full(steps.size, RAREST)
     waits = np.ones(steps.size, bool)  # for a lost one: no other is taken in this step, before the correction
-    if of is not None:
-        for one in late:
-            waits &= (steps - one.offset) % one.every > 0 if one.sensor.least_delay > 0 else True
-    for one, lag in zip(late, lags, strict=True):
-        there = 1 - one.sensor.dropout - one.before
-        if of is not None and one.priority <= of.priority:
-            there = there - one.at
+    if sensor is not None:
+        for arrivals in late:
+            waits &= (steps - arrivals.offset) % arrivals.every > 0 if arrivals.sensor.least_delay > 0 else True
+    for arrivals, lag in zip(late, lags, strict=True):
+        there = 1 - arrivals.sensor.dropout - arrivals.before
+        if sensor is not None and arrivals.priority <= sensor.priority:
+            there = there - arrivals.at
         there[0] = 0
-        flying += one.sums(there, steps, np.full(steps.size, there.size - 1))
-        if one.sensor.dropout:
-            flying += one.sensor.dropout / (1 - one.at[0]) * (waits & (lag <= newest))
+        flying += arrivals.sums(there, steps, np.full(steps.size, there.size - 1))
+        if arrivals.sensor.dropout:
+            flying += arrivals.sensor.dropout / (1 - arrivals.at[0]) * (waits & (lag <= newest))
     return float(np.minimum(flying, 1).mean())

@@ -22,7 +22,7 @@ from sched_sim.ticks import ticks_per_unit, to_ticks
 
 @dataclass(frozen=True)
 class JobFigures:
-    """Of all jobs of one kind.
+    """Figures of all jobs of one kind.
 
     released: those whose release came; responses: of those that finished, in HR periods, in order of finishing;
     misses: finished after the deadline, or unfinished although it had passed;
@@ -47,7 +47,7 @@ class JobFigures:
 
 @dataclass(frozen=True)
 class SensorFigures:
-    """Of one sensor's measurements.
+    """Figures of one sensor's measurements.
 
     taken: in the simulated time; dropped: those of them that never arrive; arrived: by its end;
     achieved: how many corrections landed at each l - k.
@@ -89,12 +89,12 @@ class Outcome:
     def _repr_html_(self) -> str:
         """Quantiles of the responses are of all that were released, and those of l of all that arrived."""
         jobs = [
-            (kind, of.released, len(of.responses), *_quantiles(of.responses, of.released), of.misses)
-            for kind, of in self.jobs.items()
+            (kind, job.released, len(job.responses), *_quantiles(job.responses, job.released), job.misses)
+            for kind, job in self.jobs.items()
         ]
         sensors = [
-            (name, *_counts(of), *_quantiles(list(of.achieved.elements()), of.arrived))
-            for name, of in self.sensors.items()
+            (name, *_counts(sensor), *_quantiles(list(sensor.achieved.elements()), sensor.arrived))
+            for name, sensor in self.sensors.items()
         ]
         return html_table(
             "Response times, in HR periods", ("job", "released", "finished", *QUANTILES, "deadlines missed"), jobs
@@ -165,7 +165,7 @@ def run_scenario(
 
 
 class Finish(NamedTuple):
-    """Of a job: the step it belongs to; when it was released, was due and ended, in ticks."""
+    """A job's end: the step it belongs to; when it was released, was due and ended, in ticks."""
 
     step: int
     release: int

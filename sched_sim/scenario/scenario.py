@@ -100,8 +100,8 @@ class Sensor:
 
 def ends(delays: Sequence[int]) -> tuple[int, int]:
     """The least and the greatest, at once of a long range too."""
-    found = (delays[0], delays[-1]) if isinstance(delays, range) else delays
-    return min(found), max(found)
+    candidates = (delays[0], delays[-1]) if isinstance(delays, range) else delays
+    return min(candidates), max(candidates)
 
 
 @dataclass(frozen=True)
@@ -170,15 +170,15 @@ class Scenario:
         overlap = first_overlap(flight for sensor in delayed for flight in sensor.flights(self.steps, self.seed))
         if overlap is None:
             return []
-        one, other = overlap
+        first, second = overlap
         offsets = (
             ""
-            if one.sensor == other.sensor
+            if first.sensor == second.sensor
             else "; or give offsets with which the second is taken when the first has arrived"
         )
         return [
-            f'{one} and {other}: late = "larsen" can wait for one measurement at a time; choose late = "recalculate", '
-            f"which takes any number{offsets}"
+            f'{first} and {second}: late = "larsen" can wait for one measurement at a time; choose late = '
+            f'"recalculate", which takes any number{offsets}'
         ]
 
     def preempted(self, sensor: Sensor) -> bool:

@@ -25,20 +25,20 @@ from sched_sim.schedule.length import check_simulation
 from sched_sim.schedule.task_file import TaskEntry, wrong_together
 
 
-def _several(value: Any, what: str, one: Callable[[Any], Any]) -> tuple[Any, ...]:
+def _several(value: Any, what: str, read: Callable[[Any], Any]) -> tuple[Any, ...]:
     """A number, or a list of at least one."""
     if not isinstance(value, list):
-        return (one(value),)
+        return (read(value),)
     if not value:
         raise ValueError(f"is an empty list: give at least one {what}")
-    found = []
+    entries = []
     for number, item in enumerate(value):
         try:
-            found.append(one(item))
+            entries.append(read(item))
         except ValueError as error:
             shown = "" if isinstance(item, dict | list) else f" is {short(item)}"
             raise ValueError(f"entry {number}{shown}: {error}") from None
-    return tuple(found)
+    return tuple(entries)
 
 
 def _cost(value: Any) -> tuple[Fraction, ...]:
@@ -174,9 +174,9 @@ class _ScenarioFile(_Entry):
 
     def _no_unit(self) -> Iterator[str]:
         if (self.hr_hz is None) == (self.speed is None):
-            given = "neither is given" if self.speed is None else "both are given"
+            problem = "neither is given" if self.speed is None else "both are given"
             yield (
-                f"{given} of hr_hz and speed: give hr_hz (steps per second) where costs are in seconds, else speed "
+                f"{problem} of hr_hz and speed: give hr_hz (steps per second) where costs are in seconds, else speed "
                 f"(cost units per HR period)"
             )
         elif self.processor and self.hr_hz is None:

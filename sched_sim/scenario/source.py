@@ -122,27 +122,29 @@ class ComposedFilter(Source):
         if self.awaited is not None and self.awaited.arrives == step:
             self.awaited = None
         arrived = sorted(self.arrivals.pop(step, []), key=self._order)
-        self.carried |= dict.fromkeys(one for one in arrived if self._is_larsens(one))
+        self.carried |= dict.fromkeys(measurement for measurement in arrived if self._is_larsens(measurement))
         for _, together in groupby(arrived, self._group):
             jobs += self._arrive(tuple(together), start)
         return tuple(jobs)
 
     def at_horizon(self) -> tuple[Job, ...]:
-        return tuple(self._job((one,), (), None) for waiting in self.waiting.values() for one in waiting)
+        return tuple(
+            self._job((measurement,), (), None) for waiting in self.waiting.values() for measurement in waiting
+        )
 
-    def _order(self, one: Measurement) -> tuple[int, bool, int, int]:
-        """Of corrections that are released at one instant."""
-        sensor = self.sensors[one.sensor]
-        return sensor.priority, not self._is_late(one), one.sensor, one.step
+    def _order(self, measurement: Measurement) -> tuple[int, bool, int, int]:
+        """The order of corrections released at one instant."""
+        sensor = self.sensors[measurement.sensor]
+        return sensor.priority, not self._is_late(measurement), measurement.sensor, measurement.step
 
-    def _group(self, one: Measurement) -> tuple[int, Measurement | None]:
+    def _group(self, measurement: Measurement) -> tuple[int, Measurement | None]:
         """The same for corrections that arrive in one step and go back together."""
-        goes_back = self._is_late(one) and not self._is_larsens(one)
-        return self.sensors[one.sensor].priority, None if goes_back else one
+        goes_back = self._is_late(measurement) and not self._is_larsens(measurement)
+        return self.sensors[measurement.sensor].priority, None if goes_back else measurement
 
-    def _is_late(self, one: Measurement) -> bool:
+    def _is_late(self, measurement: Measurement) -> bool:
         """Whether it arrived in a later step than that in which it was taken."""
-        return one.step * self.period < one.arrival
+        return measurement.step * self.period < measurement.arrival
 
     def _predict(self, step: int, start: int) -> Job:
         part = "predict_accumulate" if self.awaited or self.carried else "predict"
@@ -164,13 +166,13 @@ class ComposedFilter(Source):
 
     def _await(self, taken: Awaited) -> None:
         """One that will never arrive is not waited for while another is in flight."""
-        other = self.awaited
-        if taken.arrives is not None or other is None or other.arrives in (None, taken.step):
+        current = self.awaited
+        if taken.arrives is not None or current is None or current.arrives in (None, taken.step):
             self.awaited = taken
 
     def _arrive(self, together: Together, now: int) -> tuple[Job, ...]:
-        for one in together:
-            insort(self.pending, one)
+        for measurement in together:
+            insort(self.pending, measurement)
         sensor = self.sensors[together[0].sensor]
         if self.scenario.preempted(sensor):
             if sensor.priority in self.waiting:
@@ -186,8 +188,9 @@ class ComposedFilter(Source):
             del self.waiting[priority]
             return ()
         first = waiting[0]
-        together = (first, *(one for one in waiting[1:] if not self._is_larsens(first) and not self._is_larsens(one)))
-        self.waiting[priority] = [one for one in waiting if one not in together]
+        rest = [] if self._is_larsens(first) else waiting[1:]
+        together = (first, *(measurement for measurement in rest if not self._is_larsens(measurement)))
+        self.waiting[priority] = [measurement for measurement in waiting if measurement not in together]
         return (self._correct(together, now),)
 
     def _correct(self, together: Together, now: int) -> Job:
@@ -199,44 +202,51 @@ class ComposedFilter(Source):
             return self._job(together, (("CO", late),), partial(self._land, together))
         aim = now // self.period
         kind = "correct_accumulate" if self._waits(aim, together) else "correct"
-        work = sum(total(self.costs[f"{kind}.{self.sensors[one.sensor].name}"], draws) for one in together)
-        back = min(one.step for one in together)
+        names = [self.sensors[measurement.sensor].name for measurement in together]
+        work = sum(total(self.costs[f"{kind}.{name}"], draws) for name in names)
+        back = min(measurement.step for measurement in together)
         after = back - 1 if back < aim else back  # from the prediction of step `back`, or from the state as it is
         later = self.pending[bisect_right(self.pending, after, key=itemgetter(0)) :]
-        again = [one for one in later if self._is_ahead(one, together) and not self._is_larsens(one)]
+        again = [
+            measurement
+            for measurement in later
+            if self._is_ahead(measurement, together) and not self._is_larsens(measurement)
+        ]
         replay = self._replay(first, aim - back, [*again, *self._applied_after(after)])
         parts = (("CO", work), ("RP", replay)) if replay else (("CO", work),)
         if not self.scenario.preempted(sensor):
             return self._job(together, parts, partial(self._land, together))
-        ahead = frozenset(one for one in self.pending if self._is_ahead(one, together))
+        ahead = frozenset(measurement for measurement in self.pending if self._is_ahead(measurement, together))
         return self._job(together, parts, partial(self._finish, Branch(together, aim, len(self.landed), ahead)))
 
-    def _is_ahead(self, one: Measurement, together: Together) -> bool:
+    def _is_ahead(self, measurement: Measurement, together: Together) -> bool:
         """Whether the correction of one that has arrived lands before these do; those that wait for them do not."""
         sensor = self.sensors[together[0].sensor]
         limit = sensor.priority - self.scenario.preempted(sensor)
-        return self.sensors[one.sensor].priority <= limit and one not in together
+        return self.sensors[measurement.sensor].priority <= limit and measurement not in together
 
     def _waits(self, step: int, together: Together) -> bool:
         """Whether something taken before `step` will still be in flight when these have landed."""
         awaited = self.awaited is not None and self.awaited.step < step
-        return awaited or any(one.step < step and not self._is_ahead(one, together) for one in self.carried)
+        return awaited or any(
+            measurement.step < step and not self._is_ahead(measurement, together) for measurement in self.carried
+        )
 
-    def _is_larsens(self, one: Measurement) -> bool:
+    def _is_larsens(self, measurement: Measurement) -> bool:
         """Whether it is carried to the step in which it lands, instead of being replayed from its own."""
-        return self.larsen and self.sensors[one.sensor].delayed
+        return self.larsen and self.sensors[measurement.sensor].delayed
 
     def _applied_after(self, step: int) -> list[Measurement]:
         """Corrections in the history of the steps after this one."""
-        return [one for _, one in self.applied[bisect_right(self.applied, step, key=itemgetter(0)) :]]
+        return [measurement for _, measurement in self.applied[bisect_right(self.applied, step, key=itemgetter(0)) :]]
 
     def _replay(self, measurement: Measurement, steps: int, again: Iterable[Measurement]) -> int:
         """The work of so many predicts and these corrections, drawn for the correction of `measurement`."""
         draws = self.streams[measurement.sensor]
         work = total(self.costs["predict"], draws, steps)
-        for one in again:
-            sensor = self.sensors[one.sensor]
-            part = "correct_late" if self._is_larsens(one) else "correct"
+        for repeated in again:
+            sensor = self.sensors[repeated.sensor]
+            part = "correct_late" if self._is_larsens(repeated) else "correct"
             work += total(self.costs[f"{part}.{sensor.name}"], draws)
         return work
 
@@ -245,32 +255,37 @@ class ComposedFilter(Source):
         if step_at(now, self.period) <= branch.aim:
             return self._land(branch.together, job, now)
         first = branch.together[0]
-        news = [(step, one) for step, one in self.landed[branch.seen :] if one not in branch.ahead]
+        news = [
+            (step, measurement) for step, measurement in self.landed[branch.seen :] if measurement not in branch.ahead
+        ]
         back = min([branch.aim, *(step for step, _ in news)])
         if back < branch.aim:  # from the prediction of that step
-            again = [*self._applied_after(back - 1), *(one for one in branch.together if one.step >= back)]
+            again = [
+                *self._applied_after(back - 1),
+                *(measurement for measurement in branch.together if measurement.step >= back),
+            ]
         else:
-            again = [*self._applied_after(back), *(one for step, one in news if step == back)]
+            again = [*self._applied_after(back), *(measurement for step, measurement in news if step == back)]
         aim = now // self.period
         work = self._replay(first, aim - back, again)
         further = branch._replace(aim=aim, seen=len(self.landed))
         return (job.go_on((("CU", work),), partial(self._finish, further)),)
 
     def _land(self, together: Together, job: Job, now: int) -> tuple[Job, ...]:
-        for one in together:
-            del self.pending[bisect_left(self.pending, one)]
-            self.carried.pop(one, None)
-            applied_to = step_at(now, self.period) if self._is_larsens(one) else one.step
-            self.landed.append((applied_to, one))
-            insort(self.applied, (applied_to, one), key=itemgetter(0))
+        for measurement in together:
+            del self.pending[bisect_left(self.pending, measurement)]
+            self.carried.pop(measurement, None)
+            applied_to = step_at(now, self.period) if self._is_larsens(measurement) else measurement.step
+            self.landed.append((applied_to, measurement))
+            insort(self.applied, (applied_to, measurement), key=itemgetter(0))
         return self._next(job.priority, now) if job.priority in self.waiting else ()
 
     def _job(self, together: Together, parts: Parts, then: Then | None) -> Job:
-        one, *others = together
-        sensor = self.sensors[one.sensor]
+        first, *others = together
+        sensor = self.sensors[first.sensor]
         work, cpu = sum(time for _, time in parts), self.corrector_cpu
-        job = Job(correct_kind(sensor), one.step, sensor.priority, one.arrival, one.due, work, parts, then, cpu)
-        job.companions = tuple(self._job((other,), (), None) for other in others)
+        job = Job(correct_kind(sensor), first.step, sensor.priority, first.arrival, first.due, work, parts, then, cpu)
+        job.companions = tuple(self._job((companion,), (), None) for companion in others)
         return job
 
 

@@ -39,19 +39,19 @@ class Slice(NamedTuple):
 
     def pieces(self) -> list[tuple[str, int, int]]:
         """(label, start, end) of what was done in this slice: "switch", then "HRP", "HRU", ..."""
-        found = [("switch", self.start, self.start + self.overhead)] if self.overhead else []
+        pieces = [("switch", self.start, self.start + self.overhead)] if self.overhead else []
         at = self.start + self.overhead - self.begin
         for label, work in self.parts:
             start, end = max(at, self.start + self.overhead), min(at + work, self.end)
             if start < end:
-                found.append((label, start, end))
+                pieces.append((label, start, end))
             at += work
-        return found
+        return pieces
 
 
 @dataclass(frozen=True, slots=True)
 class Response:
-    """Of all jobs of one kind; times in ticks.
+    """Figures of all jobs of one kind; times in ticks.
 
     A job that is unfinished at the horizon counts in `releases`, and in `misses` and `worst_lateness` if its
     deadline has passed; not in the response times.
@@ -112,14 +112,14 @@ class Schedule:
         rows = [
             (
                 kind,
-                of.releases,
-                of.finished,
-                Fraction(of.worst, self.period) if of.finished else None,
-                of.mean / self.period if of.finished else None,
-                of.misses,
-                of.preemptions,
+                figures.releases,
+                figures.finished,
+                Fraction(figures.worst, self.period) if figures.finished else None,
+                figures.mean / self.period if figures.finished else None,
+                figures.misses,
+                figures.preemptions,
             )
-            for kind, of in self.responses.items()
+            for kind, figures in self.responses.items()
         ]
         return html_table(
             f"{self.horizon / self.period:g} HR periods, busy {float(self.utilization):.1%}; corrections landed: "
