@@ -99,14 +99,14 @@ def cases() -> list[Timing]:
 def cells(table: CostTable) -> list[Cell]:
     """Table 4, cell by cell. table: the paper's costs."""
     corners = _corners(table)
-    found = []
+    table_cells = []
     for case in _published()["case"]:
         timing = Timing(case["N"], case["M"], case["L"])
         for method in METHODS:
             computed = least_speed(select(table, method, Options()), timing)
             speeds = [least_speed(select(corner, method, Options()), timing).speed for corner in corners]
-            found.append(Cell(timing, method, Fraction(case[method]), computed, min(speeds), max(speeds)))
-    return found
+            table_cells.append(Cell(timing, method, Fraction(case[method]), computed, min(speeds), max(speeds)))
+    return table_cells
 
 
 def _corners(table: CostTable) -> Sequence[CostTable]:

@@ -80,7 +80,7 @@ SerialCosts: TypeAlias = StandardCosts[Number] | RecalculateCosts[Number] | Lars
 TwoRateCosts: TypeAlias = MultirateCosts[Number] | RobustCosts[Number]
 JobCosts: TypeAlias = SerialCosts[Number] | DualRateCosts[Number] | TwoRateCosts[Number]
 Costs: TypeAlias = JobCosts[Fraction]
-"""One method's, as fractions of the cost table's unit."""
+"""The costs of one method, as fractions of the cost table's unit."""
 
 
 def converted(costs: JobCosts[Number], convert: Callable[[Number], Other]) -> JobCosts[Other]:

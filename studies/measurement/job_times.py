@@ -62,7 +62,7 @@ def seconds_per_run(
                 raise InputError(f"{' '.join(key)} cannot be compiled by numba: {gist(error)}") from error
             raise
         empty_runs[key] = _timer(_nothing, job.arguments, backend, protocol.repetitions)
-    found: dict[Key, list[int]] = {key: [] for key in jobs}
+    times: dict[Key, list[int]] = {key: [] for key in jobs}
     overhead: dict[Key, list[int]] = {key: [] for key in jobs}
     order, shuffle = list(jobs), random.Random(seed)
     with _no_garbage_collection():
@@ -70,11 +70,11 @@ def seconds_per_run(
             progress(len(jobs) + round_number, total, "timing")
             shuffle.shuffle(order)
             for key in order:
-                found[key].append(runs[key](round_number))
+                times[key].append(runs[key](round_number))
                 overhead[key].append(empty_runs[key](round_number))
     progress(total, total, "timed")
     scale = protocol.repetitions * 1e9
-    return {key: [max(each - min(overhead[key]), 1) / scale for each in found[key]] for key in jobs}
+    return {key: [max(each - min(overhead[key]), 1) / scale for each in times[key]] for key in jobs}
 
 
 def _timer(

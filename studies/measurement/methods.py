@@ -87,8 +87,8 @@ def cost_table(
     if backend == "counted":
         operations = counted(jobs, progress)
         about["source"] = "exact operation counts: multiply, add, divide and square root count one each"
-        costs = {key: Cost.of(Fraction(found.total)) for key, found in operations.items()}
-        counts = {key: nonzero(found) for key, found in operations.items()}
+        costs = {key: Cost.of(Fraction(tally.total)) for key, tally in operations.items()}
+        counts = {key: nonzero(tally) for key, tally in operations.items()}
         return CostTable(name, "operation", _by_method(costs), about, operations=_by_method(counts))
     protocol = _protocol(backend, thorough)
     times = seconds_per_run(jobs, backend, protocol, seed, progress)
@@ -96,7 +96,7 @@ def cost_table(
         "source": "means over the repetitions of a round; minimum, median and 95th percentile over rounds",
         **where_timed(protocol, seed),
     }
-    return CostTable(name, "second", _by_method({key: _cost(found) for key, found in times.items()}), about)
+    return CostTable(name, "second", _by_method({key: _cost(rounds) for key, rounds in times.items()}), about)
 
 
 Key = TypeVar("Key")
@@ -107,14 +107,14 @@ def counted(jobs: Mapping[Key, Job], progress: Progress = silent) -> dict[Key, O
 
     Raises InputError for a job with a function of the user's that cannot be counted.
     """
-    found = {}
+    operations = {}
     for number, (key, job) in enumerate(jobs.items()):
         progress(number, len(jobs), "jobs")
         try:
-            found[key] = count(job.function, *job.arguments(0))
+            operations[key] = count(job.function, *job.arguments(0))
         except UncountableError as error:
             raise InputError(f"{error}, or time it with another --backend") from error
-    return found
+    return operations
 
 
 def where_timed(protocol: Protocol, seed: int) -> dict[str, Any]:

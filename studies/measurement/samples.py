@@ -39,8 +39,8 @@ def measure_filter(
         return timed_together({name: user}, thorough=thorough, seed=seed, progress=progress)[name]
     operations = counted(user.jobs, progress)
     source = "exact operation counts: multiply, add, divide, square root, function count one each"
-    samples = {part: (Fraction(found.total),) for part, found in operations.items()}
-    counts = {part: nonzero(found) for part, found in operations.items()}
+    samples = {part: (Fraction(tally.total),) for part, tally in operations.items()}
+    counts = {part: nonzero(tally) for part, tally in operations.items()}
     return SampledCosts(name, "operation", samples, counts, _about(user, backend) | {"source": source})
 
 

@@ -48,6 +48,6 @@ def _shown(value: Any) -> str:
 
 
 def _tried(typical: list[Any]) -> str:
-    given = ("your x0", "your P0", "your u")[: len(typical)]
+    values = ("your x0", "your P0", "your u")[: len(typical)]
     usual = ("x0 zero", "P0 the unit matrix", "no input")[len(typical) :]
-    return ", ".join([*given, *usual]) + (": return (filter, x0, P0, u) with others" if usual else "")
+    return ", ".join([*values, *usual]) + (": return (filter, x0, P0, u) with others" if usual else "")

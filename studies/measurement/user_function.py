@@ -101,7 +101,7 @@ def _installed(here: Path) -> list[str]:
 
 
 def _load(top: str, path: Path) -> None:
-    """As `import top` does, from this file."""
+    """The import of `top`, from this file."""
     inside = [str(path.parent)] if path.name == "__init__.py" else None
     spec = importlib.util.spec_from_file_location(top, path, submodule_search_locations=inside)
     assert spec is not None

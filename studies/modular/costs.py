@@ -58,7 +58,7 @@ def move(x: FloatArray, _u: FloatArray, dt: float, out: FloatArray) -> None:
 
 
 def move_jacobian(x: FloatArray, _u: FloatArray, dt: float, out: FloatArray) -> None:
-    """Of `move`; what is zero is left so."""
+    """The Jacobian of `move`; what is zero is left so."""
     axes = len(out) // 3
     for i in range(axes):
         out[i, i] = 1.0
@@ -75,7 +75,7 @@ def see(x: FloatArray, out: FloatArray) -> None:
 
 
 def see_jacobian(x: FloatArray, out: FloatArray) -> None:
-    """Of `see`."""
+    """The Jacobian of `see`."""
     for i in range(len(out)):
         out[i, i] = 1.0 + 2.0 * SCALE * x[i]
 
@@ -95,13 +95,13 @@ def filter_of(kind: Kind, states: int) -> ModularFilter:
 
 def jobs() -> dict[Key, Job]:
     """Those that are costed."""
-    found: dict[Key, Job] = {}
+    named_jobs: dict[Key, Job] = {}
     for states in STATES:
         for kind in KINDS:
             of_filter = modular_jobs(filter_of(kind, states))
             for part, name in zip(PARTS, ("predict", "correct.s"), strict=True):
-                found[kind, str(states), part] = of_filter[name]
-    return found
+                named_jobs[kind, str(states), part] = of_filter[name]
+    return named_jobs
 
 
 def operations() -> dict[Key, int]:
@@ -110,6 +110,6 @@ def operations() -> dict[Key, int]:
 
 
 def times(*, thorough: bool = False, seed: int = 0, progress: Progress = silent) -> Times:
-    """Of the compiled code on this machine; a minute or two if it was not compiled before."""
+    """Times of the compiled code on this machine; a minute or two if it was not compiled before."""
     protocol: Protocol = THOROUGH if thorough else QUICK
     return Times(seconds_per_run(jobs(), "compiled", protocol, seed, progress), where_timed(protocol, seed))

@@ -80,14 +80,14 @@ def late_study(
     """A row for each way that can do with the sensors and the delay; the same measurements for all."""
     truths = [oscillation(SETTING, seed).truth for seed in seeds]
     asked = [(s, w, d) for s in SENSORS for w in WAYS for d in delays if is_possible(s, w, d)]
-    found = []
+    rows = []
     for done, (sensors, way, delay) in enumerate(asked):
         progress(done, len(asked), f"{way}, {delay} steps late")
         runs = [errors(sensors, way, delay, truth, seed, backend) for truth, seed in zip(truths, seeds, strict=True)]
         spread = rms([list(each) for each in np.array(runs).transpose(2, 0, 1)])
-        found.append(Row(sensors, way, delay, len(runs), spread, work(sensors, way, delay)))
+        rows.append(Row(sensors, way, delay, len(runs), spread, work(sensors, way, delay)))
     progress(len(asked), len(asked), "late measurements")
-    return tuple(found)
+    return tuple(rows)
 
 
 def is_possible(sensors: Sensors, way: Way, delay: int) -> bool:
@@ -111,9 +111,9 @@ def errors(
 ) -> FloatArray:
     """Estimate less truth (steps, 3) of the settled part of a run."""
     composed = filter_of(sensors, delay)
-    found = estimate(composed, way, observe(composed, truth, seed), len(truth) - 1, backend)
+    history = estimate(composed, way, observe(composed, truth, seed), len(truth) - 1, backend)
     settled = SETTLED_PERIODS * SETTING.rate
-    return found.x[settled:] - truth[settled:]
+    return history.x[settled:] - truth[settled:]
 
 
 def estimate(
@@ -127,29 +127,29 @@ def estimate(
     x0, P0 = start()
     inputs = np.zeros((steps, 0))
     if way == "as new":
-        new = [one._replace(taken=one.arrives) for one in measurements]
+        new = [measurement._replace(taken=measurement.arrives) for measurement in measurements]
         return run(composed, x0, P0, inputs, new, history=0, backend=backend)
     by = "reference" if way == "dual-rate" else backend
     return run(composed, x0, P0, inputs, measurements, late=way, backend=by)
 
 
 def work(sensors: Sensors, way: Way, delay: int) -> Work:
-    """Of one cycle of `EVERY` steps, by the counts of its jobs."""
+    """The work of `EVERY` steps, by the counts of its jobs."""
     if way == "dual-rate":
         return _work_of_dual_rate(delay)
     jobs = modular_jobs(filter_of(sensors, delay), np.zeros(3), np.diag(AMPLITUDES**2 / 2))
     operations = {part: count(job.function, *job.arguments(0)).total for part, job in jobs.items()}
     predict, position = operations["predict"], operations["correct.position"]
-    other = operations.get("correct.acceleration", 0)
-    ordinary = predict + other
+    acceleration = operations.get("correct.acceleration", 0)
+    ordinary = predict + acceleration
     last = ordinary + position
     before = [ordinary] * (EVERY - 1)
     if delay and way == "recalculate":  # the step in which it was taken is corrected again, the rest done again
-        last = position + other + delay * ordinary
+        last = position + acceleration + delay * ordinary
     if delay and way == "larsen":
         accumulating = operations["predict_accumulate"]
         waiting = accumulating + operations.get("correct_accumulate.acceleration", 0)
-        last = accumulating + operations["correct_late.position"] + other
+        last = accumulating + operations["correct_late.position"] + acceleration
         before = [waiting] * (delay - 1) + [ordinary] * (EVERY - delay)
     steps = [*before, last]
     return Work(sum(steps) / EVERY, max(steps))

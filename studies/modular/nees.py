@@ -71,7 +71,7 @@ def bounds(runs: int, n: int, confidence: float = CONFIDENCE) -> Bounds:
 
 
 def consistency(errors: FloatArray, P: FloatArray, confidence: float = CONFIDENCE) -> Consistency:
-    """Of independent runs: errors (runs, steps, n) and P (runs, steps, n, n)."""
+    """Consistency of independent runs: errors (runs, steps, n) and P (runs, steps, n, n)."""
     runs, _steps, n = errors.shape
     values = nees(errors, P)
     mean: FloatArray = values.mean(axis=0)

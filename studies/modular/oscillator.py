@@ -136,8 +136,8 @@ def rows(
 
 def row(records: Sequence[Record], setting: Setting, dropout: float, backend: BackendName = "compiled") -> Row:
     """One dropout, all records."""
-    found = [residuals(record, setting, dropout, backend) for record in records]
-    errors = np.array([one.error for one in found])
+    runs = [residuals(record, setting, dropout, backend) for record in records]
+    errors = np.array([run.error for run in runs])
     truths = np.array([record.truth[-errors.shape[1] :] for record in records])
     return Row(
         setting,
@@ -146,9 +146,9 @@ def row(records: Sequence[Record], setting: Setting, dropout: float, backend: Ba
         1 / (setting.rate * (1 - dropout)),
         np.sqrt(np.mean(truths**2, axis=(0, 1))) / AMPLITUDES,
         np.sqrt(np.mean(errors**2, axis=1)),
-        np.array([[_rms(sensor) for sensor in one.innovation] for one in found]),
-        np.array([[_rms(sensor) for sensor in one.after] for one in found]),
-        consistency(errors, np.array([one.P for one in found])),
+        np.array([[_rms(sensor) for sensor in run.innovation] for run in runs]),
+        np.array([[_rms(sensor) for sensor in run.after] for run in runs]),
+        consistency(errors, np.array([run.P for run in runs])),
     )
 
 
@@ -173,16 +173,18 @@ def history_at(dropout: float, seed: int, setting: Setting = USUAL, backend: Bac
     """One run to be looked at."""
     record = oscillation(setting, seed)
     measurements = arriving(record, dropout, setting.losing)
-    found = estimate(record, setting, measurements, backend)
+    history = estimate(record, setting, measurements, backend)
     dt_s = step_s(setting)
     seen = {
-        name: np.array([(one.taken * dt_s, one.y[0]) for one in measurements if one.sensor == name]).reshape(-1, 2)
+        name: np.array(
+            [(measurement.taken * dt_s, measurement.y[0]) for measurement in measurements if measurement.sensor == name]
+        ).reshape(-1, 2)
         for name in SENSORS
     }
-    sigma: FloatArray = np.sqrt(np.diagonal(found.P, axis1=1, axis2=2))
-    time_s: FloatArray = dt_s * np.arange(float(len(found.x)))
-    return History(time_s, record.truth, found.x, sigma, seen["position"], seen["acceleration"])
+    sigma: FloatArray = np.sqrt(np.diagonal(history.P, axis1=1, axis2=2))
+    time_s: FloatArray = dt_s * np.arange(float(len(history.x)))
+    return History(time_s, record.truth, history.x, sigma, seen["position"], seen["acceleration"])
 
 
 def _each(settings: Iterable[tuple[Sequence[Record], Setting]]) -> tuple[Row, ...]:
-    return tuple(one for records, setting in settings for one in rows(records, setting, FEW_DROPOUTS))
+    return tuple(row for records, setting in settings for row in rows(records, setting, FEW_DROPOUTS))

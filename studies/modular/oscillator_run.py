@@ -31,7 +31,7 @@ Losing: TypeAlias = Literal["both", "position", "acceleration"]
 
 OSCILLATOR = Oscillator()
 AMPLITUDES = frequency(OSCILLATOR) ** np.arange(3.0)
-"""Of position, velocity and acceleration at the start: 1 m, omega and omega^2."""
+"""Position, velocity and acceleration at the start: 1 m, omega and omega^2."""
 
 POSITION_SIGMA_M, ACCELERATION_SIGMA = 0.05 * AMPLITUDES[0], 0.05 * AMPLITUDES[2]
 PERIODS, SETTLED_PERIODS = 10, 2
@@ -119,9 +119,9 @@ def arriving(record: Record, dropout: float, losing: Losing = "both") -> list[Me
     """
     draws = np.random.default_rng([record.seed, LOSS]).random(len(record.measurements))
     return [
-        one
-        for one, draw in zip(record.measurements, draws, strict=True)
-        if draw >= dropout or losing not in ("both", one.sensor)
+        measurement
+        for measurement, draw in zip(record.measurements, draws, strict=True)
+        if draw >= dropout or losing not in ("both", measurement.sensor)
     ]
 
 
@@ -135,17 +135,19 @@ def estimate(
 
 
 def residuals(record: Record, setting: Setting, dropout: float, backend: BackendName = "compiled") -> Residuals:
-    """Of one run."""
+    """Residuals of one run."""
     measurements = arriving(record, dropout, setting.losing)
-    found = estimate(record, setting, measurements, backend)
+    history = estimate(record, setting, measurements, backend)
     settled = SETTLED_PERIODS * setting.rate
-    predicted = np.vstack([start()[0], found.x[:-1] @ transition(step_s(setting)).T])
+    predicted = np.vstack([start()[0], history.x[:-1] @ transition(step_s(setting)).T])
     innovation, after = [], []
     for name, seen in SENSORS.items():
-        mine = [one for one in measurements if one.sensor == name and one.taken >= settled]
-        taken = np.array([one.taken for one in mine], dtype=np.int64)
-        y = np.array([one.y[0] for one in mine])
+        mine = [
+            measurement for measurement in measurements if measurement.sensor == name and measurement.taken >= settled
+        ]
+        taken = np.array([measurement.taken for measurement in mine], dtype=np.int64)
+        y = np.array([measurement.y[0] for measurement in mine])
         innovation.append(y - predicted[taken, seen])
-        after.append(y - found.x[taken, seen])
-    error = found.x[settled:] - record.truth[settled:]
-    return Residuals(error, found.P[settled:], (innovation[0], innovation[1]), (after[0], after[1]))
+        after.append(y - history.x[taken, seen])
+    error = history.x[settled:] - record.truth[settled:]
+    return Residuals(error, history.P[settled:], (innovation[0], innovation[1]), (after[0], after[1]))

@@ -131,7 +131,7 @@ class NeesRow(NamedTuple):
 
 
 class Series(NamedTuple):
-    """Of one case, over time: as long as the shortest of its flights.
+    """One case over time: as long as the shortest of its flights.
 
     time_s (times,). median, high (readings, times): residuals in percent, half and 95 % of the runs are below.
     nees (1 + quantities, times): mean over the runs; bounds of the first, bounds_of_three of the others.
@@ -156,15 +156,15 @@ class RocketResults(NamedTuple):
     series: tuple[Series, ...]
 
 
-def summary(one: Run) -> Summary:
+def summary(run: Run) -> Summary:
     """A run in short."""
-    ascent = one.time_s >= 0.0
+    ascent = run.time_s >= 0.0
     parts = [slice(None), *(slice(at, at + 3) for at in range(0, OF.errors, 3))]
-    lengths = np.stack([length(one.errors[ascent, part]) for part in parts[1:]])
+    lengths = np.stack([length(run.errors[ascent, part]) for part in parts[1:]])
     return Summary(
-        one.time_s,
-        100.0 * np.stack([reading(one) for reading in READINGS.values()]),
-        np.stack([nees(one.errors[:, part], one.P[:, part, part]) for part in parts]),
+        run.time_s,
+        100.0 * np.stack([reading(run) for reading in READINGS.values()]),
+        np.stack([nees(run.errors[:, part], run.P[:, part, part]) for part in parts]),
         UNITS * np.sqrt(np.mean(lengths**2, axis=1)),
         UNITS * lengths.max(axis=1),
     )
@@ -178,24 +178,24 @@ def holds_from(time_s: FloatArray, residual: FloatArray) -> float:
 
 
 def error_row(case: Case, runs: Sequence[Summary]) -> ErrorRow:
-    """Of all runs of a case."""
-    largest = np.max([one.largest for one in runs], axis=0)
-    return ErrorRow(case, np.stack([one.rms for one in runs]), largest)
+    """The row of all runs of a case."""
+    largest = np.max([run.largest for run in runs], axis=0)
+    return ErrorRow(case, np.stack([run.rms for run in runs]), largest)
 
 
 def residual_rows(case: Case, runs: Sequence[Summary]) -> tuple[ResidualRow, ...]:
-    """Of all runs of a case, one row for each reading."""
+    """A case's rows over all its runs, one for each reading."""
     return tuple(
-        residual_row(case, reading, [(one.time_s, one.residuals[number]) for one in runs])
+        residual_row(case, reading, [(run.time_s, run.residuals[number]) for run in runs])
         for number, reading in enumerate(READINGS)
     )
 
 
 def residual_row(case: Case, reading: str, runs: Sequence[tuple[FloatArray, FloatArray]]) -> ResidualRow:
-    """Of all runs of a case, of each the times and this reading of its residual."""
+    """A case's row. runs: of each the times and this reading of its residual."""
     settled = [residual[time_s >= SETTLED_S] for time_s, residual in runs]
     worst = np.array([np.max(part) for part in settled])
-    from_s = [holds_from(*one) for one in runs]
+    from_s = [holds_from(*run) for run in runs]
     return ResidualRow(
         case=case,
         reading=reading,
@@ -209,13 +209,13 @@ def residual_row(case: Case, reading: str, runs: Sequence[tuple[FloatArray, Floa
 
 
 def nees_rows(case: Case, runs: Sequence[Summary]) -> tuple[NeesRow, ...]:
-    """Of all runs of a case: each phase, all errors and each quantity's."""
+    """A case's rows: each phase, all errors and each quantity's."""
     time_s, values = _together(runs)
     parts = [("all", OF.errors), *((quantity.split(",")[0], 3) for quantity in QUANTITIES)]
     return tuple(
-        nees_row(case, phase, of, n, values[:, number, (time_s >= begin_s) & (time_s < end_s)])
+        nees_row(case, phase, quantity, n, values[:, number, (time_s >= begin_s) & (time_s < end_s)])
         for phase, (begin_s, end_s) in PHASES.items()
-        for number, (of, n) in enumerate(parts)
+        for number, (quantity, n) in enumerate(parts)
     )
 
 
@@ -228,9 +228,9 @@ def nees_row(case: Case, phase: str, of: str, n: int, values: FloatArray) -> Nee
 
 
 def series(case: Case, runs: Sequence[Summary]) -> Series:
-    """Of all runs of a case."""
+    """The series of all runs of a case."""
     time_s, values = _together(runs)
-    residuals = np.stack([one.residuals[:, : len(time_s)] for one in runs])
+    residuals = np.stack([run.residuals[:, : len(time_s)] for run in runs])
     return Series(
         case, time_s, np.median(residuals, axis=0), np.percentile(residuals, 95, axis=0, method="lower"),
         values.mean(axis=0), bounds(len(runs), OF.errors), bounds(len(runs), 3),
@@ -271,8 +271,8 @@ def rocket_study(
 
 def _together(runs: Sequence[Summary]) -> tuple[FloatArray, FloatArray]:
     """Times of the shortest flight, and NEES (runs, 1 + quantities, times)."""
-    time_s = min((one.time_s for one in runs), key=len)
-    return time_s, np.stack([one.nees[:, : len(time_s)] for one in runs])
+    time_s = min((run.time_s for run in runs), key=len)
+    return time_s, np.stack([run.nees[:, : len(time_s)] for run in runs])
 
 
 def _mean(values: FloatArray) -> tuple[FloatArray, FloatArray]:

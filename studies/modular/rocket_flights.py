@@ -67,10 +67,10 @@ def follow(
 ) -> Run:
     """The filter of a case on these measurements."""
     composed = rocket_filter(case.predictor, case.dropout, case.noise)
-    used = [one for one in measured if one.sensor != case.without]
+    used = [measurement for measurement in measured if measurement.sensor != case.without]
     x0, P0 = start(truth[0], seed)
-    found = run(composed, x0, P0, np.zeros((len(truth) - 1, 0)), used, backend=backend)
+    history = run(composed, x0, P0, np.zeros((len(truth) - 1, 0)), used, backend=backend)
     errors = np.empty((len(truth), OF.errors))
-    for true, estimate, error in zip(truth, found.x, errors, strict=True):
+    for true, estimate, error in zip(truth, history.x, errors, strict=True):
         minus(OF, true, estimate, error)
-    return Run(time_s, truth, found.x, found.P, errors)
+    return Run(time_s, truth, history.x, history.P, errors)

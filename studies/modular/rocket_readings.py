@@ -13,48 +13,48 @@ from filters.arrays import FloatArray
 from studies.modular.rocket_flights import Run
 
 
-def distance(one: Run) -> FloatArray:
+def distance(run: Run) -> FloatArray:
     """Error of position over distance from the pad."""
-    return share(length(one.errors[:, :3]), length(one.truth[:, :3]))
+    return share(length(run.errors[:, :3]), length(run.truth[:, :3]))
 
 
-def altitude(one: Run) -> FloatArray:
+def altitude(run: Run) -> FloatArray:
     """Error of height over height."""
-    return share(one.errors[:, 2], one.truth[:, 2])
+    return share(run.errors[:, 2], run.truth[:, 2])
 
 
-def horizontal(one: Run) -> FloatArray:
+def horizontal(run: Run) -> FloatArray:
     """Horizontal error over horizontal distance."""
-    return share(length(one.errors[:, :2]), length(one.truth[:, :2]))
+    return share(length(run.errors[:, :2]), length(run.truth[:, :2]))
 
 
-def worst_axis(one: Run) -> FloatArray:
+def worst_axis(run: Run) -> FloatArray:
     """The worst of east, north, up: each axis' error over its own coordinate."""
-    worst: FloatArray = share(one.errors[:, :3], one.truth[:, :3]).max(axis=1)
+    worst: FloatArray = share(run.errors[:, :3], run.truth[:, :3]).max(axis=1)
     return worst
 
 
-def way_turned(one: Run) -> FloatArray:
+def way_turned(run: Run) -> FloatArray:
     """Angle of the orientation's error over all that the body has turned since ignition, roll too."""
-    rate = length(one.truth[:, 9:12])
-    steps = (rate[1:] + rate[:-1]) / 2 * np.diff(one.time_s)
-    return share(length(one.errors[:, 12:]), np.concatenate([[0.0], np.cumsum(steps)]))
+    rate = length(run.truth[:, 9:12])
+    steps = (rate[1:] + rate[:-1]) / 2 * np.diff(run.time_s)
+    return share(length(run.errors[:, 12:]), np.concatenate([[0.0], np.cumsum(steps)]))
 
 
-def net_turn(one: Run) -> FloatArray:
+def net_turn(run: Run) -> FloatArray:
     """Angle of the orientation's error over that between the orientation and the one on the pad, at most 180 deg."""
-    return share(length(one.errors[:, 12:]), attitude_angle(one.truth[:, 12:], one.truth[0, 12:]))
+    return share(length(run.errors[:, 12:]), attitude_angle(run.truth[:, 12:], run.truth[0, 12:]))
 
 
-def nose(one: Run) -> FloatArray:
+def nose(run: Run) -> FloatArray:
     """Angle between the nose and where the filter thinks it is, over that between the nose and the rail."""
-    true, estimate = _nose(one.truth), _nose(one.x)
+    true, estimate = _nose(run.truth), _nose(run.x)
     return share(_angle(true, estimate), _angle(true, true[0]))
 
 
-def quaternion(one: Run) -> FloatArray:
+def quaternion(run: Run) -> FloatArray:
     """Length of the difference of the quaternions, of which each has length 1: 15 % are 17 degrees."""
-    return chord(one.truth[:, 12:], one.x[:, 12:])
+    return chord(run.truth[:, 12:], run.x[:, 12:])
 
 
 READINGS: dict[str, Callable[[Run], FloatArray]] = {
@@ -70,14 +70,14 @@ READINGS: dict[str, Callable[[Run], FloatArray]] = {
 """Each a share over time (steps + 1,), infinite or meaningless before liftoff."""
 
 
-def share(error: FloatArray, of: FloatArray) -> FloatArray:
+def share(error: FloatArray, whole: FloatArray) -> FloatArray:
     """The size of the error over that of something else; infinite over nothing."""
-    shares: FloatArray = np.divide(np.abs(error), np.abs(of), out=np.full(error.shape, np.inf), where=of != 0.0)
+    shares: FloatArray = np.divide(np.abs(error), np.abs(whole), out=np.full(error.shape, np.inf), where=whole != 0.0)
     return shares
 
 
 def length(vectors: FloatArray) -> FloatArray:
-    """Of each row."""
+    """The length of each row."""
     lengths: FloatArray = np.sqrt(np.sum(vectors**2, axis=-1))
     return lengths
 

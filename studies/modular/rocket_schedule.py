@@ -165,7 +165,7 @@ def counted() -> Costs:
     processor = load_part(PROCESSOR)
     assert processor.clock_hz is not None
     upright, P0 = np.eye(16)[12], np.diag(START_SIGMAS**2)
-    found: dict[PredictorName, SampledCosts] = {}
+    costs: dict[PredictorName, SampledCosts] = {}
     for predictor in PREDICTORS:
         composed = filter_of(predictor)
         user = UserFilter(composed, modular_jobs(composed, upright, P0))
@@ -174,8 +174,8 @@ def counted() -> Costs:
             part: processor.clock_hz * seconds_for(counts, processor, part) for part, counts in table.operations.items()
         }
         samples = {part: tuple(factor * work for factor in SPREAD) for part, work in cycles.items()}
-        found[predictor] = replace(table, unit="cycle", samples=samples)
-    return found
+        costs[predictor] = replace(table, unit="cycle", samples=samples)
+    return costs
 
 
 # ------------------------------------------------------------------------------------------------------- the scenario
@@ -251,10 +251,10 @@ def miss_curves(
     for done, (way, urgency) in enumerate(cases):
         progress(done, len(cases), f"{way.name}, {urgency}")
         for clock_mhz in sorted(clocks_mhz, reverse=True):
-            of = scenario(costs, way, urgency, clock_mhz, steps=steps, seed=seed)
-            found = miss_rows(way, urgency, clock_mhz, run_scenario(of))
-            rows += found
-            if found[0].utilization > FULL:
+            workload = scenario(costs, way, urgency, clock_mhz, steps=steps, seed=seed)
+            misses = miss_rows(way, urgency, clock_mhz, run_scenario(workload))
+            rows += misses
+            if misses[0].utilization > FULL:
                 break
     progress(len(cases), len(cases), "done")
     return rows
@@ -287,8 +287,8 @@ def chosen(costs: Costs, way: Way, urgency: str, clock_mhz: int, *, steps: int =
         for label, start, end in piece.pieces():
             ticks[_purpose(piece.kind, label)] += end - start
 
-    of = scenario(costs, way, urgency, clock_mhz, steps=steps, seed=seed)
-    outcome = run_scenario(of, on_slice=spent)
+    workload = scenario(costs, way, urgency, clock_mhz, steps=steps, seed=seed)
+    outcome = run_scenario(workload, on_slice=spent)
     whole = steps * outcome.schedule.period
     shares = {purpose: ticks[purpose] / whole for purpose in PURPOSES}
     responses = {job: sorted(PERIOD_MS * each for each in outcome.jobs[kind].responses) for job, kind in JOBS.items()}

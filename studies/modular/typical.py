@@ -28,7 +28,7 @@ class Quantile(NamedTuple):
 
 
 def quantile(values: FloatArray, share: float = HALF, confidence: float = CONFIDENCE) -> Quantile:
-    """Of independent values (runs,), in any order; those that are nan do not count.
+    """A quantile of independent values (runs,), in any order; those that are nan do not count.
 
     Raises ValueError if no value is left.
     """

@@ -37,7 +37,7 @@ TRACKING_INDICES = (0.01, 0.1, 1.0)
 """sqrt(q dT^3 / R) of the tracker."""
 
 ACCELERATION_NOISES = (0.05, 0.3, 1.0)
-"""Of the receiver, m/s^2/sqrt(Hz): almost no manoeuvres, a road vehicle, an aircraft that turns."""
+"""The receiver's, m/s^2/sqrt(Hz): almost no manoeuvres, a road vehicle, an aircraft that turns."""
 
 
 class Scenario(NamedTuple):
@@ -115,8 +115,8 @@ def accuracies(scenario: Scenario, periods: Sequence[int] = range(1, 21)) -> lis
     computed = {(noise, n): computed_gains(scenario, noise, n) for noise in noises for n in periods}
     keys = list(_filters(periods))
     gains = [_used(computed[_noise(reading), n], reading, n, L, scenario.steps) for reading, n, L in keys]
-    found = position_ratio(scenario, np.array(gains), optimal_gains(scenario))
-    return [_accuracy(scenario.name, *key, ratio) for key, ratio in zip(keys, found, strict=True)]
+    ratios = position_ratio(scenario, np.array(gains), optimal_gains(scenario))
+    return [_accuracy(scenario.name, *key, ratio) for key, ratio in zip(keys, ratios, strict=True)]
 
 
 def position_ratio(scenario: Scenario, gains: FloatArray, optimal: FloatArray) -> FloatArray:
@@ -186,10 +186,10 @@ def _steady_variance(q: float, gain: float) -> float:
     return (kept * q + gain**2) / (1 - kept)
 
 
-def largest_good(found: Sequence[Accuracy], limit: float = GOOD) -> int:
-    """The largest n up to which all steady means are within the limit. found: of one scenario, reading and L."""
-    bad = [row.n for row in found if row.steady_mean > limit]
-    return max((row.n for row in found if not bad or row.n < min(bad)), default=0)
+def largest_good(rows: Sequence[Accuracy], limit: float = GOOD) -> int:
+    """The largest n up to which all steady means are within the limit. rows: of one scenario, reading and L."""
+    bad = [row.n for row in rows if row.steady_mean > limit]
+    return max((row.n for row in rows if not bad or row.n < min(bad)), default=0)
 
 
 def _filters(periods: Sequence[int]) -> Iterator[tuple[Reading, int, int]]:

@@ -91,13 +91,13 @@ def printed_cycle_us() -> int:
 def loads() -> list[Load]:
     """The three cases in their order."""
     state_update, covariance_gain = (Fraction(cycle_us(cycle), 1_000_000) for cycle in CYCLES)
-    found = []
+    rows = []
     for case in _published()["load"]:
         alone = covariance_gain / case["covariance_every_s"]
         complete = alone + state_update / case["state_update_every_s"]
         load = complete if case["state_update_counted"] else alone
-        found.append(Load(case["name"], 100 * load, case["percent"], 100 * complete))
-    return found
+        rows.append(Load(case["name"], 100 * load, case["percent"], 100 * complete))
+    return rows
 
 
 def printed_operations(cycle: Cycle) -> Operations:

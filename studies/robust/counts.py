@@ -26,7 +26,7 @@ Penalty: TypeAlias = Literal["infinite", "finite"]
 PENALTIES: tuple[Penalty, ...] = get_args(Penalty)
 
 COUNTED = ("givens, natural order", "lu, natural order", "dense lu", "inverse, nonzero entries")
-"""Of `STUDIED`: those that are counted in a run."""
+"""Ways of `STUDIED` that are counted in a run."""
 
 
 class WayCount(NamedTuple):
@@ -40,7 +40,7 @@ class WayCount(NamedTuple):
 
 
 class DenseCounts(NamedTuple):
-    """Of a dense system of N unknowns, of which the last n are wanted for n + 1 right-hand sides.
+    """Counts of a dense system of N unknowns, of which the last n are wanted for n + 1 right-hand sides.
 
     givens: all right-hand sides at once; givens_per_column: each anew, as the paper does; inverse: Gauss-Jordan with
     partial pivoting, then the last n rows times b; repeated: one elimination for each column of the inverse, as the
@@ -55,8 +55,8 @@ class DenseCounts(NamedTuple):
 
 
 def counts() -> list[WayCount]:
-    """Of both systems with all their uncertainties, in the ways that are used, and in others for comparison."""
-    found = []
+    """Counts of both systems with all their uncertainties, in the ways that are used, and in others for comparison."""
+    rows = []
     for system in SYSTEMS:
         model = _model(system)
         for penalty in PENALTIES:
@@ -64,12 +64,12 @@ def counts() -> list[WayCount]:
             ready = prepared(model, mu)
             unknowns = sum(block_sizes(ready))
             jobs: list[tuple[str, StepJob]] = [*JOBS.items(), *((way, STUDIED[way]) for way in COUNTED)]
-            found += [WayCount(system, penalty, way, unknowns, _count(job, ready, mu)) for way, job in jobs]
-    return found
+            rows += [WayCount(system, penalty, way, unknowns, _count(job, ready, mu)) for way, job in jobs]
+    return rows
 
 
 def kalman_counts(system: SystemName) -> Operations:
-    """Of a plain Kalman filter's propagation and update, dense, in the form that takes the least operations."""
+    """Counts of a plain Kalman filter's propagation and update, dense, in the form that takes the least operations."""
     case = robust_case(system)
     n, m, p = len(case.start.x), len(case.system.Q), len(case.start.y)
     jobs = ALL_METHODS["standard"].jobs(example_system(n, m, p), "short").values()

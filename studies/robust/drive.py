@@ -60,7 +60,7 @@ class AttitudeMethod(NamedTuple):
 
 
 class PositionMethod(NamedTuple):
-    """As `AttitudeMethod`; attitude: the method that feeds it."""
+    """The same as `AttitudeMethod`; attitude: the method that feeds it."""
 
     name: str
     attitude: AttitudeMethod
@@ -214,14 +214,14 @@ def results(seeds: Sequence[int] = SEEDS, scale_errors: Sequence[float] = SCALE_
 
 
 def attitude_result(method: AttitudeMethod, scale_error: float, seeds: Sequence[int] = SEEDS) -> AttitudeResult:
-    """Of one method, over a drive of each seed."""
+    """The result of one method, over a drive of each seed."""
     errors, from_gps, from_imu, outage = [], [], [], []
     for seed in seeds:
         drive = simulate_cargo_drive(scale_error=scale_error, seed=seed)
-        found = estimate_attitude(drive, method).x[:, :3]
+        attitude = estimate_attitude(drive, method).x[:, :3]
         settled = drive.time_s >= SETTLED_S
-        yaw, counted = found[:-1, 2], settled[:-1]
-        errors.append(np.degrees(found - drive.attitude)[settled])
+        yaw, counted = attitude[:-1, 2], settled[:-1]
+        errors.append(np.degrees(attitude - drive.attitude)[settled])
         from_gps.append(np.degrees(wrap(yaw[::FIX_EVERY] - drive.gps_yaw))[counted[::FIX_EVERY]])
         from_imu.append(np.degrees(wrap(yaw - drive.imu_attitude[:, 2]))[counted])
         blind = estimate_attitude(drive, method, outage_fixes(drive)).x[:, 2]
@@ -237,17 +237,17 @@ def attitude_result(method: AttitudeMethod, scale_error: float, seeds: Sequence[
 
 
 def position_result(method: PositionMethod, scale_error: float, seeds: Sequence[int] = SEEDS) -> PositionResult:
-    """Of one method, over a drive of each seed and the same drive with an outage."""
+    """The result of one method, over a drive of each seed and the same drive with an outage."""
     after, between, after_velocity, between_velocity, outage, ends = [], [], [], [], [], []
     for seed in seeds:
         drive = simulate_cargo_drive(scale_error=scale_error, seed=seed)
         step = np.arange(len(drive.time_s))
         settled, fresh = drive.time_s >= SETTLED_S, step % FIX_EVERY == 1
-        found = estimate_position(drive, estimate_attitude(drive, method.attitude), method)
-        error_m = position_to_metres(found.x[:, :3] - drive.position)
+        history = estimate_position(drive, estimate_attitude(drive, method.attitude), method)
+        error_m = position_to_metres(history.x[:, :3] - drive.position)
         after.append(error_m[settled & fresh])
         between.append(error_m[settled & ~fresh])
-        error = found.x[:, 3:6] - drive.velocity
+        error = history.x[:, 3:6] - drive.velocity
         after_velocity.append(error[settled & fresh])
         between_velocity.append(error[settled & ~fresh])
 

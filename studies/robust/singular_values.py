@@ -59,7 +59,7 @@ CASES = (
 
 
 class SingularValues(NamedTuple):
-    """Of P, in some steps of a run by one way: time_s, largest, smallest (samples,); nan where P is not finite."""
+    """Those of P in some steps of a run by one way: time_s, largest, smallest (samples,); nan where P is not finite."""
 
     case: Case
     way: str
@@ -117,10 +117,10 @@ def compare(
     expected_values = singular_values(expected.P)
     curves, agreements = [_sampled(case, REFERENCE, expected_values, sample_every)], []
     for way in ways:
-        found = run_case(case, drive, way)
-        values = singular_values(found.P)
+        history = run_case(case, drive, way)
+        values = singular_values(history.P)
         curves.append(_sampled(case, way, values, sample_every))
-        agreements.append(_agreement(case, way, found, values, expected, expected_values))
+        agreements.append(_agreement(case, way, history, values, expected, expected_values))
     return Comparison(tuple(curves), tuple(agreements))
 
 
@@ -135,7 +135,7 @@ def singular_values(P: FloatArray) -> FloatArray:
 def _agreement(
     case: Case,
     way: str,
-    found: ExtendedHistory,
+    history: ExtendedHistory,
     values: FloatArray,
     expected: ExtendedHistory,
     expected_values: FloatArray,
@@ -151,7 +151,7 @@ def _agreement(
         absolute_smallest=difference[:, 1].max(),
         relative_largest=relative[:, 0].max(),
         relative_smallest=relative[:, 1].max(),
-        state=np.abs(found.scaled_x - expected.scaled_x)[both].max(),
+        state=np.abs(history.scaled_x - expected.scaled_x)[both].max(),
         first_failure=int(failed[0]) if len(failed) else None,
     )
 

@@ -22,7 +22,7 @@ def tables(store: Store, at_a_time: int) -> Iterator[pa.Table]:
     """All rows in order of their design index, in portions; null where there is no figure."""
     for rows in store.results(at_a_time):
         cells = zip(*rows, strict=True) if rows else [()] * len(store.columns)
-        arrays = [_array(column, of) for column, of in zip(cells, store.columns, strict=True)]
+        arrays = [_array(values, column) for values, column in zip(cells, store.columns, strict=True)]
         yield pa.Table.from_arrays(arrays, schema=schema(store.columns))
 
 

@@ -17,7 +17,7 @@ Scalar = int | float | str | Decimal | Fraction
 Value = TypeVar("Value", int, Fraction)
 
 
-def whole_numbers(given: Scalar | Sequence[Scalar], what: str, at_least: int) -> tuple[int, ...]:
+def whole_numbers(entry: Scalar | Sequence[Scalar], what: str, at_least: int) -> tuple[int, ...]:
     """The values of an axis of HR steps, sorted, each once. `what` names the option or the key, for messages.
 
     Raises InputError for text that is no whole number or range of them, and for values below `at_least`.
@@ -29,10 +29,10 @@ def whole_numbers(given: Scalar | Sequence[Scalar], what: str, at_least: int) ->
             raise InputError(f"{what} {short(text)!r} must be a whole number, at least {at_least}")
         return whole(number.numerator, what)
 
-    return _values(given, what, step)
+    return _values(entry, what, step)
 
 
-def numbers(given: Scalar | Sequence[Scalar], what: str, *, zero: bool = False) -> tuple[Fraction, ...]:
+def numbers(entry: Scalar | Sequence[Scalar], what: str, *, zero: bool = False) -> tuple[Fraction, ...]:
     """The values of an axis of exact decimals or fractions, sorted, each once: 0.6:1.6:0.05 are 21 values.
 
     Raises InputError for text that is no finite number or range, and for values that are not positive (`zero`: may
@@ -45,28 +45,28 @@ def numbers(given: Scalar | Sequence[Scalar], what: str, *, zero: bool = False) 
             raise InputError(f"{what} {short(text)!r} must be {'0 or more' if zero else 'greater than 0'}")
         return value
 
-    return _values(given, what, number)
+    return _values(entry, what, number)
 
 
-def words(given: Scalar | Sequence[Scalar], what: str, known: Sequence[str]) -> tuple[str, ...]:
+def words(entry: Scalar | Sequence[Scalar], what: str, known: Sequence[str]) -> tuple[str, ...]:
     """The values of an axis of names, in the order of `known`, each once; commas separate.
 
     Raises InputError for a name that is not `known`, and where there is none.
     """
-    items = given if isinstance(given, list | tuple) else [given]
+    items = entry if isinstance(entry, list | tuple) else [entry]
     if any(isinstance(item, dict | list) for item in items):
         raise InputError(f"{what} must be text, or a list of it: choose from {', '.join(known)}")
-    found = {part.strip() for item in items for part in str(item).split(",")}
-    if not found:
+    names = {part.strip() for item in items for part in str(item).split(",")}
+    if not names:
         raise InputError(f"{what} is empty: give at least one of {', '.join(known)}")
-    for word in sorted(found.difference(known)):
+    for word in sorted(names.difference(known)):
         raise InputError(f"{what} {short(word)!r} is unknown: choose from {', '.join(known)}")
-    return tuple(word for word in known if word in found)
+    return tuple(word for word in known if word in names)
 
 
-def _values(given: Scalar | Sequence[Scalar], what: str, value: Callable[[str], Value]) -> tuple[Value, ...]:
-    items: Sequence[Any] = given if isinstance(given, Sequence) and not isinstance(given, str) else [given]
-    found: set[Value] = set()
+def _values(entry: Scalar | Sequence[Scalar], what: str, value: Callable[[str], Value]) -> tuple[Value, ...]:
+    items: Sequence[Any] = entry if isinstance(entry, Sequence) and not isinstance(entry, str) else [entry]
+    values: set[Value] = set()
     for item in items:
         if isinstance(item, dict | list):
             raise InputError(f"{what} must be a number or a list of them, such as 5, 1,2,5 or 10:100:10")
@@ -75,12 +75,12 @@ def _values(given: Scalar | Sequence[Scalar], what: str, value: Callable[[str], 
         if isinstance(item, Decimal):
             exact(item, what)
         for part in str(item).split(","):
-            found.update(_range(part.strip(), what, value))
-            if len(found) > LONGEST_RANGE:
+            values.update(_range(part.strip(), what, value))
+            if len(values) > LONGEST_RANGE:
                 raise InputError(f"{what} holds more than {LONGEST_RANGE:,} values: give fewer")
-    if not found:
+    if not values:
         raise InputError(f"{what} is empty: give at least one value, such as 5, 1,2,5 or 10:100:10")
-    return tuple(sorted(found))
+    return tuple(sorted(values))
 
 
 def _range(text: str, what: str, value: Callable[[str], Value]) -> list[Value]:

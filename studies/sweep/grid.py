@@ -20,7 +20,7 @@ from sched_sim.schedule.tasks import Task, check_cpus
 from studies.sweep.legal import Designs, Legal
 
 MOST_PAIRS = 10_000_000
-"""Of N and M, which are looked through for those that are legal."""
+"""Pairs of N and M looked through for those that are legal."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,7 +68,7 @@ class Chunk:
 
     @property
     def positions(self) -> range:
-        """Of the points among all those of `designs`, speeds running fastest."""
+        """Positions of the points among all of `designs`, speeds running fastest."""
         return range(self.skip, self.skip + self.size)
 
 
@@ -107,9 +107,9 @@ class Grid:
                 f"{option('N')} or {option('M')}"
             )
         if not self.size:
-            given = f"N={_extent(self.N)}, M={_extent(self.M)}, L={_extent(self.L)}"
+            ranges = f"N={_extent(self.N)}, M={_extent(self.M)}, L={_extent(self.L)}"
             raise InputError(
-                f"the grid is empty: none of the {self.left_out} combinations of {given} is legal: {self._rules()}"
+                f"the grid is empty: none of the {self.left_out} combinations of {ranges} is legal: {self._rules()}"
             )
 
     def _check_simulated(self) -> None:

@@ -115,8 +115,8 @@ def _by_simulation(chunk: Chunk) -> Analysis:
     the first ones where something is missed."""
     costs, options, tasks = chunk.block.costs, chunk.block.options, chunk.block.tasks
     timings = [Timing(*design) for design in zip(*(axis.tolist() for axis in chunk.designs), strict=True)]
-    found = [least_speed(costs, timing, options, tasks) for timing in timings]
-    least = [Least(item.speed.numerator, item.speed.denominator, item.binding) for item in found]
+    least_speeds = [least_speed(costs, timing, options, tasks) for timing in timings]
+    least = [Least(item.speed.numerator, item.speed.denominator, item.binding) for item in least_speeds]
     result = Analysis(least, [])
     per_design = max(len(chunk.speeds), 1)
     for position in chunk.positions:

@@ -69,8 +69,8 @@ class Legal:
             kept += self._kept(pairs, self.N[begin : begin + SLAB])
         self._before = np.concatenate([[0], np.cumsum(np.concatenate(per_n))])
         self.size = int(self._before[-1])
-        given = self.N.size * (1 if M is None else len(M)) * (1 if L is None else len(L))
-        self.left_out = given - kept
+        combinations = self.N.size * (1 if M is None else len(M)) * (1 if L is None else len(L))
+        self.left_out = combinations - kept
 
     def designs(self, start: int, stop: int) -> Designs:
         """Those at the positions start .. stop-1, 0 <= start < stop <= size."""

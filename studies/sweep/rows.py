@@ -11,7 +11,7 @@ from studies.sweep.grid import Chunk
 from studies.sweep.least import analyse
 
 Cell: TypeAlias = int | float | str | None
-"""As SQLite gives it back: true and false are 1 and 0."""
+"""A value as SQLite gives it: true and false are 1 and 0."""
 
 Row: TypeAlias = tuple[Cell, ...]
 
@@ -51,7 +51,7 @@ SIMULATION_COLUMNS = (
     Column("hr_response", "float"),
     Column("lr_update_response", "float"),
 )
-"""Of the simulated cycles: deadlines missed, corrections that landed and the least and largest L of those, and the
+"""The simulated cycles' missed deadlines, corrections that landed and the least and largest L of those, and the
 worst response times in HR periods of the HR job and the LR update (nothing if none finished)."""
 
 
@@ -63,22 +63,22 @@ def columns(*, simulated: bool) -> tuple[Column, ...]:
 def rows_of(chunk: Chunk, cycles: int | None) -> list[Row]:
     """A row for each point, in order; `cycles` measurement cycles of each are simulated unless it is None."""
     block = chunk.block
-    found = analyse(chunk)
-    least = [(n / d, str(n) if d == 1 else f"{n}/{d}", binding) for n, d, binding in found.least]
+    analysis = analyse(chunk)
+    least = [(n / d, str(n) if d == 1 else f"{n}/{d}", binding) for n, d, binding in analysis.least]
     designs = list(zip(*(axis.tolist() for axis in chunk.designs), strict=True))
     in_seconds = block.unit == "second"
     paces = [(float(speed), float(1 / speed) if in_seconds else None) for speed in chunk.speeds]
-    at_least = [] if paces else [(n / d, d / n if in_seconds else None) for n, d, _ in found.least]
+    at_least = [] if paces else [(n / d, d / n if in_seconds else None) for n, d, _ in analysis.least]
     per_design = max(len(paces), 1)
     rows: list[Row] = []
-    for point, position, (feasible, achieved) in zip(chunk.points, chunk.positions, found.outcomes, strict=True):
+    for point, position, (feasible, achieved) in zip(chunk.points, chunk.positions, analysis.outcomes, strict=True):
         design, at = divmod(position, per_design)
         pace = paces[at] if paces else at_least[design]
         rows.append((point, block.number, *designs[design], *pace, *least[design], int(feasible), achieved))
     if cycles is None:
         return rows
     return [
-        row + _simulation(chunk, Timing(*designs[position // per_design]), found.speed(chunk, position), cycles)
+        row + _simulation(chunk, Timing(*designs[position // per_design]), analysis.speed(chunk, position), cycles)
         for row, position in zip(rows, chunk.positions, strict=True)
     ]
 

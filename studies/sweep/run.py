@@ -42,7 +42,7 @@ class Sweep:
 
     @property
     def columns(self) -> tuple[Column, ...]:
-        """Of the rows."""
+        """The rows' columns."""
         return columns(simulated=self.cycles is not None)
 
     def description(self) -> Mapping[str, Any]:
@@ -65,7 +65,7 @@ class Sweep:
 
     @property
     def digest(self) -> str:
-        """Of the description, in hexadecimal."""
+        """Digest of the description, in hexadecimal."""
         return digest(self.description())
 
     def open(self, path: Path) -> Store:
@@ -74,7 +74,7 @@ class Sweep:
 
 
 class Outcome(NamedTuple):
-    """Of a run.
+    """The end of a run.
 
     before, computed: points that were in the file already, and that were added;
     stopped: the signal that ended the run early, None if it ended by itself.

@@ -46,43 +46,43 @@ def _called(info: ValidationInfo) -> str:
     return option(str(info.field_name)) if info.context == "given" else "the value"
 
 
-def _periods(given: Any, info: ValidationInfo) -> tuple[int, ...]:
-    return whole_numbers(given, _called(info), at_least=1)
+def _periods(entry: Any, info: ValidationInfo) -> tuple[int, ...]:
+    return whole_numbers(entry, _called(info), at_least=1)
 
 
-def _steps_or_all(given: Any, info: ValidationInfo) -> tuple[int, ...] | None:
-    return None if given in (ALL, [ALL]) else whole_numbers(given, _called(info), at_least=0)
+def _steps_or_all(entry: Any, info: ValidationInfo) -> tuple[int, ...] | None:
+    return None if entry in (ALL, [ALL]) else whole_numbers(entry, _called(info), at_least=0)
 
 
-def _speeds(given: Any, info: ValidationInfo) -> tuple[Fraction, ...]:
-    return numbers(given, _called(info))
+def _speeds(entry: Any, info: ValidationInfo) -> tuple[Fraction, ...]:
+    return numbers(entry, _called(info))
 
 
-def _works(given: Any, info: ValidationInfo) -> tuple[Fraction, ...]:
-    return numbers(given, _called(info), zero=True)
+def _works(entry: Any, info: ValidationInfo) -> tuple[Fraction, ...]:
+    return numbers(entry, _called(info), zero=True)
 
 
 def _names_of(what: str) -> PlainValidator:
-    def validated(given: Any, info: ValidationInfo) -> tuple[str, ...]:
-        items = [given] if isinstance(given, str) else given
+    def validated(entry: Any, info: ValidationInfo) -> tuple[str, ...]:
+        items = [entry] if isinstance(entry, str) else entry
         if not isinstance(items, list) or not items or not all(isinstance(item, str) and item for item in items):
             raise InputError(
-                f"{_called(info)} {short(repr(given))}: give the name of a shipped {what}, or the path of a TOML file"
+                f"{_called(info)} {short(repr(entry))}: give the name of a shipped {what}, or the path of a TOML file"
             )
         return tuple(dict.fromkeys(items))
 
     return PlainValidator(validated)
 
 
-def _path(given: Any, info: ValidationInfo) -> str:
-    if not isinstance(given, str | Path) or not str(given):
-        raise InputError(f"{_called(info)} {short(repr(given))}: give the path of a TOML file")
-    return str(given)
+def _path(entry: Any, info: ValidationInfo) -> str:
+    if not isinstance(entry, str | Path) or not str(entry):
+        raise InputError(f"{_called(info)} {short(repr(entry))}: give the path of a TOML file")
+    return str(entry)
 
 
 def _one_of(*known: Any) -> PlainValidator:
-    def validated(given: Any, info: ValidationInfo) -> tuple[str, ...]:
-        return words(given, _called(info), [str(word) for word in known])
+    def validated(entry: Any, info: ValidationInfo) -> tuple[str, ...]:
+        return words(entry, _called(info), [str(word) for word in known])
 
     return PlainValidator(validated)
 
@@ -173,8 +173,8 @@ def _axis(choice: Field[Any]) -> tuple[Any, Any]:
     if not known:
         return Annotated[tuple[Any, ...], PlainValidator(_works)], (choice.default,)
 
-    def validated(given: Any, info: ValidationInfo) -> tuple[Any, ...]:
-        return tuple(map(kind, words(given, _called(info), list(map(str, known)))))
+    def validated(entry: Any, info: ValidationInfo) -> tuple[Any, ...]:
+        return tuple(map(kind, words(entry, _called(info), list(map(str, known)))))
 
     return Annotated[tuple[Any, ...], PlainValidator(validated)], (choice.default,)
 
@@ -187,32 +187,32 @@ else:
     )
 
 
-def settings(given: Mapping[str, Any], file: Path | None = None) -> Settings:
+def settings(entries: Mapping[str, Any], file: Path | None = None) -> Settings:
     """Those of a grid file, if there is one, with those given in their place.
 
     Raises InputError that lists all that is wrong with the one or the other.
     """
-    stated = _validated({name: value for name, value in given.items() if value is not None}, "given", "")
+    stated = _validated({name: value for name, value in entries.items() if value is not None}, "given", "")
     if file is None:
         return stated
     return _read(file).model_copy(update={name: getattr(stated, name) for name in stated.model_fields_set})
 
 
 def _read(path: Path) -> Settings:
-    """Of a TOML file: the flags' long names with _ for -; numbers, text such as "10:100:10", or lists of them."""
+    """Those of a TOML file: the flags' long names with _ for -; numbers, text such as "10:100:10", or lists of them."""
     document = read_toml(path, f"grid file {str(path)!r}", "give the path of a TOML file")
-    found = _validated(document, "file", f"grid file {str(path)!r}: ")
+    grid = _validated(document, "file", f"grid file {str(path)!r}: ")
 
     def beside(names: Sequence[str], shipped: Sequence[str] = ()) -> tuple[str, ...]:
         return tuple(name if name in shipped else str(path.parent / name) for name in names)
 
-    files = {"costs": beside(found.costs, shipped_tables()), "processor": beside(found.processor, shipped_parts())}
-    return found.model_copy(update=files | {"tasks": found.tasks and str(path.parent / found.tasks)})
+    files = {"costs": beside(grid.costs, shipped_tables()), "processor": beside(grid.processor, shipped_parts())}
+    return grid.model_copy(update=files | {"tasks": grid.tasks and str(path.parent / grid.tasks)})
 
 
-def _validated(given: Mapping[str, Any], by: Literal["given", "file"], prefix: str) -> Settings:
+def _validated(entries: Mapping[str, Any], by: Literal["given", "file"], prefix: str) -> Settings:
     try:
-        return Settings.model_validate(given, context=by)
+        return Settings.model_validate(entries, context=by)
     except ValidationError as error:
         if by == "file":
             raise InputError(prefix + problems(error, Settings)) from None

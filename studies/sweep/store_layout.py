@@ -22,7 +22,7 @@ from studies.sweep.rows import Column, Row
 APPLICATION_ID = 0x53575031
 
 KINDS: Mapping[type, Literal["text", "int", "float"]] = {str: "text", int: "int", Fraction: "float"}
-"""Of the columns for choices of `Options`."""
+"""Kinds of the columns for choices of `Options`."""
 
 BLOCK_COLUMNS = (
     Column("costs", "text"),
@@ -43,7 +43,7 @@ def digest(description: Mapping[str, Any]) -> str:
 
 @dataclass(frozen=True)
 class Layout:
-    """Of the file of the sweep that `description` describes; columns: of its rows, the point and its block first."""
+    """The file of the sweep that `description` describes; columns: of its rows, the point and its block first."""
 
     description: Mapping[str, Any]
     blocks: Sequence[Block]
@@ -51,7 +51,7 @@ class Layout:
 
     @property
     def result_columns(self) -> tuple[Column, ...]:
-        """Of the view `results`: block by block's columns instead of its number."""
+        """Columns of the view `results`: the block's instead of its number."""
         point, _block, *figures = self.columns
         return (point, *BLOCK_COLUMNS, *figures)
 
@@ -61,12 +61,12 @@ class Layout:
         return int(digest(self.description)[:8], 16) >> 1 | 1
 
     def checksum(self, row: Row) -> int:
-        """Of a row as SQLite gives it back: another for another sweep."""
+        """The checksum of a row as SQLite gives it back: another for another sweep."""
         return crc32(repr(row).encode(), self.mark)
 
     @cached_property
     def block_rows(self) -> list[Row]:
-        """Of the table `blocks`."""
+        """Rows of the table `blocks`."""
         return [_block_row(block) for block in self.blocks]
 
     def new_file(self) -> bytes:
@@ -122,14 +122,14 @@ def check_owner(path: Path, layout: Layout) -> None:
             f"{option('results')}, and all points are computed anew; it is left as it was, for any SQLite program to "
             f"read"
         )
-    found = _description_in(path)
-    if found is None or found == layout.description:
+    description = _description_in(path)
+    if description is None or description == layout.description:
         raise InputError(
             f"{path} is not a results file of this sweep, but another's or damaged: give another {option('results')}; "
             f"it is left as it was"
         )
     raise InputError(
-        f"results file {path} belongs to another sweep ({_difference(found, layout.description)}): "
+        f"results file {path} belongs to another sweep ({_difference(description, layout.description)}): "
         f"give another {option('results')}, or the sweep it belongs to; it is left as it was"
     )
 

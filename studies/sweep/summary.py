@@ -37,8 +37,8 @@ def best(store: Store) -> list[dict[str, Any]]:
         "WHERE method != 'standard' OR NOT EXISTS (SELECT 1 FROM blocks WHERE method != 'standard')) "
         "WHERE place = 1 ORDER BY point"
     )
-    found = [dict(zip(names, row, strict=True)) for row in rows]
-    return sorted(found, key=lambda row: (row["costs"], row["N"], row["M"]))
+    designs = [dict(zip(names, row, strict=True)) for row in rows]
+    return sorted(designs, key=lambda row: (row["costs"], row["N"], row["M"]))
 
 
 def _told(store: Store) -> Sequence[str]:
