@@ -39,7 +39,7 @@ publish: $(STAMP) ## write all reports anew where they are kept, in reports/publ
 		$(BIN)/sched-sim report $$name --output reports/published || exit 1; done
 
 docs: $(STAMP) ## the documentation as a site, in build/docs; needs no network
-	$(BIN)/sphinx-build --quiet --nitpicky --fresh-env --write-all -d build/doctrees docs build/docs
+	$(BIN)/sphinx-build --quiet --fail-on-warning --nitpicky --fresh-env --write-all -d build/doctrees docs build/docs
 	@echo build/docs/index.html
 
 test: lint types imports unit ## all that CI checks: the next four

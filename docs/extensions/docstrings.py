@@ -19,21 +19,19 @@ def markup(text: str) -> str:
 
 
 def described(paragraph: str, arguments: set[str]) -> Iterator[str]:
-    """The paragraph, and a field for each argument that it describes."""
+    """The paragraph, and a field for each argument that it describes; code if it is indented."""
+    if paragraph.startswith("    "):
+        yield f".. code-block:: python\n\n{paragraph}"
+        return
     items = [item for item in ITEM.finditer(paragraph) if arguments.issuperset(names(item))]
     ends = [*(item.start() for item in items), len(paragraph)]
     yield markup(sentence(paragraph[: ends[0]]))
     for item, end in zip(items, ends[1:], strict=True):
         words = markup(sentence(paragraph[item.end() : end]))
-        for name, shape in names(item).items():
-            about = (
-                f"{markup(shape)}; "
-                if shape.startswith(" ")
-                else f"``{name}{shape}``{':' if item[1] else ''} "
-                if shape
-                else ""
-            )
-            yield f":param {name}: {about}{words}"
+        for name, behind in names(item).items():
+            shape = f"{markup(behind.strip())}; " if behind.startswith(" ") else ""
+            call = f"``{name}{behind}``{':' if item[1] else ''} " if behind and not shape else ""
+            yield f":param {name}: {shape or call}{words}"
 
 
 def names(item: re.Match[str]) -> dict[str, str]:
@@ -58,9 +56,8 @@ def as_text(_app: Any, what: str, _name: str, documented: Any, _options: Any, li
         arguments = set(inspect.signature(documented).parameters)
     except (TypeError, ValueError):
         arguments = set()
-    lines[:] = [
-        line for paragraph in text.split("\n\n") for part in described(paragraph, arguments) for line in ("", part)
-    ]
+    parts = [part for paragraph in text.split("\n\n") for part in described(paragraph, arguments)]
+    lines[:] = "\n\n".join(parts).split("\n")
 
 
 def is_no_alias(_app: Any, _what: str, _name: str, member: Any, _skip: bool, _options: Any) -> bool | None:
