@@ -199,5 +199,5 @@ def _verdicts(
             rows.append(row | {"reason": reason})
             name = {"method": method} if len(designs) > 1 else {}
             about = {"processor": part.name, "precision": part.precision, **name}
-            shown.append(about | fit_words(part, rate, found) | {"fixed by": fixed_by(row["binding"])})
+            shown.append(about | fit_words(part, rate, verdict) | {"fixed by": fixed_by(row["binding"])})
     return rows, shown, [update_note(counts, designs), *reasons]
