@@ -49,12 +49,12 @@ def count(function: Callable[..., Any], *arguments: Any) -> Operations:
     try:
         _version(function)(*(_counting(argument, tally) for argument in arguments))
     except (TypeError, AttributeError) as error:
-        raise uncountable(error) or error from error
+        raise uncountable(error, function) or error from error
     return Operations(tally.multiply, tally.add, tally.divide, tally.sqrt, tally.function)
 
 
 def _version(function: Any) -> Any:
-    """That runs on counting scalars; as it is if it is none of Python."""
+    """That runs on counting scalars."""
     if isinstance(function, FunctionType):
         return _VERSIONS.of(function)
     if isinstance(function, MethodType):
@@ -63,7 +63,7 @@ def _version(function: Any) -> Any:
         return partial(_version(function.func), *function.args, **function.keywords)
     if _is_jitted(function):
         return _version(function.py_func)
-    return function
+    return counted_version(function)
 
 
 def _is_jitted(value: Any) -> bool:

@@ -142,4 +142,4 @@ def _makes_arrays(function: Any) -> bool:
         return False
     if isinstance(function, FunctionType):
         return is_installed(function.__code__.co_filename)
-    return package == np.__name__ or is_installed(str(sys.modules[package].__file__))
+    return package == np.__name__ or is_installed(str(getattr(sys.modules[package], "__file__", None)))

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import math
+from functools import partial
 from typing import Any
 
 import numpy as np
 import pytest
+import scipy.linalg
 
-from filters.backends.counted import count
+from filters.backends.counted import Operations, count
 from filters.backends.uncountable import UncountableError, uncountable
 from filters.kernels.dense import matmul
 
@@ -61,3 +64,43 @@ def test_an_error_of_nobodys_function_is_left() -> None:
     assert uncountable(TypeError("raised nowhere")) is None
     with pytest.raises(TypeError, match="argument"):
         count(print, sep=1)  # type: ignore[call-arg]
+
+
+@pytest.mark.parametrize(
+    "source", ["def f(x):\n    return np.linalg.inv(x)", "def f(x):\n    return complex(\n    x[0, 0])"]
+)
+def test_what_has_no_source_is_not_quoted(source: str) -> None:
+    """As in code from standard input or from exec."""
+    names: dict[str, Any] = {"np": np}
+    exec(source, names)
+    assert said(names["f"], np.eye(2)).startswith("f() in <string>, line 2: what it does cannot be counted: it ")
+
+
+@pytest.mark.parametrize(
+    ("function", "arguments", "name"),
+    [
+        (np.linalg.inv, (np.eye(3),), "inv"),
+        (np.linalg.solve, (np.eye(3), np.ones(3)), "solve"),
+        (partial(np.linalg.inv), (np.eye(3),), "inv"),
+        (math.fsum, (np.ones(3),), "fsum"),
+    ],
+)
+def test_a_librarys_function_by_itself_is_named(function: Any, arguments: tuple[Any, ...], name: str) -> None:
+    assert said(function, *arguments).startswith(f"{name}() cannot be counted: it ")
+
+
+def test_a_librarys_function_in_python_by_itself_is_named() -> None:
+    assert said(scipy.linalg.expm, np.eye(3)).startswith("expm() cannot be counted; write it with ")
+
+
+@pytest.mark.parametrize("function", [math.sin, np.sin, math.erf])
+def test_a_function_of_a_single_number_is_counted_by_itself_and_as_an_argument(function: Any) -> None:
+    def called(inner: Any, x: Any) -> Any:
+        return inner(x)
+
+    assert count(function, 1.0) == count(called, function, 1.0) == Operations(function=1)
+
+
+def test_a_wrong_call_is_left() -> None:
+    with pytest.raises(TypeError, match="missing 1 required positional argument"):
+        count(keeping)
