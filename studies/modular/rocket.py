@@ -5,21 +5,23 @@ position and orientation of the rocket were found to be within acceptable ranges
 of what 15 % is. So the study tries the readings that suggest themselves (`rocket_readings`), and gives for each the
 time after ignition from which it holds.
 
-Position: as a share of the distance from the pad it holds from half a second after ignition on, in all flights; after
-a second the worst is 3 %, a typical flight's mean 0.04 %. It also holds if 80 % of all measurements are lost, or all
-of any one sensor: even the accelerometer, without which the filter lags behind the thrust. At 95 % it fails in every
-fifth flight. As a share of the horizontal distance it holds from 1.5 s on. Each axis for itself it does not:
-coordinates pass through zero.
+Figures are in the report `modular`; this is what they say.
 
-Orientation: as a share of all that was turned it holds from 0.9 s on, for before that nothing turns. As a share of the
-net turn it fails whenever roll has come round to where it began, and of the nose's turn where that is small, although
-the errors are 0.16 degrees, and 0.9 at most. As difference of quaternions, where 15 % are 17 degrees, it says little:
-it holds at once. By the readings that are shares of a turn, a third to a half of the flights fail at 80 % dropout, and
+Position: as a share of the distance from the pad it holds in all flights from half a second after ignition on. It also
+holds a second after ignition if 80 % of all measurements are lost, or all of any one sensor: even the accelerometer,
+without which the filter lags behind the thrust. At 95 % it fails in every fifth flight. As a share of the horizontal
+distance it holds in all flights only from about two seconds on. Each axis for itself it does not: coordinates pass
+through zero.
+
+Orientation: as a share of all that was turned it holds from about a second on, for before that little turns. As a share
+of the net turn it fails where roll has come round to where it began, and of the nose's turn where that is small,
+although the errors stay below a degree. As difference of quaternions, where 15 % are 17 degrees, it says little: it
+holds at once. By the readings that are shares of a turn, a third of the flights or more fail at 80 % dropout, and
 nearly all at 95 %.
 
-The filter is as accurate as it says, but for the first 50 ms of thrust, and for lost measurements: noise that has the
-mean square of the flight's jerk is not that of its onset. An extended predictor does as well as the unscented one, to
-four digits: 10 ms of flight are as good as linear. Sensors have white noise only, of known size; no biases.
+The filter is as accurate as it says, but for the onset of thrust, and for lost measurements: noise that has the mean
+square of the flight's jerk is not that of its onset. An extended predictor does as well as the unscented one, to the
+digits that are shown: 10 ms of flight are as good as linear. Sensors have white noise only, of known size; no biases.
 """
 
 from __future__ import annotations
