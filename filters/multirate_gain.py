@@ -36,9 +36,10 @@ from filters.systems.trial import first_input, try_functions
 def state_update(
     system: System, j: int, x: FloatArray, u: FloatArray, y: FloatArray, correction: Correction, x_next: FloatArray
 ) -> None:
-    """Job of every step, at high rate: x_{j-1} becomes x_j with the measurement y of step j, Eq. (2).
+    """Job of every step, at high rate: x_{j-1} becomes x_j with the measurement y of step j.
 
-    correction: its K (n, p) is given, z (p,) and delta_x (n,) are filled.
+    The state is propagated by the model, then corrected. The correction is the patent's Eq. (2), which has no
+    propagation. correction: its K (n, p) is given, z (p,) and delta_x (n,) are filled.
     """
     state_predict(system, j, x, u, x_next)
     state_correct(system, j, y, correction, x_next)
@@ -50,7 +51,7 @@ def state_predict(system: System, j: int, x: FloatArray, u: FloatArray, x_next: 
 
 
 def state_correct(system: System, j: int, y: FloatArray, correction: Correction, x: FloatArray) -> None:
-    """The other half of `state_update`: x_{j^-} becomes x_j, in place."""
+    """The other half of `state_update`: x_{j^-} becomes x_j, in place, by the patent's Eq. (2)."""
     update_error(system, j, y, x, correction)
     add_vectors(x, correction.delta_x, x)
 

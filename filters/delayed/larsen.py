@@ -1,4 +1,4 @@
-"""Larsen's measurement extrapolation: the correction of step k is carried to m by Phi_{k->m}, Eqs. (20) to (22)."""
+"""Larsen's measurement extrapolation: the correction of step k is carried to m by Phi_{k->m}, Eqs. (20) and (21)."""
 
 from __future__ import annotations
 

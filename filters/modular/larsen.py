@@ -2,7 +2,7 @@
 
 The correction that a late measurement would have made in the step k in which it was taken is carried to the step m in
 which it arrives. Larsen, Andersen, Ravn and Poulsen, Incorporation of time delayed measurements in a discrete-time
-Kalman filter, CDC 1998; Steffes 2014, Eqs. (20) to (22), where no other sensor measures in between. With e the error:
+Kalman filter, CDC 1998; Steffes 2014, Eqs. (20) and (21), where no other sensor measures in between. With e the error:
 
     M <- I at k, M <- F M in each prediction, M <- (I - K H) M in each correction by another sensor in between
     x_m <- x_m + M K_k z_k,    P_m <- P_m - M K_k S_k K_k^T M^T,    K_k = P_k H_k^T S_k^-1
