@@ -3,9 +3,9 @@
 Figures 7 and 8 of "Computation of Extended Robust Kalman Filter for Real-Time Attitude and Position Estimation"
 (arXiv:1801.04386): the largest and the smallest singular value of P, of the attitude and of the position filter. The
 paper compares absolute differences. Relative ones say more: where states are not scaled, the smallest singular value is
-so small that an absolute difference is nothing whatever happens. The paper's remark that LU is unstable is looked at
-too: it holds without pivoting, which meets a zero at once where mu is infinite, and not with it. All ways make P
-symmetric in every step.
+so small that an absolute difference is nothing whatever happens. The paper's remark that "the result of the LU
+decomposition method was unstable and did not converge" is looked at too: it holds without pivoting, which meets a zero
+at once where mu is infinite, and not with it. All ways make P symmetric in every step.
 """
 
 from __future__ import annotations
