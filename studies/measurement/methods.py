@@ -86,7 +86,7 @@ def cost_table(
     about = {"backend": backend, **about}
     if backend == "counted":
         operations = counted(jobs, progress)
-        about["source"] = "exact operation counts: multiply, add, divide and square root count one each"
+        about["source"] = COUNTED_SOURCE
         costs = {key: Cost.of(Fraction(tally.total)) for key, tally in operations.items()}
         counts = {key: nonzero(tally) for key, tally in operations.items()}
         return CostTable(name, "operation", _by_method(costs), about, operations=_by_method(counts))
@@ -98,6 +98,9 @@ def cost_table(
     }
     return CostTable(name, "second", _by_method({key: _cost(rounds) for key, rounds in times.items()}), about)
 
+
+COUNTED_SOURCE = "exact operation counts: multiply, add, divide, square root, function count one each"
+"""What a cost table says of counts."""
 
 Key = TypeVar("Key")
 

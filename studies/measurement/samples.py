@@ -12,7 +12,7 @@ from typing import Any, Literal, TypeAlias
 
 from sched_sim.costs.sample_file import SampledCosts
 from studies.measurement.job_times import Progress, Protocol, seconds_per_run, silent
-from studies.measurement.methods import counted, nonzero, where_timed
+from studies.measurement.methods import COUNTED_SOURCE, counted, nonzero, where_timed
 from studies.measurement.user_filter import UserFilter
 
 Backend: TypeAlias = Literal["compiled", "counted"]
@@ -38,10 +38,9 @@ def measure_filter(
     if backend == "compiled":
         return timed_together({name: user}, thorough=thorough, seed=seed, progress=progress)[name]
     operations = counted(user.jobs, progress)
-    source = "exact operation counts: multiply, add, divide, square root, function count one each"
     samples = {part: (Fraction(tally.total),) for part, tally in operations.items()}
     counts = {part: nonzero(tally) for part, tally in operations.items()}
-    return SampledCosts(name, "operation", samples, counts, _about(user, backend) | {"source": source})
+    return SampledCosts(name, "operation", samples, counts, _about(user, backend) | {"source": COUNTED_SOURCE})
 
 
 def timed_together(
