@@ -47,10 +47,10 @@ def least_speed(
 ) -> LeastSpeed:
     """The least speed at which every deadline holds (Steffes 2014, Sec. III.C: needed processing power).
 
-    In closed form and exact; with context-switch costs or other tasks by bisection on the simulation, which is
-    exact to one tick and calls `on_progress` (see `search.least_speed_by_simulation`). Every faster processor does too,
-    except where landing earlier costs more: the HR job of step k+1 is the longest of all, or same-step feedback spills
-    into the next step.
+    In closed form and exact; with context-switch costs, other tasks or earliest deadline first by bisection on the
+    simulation, which is exact to one tick and calls `on_progress` (see `search.least_speed_by_simulation`). Every
+    faster processor does too, except where landing earlier costs more: the HR job of step k+1 is the longest of all, or
+    same-step feedback spills into the next step.
     Raises InputError for an L that the method cannot have.
     """
     method_of(costs).check(timing, options.feedback)

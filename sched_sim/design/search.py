@@ -1,4 +1,5 @@
-"""Least speed by bisection on the simulation, where there is no closed form: context switches, the user's tasks."""
+"""Least speed by bisection on the simulation, where there is no closed form: context switches, the user's tasks,
+earliest deadline first."""
 
 from __future__ import annotations
 

@@ -51,7 +51,8 @@ class Analysis(NamedTuple):
 
 
 def analyse(chunk: Chunk) -> Analysis:
-    """In closed form; with context-switch costs or other tasks, which have none, by simulation."""
+    """In closed form; with context-switch costs, other tasks or earliest deadline first, which have none, by
+    simulation."""
     return _in_closed_form(chunk) if chunk.block.has_closed_form else _by_simulation(chunk)
 
 
