@@ -49,7 +49,7 @@ def run(
 
     Raises:
         ValueError: a shape is wrong, P0 is no covariance, a function does not do what it should (see `trial`),
-            a measurement does not fit (see `measurements.arrivals`), the way cannot do with the filter or a
+            a measurement does not fit (see `arrivals.arrivals`), the way cannot do with the filter or a
             measurement, or an estimate breaks down; the predictor or sensor is named.
     """
     check_composed(composed)

@@ -129,7 +129,7 @@ def method_panel(
     """Simulate one method and say in the panel's title what came out.
 
     speed: cost units per HR period; cycles: how many measurement cycles are shown.
-    Raises InputError as `costs.select` and `simulate` do, and for more steps than a chart can show.
+    Raises InputError as `methods.select` and `simulate` do, and for more steps than a chart can show.
     """
     if cycles * timing.N > MOST_STEPS:
         raise InputError(

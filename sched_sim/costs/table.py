@@ -50,7 +50,7 @@ class CostTable:
 
     `provenance` holds whatever else the file says of where they come from: source, update form, machine,
     versions, protocol, date. `path` is where it was read from, for messages. `operations` holds the counts of
-    operations by method and job kind, where they are known; `processor.on_part` turns them into time. `lacking`
+    operations by method and job kind, where they are known; `part.on_part` turns them into time. `lacking`
     says of jobs that cannot have a cost why not. `found_in` names the tables beside it that have an entry; None if it
     is a user's own, to be completed.
     """

@@ -74,8 +74,8 @@ NOT_LANDED = -1
 def least_period(costs: JobCosts[int], N: Ints, M: Ints, L: Ints, options: Options) -> Quotient:
     """The least HR period, in ticks, at which every deadline holds; its code is a `Binding`.
 
-    costs in ticks; N, M, L: integer arrays of one shape, legal for the method. `options.context_switch` and
-    `options.policy` are not looked at: see `sched_sim.design.search`.
+    costs in ticks; N, M, L: integer arrays of one shape, legal for the method. `context_switch` and `policy` of the
+    options are not looked at: see `sched_sim.design.search`.
     Raises TypeError for what is no whole number.
     """
     costs = _counted(costs)

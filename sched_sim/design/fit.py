@@ -48,7 +48,7 @@ def fit(
     tasks: Sequence[Task] = (),
     on_progress: OnProgress = lambda _runs: None,
 ) -> Fit:
-    """costs: in seconds, as `processor.on_part` makes them; hr_hz: rate of the HR loop.
+    """costs: in seconds, as `part.on_part` makes them; hr_hz: rate of the HR loop.
 
     Raises InputError as `least_speed` does.
     """

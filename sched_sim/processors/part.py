@@ -27,7 +27,7 @@ its polynomial (k_cos.c) and the first step of the reduction of its argument (e_
 class Part:
     """What each kind of operation takes on one processor.
 
-    seconds: by kind of operation (`costs.OPERATION_KINDS`), those that the file gives. clock_hz: None if the file
+    seconds: by kind of operation (`operations.OPERATION_KINDS`), those that the file gives. clock_hz: None if the file
     gives times instead of cycles. precision: of the arithmetic, "single" or "double". logic_per_arithmetic: logic
     operations around each arithmetic one, for jobs that do not count their own. sources: where each figure is from,
     by its name in the file. path: where the file was read from, for messages.

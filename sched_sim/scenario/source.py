@@ -16,8 +16,8 @@ taken in those steps that has landed or lands before it. The step it aims at is 
 measurements of one priority that arrive in the same step go together: one job rolls back once, to the earliest, and
 they land together. This is the work of `filters.modular.recalculate`, and one predict more for each such job: that of
 step m, which the predict job has done and the replay does again. The filter code begins a step when it has all
-measurements that arrive in it; here the predict job of m does not wait for them, as in `methods` and in Table 1 of
-Steffes 2014. Corrections that are more urgent have also been done in step m before, and are done again.
+measurements that arrive in it; here the predict job of m does not wait for them, as in `design.serial` and in Table 1
+of Steffes 2014. Corrections that are more urgent have also been done in step m before, and are done again.
 
 A preempted correction that finishes in a later step has to catch up: it goes on with the steps that passed meanwhile
 and the corrections made meanwhile, from the step of the earliest of those measurements if that is before the one it had
