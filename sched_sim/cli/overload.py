@@ -56,6 +56,9 @@ def _besides(scenario: Scenario, cpu: int) -> Iterator[str]:
 
 
 def _percent(share: float) -> str:
+    """Of a share above 1, which never reads as 100%."""
+    if share < 1.001:
+        return "a little more than 100%"
     return f"{share:.1%}" if share < 1000 else f"{share:.2g} times the time"
 
 

@@ -286,6 +286,12 @@ def test_a_processor_that_is_always_busy_with_less_than_it_can_do_is_explained()
     ]
 
 
+def test_a_demand_just_above_what_the_processor_can_do_does_not_read_as_all_of_it() -> None:
+    asked = case(1, {"predict": "1.0001", "correct.a": "0"}, sensor("a", 10, 0), steps=400)
+    cause, *_ = why(asked)
+    assert cause.startswith("demand is a little more than 100% of the processor, so that work piles up: ")
+
+
 def test_misses_on_a_processor_that_has_time_are_not_laid_to_demand() -> None:
     """Two processors; s1 waits behind four steps that s0 replays, and nothing goes back together."""
     s0 = sensor("a", 10, 12, priority=5)
