@@ -57,9 +57,9 @@ def callouts(row_bars: Sequence[Bar], scale: Scale) -> list[Callout]:
         if start < end:
             wanted[style].append((start, end))
     kept = {
-        text: found
-        for text, found in wanted.items()
-        if len(found) * (APART_INSIDE_MM if text in inside else APART_MM) <= scale.width_mm
+        text: spans
+        for text, spans in wanted.items()
+        if len(spans) * (APART_INSIDE_MM if text in inside else APART_MM) <= scale.width_mm
     }
     while True:
         placed, shift = _placed(kept, scale)
@@ -70,7 +70,9 @@ def callouts(row_bars: Sequence[Bar], scale: Scale) -> list[Callout]:
 
 def _placed(spans_of: Mapping[str, Sequence[tuple[float, float]]], scale: Scale) -> tuple[list[Callout], float]:
     """The labels beside one another along the row, and how far the worst of them is from its work."""
-    spans = sorted(((start + end) / 2, start, end, text) for text, found in spans_of.items() for start, end in found)
+    spans = sorted(
+        ((start + end) / 2, start, end, text) for text, own_spans in spans_of.items() for start, end in own_spans
+    )
     centres = [centre for centre, _, _, _ in spans]
     widths = [text_width_mm(text, SMALL_PT) for _, _, _, text in spans]
     centres_placed = spread(centres, widths, 0.0, scale.width_mm, GAP_MM)
@@ -81,7 +83,7 @@ def _placed(spans_of: Mapping[str, Sequence[tuple[float, float]]], scale: Scale)
 
 
 def _by_job(row_bars: Sequence[Bar]) -> Mapping[tuple[str, int, str], list[Bar]]:
-    found: defaultdict[tuple[str, int, str], list[Bar]] = defaultdict(list)
+    pieces: defaultdict[tuple[str, int, str], list[Bar]] = defaultdict(list)
     for bar in row_bars:
-        found[bar.kind, bar.step, bar.style].append(bar)
-    return found
+        pieces[bar.kind, bar.step, bar.style].append(bar)
+    return pieces

@@ -68,25 +68,25 @@ def rows(schedule: Schedule) -> list[Row]:
         cpu_of.setdefault(piece.kind, piece.cpu)
     for kind in schedule.responses:
         cpu_of.setdefault(kind, None)
-    found = list(dict.fromkeys(row_of(kind, cpu) for kind, cpu in cpu_of.items()))
-    ran = {row.name for row in found if row.cpu is not None}
-    found = [row for row in found if row.cpu is not None or row.name not in ran]
-    found += [Row("idle", cpu) for cpu in range(schedule.cpus) if cpu not in {row.cpu for row in found}]
+    lines = list(dict.fromkeys(row_of(kind, cpu) for kind, cpu in cpu_of.items()))
+    ran = {row.name for row in lines if row.cpu is not None}
+    lines = [row for row in lines if row.cpu is not None or row.name not in ran]
+    lines += [Row("idle", cpu) for cpu in range(schedule.cpus) if cpu not in {row.cpu for row in lines}]
     filter_rows = {"HR": 0, "predict": 0, "LR": 1}
-    return sorted(found, key=lambda row: (row.cpu is None, row.cpu or 0, filter_rows.get(row.name, 2)))
+    return sorted(lines, key=lambda row: (row.cpu is None, row.cpu or 0, filter_rows.get(row.name, 2)))
 
 
 def bars(schedule: Schedule) -> list[Bar]:
     """Every piece of work that was done, in the order in which the processors gave it up."""
-    found = []
+    all_bars = []
     for piece in schedule.slices:
         row = row_of(piece.kind, piece.cpu)
         for label, start, end in piece.pieces():
             is_switch = start < piece.start + piece.overhead
             style = piece.kind if piece.kind.startswith(TASK) and not is_switch else label
             overdue = piece.deadline if end > piece.deadline else None
-            found.append(Bar(row, style, start, end, piece.kind, piece.step, overdue))
-    return found
+            all_bars.append(Bar(row, style, start, end, piece.kind, piece.step, overdue))
+    return all_bars
 
 
 def jobs(schedule: Schedule) -> list[JobSpan]:

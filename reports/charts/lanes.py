@@ -79,13 +79,13 @@ def lanes(schedule: Schedule, scale: Scale) -> tuple[list[Lane], float]:
     bars_of: defaultdict[Row, list[Bar]] = defaultdict(list)
     for bar in bars(schedule):
         bars_of[bar.row].append(bar)
-    found = []
+    places = []
     y = 0.0
     for row in reversed(rows(schedule)):
         above = callouts(bars_of[row], scale)
-        found.append(Lane(row, y + BELOW_MM, above))
+        places.append(Lane(row, y + BELOW_MM, above))
         y += BELOW_MM + BAR_MM + ABOVE_MM + (CALLOUT_MM if above else 0) + GAP_MM
-    return found[::-1], y - GAP_MM
+    return places[::-1], y - GAP_MM
 
 
 def draw_lanes(

@@ -35,7 +35,7 @@ METHOD_NAMES = {
 
 
 MOST_STEPS, MOST_JOBS = 20_000, 100_000
-"""Of a picture."""
+"""A picture's."""
 
 
 class Mark(NamedTuple):

@@ -29,27 +29,27 @@ def fill_entries(fills: Mapping[str, Fill]) -> list[Entry]:
 
 def sign_entries(missing: bool) -> list[Entry]:
     """What the other signs mean. missing: whether a deadline is missed somewhere."""
-    found = [
+    entries = [
         Entry("released, not running", SWATCH_MM, _thin_bar),
         Entry("release", SIGN_MM, _marker("^", INK)),
         Entry("deadline", SIGN_MM, _marker("v", INK)),
     ]
     if missing:
-        found += [
+        entries += [
             Entry("missed deadline", SIGN_MM, _missed),
             Entry("work after its deadline", SWATCH_MM, _late),
         ]
-    return found
+    return entries
 
 
-def legend_height(found: Sequence[Entry], width_mm: float) -> float:
+def legend_height(entries: Sequence[Entry], width_mm: float) -> float:
     """The height in mm that `draw_legend` takes."""
-    return LINE_MM * len(_lines(found, width_mm))
+    return LINE_MM * len(_lines(entries, width_mm))
 
 
-def draw_legend(figure: Figure, found: Sequence[Entry], left: float, top: float, width_mm: float) -> None:
+def draw_legend(figure: Figure, entries: Sequence[Entry], left: float, top: float, width_mm: float) -> None:
     """Draw it at `left`, `top` (mm from the figure's left and top edge)."""
-    lines = _lines(found, width_mm)
+    lines = _lines(entries, width_mm)
     height = LINE_MM * len(lines)
     axes = axes_at(figure, left, top, width_mm, height)
     axes.set(xlim=(0, width_mm), ylim=(0, height))
@@ -65,21 +65,21 @@ def _words(style: str, fill: Fill) -> str:
     return fill.meaning if style == "switch" or ":" in style else f"{style}  {fill.meaning}"
 
 
-def _lines(found: Sequence[Entry], width_mm: float) -> list[list[tuple[float, Entry]]]:
+def _lines(entries: Sequence[Entry], width_mm: float) -> list[list[tuple[float, Entry]]]:
     """The entries broken into lines, each with its x: as few lines as fit the width, and those about equally long."""
-    lines = _broken(found, width_mm)
+    lines = _broken(entries, width_mm)
     for narrower in range(1, int(width_mm)):
-        shorter = _broken(found, width_mm - narrower)
+        shorter = _broken(entries, width_mm - narrower)
         if len(shorter) > len(lines):
             break
         lines = shorter
     return lines
 
 
-def _broken(found: Sequence[Entry], width_mm: float) -> list[list[tuple[float, Entry]]]:
+def _broken(entries: Sequence[Entry], width_mm: float) -> list[list[tuple[float, Entry]]]:
     lines: list[list[tuple[float, Entry]]] = [[]]
     x = 0.0
-    for entry in found:
+    for entry in entries:
         width = entry.width + BESIDE_MM + text_width_mm(entry.text, SMALL_PT)
         if lines[-1] and x + width > width_mm:
             lines.append([])

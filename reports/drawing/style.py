@@ -58,7 +58,7 @@ SETTINGS = {
 TALLEST_MM = 4000.0
 """Some 400 lines of a Gantt chart. PNG ends at 65,536 dots, which are 5.5 m."""
 MOST_LETTERS = 500
-"""Of a name: more are never set, however narrow."""
+"""A name's: more are never set, however narrow."""
 
 
 class Fill(NamedTuple):

@@ -26,7 +26,7 @@ from reports.pages.machine import marked
 
 ROW_MM, GAP_MM, RIGHT_MM = 4.8, 8.0, 4.0
 COUNTS_SHARE = 0.6
-"""Of the width; the times have the rest."""
+"""The counts' part of the width; the times have the rest."""
 
 
 class Way(NamedTuple):

@@ -35,7 +35,7 @@ ALL_WAYS = (
     *(CLOSED, KALMAN),
 )
 TIMED = {INVERSE: "robust-inverse", GIVENS_ORDERED: "robust-givens", LU_ORDERED: "robust-lu", CLOSED: "robust-closed"}
-"""Of which the compiled code is timed, with the linearisation in it."""
+"""Ways whose compiled code is timed, with the linearisation in it."""
 
 _COUNTED = {
     INVERSE_SKIPPING: "inverse, nonzero entries",
@@ -57,15 +57,15 @@ class Counts(NamedTuple):
     unknowns: Mapping[SystemName, int]
     operations: Mapping[str, Mapping[tuple[SystemName, Penalty], int]]
 
-    def ratio(self, way: str, other: str, system: SystemName, penalty: Penalty = "finite") -> float:
-        """How many times as many operations `way` takes as `other`."""
-        return self.operations[way][system, penalty] / self.operations[other][system, penalty]
+    def ratio(self, way: str, reference: str, system: SystemName, penalty: Penalty = "finite") -> float:
+        """How many times as many operations `way` takes as `reference`."""
+        return self.operations[way][system, penalty] / self.operations[reference][system, penalty]
 
 
 @cache
 def all_counts() -> Counts:
-    """Of both systems with all their uncertainties; counts of dense systems do not depend on the penalty."""
-    counted = {(found.system, found.penalty, found.way): found for found in counts()}
+    """Both systems' with all their uncertainties; counts of dense systems do not depend on the penalty."""
+    counted = {(row.system, row.penalty, row.way): row for row in counts()}
     unknowns = {system: counted[system, "finite", "givens"].unknowns for system in SYSTEMS}
     operations: dict[str, dict[tuple[SystemName, Penalty], int]] = {}
     for way in ALL_WAYS:
@@ -80,8 +80,8 @@ def all_counts() -> Counts:
                 KALMAN: kalman_counts(system),
             }
             for penalty in PENALTIES:
-                found = by_formula[way] if way in by_formula else counted[system, penalty, _COUNTED[way]].operations
-                operations[way][system, penalty] = found.total
+                tally = by_formula[way] if way in by_formula else counted[system, penalty, _COUNTED[way]].operations
+                operations[way][system, penalty] = tally.total
     return Counts(unknowns, operations)
 
 
@@ -103,12 +103,12 @@ def parallel(system: SystemName) -> Parallel:
     weight = weights(model, case.mu)
     patterns = [step_pattern(model, weight, order=order) for order in (NATURAL, RECOMMENDED)]
     N = len(patterns[0])
-    found: dict[str, Schedule] = dict(
+    schedules: dict[str, Schedule] = dict(
         zip(SCHEDULES, (sameh_kuck(N, len(start.x) + 1), *map(greedy, patterns)), strict=True)
     )
     return Parallel(
         N,
-        {name: len(schedule.stages) for name, schedule in found.items()},
-        {name: sum(map(len, schedule.stages)) for name, schedule in found.items()},
-        {name: {P: time_units(schedule, P) for P in PROCESSORS} for name, schedule in found.items()},
+        {name: len(schedule.stages) for name, schedule in schedules.items()},
+        {name: sum(map(len, schedule.stages)) for name, schedule in schedules.items()},
+        {name: {P: time_units(schedule, P) for P in PROCESSORS} for name, schedule in schedules.items()},
     )

@@ -149,17 +149,17 @@ def errors_figure(drive: Columns, errors: Sequence[str]) -> Figure:
         figure = page(legend_top + legend_height(legend, across) + EDGE_MM)
         time_s = drive["time_s"][WINDOW // 2 :: WINDOW]
         for row, angle in enumerate(ANGLES):
-            found = {
+            rms = {
                 (error, name): windowed_rms(wrapped_deg(drive[f"{name} {error} {angle}"] - drive[f"true {angle}"]))
                 for error in errors
                 for name in FILTERS
             }
-            limit = 1.15 * max(float(values[1:].max()) for values in found.values())
+            limit = 1.15 * max(float(values[1:].max()) for values in rms.values())
             for column, error in enumerate(errors):
                 top = EDGE_MM + TITLE_MM + row * (ROW_MM + BETWEEN_MM)
                 axes = axes_at(figure, LEFT_MM + column * (width + GAP_MM), top, width, ROW_MM)
                 for name, line in MARKED.items():
-                    shown = found[error, name][1:]
+                    shown = rms[error, name][1:]
                     axes.plot(time_s[1:], shown, line.marker, color=line.colour, ms=line.size, mew=0, ls="-", lw=0.8)
                 axes.set(xlim=(0, time_s[-1] + time_s[0]), ylim=(0, limit))
                 title = f"Gyro scale wrong by {error}" if row == 0 else ""

@@ -41,33 +41,33 @@ SOON = 10
 SMALL, LARGE = (f"{100 * error:g} %" for error in drive.SCALE_ERRORS)
 
 
-def build(found: Results) -> dict[str, bytes]:
+def build(results: Results) -> dict[str, bytes]:
     """All files of the report by name, as a pure function of what was measured and simulated."""
     counted = {system: load_costs(f"erkf-{system}") for system in SYSTEMS}
     devices = {system: parallel(system) for system in SYSTEMS}
     parts = [load_part(name) for name in shipped_parts()]
     slowest = next(part for part in parts if part.name == SLOWEST)
     rows = {
-        "costs": tables.cost_rows(all_counts(), found.measured),
+        "costs": tables.cost_rows(all_counts(), results.measured),
         "parallel": tables.parallel_rows(devices),
-        "agreements": tables.agreement_rows(found),
-        "attitude-errors": tables.attitude_rows(found),
-        "position-errors": tables.position_rows(found),
-        "speeds": tables.speed_rows(counted, found.measured),
+        "agreements": tables.agreement_rows(results),
+        "attitude-errors": tables.attitude_rows(results),
+        "position-errors": tables.position_rows(results),
+        "speeds": tables.speed_rows(counted, results.measured),
         "processors": tables.processor_rows(counted, parts),
         "device": tables.device_rows(slowest),
     }
-    figures = {name: image(figure, "svg") for name, figure in _figures(found, counted, devices, slowest).items()}
+    figures = {name: image(figure, "svg") for name, figure in _figures(results, counted, devices, slowest).items()}
     pages = render(
         "erkf",
         TITLE,
         figures,
         **{name.replace("-", "_"): table for name, table in rows.items()},
-        legend=legend(timed_on(found.measured["position"].provenance), residues=True),
-        cost=_cost(found),
+        legend=legend(timed_on(results.measured["position"].provenance), residues=True),
+        cost=_cost(results),
         device_gain=_parallel(devices),
-        rounding=_rounding(found),
-        drive=_drive(found),
+        rounding=_rounding(results),
+        drive=_drive(results),
         schedule=_schedule(counted, parts, slowest),
         heavy=_heavy(rows["processors"]),
         N=N,
@@ -79,23 +79,23 @@ def build(found: Results) -> dict[str, bytes]:
         large=LARGE,
         device_last=rows["device"][-1],
     )
-    return {**pages, **figures, **found.files(), **{f"{name}.csv": csv_bytes(table) for name, table in rows.items()}}
+    return {**pages, **figures, **results.files(), **{f"{name}.csv": csv_bytes(table) for name, table in rows.items()}}
 
 
 def _figures(
-    found: Results,
+    results: Results,
     counted: Mapping[SystemName, CostTable],
     devices: Mapping[SystemName, Parallel],
     slowest: Part,
 ) -> dict[str, Figure]:
-    course = found.columns("drive")
+    course = results.columns("drive")
     return {
-        "costs.svg": cost_figure(_ways(found), 1 / HR_HZ),
+        "costs.svg": cost_figure(_ways(results), 1 / HR_HZ),
         "parallel.svg": parallel_figure({f"{s.capitalize()}, N = {devices[s].N}": devices[s].times for s in SYSTEMS}),
         "singular-values.svg": singular_figure(
-            found.columns("singular-values"), {"attitude": "Attitude (Fig. 7)", "position": "Position (Fig. 8)"}
+            results.columns("singular-values"), {"attitude": "Attitude (Fig. 7)", "position": "Position (Fig. 8)"}
         ),
-        "route.svg": route_figure(course, found.columns("close-up"), SMALL),
+        "route.svg": route_figure(course, results.columns("close-up"), SMALL),
         "attitude.svg": attitude_figure(course, LARGE),
         "position.svg": position_figure(course, SMALL),
         "errors.svg": errors_figure(course, [SMALL, LARGE]),
@@ -114,13 +114,13 @@ def _figures(
     }
 
 
-def _ways(found: Results) -> list[Way]:
+def _ways(results: Results) -> list[Way]:
     counts = all_counts()
     names = {system: f"{system}, N = {counts.unknowns[system]}" for system in SYSTEMS}
 
     def way_of(way: str) -> Way:
         timed = {
-            names[system]: tables.seconds(found.measured[system], ways.TIMED[way])
+            names[system]: tables.seconds(results.measured[system], ways.TIMED[way])
             for system in SYSTEMS
             if way in ways.TIMED
         }
@@ -163,18 +163,18 @@ def _pace(speed: Fraction) -> str:
 # ------------------------------------------------------------------------------------------- the numbers of the text
 
 
-def _cost(found: Results) -> dict[str, Any]:
+def _cost(results: Results) -> dict[str, Any]:
     counts = all_counts()
 
-    def both(way: str, other: str, digits: int = 1) -> list[str]:
-        return [f"{counts.ratio(way, other, system):.{digits}f}" for system in SYSTEMS]
+    def both(way: str, reference: str, digits: int = 1) -> list[str]:
+        return [f"{counts.ratio(way, reference, system):.{digits}f}" for system in SYSTEMS]
 
-    def span(way: str, other: str) -> str:
-        ratios = [counts.ratio(way, other, s, penalty) for s in SYSTEMS for penalty in ("infinite", "finite")]
+    def span(way: str, reference: str) -> str:
+        ratios = [counts.ratio(way, reference, s, penalty) for s in SYSTEMS for penalty in ("infinite", "finite")]
         return f"{min(ratios):.2f} to {max(ratios):.2f}"
 
     timed = {
-        method: [tables.seconds(found.measured[system], method) for system in SYSTEMS] for method in ROBUST_METHODS
+        method: [tables.seconds(results.measured[system], method) for system in SYSTEMS] for method in ROBUST_METHODS
     }
     position = {way: f"{numbers['position', 'finite']:,}" for way, numbers in counts.operations.items()}
     return {
@@ -203,9 +203,9 @@ def _cost(found: Results) -> dict[str, Any]:
 
 
 def _pairs(
-    timed: Mapping[RobustMethod, list[float]], one: RobustMethod, other: RobustMethod
+    timed: Mapping[RobustMethod, list[float]], first: RobustMethod, second: RobustMethod
 ) -> list[tuple[float, float]]:
-    return list(zip(timed[one], timed[other], strict=True))
+    return list(zip(timed[first], timed[second], strict=True))
 
 
 def _parallel(devices: Mapping[SystemName, Parallel]) -> dict[str, Any]:
@@ -229,24 +229,24 @@ def _parallel(devices: Mapping[SystemName, Parallel]) -> dict[str, Any]:
     }
 
 
-def _rounding(found: Results) -> dict[str, Any]:
+def _rounding(results: Results) -> dict[str, Any]:
     """How far each way is from the inverse. Residues, but for what fails."""
-    records = found.records("agreement")
+    records = results.records("agreement")
     scaled = [record for record in records if "radians" not in record["case"]]
 
     def worst(rows: Sequence[Mapping[str, str]], *keys: str) -> str:
         return residue(max(float(row[key]) for row in rows for key in keys))
 
-    of = {way: [record for record in scaled if record["way"] == way] for way in ("givens", "lu")}
+    by_way = {way: [record for record in scaled if record["way"] == way] for way in ("givens", "lu")}
     (radians,) = [r for r in records if "radians" in r["case"] and r["way"] == "givens"]
     unpivoted = [r for r in records if r["way"] == "lu without pivoting"]
     kept, failing = ([r for r in unpivoted if bool(r["fails_in_step"]) == fails] for fails in (False, True))
     limits = [record for record in unpivoted if "mu=inf" in record["case"]]
     return {
-        "absolute": worst(of["givens"], "largest", "smallest"),
-        "relative": worst(of["givens"], "relative_largest", "relative_smallest"),
-        "lu_absolute": worst(of["lu"], "largest", "smallest"),
-        "lu_relative": worst(of["lu"], "relative_largest", "relative_smallest"),
+        "absolute": worst(by_way["givens"], "largest", "smallest"),
+        "relative": worst(by_way["givens"], "relative_largest", "relative_smallest"),
+        "lu_absolute": worst(by_way["lu"], "largest", "smallest"),
+        "lu_relative": worst(by_way["lu"], "relative_largest", "relative_smallest"),
         "radians_absolute": worst([radians], "largest", "smallest"),
         "radians_percent": f"{100 * float(radians['relative_smallest']):.0f}",
         "failing": len(failing),
@@ -254,31 +254,31 @@ def _rounding(found: Results) -> dict[str, Any]:
         "the_limits_fail": failing == limits,
         "step": max(int(record["fails_in_step"]) for record in failing),
         "unpivoted": worst(kept, "relative_largest"),
-        "pivoted": worst([r for r in of["lu"] if _same(r, kept)], "relative_largest"),
+        "pivoted": worst([r for r in by_way["lu"] if _same(r, kept)], "relative_largest"),
     }
 
 
 def _same(record: Mapping[str, str], others: list[dict[str, str]]) -> bool:
-    return record["case"] in [other["case"] for other in others]
+    return record["case"] in [candidate["case"] for candidate in others]
 
 
-def _drive(found: Results) -> dict[str, Any]:
+def _drive(results: Results) -> dict[str, Any]:
     """Errors with twice their standard errors."""
-    of = {(float(r["scale_error"]), r["method"]): r for r in found.records("attitude")}
-    at = {(float(r["scale_error"]), r["method"]): r for r in found.records("position")}
+    attitude = {(float(r["scale_error"]), r["method"]): r for r in results.records("attitude")}
+    at = {(float(r["scale_error"]), r["method"]): r for r in results.records("position")}
     small, large = drive.SCALE_ERRORS
-    (raw,) = found.records("raw")
+    (raw,) = results.records("raw")
     mild, strong = drive.POSITION_EKF.name, drive.POSITION_ROBUST.name
 
     def error(scale: float, method: drive.AttitudeMethod, angle: str = "yaw") -> str:
-        return tables.with_error(of[scale, method.name], f"{angle}_deg")
+        return tables.with_error(attitude[scale, method.name], f"{angle}_deg")
 
     def both(method: drive.AttitudeMethod) -> list[str]:
         return [error(scale, method) for scale in (small, large)]
 
     def worse(scale: float, method: drive.AttitudeMethod, angle: str) -> str:
         """Than the EKF, in percent; negative if it is better."""
-        robust, plain = (float(of[scale, one.name][f"{angle}_deg"]) for one in (method, drive.EKF))
+        robust, plain = (float(attitude[scale, candidate.name][f"{angle}_deg"]) for candidate in (method, drive.EKF))
         return f"{100 * (robust / plain - 1):.0f}"
 
     def sides(record: Mapping[str, str], what: str) -> str:
@@ -298,9 +298,9 @@ def _drive(found: Results) -> dict[str, Any]:
             {angle: worse(scale, drive.MORE_ROBUST, angle) for angle in ("roll", "pitch")}
             for scale in drive.SCALE_ERRORS
         ],
-        "from_gps": of[small, drive.ROBUST.name]["gps_deg"],
-        "from_imu": of[small, drive.ROBUST.name]["imu_deg"],
-        "ekf_from_gps": of[small, drive.EKF.name]["gps_deg"],
+        "from_gps": attitude[small, drive.ROBUST.name]["gps_deg"],
+        "from_imu": attitude[small, drive.ROBUST.name]["imu_deg"],
+        "ekf_from_gps": attitude[small, drive.EKF.name]["gps_deg"],
         "raw": raw,
         "fix": sides(at[small, strong], "fix"),
         "between": sides(at[small, strong], "between"),
@@ -319,33 +319,35 @@ def _drive(found: Results) -> dict[str, Any]:
 def _schedule(counted: Mapping[SystemName, CostTable], parts: list[Part], slowest: Part) -> dict[str, Any]:
     position = counted["position"]
     costs = {method: tables.robust_costs_of(position, method) for method in ROBUST_METHODS}
-    least = {method: least_speed(of, Timing(N, 0, N)).speed for method, of in costs.items()}
-    serial = {method: of.inertial + of.robust_step for method, of in costs.items()}
+    least = {method: least_speed(work, Timing(N, 0, N)).speed for method, work in costs.items()}
+    serial = {method: work.inertial + work.robust_step for method, work in costs.items()}
     able: dict[str, dict[RobustMethod, Fit]] = {}
     in_every_step: dict[str, dict[RobustMethod, Fit]] = {}
     for part in parts:
         on = {method: tables.on(position, part, method) for method in ROBUST_METHODS}
-        if all(of is not None for of in on.values()):
+        if all(work is not None for work in on.values()):
             for fits, timing in ((able, Timing(N, 0, N)), (in_every_step, Timing(1, 0, 1))):
-                fits[part.name] = {m: fit(of, timing, Fraction(HR_HZ)) for m, of in on.items() if of is not None}
+                fits[part.name] = {m: fit(work, timing, Fraction(HR_HZ)) for m, work in on.items() if work is not None}
     here, here_in_every_step = able[slowest.name], in_every_step[slowest.name]
     alone = {m: tables.on(position, slowest, m) for m in ROBUST_METHODS}
     lacking = [part.name for part in parts if part.name not in able]
-    failing = [tables.WAYS[method] for method, found in here_in_every_step.items() if not found.fits]
+    failing = [tables.WAYS[method] for method, verdict in here_in_every_step.items() if not verdict.fits]
     return {
         "serial": {method: f"{millions(speed, HR_HZ):.3g}" for method, speed in serial.items()},
         "least": {method: f"{millions(speed, HR_HZ):.2g}" for method, speed in least.items()},
         "gain": {method: f"{float(serial[method] / least[method]):.0f}" for method in costs},
-        "load": {method: percent(found.load) for method, found in here.items()},
-        "landed": {method: found.landed for method, found in here.items()},
-        "one_period": {m: percent((of.inertial + of.robust_step) * HR_HZ) for m, of in alone.items() if of},
+        "load": {method: percent(verdict.load) for method, verdict in here.items()},
+        "landed": {method: verdict.landed for method, verdict in here.items()},
+        "one_period": {m: percent((work.inertial + work.robust_step) * HR_HZ) for m, work in alone.items() if work},
         "inertial": f"{float(100 * HR_HZ * _inertial(position, slowest)):.2f}",
         "able": len(able),
-        "all_fit": all(found.fits for of_part in able.values() for found in of_part.values()),
+        "all_fit": all(verdict.fits for of_part in able.values() for verdict in of_part.values()),
         "lacking": lacking,
-        "every_step": {method: percent(found.needed) for method, found in here_in_every_step.items()},
+        "every_step": {method: percent(verdict.needed) for method, verdict in here_in_every_step.items()},
         "every_step_fails": f": the processor is too slow for {' and '.join(failing)}" if failing else "",
-        "every_step_all": [name for name, of in in_every_step.items() if all(found.fits for found in of.values())],
+        "every_step_all": [
+            name for name, of_part in in_every_step.items() if all(verdict.fits for verdict in of_part.values())
+        ],
         "without_fix": {f"robust-{way}": f"{float(share):.2f}" for way, share in between_fixes("position").items()},
         "least_soon": f"{millions(least_speed(costs['robust-givens'], Timing(N, 0, SOON)).speed, HR_HZ):.3g}",
     }
@@ -359,7 +361,7 @@ def _inertial(table: CostTable, part: Part) -> Fraction:
 
 
 def _heavy(rows: tables.Rows) -> tables.Rows:
-    """Of the position filter, on processors that can time all of it."""
+    """Rows of the position filter on processors that can time all of it."""
     heading, *body = rows
     kept = [row for row in body if row[0] == "position" and row[3] != "no sqrt"]
     return [heading[1:], *(row[1:] for row in kept)]

@@ -27,7 +27,7 @@ from studies.robust.costs import SYSTEMS, SystemName, robust_costs
 Progress = Callable[[int, int, str], None]
 
 SEED = 0
-"""Of the drive that the figures show; the tables are of all `drive.SEEDS`."""
+"""The drive that the figures show; the tables are of all `drive.SEEDS`."""
 
 SHOWN = {"EKF": (drive.EKF, drive.POSITION_EKF), "ERKF": (drive.MORE_ROBUST, drive.POSITION_ROBUST)}
 """For the figures: an attitude and a position method of each."""
@@ -103,7 +103,7 @@ def simulated(progress: Progress = lambda _done, _total, _what: None) -> dict[st
     for case in singular.CASES:
         tell(f"singular values, {case.name}")
         compared = singular.compare(case)
-        agreement += [_agreement_row(found) for found in compared.agreements]
+        agreement += [_agreement_row(figures) for figures in compared.agreements]
         if case in CURVES:
             curves |= _curves(case, compared)
     tell("the drive of the figures")
@@ -139,39 +139,44 @@ _POSITION = (
 _AGREEMENT = ("case", "way", "largest", "smallest", "relative_largest", "relative_smallest", "state", "fails_in_step")
 
 
-def _attitude_row(found: drive.AttitudeResult) -> list[Any]:
-    others = (found.yaw_from_gps_deg, found.yaw_from_imu_deg, found.outage_yaw_deg)
+def _attitude_row(result: drive.AttitudeResult) -> list[Any]:
+    others = (result.yaw_from_gps_deg, result.yaw_from_imu_deg, result.outage_yaw_deg)
     return [
-        found.scale_error,
-        found.method,
-        *(digits(value) for value in (*found.errors_deg, *others, *found.standard_errors_deg)),
+        result.scale_error,
+        result.method,
+        *(digits(value) for value in (*result.errors_deg, *others, *result.standard_errors_deg)),
     ]
 
 
-def _position_row(found: drive.PositionResult) -> list[Any]:
-    errors = (*found.between_standard_error_m, found.outage_end_standard_error_m)
+def _position_row(result: drive.PositionResult) -> list[Any]:
+    errors = (*result.between_standard_error_m, result.outage_end_standard_error_m)
     values = (
-        *(*found.after_fix_m, *found.between_m, *found.between_velocity, *found.outage_m),
-        *(found.outage_end_m, *errors),
+        *(*result.after_fix_m, *result.between_m, *result.between_velocity, *result.outage_m),
+        *(result.outage_end_m, *errors),
     )
-    return [found.scale_error, found.method, *(digits(value) for value in values)]
+    return [result.scale_error, result.method, *(digits(value) for value in values)]
 
 
-def _agreement_row(found: singular.Agreement) -> list[Any]:
-    values = (found.absolute_largest, found.absolute_smallest, found.relative_largest, found.relative_smallest)
-    failure = "" if found.first_failure is None else found.first_failure
-    return [found.case.name, found.way, *(f"{value:.2g}" for value in (*values, found.state)), failure]
+def _agreement_row(agreement: singular.Agreement) -> list[Any]:
+    values = (
+        agreement.absolute_largest,
+        agreement.absolute_smallest,
+        agreement.relative_largest,
+        agreement.relative_smallest,
+    )
+    failure = "" if agreement.first_failure is None else agreement.first_failure
+    return [agreement.case.name, agreement.way, *(f"{value:.2g}" for value in (*values, agreement.state)), failure]
 
 
 def _curves(case: singular.Case, compared: singular.Comparison) -> dict[str, FloatArray]:
-    """Of the inverse, and what the others differ by."""
+    """The inverse's, and what the others differ by."""
     name = case.name.partition(",")[0]
     reference = compared.curves[0]
-    found = {"time_s": reference.time_s, f"{name} largest": reference.largest, f"{name} smallest": reference.smallest}
+    columns = {"time_s": reference.time_s, f"{name} largest": reference.largest, f"{name} smallest": reference.smallest}
     for curve in compared.curves[1:]:
-        found[f"{name} largest {curve.way}"] = np.abs(curve.largest - reference.largest)
-        found[f"{name} smallest {curve.way}"] = np.abs(curve.smallest - reference.smallest)
-    return found
+        columns[f"{name} largest {curve.way}"] = np.abs(curve.largest - reference.largest)
+        columns[f"{name} smallest {curve.way}"] = np.abs(curve.smallest - reference.smallest)
+    return columns
 
 
 def _drives() -> tuple[dict[str, FloatArray], dict[str, FloatArray]]:
@@ -183,24 +188,24 @@ def _drives() -> tuple[dict[str, FloatArray], dict[str, FloatArray]]:
         driven = simulate_cargo_drive(scale_error=error, seed=SEED)
         attitudes = drive.estimate_attitude(driven, of_attitude)
         positions = drive.estimate_position(driven, drive.estimate_attitude(driven, of_position.attitude), of_position)
-        found = drive.figures(driven, attitudes, positions)
+        figures = drive.figures(driven, attitudes, positions)
         percent = f"{100 * error:g} %"
-        at_fix = slice(0, len(found.time_s) - 1, FIX_EVERY)
+        at_fix = slice(0, len(figures.time_s) - 1, FIX_EVERY)
         course |= {
-            "time_s": found.time_s[at_fix],
-            **_split("true", AXES, found.true_route_m[at_fix]),
-            **_split("gps", AXES, found.gps_route_m),
-            **_split("true", ANGLES, found.true_attitude_deg[at_fix]),
-            **_split("imu", ANGLES, found.imu_attitude_deg[::FIX_EVERY]),
-            "gps yaw": found.gps_yaw_deg,
-            **_split(f"{name} {percent}", AXES, found.route_m[at_fix]),
-            **_split(f"{name} {percent}", ANGLES, found.attitude_deg[at_fix]),
+            "time_s": figures.time_s[at_fix],
+            **_split("true", AXES, figures.true_route_m[at_fix]),
+            **_split("gps", AXES, figures.gps_route_m),
+            **_split("true", ANGLES, figures.true_attitude_deg[at_fix]),
+            **_split("imu", ANGLES, figures.imu_attitude_deg[::FIX_EVERY]),
+            "gps yaw": figures.gps_yaw_deg,
+            **_split(f"{name} {percent}", AXES, figures.route_m[at_fix]),
+            **_split(f"{name} {percent}", ANGLES, figures.attitude_deg[at_fix]),
         }
-        shown = found.close_up
+        shown = figures.close_up
         close_up |= {
-            "time_s": found.time_s[shown],
-            **_split("true", AXES, found.true_route_m[shown]),
-            **_split(f"{name} {percent}", AXES, found.route_m[shown]),
+            "time_s": figures.time_s[shown],
+            **_split("true", AXES, figures.true_route_m[shown]),
+            **_split(f"{name} {percent}", AXES, figures.route_m[shown]),
         }
     return course, close_up
 

@@ -46,8 +46,8 @@ def singular_figure(curves: Mapping[str, FloatArray], systems: Mapping[str, str]
             _differences(differences, time_s, shown)
             low, high = (limit(curves[f"{system} {which}"]) for which, limit in _ENDS)
             decades(values, "y", low / 3, high * 3, every=2)
-            small = min(float(found[found > 0].min()) for found in shown.values() if (found > 0).any())
-            large = max(float(np.nanmax(found)) for found in shown.values() if np.isfinite(found).any())
+            small = min(float(curve[curve > 0].min()) for curve in shown.values() if (curve > 0).any())
+            large = max(float(np.nanmax(curve)) for curve in shown.values() if np.isfinite(curve).any())
             decades(differences, "y", small / 3, large * 5, every=2)
             values.set_title(title, loc="left", size=TITLE_PT)
             differences.set_xlabel("time (s)", labelpad=2)
@@ -79,10 +79,10 @@ def _values(axes: Axes, time_s: FloatArray, values: FloatArray, which: str) -> N
 
 
 def _differences(axes: Axes, time_s: FloatArray, differences: Mapping[str, FloatArray]) -> None:
-    for number, (way, found) in enumerate(differences.items()):
+    for number, (way, curve) in enumerate(differences.items()):
         line = LINES[way]
         every = max(len(time_s) // MARKED, 1)
-        positive = np.where(found > 0, found, np.nan)
+        positive = np.where(curve > 0, curve, np.nan)
         axes.plot(
             time_s, positive, line.marker, color=line.colour, ms=line.size, mew=0, ls="-", lw=0.7,
             markevery=(number * every // len(WAYS), every),

@@ -35,7 +35,7 @@ ASKED = (1, 5, 10, 20, N)
 UNITS = (1, 4, 16, 64)
 """Column pairs at a time, of the parallel device."""
 OF_POSITION = ("between_north_m", "between_east_m", "between_down_m", "outage_end_m")
-"""Of the table."""
+"""The table's."""
 SHOWN = tuple(P for P in PROCESSORS if P not in (4, 256))
 
 
@@ -53,21 +53,21 @@ def cost_rows(counts: Counts, measured: Mapping[SystemName, CostTable]) -> Rows:
     for way in ALL_WAYS:
         row: list[Any] = [way]
         for system in SYSTEMS:
-            found = counts.operations[way]
+            operations = counts.operations[way]
             time = f"{1e6 * seconds(measured[system], TIMED[way]):.1f}" if way in TIMED else "-"
-            row += [f"{found[system, 'infinite']:,}", f"{found[system, 'finite']:,}", time]
+            row += [f"{operations[system, 'infinite']:,}", f"{operations[system, 'finite']:,}", time]
         rows.append(row)
     return rows
 
 
 def seconds(measured: CostTable, method: str) -> float:
-    """Of the robust step, its minimum."""
+    """The robust step's minimum."""
     return float(measured.entry(method, "robust_step").minimum)
 
 
-def parallel_rows(found: Mapping[SystemName, Parallel]) -> Rows:
+def parallel_rows(devices: Mapping[SystemName, Parallel]) -> Rows:
     rows: Rows = [["System", "Schedule", "rotations", "stages", *(f"P = {P}" for P in SHOWN), "speed-up"]]
-    for system, of_system in found.items():
+    for system, of_system in devices.items():
         for name, times in of_system.times.items():
             numbers = [f"{times[P]:,}" for P in SHOWN]
             gain = f"{times[PROCESSORS[0]] / times[PROCESSORS[-1]]:.0f}"
@@ -76,11 +76,11 @@ def parallel_rows(found: Mapping[SystemName, Parallel]) -> Rows:
     return rows
 
 
-def agreement_rows(found: Results) -> Rows:
+def agreement_rows(results: Results) -> Rows:
     """How far each way is from the inverse: at most, in a whole drive. Nothing but rounding."""
     rows: Rows = [["Filter", "Way", *map(marked, ("max, abs.", "min, abs.", "max, rel.", "min, rel.")), "fails in"]]
     names = {"givens": "Givens", "lu": "LU, pivoting", "lu without pivoting": "LU, no pivoting"}
-    for record in found.records("agreement"):
+    for record in results.records("agreement"):
         values = [record[key] for key in ("largest", "smallest", "relative_largest", "relative_smallest")]
         failed = record["fails_in_step"]
         shown = [residue(float(value)) if failed == "" else "-" for value in values]
@@ -88,27 +88,27 @@ def agreement_rows(found: Results) -> Rows:
     return rows
 
 
-def attitude_rows(found: Results) -> Rows:
+def attitude_rows(results: Results) -> Rows:
     rows: Rows = [["Scale error", "Filter", "roll", "pitch", "yaw", "yaw, GPS out"]]
-    for record in found.records("attitude"):
+    for record in results.records("attitude"):
         values = [with_error(record, f"{name}_deg") for name in ("roll", "pitch", "yaw", "outage")]
         rows.append([f"{100 * float(record['scale_error']):g} %", record["method"], *values])
     return rows
 
 
-def position_rows(found: Results) -> Rows:
+def position_rows(results: Results) -> Rows:
     rows: Rows = [["Scale error", "Filter", "north", "east", "down", "GPS out, end"]]
-    for record in found.records("position"):
+    for record in results.records("position"):
         values = [with_error(record, name) for name in OF_POSITION]
         rows.append([f"{100 * float(record['scale_error']):g} %", record["method"], *values])
     return rows
 
 
-def differ(one: Mapping[str, str], other: Mapping[str, str], name: str) -> bool:
+def differ(first: Mapping[str, str], second: Mapping[str, str], name: str) -> bool:
     """Whether two root mean squares are farther apart than twice the standard error of their difference, which is at
     most this, as both are of the same drives."""
-    errors = [float(record[f"{name} se"]) for record in (one, other)]
-    return abs(float(one[name]) - float(other[name])) > 2 * sum(errors)
+    errors = [float(record[f"{name} se"]) for record in (first, second)]
+    return abs(float(first[name]) - float(second[name])) > 2 * sum(errors)
 
 
 def with_error(record: Mapping[str, str], name: str) -> str:
@@ -152,10 +152,10 @@ def processor_rows(tables: Mapping[SystemName, CostTable], processors: Sequence[
                 if costs is None:
                     rows.append([*row, "no sqrt", "-", "-", "-", "-"])
                     continue
-                found = fit(costs, Timing(N, 0, N), Fraction(HR_HZ))
+                verdict = fit(costs, Timing(N, 0, N), Fraction(HR_HZ))
                 serial = (costs.inertial + costs.robust_step) * HR_HZ
-                row += ["yes" if found.fits else "no", percent(found.load), percent(found.slack)]
-                rows.append([*row, "-" if found.landed is None else f"k+{found.landed}", percent(serial)])
+                row += ["yes" if verdict.fits else "no", percent(verdict.load), percent(verdict.slack)]
+                rows.append([*row, "-" if verdict.landed is None else f"k+{verdict.landed}", percent(serial)])
     return rows
 
 

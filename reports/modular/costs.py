@@ -18,7 +18,7 @@ Record: TypeAlias = Mapping[str, str]
 
 LINES = dict(zip(("linear", "extended", "unscented"), SOURCE_LINES[1:], strict=False))
 OPERATIONS, SECONDS = "operations", marked("minimum, µs")
-"""As the columns are called."""
+"""Names of the columns."""
 
 
 def cost_figure(rows: Sequence[Record]) -> Figure:

@@ -33,9 +33,9 @@ def late_figure(by_sensors: Mapping[str, Sequence[Record]]) -> Figure:
     with drawing():
         legend = [line_entry(way, line) for way, line in LINES.items()]
         figure, rows = sheet(2, len(by_sensors), legend, height_mm=38.0, stacked=True)
-        for column, (sensors, found) in enumerate(by_sensors.items()):
-            for way in dict.fromkeys(row["way"] for row in found):
-                of_way = [row for row in found if row["way"] == way]
+        for column, (sensors, records) in enumerate(by_sensors.items()):
+            for way in dict.fromkeys(row["way"] for row in records):
+                of_way = [row for row in records if row["way"] == way]
                 delay = _column(of_way, "delay")
                 error, bar = (_column(of_way, name) / unit for name in ("error", "se"))
                 line, width = LINES[way], WIDTHS.get(way, 1.0)

@@ -22,7 +22,7 @@ Record: TypeAlias = Mapping[str, str]
 
 QUANTITIES = {"position": "m", "velocity": "m/s", "acceleration": "m/s²"}
 UNITS = {"position": "m", "velocity": "m_s", "acceleration": "m_s2"}
-"""As the columns are called."""
+"""Units in the columns' names."""
 SENSORS = ("position", "acceleration")
 LINES = dict(zip(QUANTITIES, SOURCE_LINES[1:4], strict=True))
 
@@ -55,16 +55,16 @@ def history_figure(run: Columns, periods_s: float) -> Figure:
         kept = run["time_s"] <= periods_s
         time_s = run["time_s"][kept]
         for (left, right), (name, unit) in zip(rows, QUANTITIES.items(), strict=True):
-            truth, found, sigma = (run[f"{name} {what}"][kept] for what in ("true", "estimate", "sigma"))
+            truth, estimate, sigma = (run[f"{name} {what}"][kept] for what in ("true", "estimate", "sigma"))
             if name in SENSORS:
                 seen = run[f"{name} measured"][kept]
                 left.plot(time_s, seen, MEASURED.marker, color=MEASURED.colour, ms=3.2, mew=0, zorder=4)
-            left.plot(time_s, found, color=ESTIMATE.colour, lw=1.8)
+            left.plot(time_s, estimate, color=ESTIMATE.colour, lw=1.8)
             left.plot(time_s, truth, color=INK, lw=0.7)
             right.fill_between(time_s, -2 * sigma, 2 * sigma, color=BAND["band:"].colour, lw=0)
             right.axhline(0.0, color=INK, lw=0.6)
-            right.plot(time_s, found - truth, color=ESTIMATE.colour, lw=0.9)
-            settled = np.abs(np.concatenate([2 * sigma, found - truth])[np.tile(time_s > 0.1 * periods_s, 2)])
+            right.plot(time_s, estimate - truth, color=ESTIMATE.colour, lw=0.9)
+            settled = np.abs(np.concatenate([2 * sigma, estimate - truth])[np.tile(time_s > 0.1 * periods_s, 2)])
             right.set_ylim(-1.2 * settled.max(), 1.2 * settled.max())
             for axes in (left, right):
                 axes.set_xlim(0, periods_s)
@@ -141,11 +141,11 @@ def nees_figure(
     lines = dict(zip(overall, SOURCE_LINES[1:], strict=False))
     bands = dict(zip(bounds, BOUNDS, strict=True))
     with drawing():
-        fills = {f"{of}:": band._replace(meaning=f"{band.meaning}, {of}") for of, band in bands.items()}
+        fills = {f"{group}:": band._replace(meaning=f"{band.meaning}, {group}") for group, band in bands.items()}
         legend = [*(line_entry(name, line) for name, line in lines.items()), *fill_entries(fills)]
         figure, [[left, right]] = sheet(1, 2, legend)
-        for of, (low, high) in bounds.items():
-            left.axhspan(low, high, color=bands[of].colour, lw=0, zorder=0.3)
+        for group, (low, high) in bounds.items():
+            left.axhspan(low, high, color=bands[group].colour, lw=0, zorder=0.3)
         for name, line in lines.items():
             left.plot(
                 course["time_s"], course[name], line.marker, color=line.colour, ls="-", lw=0.8, ms=0.8 * line.size,

@@ -25,70 +25,72 @@ from studies.modular.rocket_schedule import compared_at, counted
 TITLE = "Modular Kalman filters: what dropout, delay and ignorance do to them, what they cost, and when they land"
 
 
-def build(found: Results) -> dict[str, bytes]:
+def build(results: Results) -> dict[str, bytes]:
     """All files of the report by name, as a pure function of what was simulated and measured."""
     rows = {
-        "dropout": tables.dropout_rows(found),
-        "claim": tables.claim_rows(found),
-        "rates": tables.rate_rows(found),
-        "sensors": tables.sensor_rows(found),
-        "consistency": tables.consistency_rows(found),
-        "rocket-errors": tables.rocket_error_rows(found),
-        "readings": tables.reading_rows(found),
-        "lost": tables.lost_rows(found),
-        "rocket-nees": tables.rocket_nees_rows(found),
-        "late": tables.late_rows(found),
-        "parts": tables.part_rows(found),
-        "processors": tables.verdict_on_processors(found),
-        "spent": tables.spent_on(found),
+        "dropout": tables.dropout_rows(results),
+        "claim": tables.claim_rows(results),
+        "rates": tables.rate_rows(results),
+        "sensors": tables.sensor_rows(results),
+        "consistency": tables.consistency_rows(results),
+        "rocket-errors": tables.rocket_error_rows(results),
+        "readings": tables.reading_rows(results),
+        "lost": tables.lost_rows(results),
+        "rocket-nees": tables.rocket_nees_rows(results),
+        "late": tables.late_rows(results),
+        "parts": tables.part_rows(results),
+        "processors": tables.verdict_on_processors(results),
+        "spent": tables.spent_on(results),
     }
-    figures = {name: image(figure, "svg") for name, figure in _figures(found).items()}
+    figures = {name: image(figure, "svg") for name, figure in _figures(results).items()}
     pages = render(
         "modular",
         TITLE,
         figures,
         **{name.replace("-", "_"): table for name, table in rows.items()},
         points=words.sigma_point_words(),
-        spring=words.oscillator_words(found),
-        rocket=words.rocket_words(found),
-        delayed=words.late_words(found),
-        cost=words.cost_words(found),
-        schedule=words.schedule_words(found),
+        spring=words.oscillator_words(results),
+        rocket=words.rocket_words(results),
+        delayed=words.late_words(results),
+        cost=words.cost_words(results),
+        schedule=words.schedule_words(results),
     )
-    return {**pages, **figures, **found.files(), **{f"{name}.csv": csv_bytes(table) for name, table in rows.items()}}
+    return {**pages, **figures, **results.files(), **{f"{name}.csv": csv_bytes(table) for name, table in rows.items()}}
 
 
-def _figures(found: Results) -> dict[str, Figure]:
-    misses = schedule.miss_rows_of(found.records("schedule-misses"))
-    half = {name: found.records("dropout", group=name, dropout="0.5")[0] for name in (OWN_MODEL, "usual")}
+def _figures(results: Results) -> dict[str, Figure]:
+    misses = schedule.miss_rows_of(results.records("schedule-misses"))
+    half = {name: results.records("dropout", group=name, dropout="0.5")[0] for name in (OWN_MODEL, "usual")}
     return {
-        "oscillator.svg": oscillator.history_figure(found.columns("oscillator"), SHOWN_PERIODS * period_s(OSCILLATOR)),
-        "dropout.svg": oscillator.dropout_figure(found.records("dropout", group="usual")),
+        "oscillator.svg": oscillator.history_figure(
+            results.columns("oscillator"), SHOWN_PERIODS * period_s(OSCILLATOR)
+        ),
+        "dropout.svg": oscillator.dropout_figure(results.records("dropout", group="usual")),
         "rates.svg": oscillator.rate_figure(
-            {rate: found.records("dropout", group=tables.group_of(rate)) for rate in words.RATES}, spring_mass.reach()
+            {rate: results.records("dropout", group=tables.group_of(rate)) for rate in words.RATES}, spring_mass.reach()
         ),
         "consistency.svg": oscillator.nees_figure(
-            found.columns("consistency"),
+            results.columns("consistency"),
             {f"{row['runs']} runs": (float(row["low"]), float(row["high"])) for row in half.values()},
-            {name: found.records("dropout", group=name) for name in ("usual", "less process noise", OWN_MODEL)},
+            {name: results.records("dropout", group=name) for name in ("usual", "less process noise", OWN_MODEL)},
         ),
-        "flight.svg": rocket.flight_figure(found.columns("flight"), BURN_S),
-        "residuals.svg": rocket.residual_figure(found.columns("rocket-residual-course"), READINGS),
-        "rocket-consistency.svg": _rocket_consistency(found),
-        "late.svg": late_figure({sensors: found.records("late", sensors=sensors) for sensors in SENSORS}),
-        "parts.svg": cost_figure(found.records("parts")),
+        "flight.svg": rocket.flight_figure(results.columns("flight"), BURN_S),
+        "residuals.svg": rocket.residual_figure(results.columns("rocket-residual-course"), READINGS),
+        "rocket-consistency.svg": _rocket_consistency(results),
+        "late.svg": late_figure({sensors: results.records("late", sensors=sensors) for sensors in SENSORS}),
+        "parts.svg": cost_figure(results.records("parts")),
         "misses.svg": schedule.miss_figure(misses),
-        "responses.svg": schedule.response_figure(found.columns("schedule-responses")),
-        "landings.svg": schedule.landing_figure(found.columns("schedule-landings")),
+        "responses.svg": schedule.response_figure(results.columns("schedule-responses")),
+        "landings.svg": schedule.landing_figure(results.columns("schedule-landings")),
         "one-fix.svg": gantt(fix_panels(counted(), compared_at(misses))),
     }
 
 
-def _rocket_consistency(found: Results) -> Figure:
-    rows = found.records("rocket-nees", case=BASE.name)
+def _rocket_consistency(results: Results) -> Figure:
+    rows = results.records("rocket-nees", case=BASE.name)
     bounds = {row["n"]: (float(row["low"]), float(row["high"])) for row in rows}
     of_phase = {
         phase: [(float(row["mean"]), float(row["se"])) for row in rows if row["phase"] == phase and row["of"] != "all"]
         for phase in PHASES
     }
-    return rocket.nees_figure(found.columns("rocket-nees-course"), of_phase, bounds["15"], bounds["3"])
+    return rocket.nees_figure(results.columns("rocket-nees-course"), of_phase, bounds["15"], bounds["3"])

@@ -39,7 +39,7 @@ from studies.modular.typical import UNLUCKY, quantile
 Progress = Callable[[int, int, str], None]
 
 SEED, HALF, SHOWN_PERIODS = 0, 0.5, 2
-"""Of the run that is drawn: its seed, its dropout, and how much of it."""
+"""The run that is drawn: its seed, its dropout, and how much of it."""
 EVERY = 4
 """Steps between the points of a curve over all runs."""
 OWN_MODEL = "usual, its own model true"
@@ -136,16 +136,16 @@ _DROPOUT = (
 
 def _dropout_row(group: str, row: spring_mass.Row, rows: Iterable[spring_mass.Row]) -> list[str]:
     """rows: of the same group, among them that of the lowest dropout."""
-    (lowest,) = (one for one in rows if one.dropout == spring_mass.LOWEST)
+    (lowest,) = (candidate for candidate in rows if candidate.dropout == spring_mass.LOWEST)
     spread: list[float] = []
     for values, least in ((row.error, lowest.error), (row.innovation, lowest.innovation), (row.after, lowest.after)):
         for of_run, at_least in zip(values.T, least.T, strict=True):
             typical, times = quantile(of_run), quantile(of_run / at_least)
             spread += [*typical, *times, *quantile(of_run, UNLUCKY)]
-    found = row.consistency
+    nees = row.consistency
     counts = [str(number) for number in (row.setting.rate, row.dropout, row.runs)]
-    shares = [f"{share:.3f}" for share in (found.inside, found.below, found.above)]
-    figures = (row.interval, row.still[0], *spread, found.overall, found.standard_error, *found.bounds)
+    shares = [f"{share:.3f}" for share in (nees.inside, nees.below, nees.above)]
+    figures = (row.interval, row.still[0], *spread, nees.overall, nees.standard_error, *nees.bounds)
     return [group, *counts, *map(digits, figures), *shares]
 
 
@@ -153,16 +153,16 @@ def _one_run() -> dict[str, FloatArray]:
     """Measured: nan where nothing got through."""
     run = spring_mass.history_at(HALF, SEED)
     kept = slice(0, SHOWN_PERIODS * spring_mass.USUAL.rate + 1)
-    found = {"time_s": run.time_s[kept]}
+    curves = {"time_s": run.time_s[kept]}
     for number, name in enumerate(QUANTITIES):
-        found[f"{name} true"] = run.truth[kept, number]
-        found[f"{name} estimate"] = run.estimate[kept, number]
-        found[f"{name} sigma"] = run.sigma[kept, number]
+        curves[f"{name} true"] = run.truth[kept, number]
+        curves[f"{name} estimate"] = run.estimate[kept, number]
+        curves[f"{name} sigma"] = run.sigma[kept, number]
     for name, seen in zip(SENSORS, (run.position, run.acceleration), strict=True):
         measured = np.full(len(run.time_s), np.nan)
         measured[np.rint(seen[:, 0] / step_s(spring_mass.USUAL)).astype(np.int64)] = seen[:, 1]
-        found[f"{name} measured"] = measured[kept]
-    return found
+        curves[f"{name} measured"] = measured[kept]
+    return curves
 
 
 def _consistency(study: spring_mass.DropoutStudy) -> dict[str, FloatArray]:
@@ -179,10 +179,10 @@ def _consistency(study: spring_mass.DropoutStudy) -> dict[str, FloatArray]:
 # -------------------------------------------------------------------------------------------------- late measurements
 
 
-def late_rows(found: Iterable[late_measurements.Row]) -> Rows:
+def late_rows(figures: Iterable[late_measurements.Row]) -> Rows:
     """Errors of position, and operations."""
     rows: Rows = [["sensors", "way", "delay", "runs", "error", "se", "mean", "longest"]]
-    for row in found:
+    for row in figures:
         error = map(digits, (row.error.rms[0], row.error.standard_error[0]))
         rows.append([row.sensors, row.way, row.delay, row.runs, *error, f"{row.work.mean:.1f}", row.work.longest])
     return rows

@@ -83,8 +83,8 @@ def residual_figure(series: Columns, readings: Sequence[str]) -> Figure:
             decades(axes, "y", 0.01, 1000)
             axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
             _seconds(axes, series["time_s"])
-            of, over = reading.split(" / ")
-            label(axes, f"{of[0].upper()}{of[1:]} over {over}", "time since ignition (s)", "residual (%)")
+            error, over = reading.split(" / ")
+            label(axes, f"{error[0].upper()}{error[1:]} over {over}", "time since ignition (s)", "residual (%)")
         return figure
 
 

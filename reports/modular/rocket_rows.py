@@ -16,9 +16,9 @@ from studies.modular.rocket_readings import READINGS as ALL_READINGS
 from studies.modular.typical import quantile
 
 SEED, EVERY, NEES_EVERY = 0, 10, 5
-"""Of the flight that is drawn, and of curves: the seed, and steps between points."""
+"""The seed of the flight that is drawn, and the steps between points of curves."""
 POINTS = 70
-"""Of a curve on a logarithmic axis of time."""
+"""Those of a curve on a logarithmic axis of time."""
 FIRST_S = 0.1
 READINGS = (
     "position / distance from the pad",
@@ -36,18 +36,18 @@ RESIDUALS = (
 NEES = ("case", "phase", "of", "n", "mean", "se", "low", "high", "below", "above")
 
 
-def rocket_tables(found: rocket.RocketResults) -> dict[str, Rows]:
+def rocket_tables(results: rocket.RocketResults) -> dict[str, Rows]:
     """Errors, residuals and NEES of all cases; courses over time; one flight."""
     return {
-        "rocket-errors": [[*ERRORS], *(_error_row(row) for row in found.errors)],
+        "rocket-errors": [[*ERRORS], *(_error_row(row) for row in results.errors)],
         "rocket-residuals": [
             [*RESIDUALS],
-            *(_residual_row(row) for row in found.residuals),
+            *(_residual_row(row) for row in results.residuals),
         ],
-        "rocket-nees": [[*NEES], *(_nees_row(row) for row in found.nees)],
-        "rocket-residual-course": rows_of(_residual_course(found.series), "{:.3g}"),
-        "rocket-nees-course": rows_of(_nees_course(found.series), "{:.4g}"),
-        "rocket-apogee": rows_of({"apogee_m": found.apogee_m}, "{:.0f}"),
+        "rocket-nees": [[*NEES], *(_nees_row(row) for row in results.nees)],
+        "rocket-residual-course": rows_of(_residual_course(results.series), "{:.3g}"),
+        "rocket-nees-course": rows_of(_nees_course(results.series), "{:.4g}"),
+        "rocket-apogee": rows_of({"apogee_m": results.apogee_m}, "{:.0f}"),
         "flight": rows_of(flight_columns(fly(rocket.BASE, SEED, backend="compiled")), "{:.4g}"),
     }
 
@@ -58,7 +58,7 @@ def _digits(value: float) -> str:
 
 def _error_row(row: rocket.ErrorRow) -> list[str]:
     values = [(*quantile(of_run), largest) for of_run, largest in zip(row.rms.T, row.largest, strict=True)]
-    return [row.case.name, str(len(row.rms)), *(digits(value) for one in values for value in one)]
+    return [row.case.name, str(len(row.rms)), *(digits(value) for figures in values for value in figures)]
 
 
 def _residual_row(row: rocket.ResidualRow) -> list[str]:
@@ -73,7 +73,7 @@ def _nees_row(row: rocket.NeesRow) -> list[str]:
 
 
 def _by_dropout(series: Iterable[rocket.Series]) -> dict[str, rocket.Series]:
-    by_name = {one.case.name: one for one in series}
+    by_name = {course.case.name: course for course in series}
     return {dropout: by_name[name] for dropout, name in CASES.items()}
 
 
@@ -82,35 +82,35 @@ def _residual_course(series: Iterable[rocket.Series]) -> dict[str, FloatArray]:
     time_s = by_dropout[DROPOUTS[0]].time_s
     asked = np.geomspace(FIRST_S, time_s[-1], POINTS)
     at = np.unique(np.abs(time_s[:, np.newaxis] - asked).argmin(axis=0))
-    found = {"time_s": time_s[at]}
+    columns = {"time_s": time_s[at]}
     for number, name in enumerate(ALL_READINGS):
         if name in READINGS:
-            for dropout, one in by_dropout.items():
-                for which, curve in zip(HALVES, (one.median, one.high), strict=True):
-                    found[f"{name}, {dropout}, {which}"] = curve[number, at]
-    return found
+            for dropout, course in by_dropout.items():
+                for which, curve in zip(HALVES, (course.median, course.high), strict=True):
+                    columns[f"{name}, {dropout}, {which}"] = curve[number, at]
+    return columns
 
 
 def _nees_course(series: Iterable[rocket.Series]) -> dict[str, FloatArray]:
     by_dropout = _by_dropout(series)
     time_s = by_dropout[DROPOUTS[0]].time_s
     kept = slice(RATE_HZ // 2, None, NEES_EVERY)
-    return {"time_s": time_s[kept], **{dropout: one.nees[0, kept] for dropout, one in by_dropout.items()}}
+    return {"time_s": time_s[kept], **{dropout: course.nees[0, kept] for dropout, course in by_dropout.items()}}
 
 
-def flight_columns(one: Run) -> dict[str, FloatArray]:
+def flight_columns(flight: Run) -> dict[str, FloatArray]:
     """One flight, up: true, estimated, their difference and the standard deviation that the filter gives."""
     kept = slice(0, None, EVERY)
-    truth, x = one.truth[kept], one.x[kept]
-    sigma = np.sqrt(np.diagonal(one.P[kept], axis1=1, axis2=2))
-    found = {"time_s": one.time_s[kept]}
+    truth, x = flight.truth[kept], flight.x[kept]
+    sigma = np.sqrt(np.diagonal(flight.P[kept], axis1=1, axis2=2))
+    columns = {"time_s": flight.time_s[kept]}
     for name, at in zip(SHOWN, (2, 5, 8, 13), strict=True):
         upright = name == "tilt"
-        found[f"{name} true"] = tilt_deg(truth) if upright else truth[:, at]
-        found[f"{name} estimate"] = tilt_deg(x) if upright else x[:, at]
-        found[f"{name} error"] = np.degrees(-one.errors[kept, at]) if upright else x[:, at] - truth[:, at]
-        found[f"{name} sigma"] = np.degrees(sigma[:, at]) if upright else sigma[:, at]
-    return found
+        columns[f"{name} true"] = tilt_deg(truth) if upright else truth[:, at]
+        columns[f"{name} estimate"] = tilt_deg(x) if upright else x[:, at]
+        columns[f"{name} error"] = np.degrees(-flight.errors[kept, at]) if upright else x[:, at] - truth[:, at]
+        columns[f"{name} sigma"] = np.degrees(sigma[:, at]) if upright else sigma[:, at]
+    return columns
 
 
 def tilt_deg(states: FloatArray) -> FloatArray:

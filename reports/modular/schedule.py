@@ -53,7 +53,7 @@ SHOWN = (10, 20, 50, 100, 200, 500, 1000, 2000)
 """MHz with a number on the axis."""
 
 LEAST_SHARE, LEVELS = 1e-3, 61
-"""Of response times: the shares that exceed them are stored from 1 down to the least, on a logarithmic scale."""
+"""The shares that exceed response times are stored from 1 down to the least, on a logarithmic scale."""
 
 
 TABLES = ("schedule-misses", "schedule-responses", "schedule-landings", "schedule-shares")
@@ -67,8 +67,8 @@ def schedule_tables(costs: Costs, progress: Progress = lambda _done, _total, _wh
     rows = miss_curves(costs, clocks(costs), progress=progress)
     at = compared_at(rows)
     runs = [chosen(costs, way, urgency, at) for way in WAYS for urgency in URGENCIES]
-    found = (miss_table(rows), rows_of(responses(runs), "{:.4g}"), rows_of(landings(runs), "{:.3g}"), share_rows(runs))
-    return dict(zip(TABLES, found, strict=True))
+    tables = (miss_table(rows), rows_of(responses(runs), "{:.4g}"), rows_of(landings(runs), "{:.3g}"), share_rows(runs))
+    return dict(zip(TABLES, tables, strict=True))
 
 
 def miss_table(rows: Iterable[MissRow]) -> Rows:
@@ -103,13 +103,13 @@ def column(run: Run, job: str = "GPS") -> str:
 def responses(runs: Iterable[Run]) -> dict[str, FloatArray]:
     """For each run and job the response time in ms that so large a share exceeds."""
     share = np.geomspace(1.0, LEAST_SHARE, LEVELS)
-    found: dict[str, FloatArray] = {"share": share}
+    columns: dict[str, FloatArray] = {"share": share}
     for run in runs:
         for job, values in run.responses_ms.items():
             ordered = np.array(values)
             at = np.minimum(np.floor(len(ordered) * (1 - share)).astype(np.int64), len(ordered) - 1)
-            found[column(run, job)] = ordered[at] if len(ordered) else np.full(LEVELS, np.nan)
-    return found
+            columns[column(run, job)] = ordered[at] if len(ordered) else np.full(LEVELS, np.nan)
+    return columns
 
 
 def landings(runs: Iterable[Run]) -> dict[str, FloatArray]:
@@ -118,12 +118,12 @@ def landings(runs: Iterable[Run]) -> dict[str, FloatArray]:
     kept = list(runs)
     steps = range(max([LAND_BY, *(step for run in kept for step in run.achieved)]) + 1)
     fixes = arrivals()
-    found: dict[str, FloatArray] = {"l - k": np.array(steps, dtype=np.float64)}
-    found["arrivals"] = np.array([100 * fixes[step] / fixes.total() for step in steps])
+    columns: dict[str, FloatArray] = {"l - k": np.array(steps, dtype=np.float64)}
+    columns["arrivals"] = np.array([100 * fixes[step] / fixes.total() for step in steps])
     for run in kept:
         arrived = max(run.outcome.sensors[GPS].arrived, 1)
-        found[column(run)] = np.array([100 * run.achieved[step] / arrived for step in steps])
-    return found
+        columns[column(run)] = np.array([100 * run.achieved[step] / arrived for step in steps])
+    return columns
 
 
 # -------------------------------------------------------------------------------------------------- tables to be read
@@ -191,19 +191,19 @@ def miss_figure(rows: Sequence[MissRow]) -> Figure:
         return figure
 
 
-def response_figure(found: Columns) -> Figure:
-    """The share of jobs that take longer than a time, from their release; found: from `responses`."""
+def response_figure(columns: Columns) -> Figure:
+    """The share of jobs that take longer than a time, from their release; columns: from `responses`."""
     with drawing():
         legend = [*(line_entry(name, _solid(line)) for name, line in LINES.items()), *fill_entries(DEADLINES)]
         figure, plots = sheet(len(URGENCIES), len(JOBS), legend, height_mm=38.0, gap_mm=9.0)
-        times = {job: [found[name] for name in found if name.startswith(f"{job}, ")] for job in JOBS}
+        times = {job: [columns[name] for name in columns if name.startswith(f"{job}, ")] for job in JOBS}
         for of_urgency, urgency in zip(plots, URGENCIES, strict=True):
             for axes, job in zip(of_urgency, JOBS, strict=True):
                 for start, way in enumerate(WAYS):
                     line = LINES[way.name]
-                    values = found[f"{job}, {way.name}, {urgency}"]
+                    values = columns[f"{job}, {way.name}, {urgency}"]
                     axes.plot(
-                        values, 100 * found["share"], line.marker, color=line.colour, ls="-", lw=1.2,
+                        values, 100 * columns["share"], line.marker, color=line.colour, ls="-", lw=1.2,
                         ms=0.9 * line.size, mew=0, markevery=(5 * start, 15),
                     )  # fmt: skip
                 decades(axes, "y", 100 * LEAST_SHARE, 130)
@@ -224,18 +224,18 @@ SHOWN_LANDINGS = (
 )
 
 
-def landing_figure(found: Columns) -> Figure:
-    """How many of the GPS corrections land at each l - k, beside when they arrive; found: from `landings`."""
+def landing_figure(columns: Columns) -> Figure:
+    """How many of the GPS corrections land at each l - k, beside when they arrive; columns: from `landings`."""
     with drawing():
         legend = [line_entry("when the fixes arrive", ARRIVALS)]
         figure, plots = sheet(2, 2, legend, height_mm=34.0, gap_mm=12.0)
-        highest = max(found[name].max() for name in found if name != "l - k")
-        seen = [found["l - k"][found[_landing(*case)] > 0] for case in SHOWN_LANDINGS]
+        highest = max(columns[name].max() for name in columns if name != "l - k")
+        seen = [columns["l - k"][columns[_landing(*case)] > 0] for case in SHOWN_LANDINGS]
         last = max([LAND_BY, *(steps.max() for steps in seen if len(steps))])
         for axes, (way, urgency) in zip((axes for row in plots for axes in row), SHOWN_LANDINGS, strict=True):
             colour = LINES[way.name].colour
-            axes.bar(found["l - k"], found[_landing(way, urgency)], 0.8, color=colour, lw=0)
-            axes.stairs(found["arrivals"], np.arange(len(found["l - k"]) + 1) - 0.5, color=ARRIVALS.colour, lw=1.1)
+            axes.bar(columns["l - k"], columns[_landing(way, urgency)], 0.8, color=colour, lw=0)
+            axes.stairs(columns["arrivals"], np.arange(len(columns["l - k"]) + 1) - 0.5, color=ARRIVALS.colour, lw=1.1)
             axes.set(xlim=(0, last + 1), ylim=(0, 1.15 * highest))
             axes.xaxis.set_major_locator(MaxNLocator(nbins=8, integer=True))
             axes.yaxis.set_major_locator(MaxNLocator(nbins=4))

@@ -38,8 +38,8 @@ def fix_panels(costs: Costs, clock_mhz: int) -> list[Panel]:
 def _panel(costs: Costs, way: Way, urgency: str, clock_mhz: int) -> Panel:
     slices: list[Slice] = []
     steps = DELAY + AFTER
-    of = scenario(costs, way, urgency, clock_mhz, steps=steps, seed=_seed())
-    outcome = run_scenario(of, on_slice=slices.append)
+    workload = scenario(costs, way, urgency, clock_mhz, steps=steps, seed=_seed())
+    outcome = run_scenario(workload, on_slice=slices.append)
     marks = [Mark(DELAY, "m", 0, False)]
     landed = list(outcome.sensors[GPS].achieved)
     if landed == [DELAY]:

@@ -35,16 +35,16 @@ def over(row: Record, what: str, name: str) -> str:
 
 
 def interval_of(row: Record, what: str, name: str, kind: str = "") -> tuple[float, float, float]:
-    """Of the stored row: value, low, high."""
+    """Value, low and high of the stored row."""
     ends = (" ".join(word for word in (what, kind, end, UNITS[name]) if word) for end in ("", "low", "high"))
     value, low, high = (float(row[end]) for end in ends)
     return value, low, high
 
 
-def dropout_rows(found: Results) -> Rows:
+def dropout_rows(results: Results) -> Rows:
     """Errors against dropout, and NEES."""
     rows: Rows = [["Dropout, %", "gap, periods", *QUANTITIES, "NEES", "inside, %"]]
-    for row in found.records("dropout", group="usual"):
+    for row in results.records("dropout", group="usual"):
         errors = [percent_of_amplitude(row, name) for name in QUANTITIES]
         share = f"{100 * float(row['inside']):.0f}"
         rows.append([_percent(row["dropout"]), row["interval"], *errors, nees_of(row), share])
@@ -55,9 +55,9 @@ def nees_of(row: Record) -> str:
     return plus_minus(float(row["nees"]), float(row["nees se"]))
 
 
-def claim_rows(found: Results) -> Rows:
+def claim_rows(results: Results) -> Rows:
     """At 80 % over 10 %, by reading of "residual"."""
-    (high,) = found.records("dropout", group="usual", dropout=COMPARED[1])
+    (high,) = results.records("dropout", group="usual", dropout=COMPARED[1])
     rows: Rows = [["Reading, 80 % over 10 %", *QUANTITIES]]
     for what, said in (
         ("error", "error of the estimate"),
@@ -68,12 +68,12 @@ def claim_rows(found: Results) -> Rows:
     return rows
 
 
-def rate_rows(found: Results) -> Rows:
+def rate_rows(results: Results) -> Rows:
     """What sampling faster does to the claim; the last column follows from `spring_mass.BORNE`."""
     heads = ("error at 10 %", "error at 80 %", "times", "1 run in 20 above", "borne, %")
     rows: Rows = [["In a period", "runs", *heads]]
     for rate in sorted({*spring_mass.RATES, spring_mass.USUAL.rate}):
-        low, high = (found.records("dropout", group=group_of(rate), dropout=dropout)[0] for dropout in COMPARED)
+        low, high = (results.records("dropout", group=group_of(rate), dropout=dropout)[0] for dropout in COMPARED)
         errors = [percent_of_amplitude(row, "position") for row in (low, high)]
         others = [over(high, "error", "position"), percent_of_amplitude(high, "position", "unlucky")]
         rows.append([rate, high["runs"], *errors, *others, f"{100 * spring_mass.borne(rate):.0f}"])
@@ -81,26 +81,26 @@ def rate_rows(found: Results) -> Rows:
 
 
 def group_of(rate: int) -> str:
-    """Of the stored rows of this sampling rate."""
+    """The group of this sampling rate's stored rows."""
     return "usual" if rate == spring_mass.USUAL.rate else f"rate {rate}"
 
 
-def sensor_rows(found: Results) -> Rows:
+def sensor_rows(results: Results) -> Rows:
     """Which sensor loses measurements: RMS error of position."""
     rows: Rows = [["Dropout, %", "both sensors", "position only", "acceleration only"]]
     for dropout in LOST:
         groups = ("usual", *(f"{name} only" for name in SENSORS))
-        of = [found.records("dropout", group=group, dropout=dropout)[0] for group in groups]
-        rows.append([_percent(dropout), *(percent_of_amplitude(row, "position") for row in of)])
+        records = [results.records("dropout", group=group, dropout=dropout)[0] for group in groups]
+        rows.append([_percent(dropout), *(percent_of_amplitude(row, "position") for row in records)])
     return rows
 
 
-def consistency_rows(found: Results) -> Rows:
+def consistency_rows(results: Results) -> Rows:
     """NEES of the three filters."""
     rows: Rows = [["Filter", "dropout, %", "runs", "NEES", "95 % bounds", "inside, %", "below, %", "above, %"]]
     for group in ("usual", "less process noise", OWN_MODEL):
         for dropout in ("0.1", "0.5", "0.8", "0.95"):
-            (row,) = found.records("dropout", group=group, dropout=dropout)
+            (row,) = results.records("dropout", group=group, dropout=dropout)
             shares = [f"{100 * float(row[share]):.0f}" for share in ("inside", "below", "above")]
             limits = f"{row['low']} to {row['high']}"
             rows.append([group, _percent(dropout), row["runs"], nees_of(row), limits, *shares])
@@ -110,54 +110,54 @@ def consistency_rows(found: Results) -> Rows:
 # --------------------------------------------------------------------------------------------------------- the rocket
 
 
-def rocket_error_rows(found: Results) -> Rows:
+def rocket_error_rows(results: Results) -> Rows:
     """RMS errors of every case in a typical flight, and the largest of all flights."""
     rows: Rows = [["Filter", "flights", *OF_ROCKET, "position, largest"]]
-    for row in found.records("rocket-errors"):
+    for row in results.records("rocket-errors"):
         errors = [rocket_error(row, name) for name in OF_ROCKET]
         rows.append([row["case"], row["runs"], *errors, significant(float(row["position largest"]))])
     return rows
 
 
 def rocket_error(row: Record, name: str) -> str:
-    """Of a typical flight, with its interval."""
+    """A typical flight's, with its interval."""
     return between(*(float(row[f"{name}{end}"]) for end in ("", " low", " high")))
 
 
-def reading_rows(found: Results) -> Rows:
+def reading_rows(results: Results) -> Rows:
     """Each reading of the claim, without dropout."""
     heads = ("all, from s", "half, from s", "hold, %", "typical mean, %", "worst, %")
     rows: Rows = [["Residual", *heads]]
-    for row in found.records("rocket-residuals", case=rocket.BASE.name):
+    for row in results.records("rocket-residuals", case=rocket.BASE.name):
         from_s = [_never(row[name]) for name in ("holds from s", "half from s")]
         typical = between(*(float(row[name]) for name in ("typical", "low", "high")))
         rows.append([row["reading"], *from_s, share_that_holds(row), typical, significant(float(row["worst"]))])
     return rows
 
 
-def lost_rows(found: Results) -> Rows:
+def lost_rows(results: Results) -> Rows:
     """Which share of the flights keeps to the claim from 1 s on, by dropout."""
     rows: Rows = [["Residual", *(f"dropout {dropout}" for dropout in CASES)]]
     for reading in READINGS:
-        of = [found.records("rocket-residuals", case=case, reading=reading)[0] for case in CASES.values()]
-        rows.append([reading, *map(share_that_holds, of)])
+        records = [results.records("rocket-residuals", case=case, reading=reading)[0] for case in CASES.values()]
+        rows.append([reading, *map(share_that_holds, records)])
     return rows
 
 
 def share_that_holds(row: Record) -> str:
-    """Of the flights, in percent, with its 95 % interval."""
+    """The share of the flights in percent, with its 95 % interval."""
     hold, runs = int(row["hold"]), int(row["runs"])
     share, *ends = (f"{100 * value:.0f}" for value in (hold / runs, *wilson(hold, runs)))
     return f"{share} ({' to '.join(ends)})"
 
 
-def rocket_nees_rows(found: Results) -> Rows:
+def rocket_nees_rows(results: Results) -> Rows:
     """NEES of all errors, by phase and dropout."""
     rows: Rows = [["Phase", *(f"dropout {dropout}" for dropout in CASES), "95 % bounds"]]
     for phase in rocket.PHASES:
-        of = [found.records("rocket-nees", case=case, phase=phase, of="all")[0] for case in CASES.values()]
-        means = [plus_minus(float(row["mean"]), float(row["se"])) for row in of]
-        rows.append([phase, *means, f"{of[0]['low']} to {of[0]['high']}"])
+        records = [results.records("rocket-nees", case=case, phase=phase, of="all")[0] for case in CASES.values()]
+        means = [plus_minus(float(row["mean"]), float(row["se"])) for row in records]
+        rows.append([phase, *means, f"{records[0]['low']} to {records[0]['high']}"])
     return rows
 
 
@@ -167,13 +167,13 @@ COSTED = 8
 """The delay that the costs in the table are of: the longest that all ways can do with."""
 
 
-def late_rows(found: Results) -> Rows:
+def late_rows(results: Results) -> Rows:
     """Errors by delay, and costs."""
     heads = [f"{delay} late" for delay in late_measurements.DELAYS]
     rows: Rows = [["Sensors", "Way", *heads, "work", "longest"]]
     for sensors in late_measurements.SENSORS:
         for way in late_measurements.WAYS:
-            of_way = {row["delay"]: row for row in found.records("late", sensors=sensors, way=way)}
+            of_way = {row["delay"]: row for row in results.records("late", sensors=sensors, way=way)}
             if of_way:
                 asked = [of_way.get(str(delay)) for delay in late_measurements.DELAYS]
                 errors = ["-" if row is None else late_error(row) for row in asked]
@@ -190,15 +190,15 @@ def late_error(row: Record) -> str:
 # -------------------------------------------------------------------------------------------------------------- costs
 
 
-def part_rows(found: Results) -> Rows:
+def part_rows(results: Results) -> Rows:
     """Operations and times by kind, part and states."""
     rows: Rows = [["Filter", "Part"]]
     for states in modular_costs.STATES:
         rows[0] = [*rows[0], f"n = {states}", marked(f"{states}: µs")]
     for part in modular_costs.PARTS:
         for kind in modular_costs.KINDS:
-            of = [found.records("parts", kind=kind, part=part, states=str(n))[0] for n in modular_costs.STATES]
-            numbers = [cell for row in of for cell in (f"{int(row[OPERATIONS]):,}", row[SECONDS])]
+            records = [results.records("parts", kind=kind, part=part, states=str(n))[0] for n in modular_costs.STATES]
+            numbers = [cell for row in records for cell in (f"{int(row[OPERATIONS]):,}", row[SECONDS])]
             rows.append([kind, part, *numbers])
     return rows
 
@@ -206,15 +206,15 @@ def part_rows(found: Results) -> Rows:
 # ------------------------------------------------------------------------------------------------------- the schedule
 
 
-def verdict_on_processors(found: Results) -> Rows:
+def verdict_on_processors(results: Results) -> Rows:
     """Down to which clock each way holds, and what is late on one of the processors."""
-    misses = miss_rows_of(found.records("schedule-misses"))
+    misses = miss_rows_of(results.records("schedule-misses"))
     at = compared_at(misses)
     heads = ("holds from, MHz", f"busy at {at} MHz, %", "loop, %", "by, ms", "control, %", "GPS, %")
     return [["Late fix", "correction", *heads], *verdict_rows(misses, at)[1:]]
 
 
-def spent_on(found: Results) -> Rows:
+def spent_on(results: Results) -> Rows:
     """What the time of that processor goes into, in percent."""
     heads = {
         "predict": "prediction (%)",
@@ -225,7 +225,7 @@ def spent_on(found: Results) -> Rows:
         "GPS, ms": "GPS response, median (ms)",
     }
     kept = ("late GPS fix", "its correction", *heads.values())
-    records = found.records("schedule-shares")
+    records = results.records("schedule-shares")
     return [["Late fix", "correction", *heads], *([row[name] for name in kept] for row in records)]
 
 

@@ -50,27 +50,29 @@ STATES = (3, 15)
 
 def sigma_point_words() -> dict[str, Any]:
     """The document's weights beside those of Merwe, with alpha = 1, beta = 2 and the kappa that each form has."""
-    found: dict[str, Any] = {}
+    by_form: dict[str, Any] = {}
     for form in (maccormack(), merwe()):
-        of = [weights(form, n) for n in STATES]
-        found[form.form] = {
-            "spread": [f"{each.spread:.3g}" for each in of],
-            "mean_0": [f"{each.mean_0:.3g}" for each in of],
-            "covariance_0": [f"{each.covariance_0:.3g}" for each in of],
-            "difference": [f"{each.covariance_0 - each.mean_0:.3g}" for each in of],
+        points = [weights(form, n) for n in STATES]
+        by_form[form.form] = {
+            "spread": [f"{each.spread:.3g}" for each in points],
+            "mean_0": [f"{each.mean_0:.3g}" for each in points],
+            "covariance_0": [f"{each.covariance_0:.3g}" for each in points],
+            "difference": [f"{each.covariance_0 - each.mean_0:.3g}" for each in points],
             "kappa": f"{form.kappa:g}",
         }
-    return found
+    return by_form
 
 
-def oscillator_words(found: Results) -> dict[str, Any]:
+def oscillator_words(results: Results) -> dict[str, Any]:
     """What was found of the oscillator: typical runs, with their intervals."""
     usual, keen, own = (
-        {row["dropout"]: row for row in found.records("dropout", group=group)}
+        {row["dropout"]: row for row in results.records("dropout", group=group)}
         for group in ("usual", "less process noise", OWN_MODEL)
     )
-    by_rate = {rate: {row["dropout"]: row for row in found.records("dropout", group=group_of(rate))} for rate in RATES}
-    few, sensors = by_rate[RATES[0]]["0.8"], found.records("dropout", group="position only")
+    by_rate = {
+        rate: {row["dropout"]: row for row in results.records("dropout", group=group_of(rate))} for rate in RATES
+    }
+    few, sensors = by_rate[RATES[0]]["0.8"], results.records("dropout", group="position only")
     high = usual["0.8"]
     at_the_gap = [
         interval_of(row, "error", "position")[0] / OSCILLATOR_AMPLITUDES["position"]
@@ -87,7 +89,7 @@ def oscillator_words(found: Results) -> dict[str, Any]:
         "shown": SHOWN_PERIODS,
         "half": f"{100 * HALF:g}",
         "period_s": f"{period_s(OSCILLATOR):.2f}",
-        "inside": [f"{100 * share:.0f}" for share in _inside(found)],
+        "inside": [f"{100 * share:.0f}" for share in _inside(results)],
         "noise": f"{100 * float(POSITION_SIGMA_M / AMPLITUDES[0]):g}",
         "error": {dropout: percent_of_amplitude(row, "position") for dropout, row in usual.items()},
         "times": {dropout: over(row, "error", "position") for dropout, row in usual.items()},
@@ -115,9 +117,9 @@ def oscillator_words(found: Results) -> dict[str, Any]:
     }
 
 
-def _inside(found: Results) -> list[float]:
-    """Of the run that is drawn: the share of steps whose error is within twice its standard deviation."""
-    run = found.columns("oscillator")
+def _inside(results: Results) -> list[float]:
+    """Shares of the steps of the run that is drawn whose error is within twice its standard deviation."""
+    run = results.columns("oscillator")
     return [
         float(np.mean(np.abs(run[f"{name} estimate"] - run[f"{name} true"]) <= 2 * run[f"{name} sigma"]))
         for name in QUANTITIES
@@ -129,19 +131,19 @@ FEWER = 4.5
 RATES = sorted({*spring_mass.RATES, spring_mass.USUAL.rate})
 
 
-def rocket_words(found: Results) -> dict[str, Any]:
+def rocket_words(results: Results) -> dict[str, Any]:
     """What was found of the rocket: typical flights, with their intervals."""
-    errors = {row["case"]: row for row in found.records("rocket-errors")}
+    errors = {row["case"]: row for row in results.records("rocket-errors")}
     base, lossy = errors[rocket.BASE.name], errors[CASES["95 %"]]
-    apogee = found.columns("rocket-apogee")["apogee_m"]
+    apogee = results.columns("rocket-apogee")["apogee_m"]
     nees = {
         (dropout, row["phase"]): row
         for dropout, case in CASES.items()
-        for row in found.records("rocket-nees", case=case, of="all")
+        for row in results.records("rocket-nees", case=case, of="all")
     }
-    (onset,) = found.records("rocket-nees", case=rocket.BASE.name, phase="thrust onset", of="acceleration")
+    (onset,) = results.records("rocket-nees", case=rocket.BASE.name, phase="thrust onset", of="acceleration")
     readings = {
-        dropout: {row["reading"]: row for row in found.records("rocket-residuals", case=case)}
+        dropout: {row["reading"]: row for row in results.records("rocket-residuals", case=case)}
         for dropout, case in CASES.items()
     }
     blind = errors["no accelerometer"]
@@ -159,17 +161,18 @@ def rocket_words(found: Results) -> dict[str, Any]:
         "blind_position": rocket_error(blind, "position"),
         "lossy": rocket_error(lossy, "position"),
         "from_s": {
-            dropout: {name: _time(row["holds from s"]) for name, row in of.items()} for dropout, of in readings.items()
+            dropout: {name: _time(row["holds from s"]) for name, row in rows.items()}
+            for dropout, rows in readings.items()
         },
         "hold": {
-            dropout: {name: share_that_holds(row) for name, row in of.items()} for dropout, of in readings.items()
+            dropout: {name: share_that_holds(row) for name, row in rows.items()} for dropout, rows in readings.items()
         },
         "onset": plus_minus(float(onset["mean"]), float(onset["se"])),
         "nees": {
             dropout: {
                 phase: plus_minus(float(row["mean"]), float(row["se"]))
-                for (of, phase), row in nees.items()
-                if of == dropout
+                for (lost, phase), row in nees.items()
+                if lost == dropout
             }
             for dropout in CASES
         },
@@ -180,22 +183,22 @@ def rocket_words(found: Results) -> dict[str, Any]:
 def _alike(errors: Mapping[str, Mapping[str, str]]) -> str:
     """How far the typical errors of the extended and of the unscented filter are apart, in words."""
     pairs = ((rocket.EXTENDED.name, rocket.BASE.name), (rocket.EXTENDED_DROPOUT.name, CASES["95 %"]))
-    ratios = [float(errors[one][name]) / float(errors[other][name]) for one, other in pairs for name in OF_ROCKET]
+    ratios = [float(errors[first][name]) / float(errors[second][name]) for first, second in pairs for name in OF_ROCKET]
     most = max(abs(ratio - 1) for ratio in ratios)
     return f"differ by up to {100 * most:.1f} %" if most else "are the same to three digits"
 
 
-def late_words(found: Results) -> dict[str, Any]:
+def late_words(results: Results) -> dict[str, Any]:
     """What was found of late measurements."""
-    of = {(row["sensors"], row["way"], int(row["delay"])): row for row in found.records("late")}
+    rows = {(row["sensors"], row["way"], int(row["delay"])): row for row in results.records("late")}
     alone, both = late_measurements.SENSORS
 
     def percent(sensors: str, way: str, delay: int) -> str:
-        return late_error(of[sensors, way, delay])
+        return late_error(rows[sensors, way, delay])
 
-    longest = {way: int(of[both, way, 10]["longest"]) for way in ("recalculate", "larsen", "as new")}
+    longest = {way: int(rows[both, way, 10]["longest"]) for way in ("recalculate", "larsen", "as new")}
     return {
-        "runs": of[both, "larsen", 0]["runs"],
+        "runs": rows[both, "larsen", 0]["runs"],
         "rate": late_measurements.SETTING.rate,
         "every": late_measurements.EVERY,
         "in_time": {"alone": percent(alone, "as new", 0), "both": percent(both, "as new", 0)},
@@ -209,14 +212,14 @@ def late_words(found: Results) -> dict[str, Any]:
     }
 
 
-def cost_words(found: Results) -> dict[str, Any]:
+def cost_words(results: Results) -> dict[str, Any]:
     """Ratios of costs; those of times are marked in the text."""
-    of = {(row["kind"], row["part"], int(row["states"])): row for row in found.records("parts")}
-    (machine,) = found.records("machine")
+    rows = {(row["kind"], row["part"], int(row["states"])): row for row in results.records("parts")}
+    (machine,) = results.records("machine")
 
     def ratio(column: str, part: str, states: int) -> str:
         return significant(
-            float(of["unscented", part, states][column]) / float(of["extended", part, states][column]), 2
+            float(rows["unscented", part, states][column]) / float(rows["extended", part, states][column]), 2
         )
 
     shown = (3, 15)
@@ -224,18 +227,18 @@ def cost_words(found: Results) -> dict[str, Any]:
         "legend": legend(machine[marked("timed on")]),
         "counted": {part: [ratio(OPERATIONS, part, states) for states in shown] for part in modular_costs.PARTS},
         "timed": {part: [ratio(SECONDS, part, states) for states in shown] for part in modular_costs.PARTS},
-        "largest": of["unscented", "predict", 15][SECONDS],
+        "largest": rows["unscented", "predict", 15][SECONDS],
     }
 
 
-def schedule_words(found: Results) -> dict[str, Any]:
+def schedule_words(results: Results) -> dict[str, Any]:
     """How the rocket's filter fares on slower processors."""
-    misses = miss_rows_of(found.records("schedule-misses"))
+    misses = miss_rows_of(results.records("schedule-misses"))
     at = compared_at(misses)
     urgent, preempted = "in the loop", "preempted"
     there = {(row.way, row.urgency, row.job): row for row in misses if row.clock_mhz == at}
     names = dict(zip(("unscented", "extended", "larsen"), (way.name for way in rocket_schedule.WAYS), strict=True))
-    spent = {(row["late GPS fix"], row["its correction"]): row for row in found.records("schedule-shares")}
+    spent = {(row["late GPS fix"], row["its correction"]): row for row in results.records("schedule-shares")}
     response, loop = "GPS response, median (ms)", there[names["extended"], urgent, "loop"]
     return {
         "at": at,

@@ -26,7 +26,7 @@ from studies.multirate.accuracy import ACCELERATION_NOISES, GOOD, SPEEDS, TRACKI
 TITLE = "The multirate gain, regenerated: what it saves, and what it costs"
 GANTT_HZ = Fraction(20)
 WALKS = (SPEEDS[0], *SPEEDS[2:5])
-"""Of the figure; the others are in the table."""
+"""The figure's; the others are in the table."""
 
 READING_NAMES: Mapping[Reading, str] = {
     "averaged": "$K(R/n)/n$",
@@ -35,7 +35,7 @@ READING_NAMES: Mapping[Reading, str] = {
 }
 
 
-def build(found: Results) -> dict[str, bytes]:
+def build(results: Results) -> dict[str, bytes]:
     """All files of the report by name, as a pure function of what the studies found."""
     own, forms = patents_form(), our_forms()
     parts = [load_part(name) for name in shipped_parts()]
@@ -50,16 +50,16 @@ def build(found: Results) -> dict[str, bytes]:
         "terms": tables.term_rows(),
         "totals": tables.totals(),
         "load-by-n": tables.load_by_n([own, *forms.values()], patents, PERIODS),
-        "steady": tables.steady(found),
-        "late": tables.late(found),
-        "starts": tables.starts(found),
+        "steady": tables.steady(results),
+        "late": tables.late(results),
+        "starts": tables.starts(results),
         "processors": tables.processor_rows(asked, parts),
     }
     on_patents = on_part(own.table, patents)
     figures = {
         "load.svg": image(_load_figure([own, *forms.values()], patents, cases), "svg"),
-        "steady.svg": image(steady_figure(_families(found), READING_NAMES), "svg"),
-        "start.svg": image(start_figure(found.courses, found.starts), "svg"),
+        "steady.svg": image(steady_figure(_families(results), READING_NAMES), "svg"),
+        "start.svg": image(start_figure(results.courses, results.starts), "svg"),
         "rates.svg": image(rates_figure(on_patents, N, GANTT_HZ), "svg"),
     }
     pages = render(
@@ -69,8 +69,8 @@ def build(found: Results) -> dict[str, bytes]:
         **{name.replace("-", "_"): table for name, table in rows.items()},
         N=N,
         saving=_saving(own, patents, cases[1]),
-        accuracy=_accuracy(found),
-        start=_start(found),
+        accuracy=_accuracy(results),
+        start=_start(results),
         running=_running(textbook, parts),
         missing=_missing(forms, parts),
         remainders={cycle: patent.comparison(cycle).remainder for cycle in patent.CYCLES},
@@ -82,12 +82,12 @@ def build(found: Results) -> dict[str, bytes]:
         **pages,
         **figures,
         **{f"{name}.csv": csv_bytes(table) for name, table in rows.items()},
-        "accuracy.csv": csv_bytes(tables.accuracy_rows(found)),
+        "accuracy.csv": csv_bytes(tables.accuracy_rows(results)),
     }
 
 
 def _saving(own: Form, patents: Part, aircraft: patent.Load) -> dict[str, str]:
-    """Of the patent's counts on its processor, at one measurement of all satellites a second."""
+    """Loads by the patent's counts on its processor, at one measurement of all satellites a second."""
     costs = least_time_of(own, patents)
     each, multirate = (utilization(costs, every(n), Fraction(1)) for n in (1, tables.N))
     return {
@@ -103,24 +103,24 @@ def _saving(own: Form, patents: Part, aircraft: patent.Load) -> dict[str, str]:
     }
 
 
-def _accuracy(found: Results) -> dict[str, Any]:
-    """Of the receiver at the patent's n, and how far the scalar rule holds."""
+def _accuracy(results: Results) -> dict[str, Any]:
+    """The receiver's at the patent's n, and how far the scalar rule holds."""
     receivers = [f"gps {noise:g}" for noise in ACCELERATION_NOISES]
 
     def losses(reading: Reading) -> list[float]:
-        return [found.at(name, reading, tables.N).steady_mean for name in receivers]
+        return [results.at(name, reading, tables.N).steady_mean for name in receivers]
 
     averaged, sampled, skipped = losses("averaged"), losses("sampled"), losses("skipped")
-    good = {name: largest_good(found.of(name, "averaged")) for name in found.accuracies}
+    good = {name: largest_good(results.of(name, "averaged")) for name in results.accuracies}
     aircraft, slowest = receivers[-1], f"random walk {SPEEDS[0]:g}"
     beaten = [
         n
         for n in PERIODS
-        if n > 1 and found.at(aircraft, "skipped", n).steady_mean < found.at(aircraft, "averaged", n).steady_mean
+        if n > 1 and results.at(aircraft, "skipped", n).steady_mean < results.at(aircraft, "averaged", n).steady_mean
     ]
     short_of_rule = [
         floor(tables.rule(share)) - good[name]
-        for name, share in found.shares.items()
+        for name, share in results.shares.items()
         if tables.rule(share) < max(PERIODS) + 1
     ]
     if min(short_of_rule) < 0:
@@ -131,21 +131,21 @@ def _accuracy(found: Results) -> dict[str, Any]:
         "skipped": [ratio_text(ratio) for ratio in skipped],
         "sigma": [ratio_text(ratio**0.5) for ratio in averaged],
         "good": [good[name] for name in receivers],
-        "share": [f"{found.shares[name]:.2f}" for name in receivers],
+        "share": [f"{results.shares[name]:.2f}" for name in receivers],
         "beaten": beaten[0] if beaten else None,
         "limit": f"{GOOD:g}",
         "short_of_rule": max(short_of_rule),
         "slow_limit": ratio_text((tables.N**0.5 + tables.N**-0.5) / 2),
-        "slow_sampled": ratio_text(found.at(slowest, "sampled", tables.N).steady_mean),
-        "slow_averaged": f"{found.at(slowest, 'averaged', tables.N).steady_mean:.4f}",
+        "slow_sampled": ratio_text(results.at(slowest, "sampled", tables.N).steady_mean),
+        "slow_averaged": f"{results.at(slowest, 'averaged', tables.N).steady_mean:.4f}",
         "slowest": slowest,
     }
 
 
-def _start(found: Results) -> dict[str, Any]:
-    soon = found.at(RECEIVER, "averaged", tables.N)
-    later = found.at(RECEIVER, "averaged", tables.N, late=True)
-    remedied = found.starts[tables.N]
+def _start(results: Results) -> dict[str, Any]:
+    soon = results.at(RECEIVER, "averaged", tables.N)
+    later = results.at(RECEIVER, "averaged", tables.N, late=True)
+    remedied = results.starts[tables.N]
     return {
         "worst": ratio_text(soon.worst),
         "step": soon.worst_step,
@@ -155,28 +155,28 @@ def _start(found: Results) -> dict[str, Any]:
         "steady": ratio_text(soon.steady_worst),
         "after": {steps: ratio_text(remedied[steps]) for steps in (10, 20, 30)},
         "peaks": [
-            (n, ratio_text(found.at(RECEIVER, "averaged", n).worst), found.at(RECEIVER, "averaged", n).worst_step)
+            (n, ratio_text(results.at(RECEIVER, "averaged", n).worst), results.at(RECEIVER, "averaged", n).worst_step)
             for n in SHOWN
         ],
-        "change": f"{ceil(10_000 * _largest_change(found)) / 100:g}",
-        "worse": _worse_if_late(found),
+        "change": f"{ceil(10_000 * _largest_change(results)) / 100:g}",
+        "worse": _worse_if_late(results),
     }
 
 
-def _largest_change(found: Results) -> float:
+def _largest_change(results: Results) -> float:
     """By how much the steady ratio of any scenario changes at most if the gain comes n steps late."""
     pairs = [
-        (found.at(name, "averaged", tables.N), found.at(name, "averaged", tables.N, late=True))
-        for name in found.accuracies
+        (results.at(name, "averaged", tables.N), results.at(name, "averaged", tables.N, late=True))
+        for name in results.accuracies
     ]
     return max(abs(later.steady_mean / soon.steady_mean - 1) for soon, later in pairs)
 
 
-def _worse_if_late(found: Results) -> list[tuple[str, str, str]]:
+def _worse_if_late(results: Results) -> list[tuple[str, str, str]]:
     """Systems whose worst ratio is more than 5 % higher if the gain comes n steps late, with both ratios."""
     pairs = {
-        name: [found.at(name, "averaged", tables.N, late=late).worst for late in (False, True)]
-        for name in found.accuracies
+        name: [results.at(name, "averaged", tables.N, late=late).worst for late in (False, True)]
+        for name in results.accuracies
     }
     return [
         (scenario_text(name), ratio_text(soon), ratio_text(later))
@@ -188,8 +188,8 @@ def _worse_if_late(found: Results) -> list[tuple[str, str, str]]:
 def _running(form: Form, parts: list[Part]) -> dict[str, Any]:
     """The conventional form at the rate and n of the processor table."""
     verdicts = {part.name: fit(least_time_of(form, part), every(tables.N), Fraction(tables.RATE_HZ)) for part in parts}
-    hz = {name: tables.RATE_HZ / found.needed for name, found in verdicts.items()}
-    able = [name for name, found in verdicts.items() if found.fits]
+    hz = {name: tables.RATE_HZ / verdict.needed for name, verdict in verdicts.items()}
+    able = [name for name, verdict in verdicts.items() if verdict.fits]
     slowest, fastest = min(able, key=hz.__getitem__), max(able, key=hz.__getitem__)
     return {
         "rate": tables.RATE_HZ,
@@ -228,7 +228,7 @@ def _load_figure(forms: list[Form], patents: Part, cases: list[patent.Load]) -> 
     return load_figure({names[form.name]: least_time_of(form, patents) for form in forms}, printed, PERIODS)
 
 
-def _families(found: Results) -> list[Family]:
+def _families(results: Results) -> list[Family]:
     columns = {
         "Random walk, by $q\\,\\Delta T/R$": {f"{speed:g}": f"random walk {speed:g}" for speed in WALKS},
         "Tracker, by $\\sqrt{q\\,\\Delta T^3/R}$": {f"{index:g}": f"tracker {index:g}" for index in TRACKING_INDICES},
@@ -239,7 +239,7 @@ def _families(found: Results) -> list[Family]:
             title,
             {
                 reading: [
-                    Curve(label, {row.n: row.steady_mean for row in found.of(name, reading)})
+                    Curve(label, {row.n: row.steady_mean for row in results.of(name, reading)})
                     for label, name in labels.items()
                 ]
                 for reading in READING_NAMES

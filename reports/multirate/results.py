@@ -58,10 +58,10 @@ class Results(NamedTuple):
 def results(progress: Progress = lambda _done, _total, _what: None) -> Results:
     """Runs the studies: about 15 seconds."""
     asked, total = scenarios(), len(scenarios()) + len(SHOWN)
-    found, shares = {}, {}
+    by_scenario, shares = {}, {}
     for done, scenario in enumerate(asked):
         progress(done, total, scenario.name)
-        found[scenario.name] = accuracies(scenario, PERIODS)
+        by_scenario[scenario.name] = accuracies(scenario, PERIODS)
         shares[scenario.name] = _share(scenario)
     started = receiver(ACCELERATION_NOISES[0])
     courses, starts = {}, {}
@@ -70,7 +70,7 @@ def results(progress: Progress = lambda _done, _total, _what: None) -> Results:
         courses[n] = _course(started, n)
         starts[n] = {steps: worst_after_start(started, n, steps) for steps in FULL_RATE_STEPS}
     progress(total, total, "done")
-    return Results(found, shares, courses, starts)
+    return Results(by_scenario, shares, courses, starts)
 
 
 def _share(scenario: Scenario) -> float:

@@ -60,8 +60,8 @@ def our_loads(forms: Iterable[Form], processor: Part) -> Rows:
     forms = list(forms)
     rows: Rows = [["Case", *(form.name if time_of(form, processor) else f"≥ {form.name}" for form in forms)]]
     for case in CASES:
-        found = [utilization(least_time_of(form, processor), every(case.n), 1 / case.rate_hz) for form in forms]
-        rows.append([case.name, *(percent(share) for share in found)])
+        shares = [utilization(least_time_of(form, processor), every(case.n), 1 / case.rate_hz) for form in forms]
+        rows.append([case.name, *(percent(share) for share in shares)])
     return rows
 
 
@@ -99,14 +99,14 @@ def totals() -> Rows:
     """Our sums beside the patent's."""
     rows: Rows = [["Cycle", "Sum", "multiply", "add", "divide"]]
     for cycle in CYCLES:
-        found = comparison(cycle)
-        sums = {"our job": found.job, "with the noise model's products": found.with_noise_model}
-        if found.job == found.with_noise_model:
+        compared = comparison(cycle)
+        sums = {"our job": compared.job, "with the noise model's products": compared.with_noise_model}
+        if compared.job == compared.with_noise_model:
             del sums["with the noise model's products"]
-        sums |= {"the same, sums from zero": found.from_zero, "printed": found.printed}
+        sums |= {"the same, sums from zero": compared.from_zero, "printed": compared.printed}
         for name, counts in sums.items():
             rows.append([CYCLE_NAMES[cycle], name, counts.multiply, counts.add, counts.divide])
-        remainder = [found.remainder[kind] for kind in ("multiply", "add", "divide")]
+        remainder = [compared.remainder[kind] for kind in ("multiply", "add", "divide")]
         rows.append([CYCLE_NAMES[cycle], "printed less the line above it", *(f"{number:+d}" for number in remainder)])
     return rows
 
@@ -116,12 +116,12 @@ def load_by_n(forms: Iterable[Form], processor: Part, periods: Iterable[int]) ->
     forms = list(forms)
     rows: Rows = [["n", *(form.name for form in forms)]]
     for n in periods:
-        found = [utilization(least_time_of(form, processor), every(n), Fraction(1)) for form in forms]
-        rows.append([n, *(percent(share) for share in found)])
+        shares = [utilization(least_time_of(form, processor), every(n), Fraction(1)) for form in forms]
+        rows.append([n, *(percent(share) for share in shares)])
     return rows
 
 
-def steady(found: Results) -> Rows:
+def steady(results: Results) -> Rows:
     """The ratio in steady state of every scenario, the share K, and up to which n it is good."""
     rows: Rows = [
         [
@@ -134,11 +134,11 @@ def steady(found: Results) -> Rows:
             f"skipped, n = {N}",
         ]
     ]
-    for name in found.accuracies:
-        averaged = [ratio_text(found.at(name, "averaged", n).steady_mean) for n in SHOWN]
-        sampled, skipped = (ratio_text(found.at(name, reading, N).steady_mean) for reading in OTHERS)
-        share = found.shares[name]
-        row = [scenario_text(name), f"{share:.3f}", *averaged, largest_good(found.of(name, "averaged"))]
+    for name in results.accuracies:
+        averaged = [ratio_text(results.at(name, "averaged", n).steady_mean) for n in SHOWN]
+        sampled, skipped = (ratio_text(results.at(name, reading, N).steady_mean) for reading in OTHERS)
+        share = results.shares[name]
+        row = [scenario_text(name), f"{share:.3f}", *averaged, largest_good(results.of(name, "averaged"))]
         rows.append([*row, f"{rule(share):.1f}", sampled, skipped])
     return rows
 
@@ -148,15 +148,16 @@ def rule(share: float) -> float:
     return float(1 + (8 * (GOOD - 1)) ** 0.5 / share)
 
 
-def late(found: Results) -> Rows:
+def late(results: Results) -> Rows:
     """At the patent's n: the gain in use at once and n steps later; steady, and the worst after the start."""
     rows: Rows = [["System"]]
     for head in ("steady", "peak", "step", "settled"):
         rows[0] += [head, f"{head} late"]
-    for name in found.accuracies:
-        soon, later = (found.at(name, "averaged", N, late=late) for late in (False, True))
+    for name in results.accuracies:
+        soon, later = (results.at(name, "averaged", N, late=late) for late in (False, True))
         row: list[Any] = [scenario_text(name)]
-        row += [ratio_text(one.steady_mean) for one in (soon, later)] + [ratio_text(one.worst) for one in (soon, later)]
+        row += [ratio_text(accuracy.steady_mean) for accuracy in (soon, later)]
+        row += [ratio_text(accuracy.worst) for accuracy in (soon, later)]
         rows.append([*row, peak_step(soon), peak_step(later), soon.settled_step, later.settled_step])
     return rows
 
@@ -166,12 +167,12 @@ def peak_step(row: Accuracy) -> int | str:
     return row.worst_step if row.worst > row.steady_worst * (1 + 1e-6) else "-"
 
 
-def starts(found: Results) -> Rows:
+def starts(results: Results) -> Rows:
     """The worst ratio of the receiver's run by the number of steps at full rate."""
     rows: Rows = [["Steps with a gain each", *(f"n = {n}" for n in SHOWN)]]
-    for steps in found.starts[SHOWN[0]]:
-        rows.append([steps, *(ratio_text(found.starts[n][steps]) for n in SHOWN)])
-    steady_worst = [ratio_text(found.at(RECEIVER, "averaged", n).steady_worst) for n in SHOWN]
+    for steps in results.starts[SHOWN[0]]:
+        rows.append([steps, *(ratio_text(results.starts[n][steps]) for n in SHOWN)])
+    steady_worst = [ratio_text(results.at(RECEIVER, "averaged", n).steady_worst) for n in SHOWN]
     return [*rows, ["the worst in steady state", *steady_worst]]
 
 
@@ -187,14 +188,14 @@ def processor_rows(forms: Sequence[tuple[Form, int]], processors: Sequence[Part]
             if costs is None:
                 rows.append([*row, NO_SQRT, "-", "-", "-", "-"])
                 continue
-            found = fit(costs, every(n), Fraction(RATE_HZ))
-            needed = "-" if part.clock_hz is None else significant(found.needed * part.clock_hz / 10**6)
-            row += ["yes" if found.fits else "no", needed, percent(found.load), percent(found.slack)]
-            rows.append([*row, significant(RATE_HZ / found.needed)])
+            verdict = fit(costs, every(n), Fraction(RATE_HZ))
+            needed = "-" if part.clock_hz is None else significant(verdict.needed * part.clock_hz / 10**6)
+            row += ["yes" if verdict.fits else "no", needed, percent(verdict.load), percent(verdict.slack)]
+            rows.append([*row, significant(RATE_HZ / verdict.needed)])
     return rows
 
 
-def accuracy_rows(found: Results) -> Rows:
+def accuracy_rows(results: Results) -> Rows:
     """Everything the study found, for a spreadsheet."""
     heads = ["system", "reading", "n", "L", "steady_mean", "steady_worst", "worst", "worst_step", "settled_step"]
     return [
@@ -203,7 +204,7 @@ def accuracy_rows(found: Results) -> Rows:
             [row.scenario, row.reading, row.n, row.L]
             + [f"{value:.6g}" for value in (row.steady_mean, row.steady_worst, row.worst)]
             + [peak_step(row), row.settled_step]
-            for rows in found.accuracies.values()
+            for rows in results.accuracies.values()
             for row in rows
         ),
     ]

@@ -14,7 +14,7 @@ def marked(text: str) -> str:
 
 
 def unmarked(heading: str) -> str:
-    """As `marked` was given it."""
+    """The text that was `marked`."""
     return heading.removesuffix(f" {MARK}")
 
 

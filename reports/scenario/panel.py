@@ -18,7 +18,7 @@ from sched_sim.schedule.outcome import Schedule, Slice
 
 FEWEST_STEPS, MOST_STEPS = 12, 24
 CYCLES = 2
-"""Of the slowest sensor, as far as they are no more steps than that."""
+"""The slowest sensor's, as far as they are no more steps than that."""
 AFTER_MISS = 2
 """Steps shown after the deadline."""
 LEAST_BAR_MM = 0.5
@@ -88,13 +88,13 @@ def window(scenario: Scenario, first_miss: float | None, late: Late | None) -> t
 
 def first_late(scenario: Scenario) -> Late | None:
     """The late measurement that arrives first."""
-    found = [
+    arrivals = [
         Late(step + delay, step, correct_kind(sensor))
         for sensor in scenario.sensors
         for step, delay in _drawn(scenario, sensor, scenario.steps)
         if delay and step + delay < scenario.steps
     ]
-    return min(found, default=None)
+    return min(arrivals, default=None)
 
 
 def _drawn(scenario: Scenario, sensor: Sensor, steps: int) -> list[tuple[int, int | None]]:
@@ -140,11 +140,11 @@ def _expected(scenario: Scenario, steps: int, period: int) -> Iterator[list[Expe
 def _marks(late: Late, schedule: Schedule) -> Sequence[Mark]:
     """k, m and l of this measurement."""
     (finish,) = [job.finish for job in jobs(schedule) if (job.kind, job.step) == (late.kind, late.k)] or [None]
-    found = {late.k: "k", late.m: "m"}
+    labels = {late.k: "k", late.m: "m"}
     if finish is not None:
         landed = step_at(finish, schedule.period)
-        found[landed] = "m = l" if landed == late.m else "l"
-    return [Mark(step, text, 0, text == "k") for step, text in found.items()]
+        labels[landed] = "m = l" if landed == late.m else "l"
+    return [Mark(step, text, 0, text == "k") for step, text in labels.items()]
 
 
 def _steps_shown(first: int, last: int, steps: int) -> str:
@@ -154,7 +154,7 @@ def _steps_shown(first: int, last: int, steps: int) -> str:
 
 
 def _misses(outcome: Outcome, schedule: Schedule, first: int) -> str:
-    """Of the whole simulation, and of the steps shown."""
+    """Misses of the whole simulation, and of the steps shown."""
     missed = outcome.misses
     if not missed:
         return ""

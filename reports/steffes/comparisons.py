@@ -124,8 +124,8 @@ def table4_figure(cells: Sequence[Speeds]) -> Figure:
             axes.set_title(METHOD_NAMES[method], loc="left", size=TITLE_PT, weight="bold")
             for y, timing in enumerate(designs):
                 _row_name(axes, y, _design(timing) if column == 0 else "")
-                found = [cell.by_source for cell in cells if (cell.timing, cell.method) == (timing, method)]
-                for by_source in found:
+                row_speeds = [cell.by_source for cell in cells if (cell.timing, cell.method) == (timing, method)]
+                for by_source in row_speeds:
                     for source, speed in by_source.items():
                         _dot(axes, speed, y, sources.index(source), len(sources))
             speeds = [speed for cell in cells if cell.method == method for speed in cell.by_source.values()]

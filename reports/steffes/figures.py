@@ -167,18 +167,18 @@ def _level_numbers(axes: Axes, levels: Sequence[float], limits: tuple[float, flo
 
 
 def _mark_knee(axes: Axes, stairs: Sequence[Stair]) -> None:
-    found = knee(stairs)
-    if found is None:
+    stair = knee(stairs)
+    if stair is None:
         return
-    speed, foot = float(found.speed), axes.get_ylim()[0]
-    axes.axvspan(found.achieved, found.latest, facecolor=METHOD_LINES["dual-rate"].colour, alpha=0.08, lw=0, zorder=0.2)
-    axes.plot([found.achieved] * 2, [foot, speed], color=INK, lw=0.7, ls=(0, (2, 1.5)), zorder=2)
-    axes.plot([found.achieved], [speed], "o", ms=6.5, mfc="none", mec=INK, mew=0.9, zorder=4)
+    speed, foot = float(stair.speed), axes.get_ylim()[0]
+    axes.axvspan(stair.achieved, stair.latest, facecolor=METHOD_LINES["dual-rate"].colour, alpha=0.08, lw=0, zorder=0.2)
+    axes.plot([stair.achieved] * 2, [foot, speed], color=INK, lw=0.7, ls=(0, (2, 1.5)), zorder=2)
+    axes.plot([stair.achieved], [speed], "o", ms=6.5, mfc="none", mec=INK, mew=0.9, zorder=4)
     first, last = axes.get_xlim()
-    left_half = found.achieved < (first + last) / 2
+    left_half = stair.achieved < (first + last) / 2
     note = axes.annotate(
-        f"{speed:.3g} already lands at $L = {found.achieved}$;\nwaiting longer buys nothing",
-        (found.achieved, speed),
+        f"{speed:.3g} already lands at $L = {stair.achieved}$;\nwaiting longer buys nothing",
+        (stair.achieved, speed),
         (10 if left_half else -10, -7),
         textcoords="offset points",
         ha="left" if left_half else "right",

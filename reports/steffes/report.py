@@ -97,8 +97,8 @@ def _least(table: CostTable, method: str, timing: Timing, options: Options = Opt
 def _entries(tables: dict[str, CostTable]) -> list[list[Any]]:
     rows: list[list[Any]] = [["Table", "Step", "Work", "printed", "counted", marked("measured")]]
     for entry in steffes.entries():
-        found = [_number(entry.value(tables[name])) for name in ("counted", "measured")]
-        rows.append([entry.table, entry.step, entry.column, _number(entry.printed, 2), *found])
+        values = [_number(entry.value(tables[name])) for name in ("counted", "measured")]
+        rows.append([entry.table, entry.step, entry.column, _number(entry.printed, 2), *values])
     return rows
 
 

@@ -78,10 +78,12 @@ def dual_rate_timeline(table: CostTable, timing: Timing, speed: Fraction) -> Fig
         draw_lanes(axes, schedule, [high, low], scale, fills_of([schedule]), arrows=False)
         work = [bar for bar in bars(schedule) if scale.shows(bar.start) and scale.shows(bar.end)]
 
-        def of(style: str) -> tuple[float, float]:
+        def extent(style: str) -> tuple[float, float]:
             """From the first to the last instant at which this cycle's work of one label runs."""
-            found = [bar for bar in work if bar.style == style and (bar.step >= m if style == "HRU" else bar.step == k)]
-            return scale.step(found[0].start), scale.step(found[-1].end)
+            pieces = [
+                bar for bar in work if bar.style == style and (bar.step >= m if style == "HRU" else bar.step == k)
+            ]
+            return scale.step(pieces[0].start), scale.step(pieces[-1].end)
 
         for bar in work:
             if bar.style == "HRP":
@@ -91,14 +93,14 @@ def dual_rate_timeline(table: CostTable, timing: Timing, speed: Fraction) -> Fig
         _badge(axes, scale.at(scale.mm(sent) + 3.0), 22.5, 2)
         _beside(axes, scale, scale.at(scale.mm(sent) + 4.6), 21.6, r"$\Phi, Q$")
         for number, style in ((3, "LRP"), (4, "LRU")):
-            start, end = of(style)
+            start, end = extent(style)
             _span(axes, start, end, low.foot - 1.8)
             middle = scale.mm((start + end) / 2)
             _badge(axes, scale.at(middle - 4.5), low.foot - 5.0, number)
             _beside(axes, scale, scale.at(middle - 3.0), low.foot - 5.9, style)
         _arrow(axes, (m, 0.6), (m, low.foot))
         axes.text(scale.at(scale.mm(m) - 1.2), 1.0, "delayed measurement", ha="right", size=SMALL_PT)
-        done, applied = of("LRU")[1], sum(of("HRU")) / 2
+        done, applied = extent("LRU")[1], sum(extent("HRU")) / 2
         _arrow(axes, (done, low.head), (applied, high.foot))
         _badge(axes, scale.at(scale.mm((done + applied) / 2) + 3.5), 22.0, 5)
         _beside(axes, scale, scale.at(scale.mm((done + applied) / 2) + 5.1), 21.1, r"$\delta\hat{x}_{k^+}$")
@@ -107,7 +109,7 @@ def dual_rate_timeline(table: CostTable, timing: Timing, speed: Fraction) -> Fig
 
 
 def serial_costs(table: CostTable) -> LarsenCosts[Fraction]:
-    """Of a filter whose steps all propagate alike, and one of which also updates."""
+    """Costs of a filter whose steps all propagate alike, and one of which also updates."""
     costs = select(table, "larsen", Options())
     assert isinstance(costs, LarsenCosts)
     return replace(costs, accumulate=costs.propagate)
