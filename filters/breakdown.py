@@ -38,7 +38,7 @@ def first_broken(x: FloatArray, P: FloatArray, every: int, backend: BackendName)
 
 
 def check_history(
-    history: History, given: Problem, every: int, remedy: str, backend: BackendName, coarse: System | None = None
+    history: History, problem: Problem, every: int, remedy: str, backend: BackendName, coarse: System | None = None
 ) -> History:
     """The history, if its estimates are finite, and its covariances, Q and R are some; innovations of what was lost
     become nan.
@@ -49,18 +49,18 @@ def check_history(
     Raises:
         ValueError: they are not; the step is named, and the function of the system that is to blame, or the remedy.
     """
-    steps, rows = len(given.inputs), len(given.measured.y)
+    steps, rows = len(problem.inputs), len(problem.measured.y)
     R = range(0, min(steps + 1, rows * every), every)
     if coarse is None:
-        check_noises(given.system, range(steps), R, backend)
+        check_noises(problem.system, range(steps), R, backend)
     else:
         check_noises(coarse, range(0, steps + 1 - every, every), R, backend)
     broken = first_broken(history.x, history.P_reference, every, backend)
     if broken is None:
-        lost = ~given.measured.present[: len(history.innovations)]
+        lost = ~problem.measured.present[: len(history.innovations)]
         return history._replace(innovations=np.where(lost, np.nan, history.innovations))
     since = range(max(0, broken - 2 * every), broken + 1)
-    _check_model(given, coarse, every, since, history.x)
+    _check_model(problem, coarse, every, since, history.x)
     raise breakdown(broken, remedy)
 
 
@@ -79,9 +79,9 @@ def sturdier(update: CovarianceFormName, form: FactoredFormName = "conventional"
     return f"give {', or '.join([*others, 'a smaller P0 or more noise (Q, R)'])}"
 
 
-def _check_model(given: Problem, coarse: System | None, every: int, steps: range, x: FloatArray) -> None:
+def _check_model(problem: Problem, coarse: System | None, every: int, steps: range, x: FloatArray) -> None:
     """Raises ValueError that names the function of the system that gives no finite numbers."""
-    system, slow = given.system, given.system if coarse is None else coarse
+    system, slow = problem.system, problem.system if coarse is None else coarse
     state = x[steps[0]]
     for j in steps:
         sound = np.isfinite(x[j]).all()
@@ -93,9 +93,9 @@ def _check_model(given: Problem, coarse: System | None, every: int, steps: range
             _check_finite(j, state, h=expected)
         if at_k:
             _check_finite(j, state, H=slow.H(j, state, slow.parameters))
-        if not sound or j == len(given.inputs):
+        if not sound or j == len(problem.inputs):
             return
-        following, u = np.empty(system.states), given.inputs[j]
+        following, u = np.empty(system.states), problem.inputs[j]
         system.f(j, state, u, system.parameters, following)
         _check_finite(j, state, f=following)
         if at_k or coarse is None:

@@ -16,7 +16,7 @@ from filters.systems.shaped import shaped
 
 
 class TrueCovariance(NamedTuple):
-    """Of the estimation error in every step: before and after its measurement, each (..., steps + 1, n, n)."""
+    """The estimation error's in every step: before and after its measurement, each (..., steps + 1, n, n)."""
 
     before: FloatArray
     after: FloatArray

@@ -138,8 +138,8 @@ def run(
         ValueError: n, L or a shape is wrong, a name is unknown, R of some k is not positive definite, a number is not
             finite, or coarse is not given and `over` refuses to make it; and as `standard.run`.
     """
-    given = check_multirate_problem(system, n, L, x0, P0, inputs, measurements)
-    moves, (y, present) = given.inputs, given.measured
+    problem = check_multirate_problem(system, n, L, x0, P0, inputs, measurements)
+    moves, (y, present) = problem.inputs, problem.measured
     coarse = over(system, n) if coarse is None else coarse
     check_system("coarse", coarse)
     if coarse[:3] != system[:3]:
@@ -147,7 +147,7 @@ def run(
             f"coarse has {coarse.states} states, {coarse.inputs} inputs and {coarse.measurements} measurements, the "
             f"system {system.states}, {system.inputs} and {system.measurements}; they must be the same"
         )
-    try_functions(coarse, given.start.x, first_input(moves))
+    try_functions(coarse, problem.start.x, first_input(moves))
     coarse = lossy(shaped(coarse), n, np.logical_or.reduceat(present, range(0, len(y), n)))
     for k in range(0, len(y), n):
         check_measurement_noise(coarse.R(k, coarse.parameters), k)
@@ -156,11 +156,11 @@ def run(
     run_correct = function_for(backend, state_correct)
     run_covariance_gain = function_for(backend, covariance_gain)
     run_divided_gain = function_for(backend, divided_gain)
-    model, coarse_model, bound = (arguments_for(backend, value) for value in (given.system, coarse, kept))
+    model, coarse_model, bound = (arguments_for(backend, value) for value in (problem.system, coarse, kept))
     work = new_factored_workspace(system)
     recorder = HistoryRecorder(system)
 
-    x = x_last = given.start.x
+    x = x_last = problem.start.x
     factors = np.empty((system.states, system.states))
     gains: list[FloatArray] = []
     for j in range(len(y)):
@@ -171,7 +171,7 @@ def run(
             predicted, posterior, P = np.empty_like(factors), np.empty_like(factors), np.empty_like(factors)
             K = np.empty((system.states, system.measurements))
             if j == 0:
-                kept.factor(given.start.P, predicted)
+                kept.factor(problem.start.P, predicted)
                 run_divided_gain(coarse_model, bound, j, n, x, predicted, K, posterior, work)
             else:
                 u = moves[j - n]
@@ -186,7 +186,7 @@ def run(
             x_last = x
         recorder.correction(correction)
         recorder.state(x)
-    return check_history(recorder.history(), given, n, sturdier(update, form), backend, coarse)
+    return check_history(recorder.history(), problem, n, sturdier(update, form), backend, coarse)
 
 
 def _state_update(system: System, _form: FactoredForm, at: Sample) -> tuple[Any, ...]:

@@ -50,24 +50,24 @@ def check_problem(
     if not 0 <= M <= L <= N:
         raise ValueError(f"M={M}, L={L}, N={N} must satisfy 0 <= M <= L <= N")
     start, moves = _start_and_inputs(system, x0, P0, inputs)
-    found = measured(system.measurements, N, measurements)
-    return Problem(lossy(shaped(system), N, found.present), start, moves, found)
+    readings = measured(system.measurements, N, measurements)
+    return Problem(lossy(shaped(system), N, readings.present), start, moves, readings)
 
 
 def check_multirate_problem(
     system: System, n: int, L: int, x0: ArrayLike, P0: ArrayLike, inputs: ArrayLike, measurements: Measurements
 ) -> Problem:
-    """As `check_problem` for a measurement in every step. Raises ValueError unless 0 <= L <= n, n >= 1, and so on."""
+    """`check_problem` for a measurement in every step. Raises ValueError unless 0 <= L <= n, n >= 1, and so on."""
     if not isinstance(n, int | np.integer) or n < 1:
         raise ValueError(f"n={n!r} must be a whole number, at least 1: it is the number of steps between gains")
     if not isinstance(L, int | np.integer) or not 0 <= L <= n:
         raise ValueError(f"L={L}, n={n} must satisfy 0 <= L <= n: a gain is in use before the next one is computed")
     start, moves = _start_and_inputs(system, x0, P0, inputs)
-    found = measured(system.measurements, 1, measurements)
-    if len(found.y) != len(moves) + 1:
+    readings = measured(system.measurements, 1, measurements)
+    if len(readings.y) != len(moves) + 1:
         needed = len(moves) + 1, system.measurements
-        raise ValueError(f"measurements has shape {found.y.shape}, the system needs {needed}")
-    return Problem(shaped(system), start, moves, found)
+        raise ValueError(f"measurements has shape {readings.y.shape}, the system needs {needed}")
+    return Problem(shaped(system), start, moves, readings)
 
 
 def _start_and_inputs(system: System, x0: ArrayLike, P0: ArrayLike, inputs: ArrayLike) -> tuple[Estimate, FloatArray]:
@@ -79,8 +79,8 @@ def _start_and_inputs(system: System, x0: ArrayLike, P0: ArrayLike, inputs: Arra
     moves = as_array("inputs", inputs)
     if moves.ndim != 2:
         without = "" if system.inputs else ", np.empty((steps, 0)) for a system without inputs"
-        given = "is None" if inputs is None else f"has shape {moves.shape}"
-        raise ValueError(f"inputs {given}; give a row of {system.inputs} numbers for each step{without}")
+        problem = "is None" if inputs is None else f"has shape {moves.shape}"
+        raise ValueError(f"inputs {problem}; give a row of {system.inputs} numbers for each step{without}")
     moves = _numbers("inputs", moves, (len(moves), system.inputs))
     _check_system(system, x, moves)
     return Estimate(x, 0.5 * (P + P.T)), moves
@@ -90,9 +90,9 @@ def check_system(name: str, system: object) -> None:
     """Raises ValueError, naming the argument, unless it is a `System` of whole sizes, made of functions."""
     check_kind(name, system, System, "a filters.system.System, as linear_system(...) returns one")
     for function in ("f", "F", "Q", "h", "H", "R"):
-        given = getattr(system, function)
-        if not callable(given):
-            raise ValueError(f"{function} of the {name} is {given!r:.60}; give a function, see System")
+        value = getattr(system, function)
+        if not callable(value):
+            raise ValueError(f"{function} of the {name} is {value!r:.60}; give a function, see System")
     for size_name, least in (("states", 1), ("inputs", 0), ("measurements", 1)):
         size = getattr(system, size_name)
         if isinstance(size, bool) or not isinstance(size, int | np.integer) or size < least:

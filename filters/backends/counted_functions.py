@@ -91,8 +91,8 @@ def _asking(each: Callable[..., Any]) -> Callable[..., Any]:
 
 def _log(x: Any, base: Any = None) -> Any:
     """With a base it is log(x) / log(base)."""
-    one = _counted(math.log, "function")
-    return one(x) if base is None else one(x) / one(base)
+    log = _counted(math.log, "function")
+    return log(x) if base is None else log(x) / log(base)
 
 
 OF_MATH: dict[Any, Callable[..., Any]] = {

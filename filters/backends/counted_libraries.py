@@ -96,8 +96,8 @@ class _Function:
         self._function = function
 
     def __getattr__(self, name: str) -> Any:
-        found = getattr(self._function, name)
-        return _Function(found) if callable(found) else found
+        attribute = getattr(self._function, name)
+        return _Function(attribute) if callable(attribute) else attribute
 
     def __call__(self, *arguments: Any, **options: Any) -> Any:
         counting = _counts(arguments) or _counts(options)

@@ -198,6 +198,6 @@ class Scalar:
 
 
 def _hardware(operation: Callable[[Any, Any], Any], a: Operand, b: Operand) -> float:
-    """As floating-point hardware does it: inf or nan where Python has an exception, or a complex number."""
+    """The result of floating-point hardware: inf or nan where Python has an exception, or a complex number."""
     with np.errstate(all="ignore"):
         return float(operation(np.float64(_number(a)), np.float64(_number(b))))

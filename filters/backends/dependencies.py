@@ -55,8 +55,8 @@ def named_attributes(module: ModuleType, function: FunctionType) -> dict[str, An
     """What the names in `function`, and its strings (of getattr), stand for if they are attributes of this module."""
     absent = object()
     strings = [item for code in _nested(function.__code__) for item in code.co_consts if isinstance(item, str)]
-    found = {name: getattr(module, name, absent) for name in sorted({*_names(function.__code__), *strings})}
-    return {name: value for name, value in found.items() if value is not absent}
+    values = {name: getattr(module, name, absent) for name in sorted({*_names(function.__code__), *strings})}
+    return {name: value for name, value in values.items() if value is not absent}
 
 
 def is_of_library(value: Any) -> bool:

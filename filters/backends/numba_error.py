@@ -31,7 +31,7 @@ def gist(error: Exception) -> str:
 
 
 def _place(lines: list[str]) -> str:
-    places = [found for line in lines if (found := WHERE.match(line))]
+    places = [place for line in lines if (place := WHERE.match(line))]
     if not places or "^" not in lines:
         return ""
     return f", in {Path(places[0]['file']).name}, line {places[0]['line']}: {lines[lines.index('^') - 1]}"

@@ -58,7 +58,7 @@ def _module(frame: FrameType) -> str:
 
 
 def _name(frame: FrameType) -> str:
-    """Of the function, or of that around a comprehension."""
+    """The function's, or that around a comprehension."""
     named = [
         part for part in frame.f_code.co_qualname.split(".") if part not in ("<locals>", "<listcomp>", "<genexpr>")
     ]

@@ -169,15 +169,15 @@ def run(
     feedback: "next-step" corrects at the start of step l, M < L <= N, where l = k + N comes before the next x_{k^-} is
         taken; "same-step" corrects at the end of step l, M <= L < N.
     """
-    given = check_problem(system, N, M, L, x0, P0, inputs, measurements)
-    moves, y = given.inputs, given.measured.y
+    problem = check_problem(system, N, M, L, x0, P0, inputs, measurements)
+    moves, y = problem.inputs, problem.measured.y
     check_choice("low_rate_noise", low_rate_noise, ("exact", "sum", "euler"))
     check_choice("gain", gain, ("at-update", "precomputed"))
     check_choice("feedback", feedback, ("next-step", "same-step"))
     _check_feedback_step(N, M, L, feedback)
     noise, form = NOISE_METHODS[low_rate_noise], covariance_form(update)
-    high_rate = HighRateTask(given.system, N, given.start.x, noise, form, backend)
-    low_rate = LowRateTask(given.system, given.start.P, noise, form, gain, backend)
+    high_rate = HighRateTask(problem.system, N, problem.start.x, noise, form, backend)
+    low_rate = LowRateTask(problem.system, problem.start.P, noise, form, gain, backend)
     recorder = HistoryRecorder(system)
 
     correction: Correction | None = None
@@ -197,7 +197,7 @@ def run(
             high_rate.correct(L, correction.delta_x)
             correction = None
         recorder.state(high_rate.x)
-    return check_history(recorder.history(), given, N, sturdier(update), backend)
+    return check_history(recorder.history(), problem, N, sturdier(update), backend)
 
 
 def _check_feedback_step(N: int, M: int, L: int, feedback: Feedback) -> None:

@@ -83,17 +83,17 @@ def run(
 
     Arguments, results and errors as in `standard.run`. The correction is in the state of step m, whatever L is.
     """
-    given = check_problem(system, N, M, L, x0, P0, inputs, measurements)
-    moves, y = given.inputs, given.measured.y
+    problem = check_problem(system, N, M, L, x0, P0, inputs, measurements)
+    moves, y = problem.inputs, problem.measured.y
     run_propagate = function_for(backend, propagate)
     run_propagate_accumulate = function_for(backend, propagate_accumulate)
     run_update_at_once = function_for(backend, update_at_once)
     run_update = function_for(backend, extrapolated_update)
-    form, model = arguments_for(backend, covariance_form(update)), arguments_for(backend, given.system)
+    form, model = arguments_for(backend, covariance_form(update)), arguments_for(backend, problem.system)
     work = new_workspace(system)
     recorder = HistoryRecorder(system)
 
-    estimate = reference = given.start
+    estimate = reference = problem.start
     Phi_from_k = np.eye(system.states)
     for j in range(len(moves) + 1):
         if j > 0:
@@ -123,7 +123,7 @@ def run(
             reference = estimate
             recorder.reference(reference.P)
         recorder.state(estimate.x)
-    return check_history(recorder.history(), given, N, sturdier(update), backend)
+    return check_history(recorder.history(), problem, N, sturdier(update), backend)
 
 
 def _propagate_accumulate(system: System, form: CovarianceForm, at: Sample) -> tuple[Any, ...]:

@@ -90,7 +90,7 @@ def lr_propagate_euler(
 
 
 def _start_halved(transition: Transition, k: int, N: int) -> HalvedTransition:
-    """Of an odd N the first half is the shorter one, so that N = 1 is exact."""
+    """The first half of an odd N is the shorter one, so that N = 1 is exact."""
     halfway = k + N // 2
     nothing = np.zeros_like(transition.Q)
     if k < halfway:

@@ -37,11 +37,11 @@ def run(
 
     Arguments, results and errors as in `standard.run`. The correction is in the state of step m, whatever L is.
     """
-    given = check_problem(system, N, M, L, x0, P0, inputs, measurements)
-    moves, y = given.inputs, given.measured.y
+    problem = check_problem(system, N, M, L, x0, P0, inputs, measurements)
+    moves, y = problem.inputs, problem.measured.y
     propagate = function_for(backend, standard.propagate)
     update_at_k = function_for(backend, standard.update)
-    form, model = arguments_for(backend, covariance_form(update)), arguments_for(backend, given.system)
+    form, model = arguments_for(backend, covariance_form(update)), arguments_for(backend, problem.system)
     work = new_workspace(system)
     recorder = HistoryRecorder(system)
 
@@ -50,7 +50,7 @@ def run(
         propagate(model, form, j, before, moves[j], after, work)
         return after
 
-    estimate = reference = given.start
+    estimate = reference = problem.start
     for j in range(len(moves) + 1):
         if j > 0:
             estimate = propagated(j - 1, estimate)
@@ -71,7 +71,7 @@ def run(
             reference = estimate
             recorder.reference(reference.P)
         recorder.state(estimate.x)
-    return check_history(recorder.history(), given, N, sturdier(update), backend)
+    return check_history(recorder.history(), problem, N, sturdier(update), backend)
 
 
 JOBS = (standard.PROPAGATE, standard.UPDATE, ("replay", *standard.PROPAGATE[1:]))

@@ -131,26 +131,26 @@ def run(
             is not, or a Q or R that is no covariance; or a covariance is no longer one, see `breakdown`. The step is
             named, and what to do.
     """
-    given = check_problem(system, N, M, L, x0, P0, inputs, measurements)
-    steps, cycles = len(given.inputs), len(given.inputs) // N + 1
-    updates = min(cycles, len(given.measured.y))
+    problem = check_problem(system, N, M, L, x0, P0, inputs, measurements)
+    steps, cycles = len(problem.inputs), len(problem.inputs) // N + 1
+    updates = min(cycles, len(problem.measured.y))
     n, p = system.states, system.measurements
     history = History(
         np.empty((steps + 1, n)), np.empty((cycles, n, n)), np.empty((updates, p)), np.empty((updates, n, p))
     )
     function_for(backend, filter_all)(
-        arguments_for(backend, given.system),
+        arguments_for(backend, problem.system),
         arguments_for(backend, covariance_form(update)),
         N,
-        given.start,
-        given.inputs,
-        given.measured.y,
+        problem.start,
+        problem.inputs,
+        problem.measured.y,
         history,
         new_estimate(system),
         new_correction(system),
         new_workspace(system),
     )
-    return check_history(history, given, N, sturdier(update), backend)
+    return check_history(history, problem, N, sturdier(update), backend)
 
 
 def _propagate(system: System, form: CovarianceForm, at: Sample) -> tuple[Any, ...]:

@@ -5,4 +5,4 @@ matrix product and would distort a measured cost. `out` never shares memory with
 """
 
 ALLOCATION_FREE = OPTIMISED_ALONE = True
-"""Of the functions in this package, for compilers: see `compiled`."""
+"""Marks of the functions in this package, for compilers: see `compiled`."""

@@ -93,7 +93,7 @@ def _reflect(V: FloatArray, i: int, j: int, scale: float, reflect: float, out: F
 
 
 def _reflect_two(V: FloatArray, i: int, j: int, k: int, scale: float, reflect: float, out: FloatArray) -> None:
-    """As `_reflect`, for the rows j and k."""
+    """`_reflect` for the rows j and k."""
     end = V.shape[0] + i
     total_j = V[i, end] * V[j, end]
     total_k = V[i, end] * V[k, end]

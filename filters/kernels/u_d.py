@@ -96,7 +96,7 @@ def _project(V: FloatArray, i: int, j: int, weighted: FloatArray, scale: float, 
 
 
 def _project_two(V: FloatArray, i: int, j: int, k: int, weighted: FloatArray, scale: float, out: FloatArray) -> None:
-    """As `_project`, for the rows j and k."""
+    """`_project` for the rows j and k."""
     length = V.shape[1]
     total_j = V[j, i] * weighted[i]
     total_k = V[k, i] * weighted[i]

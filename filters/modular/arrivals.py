@@ -67,33 +67,35 @@ def arrivals(
             old.
     """
     check_choice("too_old", too_old, ("refuse", "drop"))
-    found = in_order(measurements)
+    queue = in_order(measurements)
     names = {sensor.name: number for number, sensor in enumerate(composed.sensors)}
-    for one in found:
-        if not isinstance(one.sensor, str) or one.sensor not in names:
-            raise ValueError(f"sensor {one.sensor!r} is none of the filter's: they are {', '.join(names) or 'none'}")
-    sensor = np.array([names[one.sensor] for one in found], dtype=np.int64)
-    taken, arrives = (np.array([one[which] for one in found], dtype=np.int64) for which in (1, 2))
+    for measurement in queue:
+        if not isinstance(measurement.sensor, str) or measurement.sensor not in names:
+            raise ValueError(
+                f"sensor {measurement.sensor!r} is none of the filter's: they are {', '.join(names) or 'none'}"
+            )
+    sensor = np.array([names[measurement.sensor] for measurement in queue], dtype=np.int64)
+    taken, arrives = (np.array([measurement[which] for measurement in queue], dtype=np.int64) for which in (1, 2))
     spaces = [each.corrector.observed for each in composed.sensors]
-    y = np.zeros((len(found), max((observed.numbers for observed in spaces), default=0)))
-    lost = np.zeros((len(found), max((observed.errors for observed in spaces), default=0)), dtype=np.bool_)
+    y = np.zeros((len(queue), max((observed.numbers for observed in spaces), default=0)))
+    lost = np.zeros((len(queue), max((observed.errors for observed in spaces), default=0)), dtype=np.bool_)
     here = arrives <= steps
     for number, each in enumerate(composed.sensors):
         rows, observed = np.flatnonzero(sensor == number), each.corrector.observed
-        y[rows, : observed.numbers], gone = _read([found[row] for row in rows], each)
+        y[rows, : observed.numbers], gone = _read([queue[row] for row in rows], each)
         lost[rows, : observed.errors] = gone
         here[rows] &= ~gone.all(axis=1)
     old = arrives - taken > history
-    _refuse(found, (taken < 0) | (taken > arrives), "it must be taken in step 0 or later, and before it arrives")
+    _refuse(queue, (taken < 0) | (taken > arrives), "it must be taken in step 0 or later, and before it arrives")
     if too_old == "refuse":
-        _refuse(found, old & here, f"the history goes back {history} steps: give a longer history=, or too_old='drop'")
-    dropped = tuple(found[row] for row in np.flatnonzero(old & here))
+        _refuse(queue, old & here, f"the history goes back {history} steps: give a longer history=, or too_old='drop'")
+    dropped = tuple(queue[row] for row in np.flatnonzero(old & here))
     return chosen(Arrivals(sensor, taken, arrives, y, lost), here & ~old), dropped
 
 
 def last_arrival(measurements: Iterable[Measurement]) -> int:
     """The step of the last arrival; 0 if there is none."""
-    return max((int(one.arrives) for one in in_order(measurements)), default=0)
+    return max((int(measurement.arrives) for measurement in in_order(measurements)), default=0)
 
 
 def in_order(measurements: Iterable[Measurement]) -> list[Measurement]:
@@ -101,20 +103,20 @@ def in_order(measurements: Iterable[Measurement]) -> list[Measurement]:
     wanted = "give a list of Measurement(sensor, taken, arrives, y)"
     if not isinstance(measurements, Iterable):
         raise ValueError(f"measurements is {measurements!r:.60}; {wanted}, [] if there are none")
-    found = list(measurements)
-    for one in found:
-        if type(one) is not Measurement:
-            raise ValueError(f"measurements holds {one!r:.60}; {wanted}")
-        for step in one[1:3]:
+    items = list(measurements)
+    for item in items:
+        if type(item) is not Measurement:
+            raise ValueError(f"measurements holds {item!r:.60}; {wanted}")
+        for step in item[1:3]:
             if not (isinstance(step, int | np.integer) and abs(int(step)) <= LAST):
-                raise _unfit(one, f"steps must be whole numbers below {LAST}")
-    return sorted(found, key=attrgetter("arrives"))
+                raise _unfit(item, f"steps must be whole numbers below {LAST}")
+    return sorted(items, key=attrgetter("arrives"))
 
 
 def _read(measurements: list[Measurement], sensor: Sensor) -> tuple[FloatArray, Flags]:
-    """Of measurements of one sensor y (any, numbers), without gaps, and of what their errors have no number."""
+    """The y (any, numbers) of one sensor's measurements, without gaps, and what their errors have no number of."""
     observed = sensor.corrector.observed
-    measurements = [one._replace(y=without_mask(one.y)) for one in measurements]
+    measurements = [measurement._replace(y=without_mask(measurement.y)) for measurement in measurements]
     values = _stacked(measurements, observed.numbers)
     gone = np.zeros(values.shape, dtype=np.bool_)
     for row in np.flatnonzero(~np.isfinite(values).all(axis=1)):
@@ -142,7 +144,7 @@ def _read(measurements: list[Measurement], sensor: Sensor) -> tuple[FloatArray, 
 def _stacked(measurements: list[Measurement], needed: int) -> FloatArray:
     """Their y (any, needed), nan for None; raises ValueError, naming the first that is not as many numbers."""
     try:
-        values = as_floats([one.y for one in measurements])
+        values = as_floats([measurement.y for measurement in measurements])
     except (TypeError, ValueError, OverflowError):
         values = np.empty(0)
     if values.shape != (len(measurements), needed) and measurements:
@@ -152,13 +154,13 @@ def _stacked(measurements: list[Measurement], needed: int) -> FloatArray:
 
 def _misshapen(measurements: list[Measurement], needed: int) -> ValueError:
     """Names the first of them whose y is not as many numbers."""
-    for one in measurements:
+    for measurement in measurements:
         try:
-            shape = as_floats(one.y).shape
+            shape = as_floats(measurement.y).shape
         except (TypeError, ValueError, OverflowError):
-            return _unfit(one, f"y is {one.y!r:.60}; its corrector needs an array of {needed} numbers")
+            return _unfit(measurement, f"y is {measurement.y!r:.60}; its corrector needs an array of {needed} numbers")
         if shape != (needed,):
-            return _unfit(one, f"y has shape {shape}, its corrector needs {(needed,)}")
+            return _unfit(measurement, f"y has shape {shape}, its corrector needs {(needed,)}")
     raise AssertionError("all are as they should be")
 
 
@@ -167,7 +169,8 @@ def _refuse(measurements: list[Measurement], wrong: ArrayLike, what: str) -> Non
         raise _unfit(measurements[row], what)
 
 
-def _unfit(one: Measurement, what: str) -> ValueError:
+def _unfit(measurement: Measurement, what: str) -> ValueError:
     return ValueError(
-        f"sensor {one.sensor!r}, measurement of step {one.taken}, which arrives in step {one.arrives}: {what}"
+        f"sensor {measurement.sensor!r}, measurement of step {measurement.taken}, "
+        f"which arrives in step {measurement.arrives}: {what}"
     )

@@ -34,9 +34,9 @@ class Cause(NamedTuple):
     remedy: str
 
 
-def new_failure(of: Space) -> Failure:
+def new_failure(space: Space) -> Failure:
     """Memory for one."""
-    return Failure(empty(of), empty(of))
+    return Failure(empty(space), empty(space))
 
 
 def failed(part: int, step: int, at: Estimate, after: Estimate, failure: Failure) -> tuple[int, int]:
@@ -61,26 +61,26 @@ def breakdown(composed: ModularFilter, part: int, step: int, failure: Failure, u
 
 
 def _of_predictor(composed: ModularFilter, failure: Failure, u: FloatArray) -> Cause:
-    predictor, of = composed.predictor, composed.of
-    work, after = new_workspace(of, NOTHING), empty(of)
-    predictor.predict(predictor.motion, of, failure.at, u, composed.dt, after, work)
+    predictor, space = composed.predictor, composed.of
+    work, after = new_workspace(space, NOTHING), empty(space)
+    predictor.predict(predictor.motion, space, failure.at, u, composed.dt, after, work)
     if predictor.kind == "extended":
         return (
-            _of_function("f(x, u, dt, out)", of, after.x, failure.at.x, u)
+            _of_function("f(x, u, dt, out)", space, after.x, failure.at.x, u)
             or _of_jacobian("f", work.F, failure.at.x, u)
             or _of_numbers(composed, failure)
         )
     if predictor.kind == "unscented":
-        return _of_points("f(x, u, dt, out)", of, predictor.motion, work, work.moved, failure, u) or _of_numbers(
+        return _of_points("f(x, u, dt, out)", space, predictor.motion, work, work.moved, failure, u) or _of_numbers(
             composed, failure
         )
     return _of_numbers(composed, failure)
 
 
 def _of_sensor(composed: ModularFilter, number: int, failure: Failure) -> Cause:
-    of, corrector = composed.of, composed.sensors[number].corrector
-    view, work = corrector.view(of.errors), new_workspace(of, corrector.observed)
-    corrector.expect(view, corrector.observed, of, failure.at, work)
+    space, corrector = composed.of, composed.sensors[number].corrector
+    view, work = corrector.view(space.errors), new_workspace(space, corrector.observed)
+    corrector.expect(view, corrector.observed, space, failure.at, work)
     if corrector.kind == "extended":
         return (
             _of_function("h(x, out)", corrector.observed, work.expected, failure.at.x)
@@ -94,19 +94,19 @@ def _of_sensor(composed: ModularFilter, number: int, failure: Failure) -> Cause:
     return _of_numbers(composed, failure)
 
 
-def _of_function(name: str, of: Space, value: FloatArray, *given: FloatArray) -> Cause | None:
-    if is_point(of, value):
+def _of_function(name: str, space: Space, value: FloatArray, *arguments: FloatArray) -> Cause | None:
+    if is_point(space, value):
         return None
     without = "has an attitude without length" if np.isfinite(value).all() else "is not finite"
-    return _of_value(f"{name} {without}", given)
+    return _of_value(f"{name} {without}", arguments)
 
 
-def _of_jacobian(function: str, value: FloatArray, *given: FloatArray) -> Cause | None:
-    return None if np.isfinite(value).all() else _of_value(f"the Jacobian of {function} is not finite", given)
+def _of_jacobian(function: str, value: FloatArray, *arguments: FloatArray) -> Cause | None:
+    return None if np.isfinite(value).all() else _of_value(f"the Jacobian of {function} is not finite", arguments)
 
 
-def _of_value(what: str, given: tuple[FloatArray, ...]) -> Cause:
-    where = ", ".join(f"{name} = {value.tolist()}" for name, value in zip("xu", given, strict=False))
+def _of_value(what: str, arguments: tuple[FloatArray, ...]) -> Cause:
+    where = ", ".join(f"{name} = {value.tolist()}" for name, value in zip("xu", arguments, strict=False))
     return Cause(
         f"{what} at {where}, so that the estimate is no longer finite",
         "it a value there, or a start and inputs from which the filter does not get there",
@@ -114,10 +114,10 @@ def _of_value(what: str, given: tuple[FloatArray, ...]) -> Cause:
 
 
 def _of_points(
-    name: str, of: Space, unscented: Any, work: Workspace, images: FloatArray, failure: Failure, *u: FloatArray
+    name: str, space: Space, unscented: Any, work: Workspace, images: FloatArray, failure: Failure, *u: FloatArray
 ) -> Cause | None:
     for point, image in zip(work.points, images, strict=True):
-        cause = _of_function(name, of, image, point, *u)
+        cause = _of_function(name, space, image, point, *u)
         if cause:
             return cause
     if unscented.weighing.covariance_0 < 0 and not _has_grown(failure):

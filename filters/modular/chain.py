@@ -59,15 +59,15 @@ def _chained(jobs: tuple[Callable[..., None], ...]) -> Callable[..., None]:
 
 
 def _first_or(job: Callable[..., None], rest: Callable[..., None]) -> Callable[..., None]:
-    def use(kind: int, member: int, parts: Any, given: Any) -> None:
+    def use(kind: int, member: int, parts: Any, case: Any) -> None:
         if kind == 0:
             view, observed, work = parts[0][member]
-            job(view, observed, work, given)
+            job(view, observed, work, case)
         else:
-            rest(kind - 1, member, parts[1], given)
+            rest(kind - 1, member, parts[1], case)
 
     return use
 
 
-def _no_such_kind(_kind: int, _member: int, _parts: Any, _given: Any) -> None:
+def _no_such_kind(_kind: int, _member: int, _parts: Any, _case: Any) -> None:
     pass

@@ -67,7 +67,7 @@ def check_functions(part: str, model: object, arguments: str) -> None:
             )
 
 
-def check_start(of: Space, x0: ArrayLike, P0: ArrayLike) -> tuple[FloatArray, FloatArray]:
+def check_start(space: Space, x0: ArrayLike, P0: ArrayLike) -> tuple[FloatArray, FloatArray]:
     """Copies of the estimate and covariance to start from; the covariance is symmetric to the last digit.
 
     Raises:
@@ -75,14 +75,14 @@ def check_start(of: Space, x0: ArrayLike, P0: ArrayLike) -> tuple[FloatArray, Fl
             covariance. It may be singular: of states that are known exactly, or go together.
     """
     x = as_numbers("x0", x0)
-    if x.shape != (of.numbers,) or not np.isfinite(x).all():
-        raise ValueError(f"x0 has shape {x.shape}, the filter needs {(of.numbers,)}, and finite numbers")
-    for start in of.attitudes:
+    if x.shape != (space.numbers,) or not np.isfinite(x).all():
+        raise ValueError(f"x0 has shape {x.shape}, the filter needs {(space.numbers,)}, and finite numbers")
+    for start in space.attitudes:
         length = np.linalg.norm(x[start : start + 4])
         if not np.isclose(length, 1.0, rtol=0, atol=1e-6):
             remedy = "divide by it" if 0 < length < np.inf else "give a unit quaternion, 1, 0, 0, 0 if it turns nothing"
             raise ValueError(f"x0: the attitude at {start} has length {length:.6g}; {remedy}")
-    P = as_matrix("P0", P0, (of.errors, of.errors))
+    P = as_matrix("P0", P0, (space.errors, space.errors))
     check_covariance("P0", P)
     P = 0.5 * (P + P.T)
     if not is_semidefinite(P, np.empty_like(P)):

@@ -16,7 +16,7 @@ from filters.modular.workspace import Workspace
 from filters.records import Estimate
 
 Correction = Callable[[Any, Space, Space, Estimate, FloatArray, Flags, Estimate, Workspace], None]
-"""correct(view, observed, of, before, y, lost, after, work): `after` is `before`, corrected by the measurement y.
+"""correct(view, observed, space, before, y, lost, after, work): `after` is `before`, corrected by the measurement y.
 
 view, observed: see `correctors.Corrector`; lost: see `correctors.estimate_error`.
 """
@@ -40,16 +40,16 @@ def _correction_by(expect: Callable[..., None], covariance: Covariance) -> Corre
     def correct(
         view: Any,
         observed: Space,
-        of: Space,
+        space: Space,
         before: Estimate,
         y: FloatArray,
         lost: Flags,
         after: Estimate,
         work: Workspace,
     ) -> None:
-        expect(view, observed, of, before, work)
-        estimate_error(observed, of, y, lost, work)
-        plus(of, before.x, work.n1, after.x)
+        expect(view, observed, space, before, work)
+        estimate_error(observed, space, y, lost, work)
+        plus(space, before.x, work.n1, after.x)
         covariance(view, before.P, after.P, work)
 
     return correct

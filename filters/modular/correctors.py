@@ -24,9 +24,9 @@ Observation: TypeAlias = Callable[[FloatArray, FloatArray], None]
 
 
 class Corrector(NamedTuple):
-    """expect(view, observed, of, before, work) fills `expected`, `S` and `cross` of work, and `H` unless unscented.
+    """expect(view, observed, space, before, work) fills `expected`, `S` and `cross` of work, and `H` unless unscented.
 
-    observe(view, observed, of, x, work): its part that fills `expected` and `H`; None if it is unscented.
+    observe(view, observed, space, x, work): its part that fills `expected` and `H`; None if it is unscented.
     view(n): the model that expect takes, for a state whose error has length n; raises ValueError if it does not fit.
     observed: what a measurement stands for; of: what the state stands for. R (p, p): of the measurement's error.
     """
@@ -55,14 +55,14 @@ class ExtendedView(NamedTuple):
 
 
 class NumericView(NamedTuple):
-    """As `ExtendedView`, its Jacobian by central differences."""
+    """An `ExtendedView`, its Jacobian by central differences."""
 
     h: Observation
     R: FloatArray
 
 
 class UnscentedView(NamedTuple):
-    """As `ExtendedView`, without Jacobian."""
+    """An `ExtendedView` without Jacobian."""
 
     h: Observation
     weighing: Weights
@@ -101,9 +101,9 @@ def extended_corrector(
     noise, seen = _noise_and_space(R, observed)
     if jacobian is None:
         return Corrector("extended", expect_numeric, observe_numeric, lambda _n: NumericView(h, noise), seen, noise)
-    given = jacobian
+    derivative = jacobian
     return Corrector(
-        "extended", expect_extended, observe_extended, lambda _n: ExtendedView(h, given, noise), seen, noise
+        "extended", expect_extended, observe_extended, lambda _n: ExtendedView(h, derivative, noise), seen, noise
     )
 
 
@@ -128,9 +128,9 @@ def check_noise(corrector: Corrector) -> None:
     as_noise("R", corrector.R)
 
 
-def observe_linear(view: LinearView, _observed: Space, of: Space, x: FloatArray, work: Workspace) -> None:
+def observe_linear(view: LinearView, _observed: Space, space: Space, x: FloatArray, work: Workspace) -> None:
     """H x, and H."""
-    plain(of, x, work.n1)
+    plain(space, x, work.n1)
     matvec(view.H, work.n1, work.expected)
     copy(view.H, work.H)
 
@@ -141,11 +141,11 @@ def observe_extended(view: ExtendedView, _observed: Space, _of: Space, x: FloatA
     view.jacobian(x, work.H)
 
 
-def observe_numeric(view: NumericView, observed: Space, of: Space, x: FloatArray, work: Workspace) -> None:
-    """As `observe_extended`, H by central differences of h; work has the variances of x."""
+def observe_numeric(view: NumericView, observed: Space, space: Space, x: FloatArray, work: Workspace) -> None:
+    """`observe_extended` with H by central differences of h; work has the variances of x."""
     view.h(x, work.expected)
-    for i in range(of.errors):
-        step = difference(of, x, i, work)
+    for i in range(space.errors):
+        step = difference(space, x, i, work)
         view.h(work.points[0], work.seen[0])
         view.h(work.points[1], work.seen[1])
         minus(observed, work.seen[0], work.seen[1], work.z)
@@ -157,9 +157,9 @@ def observe_numeric(view: NumericView, observed: Space, of: Space, x: FloatArray
 def _expectation_by(observe: Callable[..., None]) -> Callable[..., None]:
     """`expect` of a linear or extended corrector: also S = H P H^T + R and H P."""
 
-    def expect(view: Any, observed: Space, of: Space, before: Estimate, work: Workspace) -> None:
+    def expect(view: Any, observed: Space, space: Space, before: Estimate, work: Workspace) -> None:
         copy_diagonal(before.P, work.variances)
-        observe(view, observed, of, before.x, work)
+        observe(view, observed, space, before.x, work)
         _project(view.R, before.P, work)
 
     return expect
@@ -170,9 +170,9 @@ expect_extended = _expectation_by(observe_extended)
 expect_numeric = _expectation_by(observe_numeric)
 
 
-def expect_unscented(view: UnscentedView, observed: Space, of: Space, before: Estimate, work: Workspace) -> None:
+def expect_unscented(view: UnscentedView, observed: Space, space: Space, before: Estimate, work: Workspace) -> None:
     """Mean, covariance and cross-covariance of the sigma points, each observed by h; R is added."""
-    draw(of, before.x, before.P, view.weighing.spread, work.nn1, work.errors, work.points)
+    draw(space, before.x, before.P, view.weighing.spread, work.nn1, work.errors, work.points)
     for i in range(len(work.points)):
         view.h(work.points[i], work.seen[i])
     mean(observed, work.seen, view.weighing, work.seen_errors, work.z, work.expected)
@@ -182,7 +182,7 @@ def expect_unscented(view: UnscentedView, observed: Space, of: Space, before: Es
     add_covariance(work.seen_errors, work.errors, view.weighing, work.cross)
 
 
-def estimate_error(observed: Space, of: Space, y: FloatArray, lost: Flags, work: Workspace) -> None:
+def estimate_error(observed: Space, space: Space, y: FloatArray, lost: Flags, work: Workspace) -> None:
     """K^T = S^-1 cross in gain, and the error K z that the measurement y (numbers,) tells in n1, once `expect` has run.
 
     lost (p,): what its error has no number of. y and lost may be longer: what is behind is not read.
@@ -193,7 +193,7 @@ def estimate_error(observed: Space, of: Space, y: FloatArray, lost: Flags, work:
             leave_out(r, work)
     cholesky(work.S, work.pp1)
     solve_cholesky(work.pp1, work.cross, work.gain)
-    for e in range(of.errors):
+    for e in range(space.errors):
         total = work.gain[0, e] * work.z[0]
         for r in range(1, observed.errors):
             total += work.gain[r, e] * work.z[r]
@@ -202,8 +202,8 @@ def estimate_error(observed: Space, of: Space, y: FloatArray, lost: Flags, work:
 
 def leave_out(r: int, work: Workspace) -> None:
     """Row r of a measurement says nothing: the others are corrected with as if it were not there."""
-    for other in range(work.S.shape[0]):
-        work.S[r, other] = work.S[other, r] = 0.0
+    for column in range(work.S.shape[0]):
+        work.S[r, column] = work.S[column, r] = 0.0
     work.S[r, r] = 1.0
     for e in range(work.cross.shape[1]):
         work.cross[r, e] = work.H[r, e] = 0.0

@@ -72,7 +72,7 @@ def run(
     low_rate = LowRateTask(composed, sensor, Estimate(x, P), backend)
     system = composed_system(composed, P, moves.shape[1])
     high_rate = HighRateTask(system, N, x, NOISE_METHODS["exact"], covariance_form("short"), backend)
-    found = new_estimates(composed.of, len(moves))
+    estimates = new_estimates(composed.of, len(moves))
     following, scratch = 0, np.empty_like(P)
     with running("filter"):
         for j in range(len(moves) + 1):
@@ -83,16 +83,16 @@ def run(
             P = low_rate.covariance(high_rate.message(j).transition)
             if j % N == 0:
                 low_rate.restart(Estimate(high_rate.x, P))
-            found.x[j], found.P[j] = high_rate.x, P
+            estimates.x[j], estimates.P[j] = high_rate.x, P
             if not is_sound(composed.of, Estimate(high_rate.x, P), scratch):
-                before = Failure(Estimate(found.x[j - 1], found.P[j - 1]), Estimate(high_rate.x, P))
+                before = Failure(Estimate(estimates.x[j - 1], estimates.P[j - 1]), Estimate(high_rate.x, P))
                 raise breakdown(composed, PREDICTOR, j, before, moves[j - 1])
             while following < len(arrived.arrives) and arrived.arrives[following] == j:
                 correction = low_rate.correct(arrived.y[following], arrived.lost[following])
                 if not is_sound(composed.of, correction.after, scratch):
                     raise breakdown(composed, 0, j, correction, np.empty(0))
                 following += 1
-    return ModularHistory(*found, dropped)
+    return ModularHistory(*estimates, dropped)
 
 
 class LowRateTask:

@@ -11,9 +11,9 @@ from filters.modular.space import Space, is_point
 from filters.records import Estimate
 
 
-def empty(of: Space) -> Estimate:
+def empty(space: Space) -> Estimate:
     """Memory for an estimate of this space."""
-    return Estimate(np.empty(of.numbers), np.empty((of.errors, of.errors)))
+    return Estimate(np.empty(space.numbers), np.empty((space.errors, space.errors)))
 
 
 def copy_estimate(source: Estimate, out: Estimate) -> None:
@@ -22,6 +22,6 @@ def copy_estimate(source: Estimate, out: Estimate) -> None:
     copy(source.P, out.P)
 
 
-def is_sound(of: Space, estimate: Estimate, scratch: FloatArray) -> bool:
+def is_sound(space: Space, estimate: Estimate, scratch: FloatArray) -> bool:
     """Whether x is a point of this space and P (n, n) is a covariance, see `is_semidefinite`; scratch is (n, n)."""
-    return is_point(of, estimate.x) and is_semidefinite(estimate.P, scratch)
+    return is_point(space, estimate.x) and is_semidefinite(estimate.P, scratch)

@@ -32,6 +32,6 @@ class ModularHistory(Estimates):
         return history
 
 
-def new_estimates(of: Space, steps: int) -> Estimates:
+def new_estimates(space: Space, steps: int) -> Estimates:
     """Memory for steps 0 to `steps`."""
-    return Estimates(np.empty((steps + 1, of.numbers)), np.empty((steps + 1, of.errors, of.errors)))
+    return Estimates(np.empty((steps + 1, space.numbers)), np.empty((steps + 1, space.errors, space.errors)))

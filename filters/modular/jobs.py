@@ -66,12 +66,12 @@ def modular_jobs(
 
 
 def _predict(composed: ModularFilter, at: Moment) -> tuple[Any, ...]:
-    of, motion = composed.of, composed.predictor.motion
-    return motion, of, keep(composed, at.estimate), at.u, composed.dt, empty(of), new_workspace(of, NOTHING)
+    space, motion = composed.of, composed.predictor.motion
+    return motion, space, keep(composed, at.estimate), at.u, composed.dt, empty(space), new_workspace(space, NOTHING)
 
 
 def _correct(composed: ModularFilter, number: int, at: Moment) -> tuple[Any, ...]:
-    of, corrector = composed.of, composed.sensors[number].corrector
-    view, observed = corrector.view(of.errors), corrector.observed
-    work = new_workspace(of, observed)
-    return view, observed, of, keep(composed, at.estimate), at.y[number], whole(observed), empty(of), work
+    space, corrector = composed.of, composed.sensors[number].corrector
+    view, observed = corrector.view(space.errors), corrector.observed
+    work = new_workspace(space, observed)
+    return view, observed, space, keep(composed, at.estimate), at.y[number], whole(observed), empty(space), work

@@ -104,39 +104,39 @@ def _correction_by(
     Same functions in, same function out, so that it is compiled once.
     """
 
-    def use(view: Any, observed: Space, work: Workspace, given: Given) -> None:
-        if given.late:
-            expect(view, observed, given.of, given.flight.reference, work)
-            correct_late(view, observed, work, given)
+    def use(view: Any, observed: Space, work: Workspace, case: Given) -> None:
+        if case.late:
+            expect(view, observed, case.of, case.flight.reference, work)
+            correct_late(view, observed, work, case)
         else:
-            correct(view, observed, given.of, given.before, given.y, given.lost, given.after, work)
-            if given.waiting:
-                _condition(given.flight.M, work)
+            correct(view, observed, case.of, case.before, case.y, case.lost, case.after, work)
+            if case.waiting:
+                _condition(case.flight.M, work)
 
     return use
 
 
-def _late_short(view: Any, observed: Space, work: Workspace, given: Given) -> None:
+def _late_short(view: Any, observed: Space, work: Workspace, case: Given) -> None:
     """The covariance of z_k with e_k becomes that with e_m, and so K_k becomes M K_k."""
-    matmul_transposed_narrow(work.cross, given.flight.M, work.gain)
+    matmul_transposed_narrow(work.cross, case.flight.M, work.gain)
     copy(work.gain, work.cross)
-    estimate_error(observed, given.of, given.y, given.lost, work)
-    plus(given.of, given.before.x, work.n1, given.after.x)
-    short(view, given.before.P, given.after.P, work)
+    estimate_error(observed, case.of, case.y, case.lost, work)
+    plus(case.of, case.before.x, work.n1, case.after.x)
+    short(view, case.before.P, case.after.P, work)
 
 
-def _late_joseph(view: Any, observed: Space, work: Workspace, given: Given) -> None:
+def _late_joseph(view: Any, observed: Space, work: Workspace, case: Given) -> None:
     """P_m <- P_m - M (P_k - P_k') M^T, with P_k' in Joseph's form."""
-    reference, M = given.flight
-    estimate_error(observed, given.of, given.y, given.lost, work)
+    reference, M = case.flight
+    estimate_error(observed, case.of, case.y, case.lost, work)
     matvec(M, work.n1, work.n2)
-    plus(given.of, given.before.x, work.n2, given.after.x)
-    joseph(view, reference.P, given.after.P, work)
-    subtract(given.after.P, reference.P, work.nn1)
+    plus(case.of, case.before.x, work.n2, case.after.x)
+    joseph(view, reference.P, case.after.P, work)
+    subtract(case.after.P, reference.P, work.nn1)
     matmul_blocked(M, work.nn1, work.nn2)
     transpose(M, work.nn3)
-    add_matmul_blocked(given.before.P, work.nn2, work.nn3, given.after.P)
-    mirror(given.after.P)
+    add_matmul_blocked(case.before.P, work.nn2, work.nn3, case.after.P)
+    mirror(case.after.P)
 
 
 def _condition(M: FloatArray, work: Workspace) -> None:
@@ -156,7 +156,7 @@ def filter_all(
     motion: Any,
     parts: Any,
     places: IntArray,
-    of: Space,
+    space: Space,
     dt: float,
     inputs: FloatArray,
     arrived: Arrivals,
@@ -178,8 +178,8 @@ def filter_all(
     waiting = 0
     for j in range(len(inputs) + 1):
         if j > 0:
-            predict(motion, of, current, inputs[j - 1], dt, scratch, work)
-            if not is_sound(of, scratch, work.nn1):
+            predict(motion, space, current, inputs[j - 1], dt, scratch, work)
+            if not is_sound(space, scratch, work.nn1):
                 return failed(PREDICTOR, j, current, scratch, failure)
             copy_estimate(scratch, current)
             if waiting > 0:
@@ -187,23 +187,23 @@ def filter_all(
         while following < len(arrived.arrives) and arrived.arrives[following] == j:
             s = arrived.sensor[following]
             y, lost = arrived.y[following], arrived.lost[following]
-            given = Given(of, flight, late[following], waiting > 0, current, y, lost, scratch)
-            use(places[s, 0], places[s, 1], parts, given)
-            if not is_sound(of, scratch, work.nn1):
+            case = Given(space, flight, late[following], waiting > 0, current, y, lost, scratch)
+            use(places[s, 0], places[s, 1], parts, case)
+            if not is_sound(space, scratch, work.nn1):
                 return failed(s, j, flight.reference if late[following] else current, scratch, failure)
             copy_estimate(scratch, current)
             if late[following]:
                 waiting -= 1
             if late[following] and waiting > 0:  # another of that step is to come: what was known then is more now
-                given = Given(of, flight, False, False, flight.reference, y, lost, scratch)
-                use(places[s, 0], places[s, 1], parts, given)
+                case = Given(space, flight, False, False, flight.reference, y, lost, scratch)
+                use(places[s, 0], places[s, 1], parts, case)
                 copy_estimate(scratch, flight.reference)
             following += 1
         if taken_late[j] > 0:
             waiting = taken_late[j]
             copy_estimate(current, flight.reference)
-            for i in range(of.errors):
-                for e in range(of.errors):
+            for i in range(space.errors):
+                for e in range(space.errors):
                     flight.M[i, e] = 1.0 if i == e else 0.0
         store_vector(current.x, history.x, j)
         store(current.P, history.P, j)
@@ -248,13 +248,13 @@ def _in_order_of_use(arrived: Arrivals) -> Arrivals:
 def _check_one_in_flight(composed: ModularFilter, arrived: Arrivals, late: Flags) -> None:
     rows = np.flatnonzero(late)
     rows = rows[np.lexsort((arrived.arrives[rows], arrived.taken[rows]))]
-    for one, other in pairwise(rows):  # of those that go together the last to arrive comes last
-        together = arrived.taken[one] == arrived.taken[other] and arrived.sensor[one] == arrived.sensor[other]
-        if arrived.taken[other] < arrived.arrives[one] and not together:
+    for first, second in pairwise(rows):  # of those that go together the last to arrive comes last
+        together = arrived.taken[first] == arrived.taken[second] and arrived.sensor[first] == arrived.sensor[second]
+        if arrived.taken[second] < arrived.arrives[first] and not together:
             flights = " and ".join(
                 f"sensor {composed.sensors[arrived.sensor[row]].name!r}, steps {arrived.taken[row]} to "
                 f"{arrived.arrives[row]}"
-                for row in (one, other)
+                for row in (first, second)
             )
             raise ValueError(
                 f"{flights}: but for those of one sensor and step, late='larsen' can wait for one measurement at a "

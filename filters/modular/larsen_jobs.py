@@ -27,7 +27,7 @@ def accumulating(predict: Callable[..., None]) -> Callable[..., None]:
 
     def predict_accumulate(
         motion: Any,
-        of: Space,
+        space: Space,
         before: Estimate,
         u: FloatArray,
         dt: float,
@@ -36,7 +36,7 @@ def accumulating(predict: Callable[..., None]) -> Callable[..., None]:
         M_next: FloatArray,
         work: Workspace,
     ) -> None:
-        predict(motion, of, before, u, dt, after, work)
+        predict(motion, space, before, u, dt, after, work)
         copy(M, M_next)
         accumulate(M_next, work)
 
@@ -47,33 +47,33 @@ def accumulating(predict: Callable[..., None]) -> Callable[..., None]:
 def larsen_correction_from(correct: Callable[..., None]) -> Callable[..., None]:
     """The correction by Larsen's way, from M (n, n). Same function in, same function out."""
 
-    def correct_from(view: Any, observed: Space, work: Workspace, given: Given, M: FloatArray) -> None:
-        copy(M, given.flight.M)
-        correct(view, observed, work, given)
+    def correct_from(view: Any, observed: Space, work: Workspace, case: Given, M: FloatArray) -> None:
+        copy(M, case.flight.M)
+        correct(view, observed, work, case)
 
     return correct_from
 
 
 def arguments_of_prediction(composed: ModularFilter, at: Moment) -> tuple[Any, ...]:
-    """Of `predict_accumulate`."""
-    of, predictor = composed.of, composed.predictor
+    """Those of `predict_accumulate`."""
+    space, predictor = composed.of, composed.predictor
     flight = _flight(composed, at)
-    work, after = new_workspace(of, NOTHING), empty(of)
+    work, after = new_workspace(space, NOTHING), empty(space)
     M_next = flight.M.copy()
-    return predictor.motion, of, at.estimate, at.u, composed.dt, after, flight.M, M_next, work
+    return predictor.motion, space, at.estimate, at.u, composed.dt, after, flight.M, M_next, work
 
 
 def arguments_of_correction(composed: ModularFilter, number: int, late: bool, at: Moment) -> tuple[Any, ...]:
-    """Of `correct_from`, by the sensor of this number: late, or while another is waited for."""
-    of, corrector = composed.of, composed.sensors[number].corrector
-    view, observed = corrector.view(of.errors), corrector.observed
+    """Those of `correct_from`, by the sensor of this number: late, or while another is waited for."""
+    space, corrector = composed.of, composed.sensors[number].corrector
+    view, observed = corrector.view(space.errors), corrector.observed
     flight = _flight(composed, at)
-    given = Given(of, flight, late, True, at.estimate, at.y[number], whole(observed), empty(of))
-    return view, observed, new_workspace(of, observed), given, flight.M.copy()
+    case = Given(space, flight, late, True, at.estimate, at.y[number], whole(observed), empty(space))
+    return view, observed, new_workspace(space, observed), case, flight.M.copy()
 
 
 def _flight(composed: ModularFilter, at: Moment) -> Flight:
     """A measurement taken in the step before, as far as the covariance goes: M = F."""
-    of, work = composed.of, new_workspace(composed.of, NOTHING)
-    composed.predictor.predict(composed.predictor.motion, of, at.estimate, at.u, composed.dt, empty(of), work)
+    space, work = composed.of, new_workspace(composed.of, NOTHING)
+    composed.predictor.predict(composed.predictor.motion, space, at.estimate, at.u, composed.dt, empty(space), work)
     return Flight(Estimate(at.estimate.x.copy(), at.estimate.P.copy()), work.F)

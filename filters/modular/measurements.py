@@ -42,7 +42,7 @@ def observe(composed: ModularFilter, truth: FloatArray, seed: int) -> list[Measu
         raise ValueError(f"truth has shape {truth.shape}, the filter's states need (any, {composed.of.numbers})")
     if not np.isfinite(truth).all():
         raise ValueError("truth holds a value that is not finite")
-    found = []
+    measurements = []
     for number, sensor in enumerate(composed.sensors):
         random = np.random.default_rng([seed, number])
         R, observed = sensor.corrector.R, sensor.corrector.observed
@@ -53,19 +53,19 @@ def observe(composed: ModularFilter, truth: FloatArray, seed: int) -> list[Measu
         for at in np.flatnonzero(arrived):
             y = np.empty(observed.numbers)
             plus(observed, expected(np.asarray(truth[steps[at]])), noise[at], y)
-            found.append(Measurement(sensor.name, steps[at], steps[at] + sensor.delay, y))
-    return sorted(found, key=lambda one: one.arrives)
+            measurements.append(Measurement(sensor.name, steps[at], steps[at] + sensor.delay, y))
+    return sorted(measurements, key=lambda measurement: measurement.arrives)
 
 
-def expected_by(sensor: Sensor, of: Space) -> Callable[[FloatArray], FloatArray]:
+def expected_by(sensor: Sensor, space: Space) -> Callable[[FloatArray], FloatArray]:
     """The measurement (numbers,) that the sensor's model expects at a state x (numbers,), without noise."""
-    view = sensor.corrector.view(of.errors)
+    view = sensor.corrector.view(space.errors)
 
     def expected(x: FloatArray) -> FloatArray:
         out = np.empty(sensor.corrector.observed.numbers)
         if sensor.corrector.kind == "linear":
-            quantities = np.empty(of.errors)
-            plain(of, x, quantities)
+            quantities = np.empty(space.errors)
+            plain(space, x, quantities)
             out[:] = view.H @ quantities
         else:
             view.h(x, out)

@@ -10,7 +10,7 @@ from filters.modular.u_d import u_d_prediction_by
 
 
 def prediction(composed: ModularFilter) -> Callable[..., None]:
-    """The job of its predictor, predict(motion, of, before, u, dt, after, work), see `predictors.Predictor`."""
+    """The job of its predictor, predict(motion, space, before, u, dt, after, work), see `predictors.Predictor`."""
     predictor = composed.predictor
     if composed.update == "u-d":
         assert predictor.evolve is not None  # it is not unscented, see `ModularFilter`

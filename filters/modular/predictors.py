@@ -34,9 +34,9 @@ DIFFERENCE = 1e-3
 
 
 class Predictor(NamedTuple):
-    """predict(motion, of, before, u, dt, after, work) fills `after` from `before`; motion: the model that it takes.
+    """predict(motion, space, before, u, dt, after, work) fills `after` from `before`; motion: the model that it takes.
 
-    evolve(motion, of, x, u, dt, x_next, work): its part that leaves F in work; None if it is unscented.
+    evolve(motion, space, x, u, dt, x_next, work): its part that leaves F in work; None if it is unscented.
     states: the length of the state's error.
     """
 
@@ -64,14 +64,14 @@ class ExtendedMotion(NamedTuple):
 
 
 class NumericMotion(NamedTuple):
-    """As `ExtendedMotion`, its Jacobian by central differences."""
+    """An `ExtendedMotion`, its Jacobian by central differences."""
 
     f: Evolution
     Q: FloatArray
 
 
 class UnscentedMotion(NamedTuple):
-    """As `ExtendedMotion`, without Jacobian."""
+    """An `ExtendedMotion` without Jacobian."""
 
     f: Evolution
     weighing: Weights
@@ -136,17 +136,17 @@ def evolve_extended(
 
 
 def evolve_numeric(
-    motion: NumericMotion, of: Space, x: FloatArray, u: FloatArray, dt: float, x_next: FloatArray, work: Workspace
+    motion: NumericMotion, space: Space, x: FloatArray, u: FloatArray, dt: float, x_next: FloatArray, work: Workspace
 ) -> None:
-    """As `evolve_extended`, F by central differences of f; work has the variances of x."""
+    """`evolve_extended` with F by central differences of f; work has the variances of x."""
     motion.f(x, u, dt, x_next)
-    for i in range(of.errors):
-        step = difference(of, x, i, work)
+    for i in range(space.errors):
+        step = difference(space, x, i, work)
         motion.f(work.points[0], u, dt, work.moved[0])
         motion.f(work.points[1], u, dt, work.moved[1])
-        minus(of, work.moved[0], work.moved[1], work.n1)
+        minus(space, work.moved[0], work.moved[1], work.n1)
         scale = 0.5 / step
-        for e in range(of.errors):
+        for e in range(space.errors):
             work.F[e, i] = scale * work.n1[e]
 
 
@@ -154,10 +154,10 @@ def _prediction_by(evolve: Callable[..., None]) -> Callable[..., None]:
     """The job of a linear or extended predictor: x', and P' = F P F^T + Q."""
 
     def predict(
-        motion: Any, of: Space, before: Estimate, u: FloatArray, dt: float, after: Estimate, work: Workspace
+        motion: Any, space: Space, before: Estimate, u: FloatArray, dt: float, after: Estimate, work: Workspace
     ) -> None:
         copy_diagonal(before.P, work.variances)
-        evolve(motion, of, before.x, u, dt, after.x, work)
+        evolve(motion, space, before.x, u, dt, after.x, work)
         propagate(motion.Q, before.P, after.P, work)
 
     return predict
@@ -168,7 +168,7 @@ predict_extended = _prediction_by(evolve_extended)
 predict_numeric = _prediction_by(evolve_numeric)
 
 
-def difference(of: Space, x: FloatArray, i: int, work: Workspace) -> float:
+def difference(space: Space, x: FloatArray, i: int, work: Workspace) -> float:
     """points[0] and points[1] of work = the point moved along error i, by the step that is returned and its negative.
 
     A small share of the standard deviation: as long as the errors that the filter expects, whatever their unit. work
@@ -177,18 +177,18 @@ def difference(of: Space, x: FloatArray, i: int, work: Workspace) -> float:
     step: float = DIFFERENCE * np.sqrt(work.variances[i])
     if not step > 0.0:
         step = DIFFERENCE
-    for e in range(of.errors):
+    for e in range(space.errors):
         work.n1[e] = 0.0
     work.n1[i] = step
-    plus(of, x, work.n1, work.points[0])
+    plus(space, x, work.n1, work.points[0])
     work.n1[i] = -step
-    plus(of, x, work.n1, work.points[1])
+    plus(space, x, work.n1, work.points[1])
     return step
 
 
 def predict_unscented(
     motion: UnscentedMotion,
-    of: Space,
+    space: Space,
     before: Estimate,
     u: FloatArray,
     dt: float,
@@ -196,10 +196,10 @@ def predict_unscented(
     work: Workspace,
 ) -> None:
     """Job: x' and P' are mean and covariance of the sigma points, each moved by f; Q is added."""
-    draw(of, before.x, before.P, motion.weighing.spread, work.nn1, work.errors, work.points)
+    draw(space, before.x, before.P, motion.weighing.spread, work.nn1, work.errors, work.points)
     for i in range(len(work.points)):
         motion.f(work.points[i], u, dt, work.moved[i])
-    mean(of, work.moved, motion.weighing, work.moved_errors, work.n1, after.x)
+    mean(space, work.moved, motion.weighing, work.moved_errors, work.n1, after.x)
     copy(motion.Q, after.P)
     add_covariance(work.moved_errors, work.moved_errors, motion.weighing, after.P)
     mirror(after.P)

@@ -55,8 +55,8 @@ class Given(NamedTuple):
 def given_to(correct: Correction) -> Callable[..., None]:
     """The correction as a link of a chain. Same function in, same function out."""
 
-    def use(view: Any, observed: Space, work: Workspace, given: Given) -> None:
-        correct(view, observed, given.of, given.before, given.y, given.lost, given.after, work)
+    def use(view: Any, observed: Space, work: Workspace, case: Given) -> None:
+        correct(view, observed, case.of, case.before, case.y, case.lost, case.after, work)
 
     return use
 
@@ -80,7 +80,7 @@ def filter_all(
     motion: Any,
     parts: Any,
     places: IntArray,
-    of: Space,
+    space: Space,
     dt: float,
     inputs: FloatArray,
     arrived: Arrivals,
@@ -109,16 +109,16 @@ def filter_all(
         for i in range(first, j + 1):
             at = Estimate(memory.x[i % count], memory.P[i % count])
             if i > first or 0 < i == j:
-                predict(motion, of, current, inputs[i - 1], dt, at, work)
-                if not is_sound(of, at, work.nn1):
+                predict(motion, space, current, inputs[i - 1], dt, at, work)
+                if not is_sound(space, at, work.nn1):
                     return failed(PREDICTOR, i, current, at, failure)
             before, corrections = at, 0
             for s in range(sensors):
                 number = memory.known[i % count, s]
                 while number >= 0:
-                    given = Given(of, before, arrived.y[number], arrived.lost[number], corrected)
-                    use(places[s, 0], places[s, 1], parts, given)
-                    if not is_sound(of, corrected, work.nn1):
+                    case = Given(space, before, arrived.y[number], arrived.lost[number], corrected)
+                    use(places[s, 0], places[s, 1], parts, case)
+                    if not is_sound(space, corrected, work.nn1):
                         return failed(s, i, before, corrected, failure)
                     copy_estimate(corrected, current)
                     before, corrections = current, corrections + 1
@@ -148,23 +148,23 @@ def run(
     too_old: what is done with a measurement that is older: "refuse", or "drop" it and go on.
     """
     x, P, moves = check_problem(composed, x0, P0, inputs)
-    of = composed.of
+    space = composed.of
     depth = max((sensor.delay for sensor in composed.sensors), default=0) if history is None else history
     if not isinstance(depth, int | np.integer) or depth < 0:
         raise ValueError(
             f"history={history!r} must be a whole number, at least 0: how many steps the filter can go back"
         )
     arrived, dropped = arrivals(composed, measurements, len(moves), depth, too_old)
-    count, n = min(depth, len(moves)) + 1, of.errors
+    count, n = min(depth, len(moves)) + 1, space.errors
     memory = Memory(
-        np.zeros((count, of.numbers)),
+        np.zeros((count, space.numbers)),
         np.zeros((count, n, n)),
         np.full((count, len(composed.sensors)), -1, np.int64),
         np.full(len(arrived.arrives), -1, np.int64),
     )
     memory.x[0], memory.P[0] = keep(composed, Estimate(x, P))
-    own = memory, empty(of), empty(of)
-    found = run_kernel(
+    own = memory, empty(space), empty(space)
+    estimates = run_kernel(
         filter_all, lambda each: given_to(correction(composed, each)), composed, moves, arrived, own, backend
     )
-    return ModularHistory(*found, dropped)
+    return ModularHistory(*estimates, dropped)

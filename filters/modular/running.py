@@ -33,15 +33,15 @@ def run_kernel(
 ) -> Estimates:
     """What the kernel of a way to use late measurements leaves.
 
-    kernel(predict, use, is_sound, motion, parts, places, of, dt, inputs, arrived, history, failure, work, *own) returns
-    which part, and in which step, left an estimate that is none, or SOUND. job_of: its job of one correction, see
-    `chain.chain`.
+    kernel(predict, use, is_sound, motion, parts, places, space, dt, inputs, arrived, history, failure, work, *own)
+    returns which part, and in which step, left an estimate that is none, or SOUND. job_of: its job of one correction,
+    see `chain.chain`.
 
     Raises:
         ValueError: as `running`, or an estimate breaks down; the part is named.
     """
     chained, kept = chain(job_of, composed), kept_by(composed)
-    found, failure = new_estimates(composed.of, len(inputs)), new_failure(composed.of)
+    estimates, failure = new_estimates(composed.of, len(inputs)), new_failure(composed.of)
     with running("filter"):
         culprit, step = function_for(backend, kernel)(
             arguments_for(backend, prediction(composed)),
@@ -54,7 +54,7 @@ def run_kernel(
             composed.dt,
             inputs,
             arrived,
-            found,
+            estimates,
             failure,
             new_workspace(composed.of, NOTHING),
             *own,
@@ -62,6 +62,6 @@ def run_kernel(
     if culprit != SOUND:
         raise breakdown(composed, culprit, step, failure, inputs[step - 1] if culprit == PREDICTOR else np.empty(0))
     covariance = function_for(backend, kept.covariance)
-    for P in found.P:
+    for P in estimates.P:
         covariance(P.copy(), P)
-    return found
+    return estimates

@@ -99,25 +99,25 @@ def weights(points: SigmaPoints, n: int) -> Weights:
 
 
 def draw(
-    of: Space, x: FloatArray, P: FloatArray, spread: float, root: FloatArray, errors: FloatArray, points: FloatArray
+    space: Space, x: FloatArray, P: FloatArray, spread: float, root: FloatArray, errors: FloatArray, points: FloatArray
 ) -> None:
     """points (2 n + 1, numbers) of the mean x (numbers,) and the covariance P (n, n), through its Cholesky factor.
 
     errors (2 n + 1, n) = points less x; the zeros among them, before the diagonals, are those that it was made with.
     root (n, n): scratch.
     """
-    n = of.errors
+    n = space.errors
     covariance_root(P, root)
     for e in range(n):
         for i in range(e + 1):
             error = spread * root[e, i]
             errors[1 + i, e] = error
             errors[1 + n + i, e] = -error
-    plus_each(of, x, errors, points)
+    plus_each(space, x, errors, points)
 
 
 def mean(
-    of: Space, points: FloatArray, weighing: Weights, errors: FloatArray, step: FloatArray, out: FloatArray
+    space: Space, points: FloatArray, weighing: Weights, errors: FloatArray, step: FloatArray, out: FloatArray
 ) -> None:
     """out (numbers,) = the weighted mean of points (2 n + 1, numbers); errors (2 n + 1, errors) = points less mean.
 
@@ -125,23 +125,23 @@ def mean(
     among the numbers, steps are repeated until they vanish. step (errors,): scratch.
     """
     copy_vector(points[0], out)
-    minus_each(of, points, out, errors)
-    plain = len(of.attitudes) + len(of.angles) == 0
+    minus_each(space, points, out, errors)
+    plain = len(space.attitudes) + len(space.angles) == 0
     for _ in range(MEAN_STEPS):
-        for e in range(of.errors):
+        for e in range(space.errors):
             step[e] = weighing.mean_0 * errors[0, e]
         for i in range(1, points.shape[0], 2):
-            for e in range(of.errors):
+            for e in range(space.errors):
                 step[e] += weighing.other * errors[i, e] + weighing.other * errors[i + 1, e]
-        plus(of, out, step, out)
+        plus(space, out, step, out)
         if plain:
             for i in range(points.shape[0]):
-                for e in range(of.errors):
+                for e in range(space.errors):
                     errors[i, e] -= step[e]
             break
-        minus_each(of, points, out, errors)
+        minus_each(space, points, out, errors)
         squared = 0.0
-        for e in range(of.errors):
+        for e in range(space.errors):
             squared += step[e] * step[e]
         if squared < MEAN_TOLERANCE:
             break
@@ -158,7 +158,7 @@ def add_covariance(left: FloatArray, right: FloatArray, weighing: Weights, out: 
             out[r, c] += factor * right[0, c]
     for i in range(1, left.shape[0], 2):
         for r in range(out.shape[0]):
-            one = weighing.other * left[i, r]
-            other = weighing.other * left[i + 1, r]
+            first = weighing.other * left[i, r]
+            second = weighing.other * left[i + 1, r]
             for c in range(out.shape[1]):
-                out[r, c] += one * right[i, c] + other * right[i + 1, c]
+                out[r, c] += first * right[i, c] + second * right[i + 1, c]

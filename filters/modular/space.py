@@ -68,104 +68,104 @@ def space(numbers: int, attitudes: Sequence[int] = (), angles: Sequence[int] = (
     )
 
 
-def as_space(name: str, of: object) -> Space:
+def as_space(name: str, value: object) -> Space:
     """The space itself. Raises ValueError, naming the argument, unless it is one."""
-    if not isinstance(of, Space):
-        raise ValueError(f"{name} is {of!r:.60}; give space(numbers, attitudes=[...], angles=[...])")
-    return of
+    if not isinstance(value, Space):
+        raise ValueError(f"{name} is {value!r:.60}; give space(numbers, attitudes=[...], angles=[...])")
+    return value
 
 
-def numbers_of_errors(of: Space) -> IntArray:
-    """Of each entry of an error the index of a number of the point that it is about."""
-    return np.setdiff1d(np.arange(of.numbers), of.attitudes + 3)
+def numbers_of_errors(space: Space) -> IntArray:
+    """The index, for each entry of an error, of a number of the point that it is about."""
+    return np.setdiff1d(np.arange(space.numbers), space.attitudes + 3)
 
 
-def is_point(of: Space, x: FloatArray) -> bool:
+def is_point(space: Space, x: FloatArray) -> bool:
     """Whether all numbers of x (numbers,) are finite and each quaternion has a length, by which it can be divided."""
     for value in x:
         if not np.isfinite(value):
             return False
-    for at in of.attitudes:
+    for at in space.attitudes:
         squared = x[at] * x[at] + x[at + 1] * x[at + 1] + x[at + 2] * x[at + 2] + x[at + 3] * x[at + 3]
         if not SHORTEST < squared < np.inf:
             return False
     return True
 
 
-def plus(of: Space, x: FloatArray, error: FloatArray, out: FloatArray) -> None:
+def plus(space: Space, x: FloatArray, error: FloatArray, out: FloatArray) -> None:
     """out = the point x (numbers,), moved by an error (errors,); out may be x."""
     start = 0
-    for part in range(len(of.attitudes) + 1):
-        end = of.attitudes[part] - part if part < len(of.attitudes) else of.errors
+    for part in range(len(space.attitudes) + 1):
+        end = space.attitudes[part] - part if part < len(space.attitudes) else space.errors
         for e in range(start, end):
             out[e + part] = x[e + part] + error[e]
-        if part < len(of.attitudes):
+        if part < len(space.attitudes):
             turn(x, end + part, error, end, out)
         start = end + 3
 
 
-def minus(of: Space, a: FloatArray, b: FloatArray, out: FloatArray) -> None:
+def minus(space: Space, a: FloatArray, b: FloatArray, out: FloatArray) -> None:
     """out (errors,) = the error that takes the point b to a, both (numbers,)."""
     start = 0
-    for part in range(len(of.attitudes) + 1):
-        end = of.attitudes[part] - part if part < len(of.attitudes) else of.errors
+    for part in range(len(space.attitudes) + 1):
+        end = space.attitudes[part] - part if part < len(space.attitudes) else space.errors
         for e in range(start, end):
             out[e] = a[e + part] - b[e + part]
-        if part < len(of.attitudes):
+        if part < len(space.attitudes):
             rotation_between(a, b, end + part, out, end)
         start = end + 3
-    for e in of.angles:
+    for e in space.angles:
         out[e] = (out[e] + np.pi) % (2.0 * np.pi) - np.pi
 
 
-def plain(of: Space, x: FloatArray, out: FloatArray) -> None:
+def plain(space: Space, x: FloatArray, out: FloatArray) -> None:
     """out (errors,) = the entries of the point x (numbers,), with zeros in place of each attitude."""
     start = 0
-    for part in range(len(of.attitudes) + 1):
-        end = of.attitudes[part] - part if part < len(of.attitudes) else of.errors
+    for part in range(len(space.attitudes) + 1):
+        end = space.attitudes[part] - part if part < len(space.attitudes) else space.errors
         for e in range(start, end):
             out[e] = x[e + part]
-        if part < len(of.attitudes):
+        if part < len(space.attitudes):
             for e in range(end, end + 3):
                 out[e] = 0.0
         start = end + 3
 
 
-def plus_each(of: Space, x: FloatArray, errors: FloatArray, points: FloatArray) -> None:
+def plus_each(space: Space, x: FloatArray, errors: FloatArray, points: FloatArray) -> None:
     """`plus` for each row of errors (2 n + 1, errors) and points (2 n + 1, numbers).
 
     Faster than one by one: all rows part by part, two at a time.
     """
     start = 0
-    for part in range(len(of.attitudes) + 1):
-        end = of.attitudes[part] - part if part < len(of.attitudes) else of.errors
+    for part in range(len(space.attitudes) + 1):
+        end = space.attitudes[part] - part if part < len(space.attitudes) else space.errors
         for e in range(start, end):
             points[0, e + part] = x[e + part] + errors[0, e]
         for i in range(1, points.shape[0], 2):
             for e in range(start, end):
                 points[i, e + part] = x[e + part] + errors[i, e]
                 points[i + 1, e + part] = x[e + part] + errors[i + 1, e]
-        if part < len(of.attitudes):
+        if part < len(space.attitudes):
             for i in range(points.shape[0]):
                 turn(x, end + part, errors[i], end, points[i])
         start = end + 3
 
 
-def minus_each(of: Space, points: FloatArray, x: FloatArray, errors: FloatArray) -> None:
+def minus_each(space: Space, points: FloatArray, x: FloatArray, errors: FloatArray) -> None:
     """`minus` of each row of points (2 n + 1, numbers) and x, in the rows of errors (2 n + 1, errors)."""
     start = 0
-    for part in range(len(of.attitudes) + 1):
-        end = of.attitudes[part] - part if part < len(of.attitudes) else of.errors
+    for part in range(len(space.attitudes) + 1):
+        end = space.attitudes[part] - part if part < len(space.attitudes) else space.errors
         for e in range(start, end):
             errors[0, e] = points[0, e + part] - x[e + part]
         for i in range(1, points.shape[0], 2):
             for e in range(start, end):
                 errors[i, e] = points[i, e + part] - x[e + part]
                 errors[i + 1, e] = points[i + 1, e + part] - x[e + part]
-        if part < len(of.attitudes):
+        if part < len(space.attitudes):
             for i in range(points.shape[0]):
                 rotation_between(points[i], x, end + part, errors[i], end)
         start = end + 3
-    for e in of.angles:
+    for e in space.angles:
         for i in range(points.shape[0]):
             errors[i, e] = (errors[i, e] + np.pi) % (2.0 * np.pi) - np.pi

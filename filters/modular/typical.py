@@ -55,15 +55,15 @@ def typical_moment(
     """
     check_composed(composed)
     check_seed(seed)
-    of, random = composed.of, np.random.default_rng(seed)
-    x, P = check_start(of, _origin(of) if x0 is None else x0, np.eye(of.errors) if P0 is None else P0)
-    given = np.zeros(_inputs(composed)) if u is None else as_numbers("u", u)
-    if given.ndim != 1 or not np.isfinite(given).all():
-        raise ValueError(f"u has shape {given.shape}; an input has one dimension, and finite numbers")
-    try_functions(composed, Estimate(x, P), given)
+    space, random = composed.of, np.random.default_rng(seed)
+    x, P = check_start(space, _origin(space) if x0 is None else x0, np.eye(space.errors) if P0 is None else P0)
+    inputs = np.zeros(_inputs(composed)) if u is None else as_numbers("u", u)
+    if inputs.ndim != 1 or not np.isfinite(inputs).all():
+        raise ValueError(f"u has shape {inputs.shape}; an input has one dimension, and finite numbers")
+    try_functions(composed, Estimate(x, P), inputs)
     with np.errstate(all="ignore"):  # a breakdown is found by what it leaves
-        at = _warmed_up(composed, Estimate(x, P), given, random)
-    return Moment(at, given, tuple(expected_by(sensor, of)(at.x) for sensor in composed.sensors))
+        at = _warmed_up(composed, Estimate(x, P), inputs, random)
+    return Moment(at, inputs, tuple(expected_by(sensor, space)(at.x) for sensor in composed.sensors))
 
 
 def near(composed: ModularFilter, typical: Moment, seed: int, index: int) -> Moment:
@@ -78,30 +78,30 @@ def near(composed: ModularFilter, typical: Moment, seed: int, index: int) -> Mom
     return Moment(estimate, typical.u.copy(), tuple(y))
 
 
-def drawn(of: Space, point: FloatArray, covariance: FloatArray, random: np.random.Generator) -> FloatArray:
+def drawn(space: Space, point: FloatArray, covariance: FloatArray, random: np.random.Generator) -> FloatArray:
     """The point, moved by a normal error."""
-    out = np.empty(of.numbers)
-    plus(of, point, normal(random, covariance), out)
+    out = np.empty(space.numbers)
+    plus(space, point, normal(random, covariance), out)
     return out
 
 
 def _warmed_up(composed: ModularFilter, start: Estimate, u: FloatArray, random: np.random.Generator) -> Estimate:
     if composed.update == "u-d":  # on the covariance itself, for it is far from rounding
         composed = replace(composed, update="joseph")
-    of, at = composed.of, start
-    truth = drawn(of, at.x, at.P, random)
+    space, at = composed.of, start
+    truth = drawn(space, at.x, at.P, random)
     for step in range(WARM_UP):
         for number, sensor in enumerate(composed.sensors):
-            y = drawn(sensor.corrector.observed, expected_by(sensor, of)(truth), sensor.corrector.R, random)
+            y = drawn(sensor.corrector.observed, expected_by(sensor, space)(truth), sensor.corrector.R, random)
             at = _sound(composed, number, step, Failure(at, _corrected(composed, sensor, at, y)), u)
-        truth = drawn(of, _evolved(composed, truth, u), composed.predictor.motion.Q, random)
+        truth = drawn(space, _evolved(composed, truth, u), composed.predictor.motion.Q, random)
         at = _sound(composed, PREDICTOR, step, Failure(at, _predicted(composed, at, u)), u)
     return at
 
 
-def _origin(of: Space) -> FloatArray:
-    x = np.zeros(of.numbers)
-    starts: IntArray = of.attitudes
+def _origin(space: Space) -> FloatArray:
+    x = np.zeros(space.numbers)
+    starts: IntArray = space.attitudes
     x[starts] = 1.0
     return x
 
@@ -121,17 +121,17 @@ def _evolved(composed: ModularFilter, x: FloatArray, u: FloatArray) -> FloatArra
 
 
 def _predicted(composed: ModularFilter, at: Estimate, u: FloatArray) -> Estimate:
-    of, after = composed.of, empty(composed.of)
+    space, after = composed.of, empty(composed.of)
     predict, motion = composed.predictor.predict, composed.predictor.motion
-    predict(motion, of, at, u, composed.dt, after, new_workspace(of, NOTHING))
+    predict(motion, space, at, u, composed.dt, after, new_workspace(space, NOTHING))
     return after
 
 
 def _corrected(composed: ModularFilter, sensor: Sensor, at: Estimate, y: FloatArray) -> Estimate:
-    of, corrector, after = composed.of, sensor.corrector, empty(composed.of)
-    view, observed = corrector.view(of.errors), corrector.observed
-    work = new_workspace(of, observed)
-    correction(composed, corrector)(view, observed, of, at, y, whole(observed), after, work)
+    space, corrector, after = composed.of, sensor.corrector, empty(composed.of)
+    view, observed = corrector.view(space.errors), corrector.observed
+    work = new_workspace(space, observed)
+    correction(composed, corrector)(view, observed, space, at, y, whole(observed), after, work)
     return after
 
 

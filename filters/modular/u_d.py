@@ -28,11 +28,11 @@ def u_d_prediction_by(evolve: Callable[..., None], by_differences: bool) -> Call
     """The job of a predictor. Same arguments in, same function out, so that it is compiled once."""
 
     def predict(
-        motion: Any, of: Space, before: Estimate, u: FloatArray, dt: float, after: Estimate, work: Workspace
+        motion: Any, space: Space, before: Estimate, u: FloatArray, dt: float, after: Estimate, work: Workspace
     ) -> None:
         if by_differences:
             _variances(before.P, work.variances)
-        evolve(motion, of, before.x, u, dt, after.x, work)
+        evolve(motion, space, before.x, u, dt, after.x, work)
         u_d_factors(motion.Q, work.V)
         append_unit_product(work.F, before.P, work.V, work.weights)
         gram_schmidt(work.V, work.weights, after.P, work.weighted)
@@ -47,7 +47,7 @@ def u_d_correction_by(observe: Callable[..., None], by_differences: bool) -> Cal
     def correct(
         view: Any,
         observed: Space,
-        of: Space,
+        space: Space,
         before: Estimate,
         y: FloatArray,
         lost: Flags,
@@ -56,7 +56,7 @@ def u_d_correction_by(observe: Callable[..., None], by_differences: bool) -> Cal
     ) -> None:
         if by_differences:
             _variances(before.P, work.variances)
-        observe(view, observed, of, before.x, work)
+        observe(view, observed, space, before.x, work)
         minus(observed, y, work.expected, work.z)
         copy(view.R, work.S)
         for r in range(observed.errors):
@@ -64,7 +64,7 @@ def u_d_correction_by(observe: Callable[..., None], by_differences: bool) -> Cal
                 leave_out(r, work)
         copy(before.P, after.P)
         _one_by_one(after.P, work)
-        plus(of, before.x, work.n1, after.x)
+        plus(space, before.x, work.n1, after.x)
 
     return correct
 
@@ -96,7 +96,7 @@ def _variances(factors: FloatArray, out: FloatArray) -> None:
             out[i] += factors[i, j] * factors[i, j] * factors[j, j]
 
 
-def are_sound(of: Space, estimate: Estimate, _scratch: FloatArray) -> bool:
+def are_sound(space: Space, estimate: Estimate, _scratch: FloatArray) -> bool:
     """Whether x is a point of this space and P holds factors of a covariance."""
     n = estimate.P.shape[0]
     for i in range(n):
@@ -107,4 +107,4 @@ def are_sound(of: Space, estimate: Estimate, _scratch: FloatArray) -> bool:
             variance += estimate.P[i, j] * estimate.P[i, j] * estimate.P[j, j]
         if not variance < np.inf:
             return False
-    return is_point(of, estimate.x)
+    return is_point(space, estimate.x)

@@ -36,8 +36,8 @@ def joseph(view: Any, P: FloatArray, out: FloatArray, work: Workspace) -> None:
     for e in range(P.shape[0]):
         for r in range(work.gain.shape[0]):
             work.K[e, r] = -work.gain[r, e]
-        for other in range(P.shape[0]):
-            work.nn1[e, other] = 1.0 if e == other else 0.0
+        for column in range(P.shape[0]):
+            work.nn1[e, column] = 1.0 if e == column else 0.0
     add_matmul_blocked(work.nn1, work.K, work.H, work.nn1)
     matmul_blocked(work.nn1, P, work.nn2)
     transpose(work.nn1, work.nn3)

@@ -11,7 +11,7 @@ from filters.modular.space import Space
 
 
 class Workspace(NamedTuple):
-    """Of a predictor, or of one corrector. n, p: lengths of the errors of state and measurement.
+    """A predictor's, or one corrector's. n, p: lengths of the errors of state and measurement.
 
     After a linear or extended part has run, F (n, n) or H (p, n) hold its matrix. After a correction z (p,) holds the
     innovation, S (p, p) its covariance, cross (p, n) its covariance with the state's error, gain (p, n) K^T.
@@ -44,16 +44,16 @@ class Workspace(NamedTuple):
     seen_errors: FloatArray  # (2 n + 1, p)
 
 
-def new_workspace(of: Space, observed: Space) -> Workspace:
+def new_workspace(space: Space, observed: Space) -> Workspace:
     """Memory for a corrector of these spaces, all zero; for a predictor, a space without numbers is observed."""
-    n, p, count = of.errors, observed.errors, 2 * of.errors + 1
+    n, p, count = space.errors, observed.errors, 2 * space.errors + 1
     return Workspace(
         F=np.zeros((n, n)),
         nn1=np.zeros((n, n)),
         nn2=np.zeros((n, n)),
         nn3=np.zeros((n, n)),
-        points=np.zeros((count, of.numbers)),
-        moved=np.zeros((count, of.numbers)),
+        points=np.zeros((count, space.numbers)),
+        moved=np.zeros((count, space.numbers)),
         errors=np.zeros((count, n)),
         moved_errors=np.zeros((count, n)),
         n1=np.zeros(n),

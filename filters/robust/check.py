@@ -42,10 +42,10 @@ def check_matrices(model: RobustModel) -> None:
         "M2": (p, model.M2.shape[1]),
     }
     for name, shape in needed.items():
-        found = getattr(model, name).shape
-        if found != shape:
+        size = getattr(model, name).shape
+        if size != shape:
             raise ValueError(
-                f"RobustModel: {name} has shape {found}, needed is {shape}; F gives n={n}, G m={m}, H p={p}, D q={q}, "
+                f"RobustModel: {name} has shape {size}, needed is {shape}; F gives n={n}, G m={m}, H p={p}, D q={q}, "
                 f"E_F t1={t1} and E_H t2={t2}"
             )
     if n == 0:

@@ -171,13 +171,13 @@ def run(
     check_kind("system", system, UncertainSystem, "an UncertainSystem")
     check_choice("way", way, tuple(jobs))
     cycles = -(-len(inputs) // N) if N >= 1 else 0
-    given = np.ones(cycles, dtype=np.bool_) if available is None else available
-    if N < 1 or len(measurements) < cycles or len(given) < cycles:
+    availability = np.ones(cycles, dtype=np.bool_) if available is None else available
+    if N < 1 or len(measurements) < cycles or len(availability) < cycles:
         raise ValueError(
             f"N={N} must be at least 1, and {len(inputs)} steps need {cycles} rows of measurements and availability; "
-            f"there are {len(measurements)} and {len(given)}"
+            f"there are {len(measurements)} and {len(availability)}"
         )
-    for name, values in (("inputs", inputs), ("measurements", measurements[:cycles][given[:cycles]])):
+    for name, values in (("inputs", inputs), ("measurements", measurements[:cycles][availability[:cycles]])):
         if not np.isfinite(values).all():
             raise ValueError(f"{name} holds a value that is not finite; say with `available` which measurements came")
     n, steps = len(x0), len(inputs)
@@ -198,7 +198,7 @@ def run(
         unseen,
         inputs,
         measurements,
-        given,
+        availability,
         history,
         work,
     )

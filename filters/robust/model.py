@@ -41,18 +41,18 @@ def prepared(model: RobustModel, mu: float = np.inf, xi: float = 0.1) -> RobustM
             positive, or mu is infinite and the step has no solution.
     """
     check_parameters(mu, xi)
-    given = RobustModel(*(np.array(matrix, dtype=np.float64, order="C") for matrix in model))
-    check_matrices(given)
-    known = np.isfinite(mu) and not given.M1.any() and not given.M2.any()
-    used_1 = (given.E_F.any(axis=1) | given.E_G.any(axis=1)) & (not known)
-    used_2 = (given.E_H.any(axis=1) | given.E_D.any(axis=1)) & (not known)
-    ready = given._replace(
-        E_F=given.E_F[used_1],
-        E_G=given.E_G[used_1],
-        E_H=given.E_H[used_2],
-        E_D=given.E_D[used_2],
-        M1=given.M1 if used_1.any() else np.zeros_like(given.M1),
-        M2=given.M2 if used_2.any() else np.zeros_like(given.M2),
+    arrays = RobustModel(*(np.array(matrix, dtype=np.float64, order="C") for matrix in model))
+    check_matrices(arrays)
+    known = np.isfinite(mu) and not arrays.M1.any() and not arrays.M2.any()
+    used_1 = (arrays.E_F.any(axis=1) | arrays.E_G.any(axis=1)) & (not known)
+    used_2 = (arrays.E_H.any(axis=1) | arrays.E_D.any(axis=1)) & (not known)
+    ready = arrays._replace(
+        E_F=arrays.E_F[used_1],
+        E_G=arrays.E_G[used_1],
+        E_H=arrays.E_H[used_2],
+        E_D=arrays.E_D[used_2],
+        M1=arrays.M1 if used_1.any() else np.zeros_like(arrays.M1),
+        M2=arrays.M2 if used_2.any() else np.zeros_like(arrays.M2),
     )
     if np.isinf(mu):
         check_existence(ready)

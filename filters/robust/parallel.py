@@ -57,7 +57,7 @@ def sameh_kuck(N: int, right_hand_sides: int = 0) -> Schedule:
 
 
 def greedy(pattern: Pattern) -> Schedule:
-    """As many pairs of rows with the same leading column in every stage as there are, for a pattern (N, N + r).
+    """All pairs of rows with the same leading column that there are in every stage, for a pattern (N, N + r).
 
     Among the rows with the same leading column, the one with fewest entries is paired with the one with most, the
     second with the last but one, and so on; the one with fewer keeps the column. Among equals, the upper row is first.

@@ -94,21 +94,23 @@ def run(
     """
     check_choice("way", way, WAYS)
     ready = [prepared(model, mu, xi) for model in ([models] if isinstance(models, RobustModel) else models)]
-    found = measured(len(ready[0].H), 1, measurements)
-    added = np.zeros((len(found.y), len(ready[0].F))) if c is None else as_array("c", c)
-    if len(ready) not in (1, len(found.y)) or len(added) != len(found.y):
-        raise ValueError(f"there are {len(found.y)} measurements, but {len(ready)} models and {len(added)} rows of c")
+    readings = measured(len(ready[0].H), 1, measurements)
+    added = np.zeros((len(readings.y), len(ready[0].F))) if c is None else as_array("c", c)
+    if len(ready) not in (1, len(readings.y)) or len(added) != len(readings.y):
+        raise ValueError(
+            f"there are {len(readings.y)} measurements, but {len(ready)} models and {len(added)} rows of c"
+        )
     if len({tuple(matrix.shape for matrix in model) for model in ready}) > 1:
         raise ValueError(
             "models differ in shape, or in which of their E rows are zero; run them one by one with `step`"
         )
     n = len(ready[0].F)
-    history = RobustHistory(np.empty((len(found.y) + 1, n)), np.empty((len(found.y) + 1, n, n)))
+    history = RobustHistory(np.empty((len(readings.y) + 1, n)), np.empty((len(readings.y) + 1, n, n)))
     start = Predicted(as_array("x0", x0), as_array("P0", P0))
     check_start(ready[0], start.x, start.P)
-    check_inputs(ready[0], found.y, added)
+    check_inputs(ready[0], readings.y, added)
     history.x[0], history.P[0] = start
-    if found.present.all():
+    if readings.present.all():
         job = JOBS[way]
         function_for(backend, step_all)(
             arguments_for(backend, job.function),
@@ -116,16 +118,16 @@ def run(
             WeightsByStep(
                 *(np.array(values) for values in zip(*(weights(model, mu, xi) for model in ready), strict=True))
             ),
-            found.y,
+            readings.y,
             added,
             history,
             job.workspace(ready[0]),
         )
     else:
-        for i, present in enumerate(found.present):
+        for i, present in enumerate(readings.present):
             model = _with_rows(ready[i % len(ready)], present)
             before = Predicted(history.x[i], history.P[i])
-            after = step(model, before, found.y[i, present], added[i], mu=mu, xi=xi, way=way, backend=backend)
+            after = step(model, before, readings.y[i, present], added[i], mu=mu, xi=xi, way=way, backend=backend)
             history.x[i + 1], history.P[i + 1] = after
     broken = first_broken(history.x, history.P, 1, backend)
     if broken is not None:

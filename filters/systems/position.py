@@ -87,7 +87,7 @@ def position_scaling(latitude: float, longitude: float, height_m: float) -> Scal
 def position_uncertainty(
     rows: PositionRows, scale_error: float = 0.005, period_s: float = 1 / 400, correlation_s: float = 300.0
 ) -> Uncertainty:
-    """As `attitude_uncertainty`, for the scale of the accelerometers or for their biases; none in the measurement.
+    """`attitude_uncertainty` for the scale of the accelerometers or for their biases; none in the measurement.
 
     Raises:
         ValueError: rows is unknown.
@@ -107,7 +107,7 @@ def position_uncertainty(
 
 
 def radians_per_metre(latitude: float, height_m: float) -> FloatArray:
-    """Of latitude and of longitude (2,).
+    """Those of latitude and of longitude (2,).
 
     Raises:
         ValueError: the latitude is that of a pole.

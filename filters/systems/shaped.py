@@ -45,32 +45,32 @@ def misshapen() -> Iterator[None]:
         raise
 
 
-def _f(j: int, x: FloatArray, u: FloatArray, given: ShapedParameters, out: FloatArray) -> None:
-    given.system.f(j, x, u, given.system.parameters, out)
+def _f(j: int, x: FloatArray, u: FloatArray, parameters: ShapedParameters, out: FloatArray) -> None:
+    parameters.system.f(j, x, u, parameters.system.parameters, out)
 
 
-def _F(j: int, x: FloatArray, u: FloatArray, given: ShapedParameters) -> FloatArray:
-    n = given.system.states
-    return _of_shape(n, n, given.system.F(j, x, u, given.system.parameters), "F(j, x, u, p)", j)
+def _F(j: int, x: FloatArray, u: FloatArray, parameters: ShapedParameters) -> FloatArray:
+    n = parameters.system.states
+    return _of_shape(n, n, parameters.system.F(j, x, u, parameters.system.parameters), "F(j, x, u, p)", j)
 
 
-def _Q(j: int, given: ShapedParameters) -> FloatArray:
-    n = given.system.states
-    return _of_shape(n, n, given.system.Q(j, given.system.parameters), "Q(j, p)", j)
+def _Q(j: int, parameters: ShapedParameters) -> FloatArray:
+    n = parameters.system.states
+    return _of_shape(n, n, parameters.system.Q(j, parameters.system.parameters), "Q(j, p)", j)
 
 
-def _h(k: int, x: FloatArray, given: ShapedParameters, out: FloatArray) -> None:
-    given.system.h(k, x, given.system.parameters, out)
+def _h(k: int, x: FloatArray, parameters: ShapedParameters, out: FloatArray) -> None:
+    parameters.system.h(k, x, parameters.system.parameters, out)
 
 
-def _H(k: int, x: FloatArray, given: ShapedParameters) -> FloatArray:
-    n, p = given.system.states, given.system.measurements
-    return _of_shape(p, n, given.system.H(k, x, given.system.parameters), "H(k, x, p)", k)
+def _H(k: int, x: FloatArray, parameters: ShapedParameters) -> FloatArray:
+    n, p = parameters.system.states, parameters.system.measurements
+    return _of_shape(p, n, parameters.system.H(k, x, parameters.system.parameters), "H(k, x, p)", k)
 
 
-def _R(k: int, given: ShapedParameters) -> FloatArray:
-    p = given.system.measurements
-    return _of_shape(p, p, given.system.R(k, given.system.parameters), "R(k, p)", k)
+def _R(k: int, parameters: ShapedParameters) -> FloatArray:
+    p = parameters.system.measurements
+    return _of_shape(p, p, parameters.system.R(k, parameters.system.parameters), "R(k, p)", k)
 
 
 def _of_shape(rows: int, columns: int, matrix: FloatArray, signature: str, step: int) -> FloatArray:

@@ -76,8 +76,13 @@ def tracker(dt_s: float, jerk_noise: float, position: Instrument, acceleration: 
     if dt_s <= 0:
         raise ValueError(f"tracker: dt_s={dt_s} must be positive: it is the time of a step")
     sensors = [
-        Sensor(name, linear_corrector(np.eye(3)[[seen]], [[one.sigma**2]]), every=one.every, dropout=one.dropout)
-        for name, seen, one in (("position", POSITION, position), ("acceleration", ACCELERATION, acceleration))
+        Sensor(
+            name,
+            linear_corrector(np.eye(3)[[seen]], [[instrument.sigma**2]]),
+            every=instrument.every,
+            dropout=instrument.dropout,
+        )
+        for name, seen, instrument in (("position", POSITION, position), ("acceleration", ACCELERATION, acceleration))
     ]
     return ModularFilter(linear_predictor(transition(dt_s), white_jerk(dt_s, jerk_noise)), sensors, dt_s)
 

@@ -34,8 +34,8 @@ class Trial(NamedTuple):
 def trials(system: System, x: FloatArray, u: FloatArray) -> tuple[Trial, ...]:
     """All functions, in step 0, at the state x (n,) with the input u (m,)."""
     n, p, parameters = system.states, system.measurements, system.parameters
-    given = {"x": x, "u": u, "p": parameters}
-    kept = {name: _leaves(value) for name, value in given.items()}
+    arguments = {"x": x, "u": u, "p": parameters}
+    kept = {name: _leaves(value) for name, value in arguments.items()}
     wanted: tuple[tuple[str, Callable[[], Any], tuple[int, ...]], ...] = (
         ("f(j, x, u, p, out)", lambda: _filled(n, lambda out: system.f(0, x, u, parameters, out)), (n,)),
         ("F(j, x, u, p)", lambda: system.F(0, x, u, parameters), (n, n)),
@@ -44,7 +44,7 @@ def trials(system: System, x: FloatArray, u: FloatArray) -> tuple[Trial, ...]:
         ("H(k, x, p)", lambda: system.H(0, x, parameters), (p, n)),
         ("R(k, p)", lambda: system.R(0, parameters), (p, p)),
     )
-    return tuple(Trial(*each, given, kept) for each in wanted)
+    return tuple(Trial(*each, arguments, kept) for each in wanted)
 
 
 def check_result(trial: Trial, value: Any) -> None:
@@ -77,7 +77,7 @@ def try_functions(system: System, x: FloatArray, u: FloatArray) -> None:
 
 
 def first_input(inputs: FloatArray) -> FloatArray:
-    """Of inputs (steps, m); zeros if there are no steps."""
+    """The first of inputs (steps, m); zeros if there are no steps."""
     return inputs[0] if len(inputs) else np.zeros(inputs.shape[1])
 
 
