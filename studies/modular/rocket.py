@@ -221,12 +221,12 @@ def nees_rows(case: Case, runs: Sequence[Summary]) -> tuple[NeesRow, ...]:
     )
 
 
-def nees_row(case: Case, phase: str, of: str, n: int, values: FloatArray) -> NeesRow:
+def nees_row(case: Case, phase: str, quantity: str, n: int, values: FloatArray) -> NeesRow:
     """values (runs, steps): NEES in this phase, of errors of length n."""
     mean, standard_error = _mean(values.mean(axis=1))
     limits, steps = bounds(len(values), n), values.mean(axis=0)
     below, above = 100.0 * float(np.mean(steps < limits.low)), 100.0 * float(np.mean(steps > limits.high))
-    return NeesRow(case, phase, of, n, float(mean), float(standard_error), limits, below, above)
+    return NeesRow(case, phase, quantity, n, float(mean), float(standard_error), limits, below, above)
 
 
 def series(case: Case, runs: Sequence[Summary]) -> Series:
