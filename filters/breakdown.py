@@ -15,18 +15,10 @@ from filters.backends.choose import BackendName, function_for
 from filters.covariance_forms import CovarianceFormName
 from filters.factored import FactoredFormName
 from filters.history import History
-from filters.kernels.definite import is_semidefinite
+from filters.kernels.definite import first_indefinite
 from filters.noises import check_noises
 from filters.problem import Problem
 from filters.system import System
-
-
-def first_indefinite(covariances: FloatArray, scratch: FloatArray) -> int:
-    """The index of the first of them (any, n, n) that is none, or their number; scratch is (n, n)."""
-    for c in range(len(covariances)):
-        if not is_semidefinite(covariances[c], scratch):
-            return c
-    return len(covariances)
 
 
 def first_broken(x: FloatArray, P: FloatArray, every: int, backend: BackendName) -> int | None:

@@ -27,10 +27,17 @@ def check_noises(system: System, Q: range, R: range, backend: BackendName = "ref
 def first_unsound(
     noise: Callable[..., FloatArray], parameters: Any, start: int, end: int, every: int, scratch: FloatArray
 ) -> int:
-    """The first step of range(start, end, every) in which the noise is no covariance, or end; scratch has its shape."""
+    """The first step of range(start, end, every) in which the noise is no covariance, or end; scratch has its shape.
+
+    What is the same as before is not looked at again.
+    """
+    sound = np.full_like(scratch, np.nan)
     for step in range(start, end, every):
-        if not is_covariance(noise(step, parameters), scratch):
-            return step
+        matrix = noise(step, parameters)
+        if not np.array_equal(matrix, sound):
+            if not is_covariance(matrix, scratch):
+                return step
+            sound = matrix.copy()
     return end
 
 

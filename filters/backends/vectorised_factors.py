@@ -19,6 +19,12 @@ def _is_covariance(P: FloatArray, scratch: FloatArray) -> bool:
     return bool(np.isfinite(root).all()) or definite.is_semidefinite(P, scratch)
 
 
+def _first_indefinite(covariances: FloatArray, scratch: FloatArray) -> int:
+    variances = np.diagonal(covariances, axis1=1, axis2=2)[..., np.newaxis] * np.eye(covariances.shape[1])
+    roots = or_nan(np.linalg.cholesky, covariances + definite.ROUNDING * variances)
+    return len(covariances) if np.isfinite(roots).all() else definite.first_indefinite(covariances, scratch)
+
+
 def _unit_lower_factors(R: FloatArray, L: FloatArray, variances: FloatArray) -> None:
     C = np.linalg.cholesky(R)
     L[:], variances[:] = C / np.diag(C), np.diag(C) ** 2
@@ -120,6 +126,7 @@ def _carlson_update(S: FloatArray, H: FloatArray, noise: FloatArray, row: int, g
 
 FACTOR_VERSIONS: tuple[tuple[Callable[..., Any], Any], ...] = (
     (definite.is_covariance, _is_covariance),
+    (definite.first_indefinite, _first_indefinite),
     (sequential.unit_lower_factors, _unit_lower_factors),
     (sequential.solve_unit_lower, _solve_unit_lower),
     (sequential.solve_unit_lower_transposed, _solve_unit_lower_transposed),

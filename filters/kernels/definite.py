@@ -56,6 +56,14 @@ def is_semidefinite(P: FloatArray, scratch: FloatArray) -> bool:
     return True
 
 
+def first_indefinite(covariances: FloatArray, scratch: FloatArray) -> int:
+    """The index of the first of them (any, n, n) that is none, or their number; scratch is (n, n)."""
+    for c in range(len(covariances)):
+        if not is_semidefinite(covariances[c], scratch):
+            return c
+    return len(covariances)
+
+
 def covariance_root(P: FloatArray, out: FloatArray) -> None:
     """out = C, lower triangular, of a covariance P = C C^T (n, n), of which the lower triangle is read.
 
