@@ -82,7 +82,9 @@ def test_matrices_are_the_derivatives() -> None:
     np.testing.assert_array_equal(noise_matrix(system, x, u)[:, 3:], np.eye(6, 3, -3))
 
 
-@pytest.mark.parametrize("backend", BACKENDS)
+@pytest.mark.parametrize(
+    "backend", [pytest.param(name, marks=pytest.mark.exhaust if name == "compiled" else ()) for name in BACKENDS]
+)
 def test_one_robust_step(backend: BackendName) -> None:
     """In the limit of an infinite mu, with one uncertain row on the biases."""
     uncertainty = attitude_uncertainty("bias")

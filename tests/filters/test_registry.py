@@ -91,9 +91,9 @@ def test_compiled_does_what_the_loops_do(key: tuple[str, str]) -> None:
         np.testing.assert_allclose(found, expected, rtol=1e-13, atol=1e-15)
 
 
-@pytest.mark.slow
+@pytest.mark.exhaust
 @pytest.mark.parametrize("key", OF_A_FORM, ids="-".join)
-@pytest.mark.parametrize("form", [pytest.param("joseph", marks=pytest.mark.exhaust), "short"])
+@pytest.mark.parametrize("form", ["joseph", "short"])
 def test_compiled_forms_do_what_the_loops_do(key: tuple[str, str], form: str) -> None:
     job = all_jobs(form)[key]
     for found, expected in zip(results("compiled", job), results("reference", job), strict=True):
