@@ -10,11 +10,12 @@ from typing import Literal, NamedTuple, TypeAlias, get_args
 
 import numpy as np
 
+from filters.arrays import FloatArray
 from filters.backends.counted import Operations, count
 from filters.registry import ALL_METHODS
 from filters.robust.blocks import block_sizes
 from filters.robust.model import prepared, weights
-from filters.robust.records import Predicted, RobustModel
+from filters.robust.records import Predicted, RobustModel, Weights
 from filters.robust.step import JOBS, STUDIED, StepJob
 from filters.robust.uncertain import linearised
 from filters.systems.attitude import attitude_uncertainty
@@ -113,11 +114,23 @@ def _model(system: SystemName) -> RobustModel:
 
 
 def _count(job: StepJob, model: RobustModel, mu: float) -> Operations:
-    """In a run of the job at P = I, a full matrix nearly so, and a measurement near what is expected."""
+    """In a run of the job at P = I, a full matrix nearly so, and a measurement near what is expected.
+
+    All numbers are rounded before it: what a way skips as zero hangs on their last digits, and these on the processor.
+    """
     n, p = len(model.F), len(model.H)
     random = np.random.default_rng(0)
     root = np.eye(n) + 0.05 * random.normal(size=(n, n))
-    before = Predicted(random.normal(size=n), root @ root.T)
+    before = Predicted(_rounded(random.normal(size=n)), _rounded(root @ root.T))
     after = Predicted(np.empty(n), np.empty((n, n)))
-    y, c = random.normal(size=p), random.normal(size=n)
-    return count(job.function, model, weights(model, mu), before, y, c, after, job.workspace(model))
+    y, c = _rounded(random.normal(size=p)), _rounded(random.normal(size=n))
+    rounded = RobustModel(*map(_rounded, model))
+    Phi1, Phi2, inverse_lambda = weights(rounded, mu)
+    weighed = Weights(_rounded(Phi1), _rounded(Phi2), inverse_lambda)
+    return count(job.function, rounded, weighed, before, y, c, after, job.workspace(rounded))
+
+
+def _rounded(matrix: FloatArray) -> FloatArray:
+    """To 33 bits, some ten digits."""
+    mantissa, exponent = np.frexp(matrix)
+    return np.ldexp(np.round(mantissa * 2**33) / 2**33, exponent)
