@@ -57,7 +57,6 @@ def least_speed_by_simulation(
     steady = run(enough, steps)
     while not steady.repeats:
         if steady.schedule.misses or steps == longest:
-            steps = steady.steps
             too_slow, enough, steady = _bisect(run, enough, steps, longest)
         else:
             steps = min(4 * steps, longest)

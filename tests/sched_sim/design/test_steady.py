@@ -60,6 +60,16 @@ def test_a_task_that_makes_a_correction_land_later_may_help() -> None:
     assert least_speed(costs, timing, tasks=[Task("a", Fraction(3), Fraction(1), priority=5)]).speed == 26
 
 
+def test_a_backlog_that_grows_slowly_takes_no_more_simulations_than_another() -> None:
+    """A period that is a tick too short misses its first deadline a little later than one that is two too short."""
+    late = Fraction(7, 3)
+    tasks = [Task("a", 1, 4, 20), Task("b", 1, 1, 20, offset=late), Task("c", 1, 56, 20, offset=late)]
+    runs: list[int] = []
+    options = Options(context_switch=Fraction(3, 2))
+    least_speed(StandardCosts(Fraction(1), Fraction(1)), Timing(1, 0, 1), options, tasks, on_progress=runs.append)
+    assert len(runs) < 200
+
+
 test_what_holds_at_the_least_speed_holds_for_ever = settings(max_examples=60)(given(loaded_designs())(holds_for_ever))
 
 
