@@ -88,3 +88,9 @@ def at_least_one(value: int, what: str) -> int:
     if number < 1:
         raise InputError(f"{what} is {short(number)}: give at least 1")
     return number
+
+
+def check_kind(value: object, kind: type | tuple[type, ...], what: str, needed: str) -> None:
+    """Raises InputError for a value of another kind. needed: what to give."""
+    if not isinstance(value, kind):
+        raise InputError(f"{what} is {short(repr(value))}: give {needed}")

@@ -123,8 +123,9 @@ def run(
         None in place of a row, or of a number in it, says that it was lost: the filter uses the rest, as if H and R had
         no other rows. Of what was lost the innovation is nan and the gain zero.
     update: the covariance form. With textbook and short, P may cease to be a covariance where R is near 1e-16 H P H^T,
-        the rounding of what it is taken from; joseph bears more, and most do the factors of P that
-        `multirate_gain.run` can keep, for n = 1 the same filter.
+        the rounding of what it is taken from. Joseph's stays one for any gain, also for a gain that rounding has made
+        wrong, as where H P H^T + R is nearly singular: it may then be far too sure. Most is borne by the factors of P
+        that `multirate_gain.run` can keep, for n = 1 the same filter.
 
     Raises:
         ValueError: N, M, L or a shape is wrong, a name is unknown, or a number is not finite; the system gives one that

@@ -43,8 +43,8 @@ UpdateForm = Annotated[
     Literal["textbook", "joseph", "short"],
     typer.Option(
         "--update",
-        help="Covariance update: textbook (Eq. 11, that of the shipped counts), joseph (the safest) or short, "
-        f"P - K (P H')' (the cheapest: with few measurements a small part of the textbook's). {WITHOUT_FILTER}",
+        help="Covariance update: textbook (Eq. 11, that of the shipped counts), joseph (stays a covariance for any gain) or "
+        f"short, P - K (P H')' (the cheapest: with few measurements a small part of the textbook's). {WITHOUT_FILTER}",
     ),
 ]
 Size = Annotated[

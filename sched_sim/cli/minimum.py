@@ -116,10 +116,12 @@ def _absolute(rate: Fraction | None, L: int, speed: Fraction, unit: str) -> dict
 
 def _speed(speed: Fraction, unit: str) -> dict[str, str]:
     """Seconds per HR period as microseconds; the exact fraction where a person can read it."""
+    from sched_sim.cli.parts import no_less
+
     if unit == "second":
-        return {"least speed, us": f"{float(10**6 * speed):.5g}"}
+        return {"least speed, us": no_less(10**6 * speed, 5)}
     exactly = str(speed) if speed.denominator <= LARGEST_DENOMINATOR else "-"
-    return {"least speed": f"{float(speed):.6g}", "exactly": exactly}
+    return {"least speed": no_less(speed, 6), "exactly": exactly}
 
 
 def _in_words(key: str, value: Fraction, unit: str) -> tuple[str, str]:

@@ -1,4 +1,4 @@
-"""Rows for people (a table) and for scripts (JSON, CSV: no colour, no progress, nothing rounded)."""
+"""Rows for people (a table) and for scripts (JSON, CSV: no colour, no progress, all digits)."""
 
 from __future__ import annotations
 

@@ -72,6 +72,11 @@ KEYS = ("processor", "hr_hz", "needed_mhz", "needed_share", "load", "slack", "fi
 Figure: TypeAlias = Fraction | float
 
 
+def no_less(value: Fraction, digits: int) -> str:
+    """Rounded up to so many digits, without zeros behind them; very large and very small numbers with an exponent."""
+    return f"{float(_rounded(value, digits, ROUND_CEILING)):.{max(digits, 15)}g}"
+
+
 def _up(digits: int) -> Callable[[Figure], str]:
     return lambda value: _rounded(value, digits, ROUND_CEILING)
 

@@ -64,6 +64,14 @@ class CostTable:
     lacking: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
     found_in: Callable[[str, str], Sequence[str] | None] = field(default=_nowhere, compare=False, repr=False)
 
+    def __post_init__(self) -> None:
+        """A number stands for a cost that is always so much."""
+        costs = {
+            method: {kind: _as_cost(cost, f"[costs.{method}] {kind}") for kind, cost in kinds.items()}
+            for method, kinds in self.costs.items()
+        }
+        object.__setattr__(self, "costs", costs)
+
     def entry(self, method: str, kind: str) -> Cost:
         """Raises InputError that names the missing entry and how to supply it."""
         try:
@@ -125,6 +133,10 @@ def default_methods(*tables: CostTable) -> tuple[str, ...]:
     tables in which no job has a cost, those whose jobs are lacking one."""
     common = [method for method in METHODS if all(method in (table.costs or table.lacking) for table in tables)]
     return tuple(method for method in common if method in DELAYED_METHODS) or tuple(common)
+
+
+def _as_cost(value: Any, where: str) -> Cost:
+    return value if isinstance(value, Cost) else Cost.of(positive_cost(value, where))
 
 
 def positive_cost(value: Any, where: str) -> Fraction:

@@ -10,6 +10,7 @@ from typing import Annotated, Any, Self
 
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, ValidationError, model_validator
 
+from sched_sim.bounds import check_kind
 from sched_sim.costs.documents import refuse_samples
 from sched_sim.costs.methods import KINDS
 from sched_sim.costs.operations import ARITHMETIC, OPERATION_KINDS, arithmetic
@@ -134,6 +135,7 @@ def load_costs(name_or_path: str | Path) -> CostTable:
 
     Raises InputError that names the file, every wrong entry in it, and the remedy.
     """
+    check_kind(name_or_path, (str, Path), "name_or_path", "the name of a shipped cost table, or the path of a file")
     name = str(name_or_path)
     if name not in shipped_tables():
         return read_costs(Path(name))
@@ -183,9 +185,10 @@ def costs_text(table: CostTable) -> str:
     return "\n".join([*lines, *sections]) + "\n"
 
 
-def write_costs(table: CostTable, path: Path) -> None:
+def write_costs(table: CostTable, path: str | Path) -> None:
     """Raises InputError if the path cannot be written."""
-    write(path, costs_text(table).encode(), "cost table")
+    check_kind(table, CostTable, "table", "a cost table, as `load_costs` returns it")
+    write(Path(path), costs_text(table).encode(), "cost table")
 
 
 def _toml_cost(cost: Cost) -> str:

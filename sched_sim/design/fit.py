@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
+from sched_sim.design.arguments import checked
 from sched_sim.design.least_speed import LeastSpeed, achieved_l, has_closed_form, least_speed
 from sched_sim.design.load import loads
 from sched_sim.design.options import Options
@@ -52,6 +53,7 @@ def fit(
 
     Raises InputError as `least_speed` does.
     """
+    tasks = checked(timing, options, tasks)
     pace = 1 / positive(hr_hz, "hr_hz")
     least = least_speed(costs, timing, options, tasks, on_progress)
     busy = sum(loads(costs, timing, pace, options, tasks), Fraction(0)) / options.cpus

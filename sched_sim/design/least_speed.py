@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from sched_sim.design import analysis
+from sched_sim.design.arguments import checked
 from sched_sim.design.methods import method_of
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import Costs, JobCosts, converted, works
@@ -53,6 +54,7 @@ def least_speed(
     same-step feedback spills into the next step.
     Raises InputError for an L that the method cannot have.
     """
+    tasks = checked(timing, options, tasks)
     method_of(costs).check(timing, options.feedback)
     if not has_closed_form(options, tasks):
         from sched_sim.design.search import least_speed_by_simulation
@@ -71,6 +73,7 @@ def achieved_l(costs: Costs, timing: Timing, speed: Number, options: Options = O
 
     Raises InputError for options that have no closed form (`has_closed_form`).
     """
+    checked(timing, options)
     speed = positive(speed, "speed")
     method_of(costs)
     if not has_closed_form(options, ()):
@@ -90,8 +93,13 @@ def staircase(costs: Costs, N: int, M: int, options: Options = Options()) -> lis
     A step on which `achieved` is less than L is waste: the same processor already lands earlier.
     For the serial methods there is one stair: the correction lands at m, whatever L is.
     """
-    law = method_of(costs).law(options.feedback)
+    method = method_of(costs)
+    longest = Timing(N, M, N)
+    checked(longest, options)
+    law = method.law(options.feedback)
     M = 0 if law.undelayed else M
+    if not law.legal(N, M):
+        method.check(longest, options.feedback)
     stairs = []
     for L in law.legal(N, M):
         timing = Timing(N, M, L)

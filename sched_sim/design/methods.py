@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from fractions import Fraction
-from typing import TypeAlias, cast
+from typing import TypeAlias, cast, get_args
 
+from sched_sim.bounds import check_kind
 from sched_sim.costs.methods import MULTIRATE_METHODS, ROBUST_METHODS
 from sched_sim.costs.table import CostTable
 from sched_sim.design import dual_rate, serial, two_rate
@@ -67,10 +68,15 @@ def select(table: CostTable, method: str, options: Options = Options(), statisti
     Raises InputError for an unknown method and for an entry that the table lacks.
     """
 
+    check_kind(table, CostTable, "table", "a cost table, as `load_costs` returns it")
+    check_kind(options, Options, "options", "Options(...), or leave it out")
+    if statistic not in get_args(Statistic):
+        raise InputError(f"statistic is {statistic!r}: choose from {', '.join(get_args(Statistic))}")
+
     def cost(kind: str) -> Fraction:
         value: Fraction = getattr(table.entry(method, kind), statistic)
         return value
 
-    if method not in METHODS:
+    if not isinstance(method, str) or method not in METHODS:
         raise InputError(f"method {method!r} is unknown: choose from {', '.join(METHODS)}")
     return METHODS[method].pieces(cost, options)

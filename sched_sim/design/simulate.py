@@ -10,6 +10,7 @@ from itertools import chain
 from typing import NamedTuple
 
 from sched_sim.bounds import at_least_one, short
+from sched_sim.design.arguments import checked
 from sched_sim.design.hr_loop import OnLanding
 from sched_sim.design.methods import method_of
 from sched_sim.design.options import Options
@@ -47,6 +48,7 @@ def simulate(
     Raises InputError for a speed that is not positive, an L the method cannot have, a task on a missing CPU, and more
     than can be simulated (`sched_sim.bounds`).
     """
+    tasks = checked(timing, options, tasks)
     speed, cycles = positive(speed, "speed"), at_least_one(cycles, "cycles")
     check_simulation(cycles * timing.N, tasks, f"{short(cycles)} cycles of N={timing.N}")
     achieved: Counter[int] = Counter()

@@ -14,6 +14,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
+from sched_sim.bounds import check_kind
 from sched_sim.costs.operations import Counts, arithmetic
 from sched_sim.costs.table import Cost, CostTable
 from sched_sim.errors import InputError, option
@@ -51,6 +52,8 @@ def on_part(table: CostTable, processor: Part) -> CostTable:
     job with another kind of operation that it does not give has no cost: `CostTable.entry` raises InputError for it.
     Raises InputError for a table without counts.
     """
+    check_kind(table, CostTable, "table", "a cost table, as `load_costs` returns it")
+    check_kind(processor, Part, "processor", "a part, as `load_part` returns it")
     if not table.operations:
         raise InputError(
             f"cost table {table.shown} has no operation counts to run on processor {processor.name!r}: use "

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Sequence
+from collections import Counter
+from collections.abc import Hashable, Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from pathlib import Path
 
+from sched_sim.bounds import check_kind, short, whole
 from sched_sim.errors import InputError, option
 from sched_sim.schedule.jobs import Job
 from sched_sim.ticks import exact, to_ticks
@@ -31,7 +34,10 @@ class Task:
     def __post_init__(self) -> None:
         for figure in ("period", "cost", "offset"):
             object.__setattr__(self, figure, exact(getattr(self, figure), f"task {self.name!r}: {figure}"))
+        object.__setattr__(self, "priority", whole(self.priority, f"task {self.name!r}: priority"))
         wrong = []
+        if not isinstance(self.name, str) or not self.name.strip():
+            wrong.append("the name must be text, and not empty")
         if self.period <= 0:
             wrong.append(f"period {self.period} must be greater than 0 HR periods")
         if self.cost <= 0:
@@ -42,6 +48,20 @@ class Task:
             wrong.append(f"cpu {self.cpu} must be 1 or 2")
         if wrong:
             raise InputError(f"task {self.name!r}: {'; '.join(wrong)}")
+
+
+def checked_tasks(tasks: Iterable[Task], cpus: int) -> tuple[Task, ...]:
+    """The user's tasks. Raises InputError for anything else, for two of one name, and for a task on a processor that is
+    not there."""
+    if isinstance(tasks, str | Path | Task) or not isinstance(tasks, Iterable):
+        raise InputError(f"tasks is {short(repr(tasks))}: give a list of Task(...), as `read_tasks` returns one")
+    known = tuple(tasks)
+    for task in known:
+        check_kind(task, Task, "a task", "Task(name, period, cost, priority)")
+    if twice := [name for name, times in Counter(task.name for task in known).items() if times > 1]:
+        raise InputError(f"task name {twice[0]!r} is used twice; give each task its own")
+    check_cpus(known, cpus)
+    return known
 
 
 def check_cpus(tasks: Sequence[Task], cpus: int) -> None:
