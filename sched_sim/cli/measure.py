@@ -43,7 +43,7 @@ UpdateForm = Annotated[
     Literal["textbook", "joseph", "short"],
     typer.Option(
         "--update",
-        help="Covariance update: textbook (Eq. 11, that of the shipped counts), joseph (stays a covariance for any gain) or "
+        help="Covariance update: textbook (Eq. 11, that of the shipped counts), joseph (a covariance for any gain) or "
         f"short, P - K (P H')' (the cheapest: with few measurements a small part of the textbook's). {WITHOUT_FILTER}",
     ),
 ]
