@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections import Counter, defaultdict
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
+from sched_sim.errors import InputError
 from sched_sim.html_table import html_table
 from sched_sim.scenario.distribution import finished_or_not, wilson
 from sched_sim.scenario.scenario import Scenario, needed_parts
@@ -30,7 +31,7 @@ class JobFigures:
     """
 
     released: int
-    responses: Sequence[float]
+    responses: Sequence[float] = field(repr=False)
     misses: int
     decided: int
 
@@ -128,6 +129,8 @@ def run_scenario(
     on_slice: called as slices end; corrections that go together have the slices of the first.
     on_progress: called about a hundred times.
     """
+    if not isinstance(scenario, Scenario):
+        raise InputError(f"scenario is a {type(scenario).__name__}: give read_scenario(...), or a Scenario")
     check_simulation(scenario.steps, scenario.tasks, f"scenario {scenario.name!r}: steps")
     parts = needed_parts(scenario.sensors, scenario.late)
     speed, tasks = scenario.speed, scenario.tasks

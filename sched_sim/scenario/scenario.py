@@ -2,19 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal, get_args
 
 from sched_sim.bounds import MOST_STEPS, short
 from sched_sim.errors import InputError
 from sched_sim.files.toml_writer import toml_key
 from sched_sim.scenario.draws import fates
+from sched_sim.scenario.fields import (
+    all_of,
+    any_whole,
+    at_least,
+    ends,
+    one_of,
+    probability,
+    rate,
+    samples,
+    settle,
+    steps_drawn,
+    text,
+    work,
+)
 from sched_sim.scenario.in_flight import Flight, first_overlap
 from sched_sim.schedule.jobs import HR, LR
 from sched_sim.schedule.tasks import Task
+from sched_sim.ticks import exact
 
 Late = Literal["recalculate", "larsen"]
 """What a late measurement does: the filter rolls back to it and replays, or Larsen's method carries it forward."""
@@ -46,31 +61,15 @@ class Sensor:
     priority: int = LR
 
     def __post_init__(self) -> None:
-        wrong = []
-        if not self.name.strip():
-            wrong.append("the name is empty: give one, it is how its costs and results are found")
-        if self.every < 1:
-            wrong.append(f"every {self.every} must be at least 1: it is the number of steps between measurements")
-        if self.offset < 0:
-            wrong.append(f"offset {self.offset} must be 0 or more: it is the step of the first measurement")
-        if not 0 <= self.dropout <= 1:
-            wrong.append(f"dropout {self.dropout:g} must be from 0 to 1: it is a probability, 10 % is 0.1")
-        if not self.delays:
-            wrong.append(
-                "delay has nothing to draw from: give a number of steps, a list, or { least = ..., most = ... }"
-            )
-        elif self.least_delay < 0:
-            wrong.append(f"delay {self.least_delay} must be 0 or more: no measurement arrives before it is taken")
-        elif self.longest_delay > MOST_STEPS:
-            wrong.append(f"delay {short(self.longest_delay)} is above {MOST_STEPS:,} HR steps: give fewer")
-        elif self.land_by < self.least_delay:
-            wrong.append(
+        wrong = settle(self, SENSOR_FIELDS)
+        if not {"delays", "land_by"} & {*wrong} and self.land_by < self.least_delay:
+            wrong["land_by"] = (
                 f"land_by {self.land_by} must not be less than the least delay {self.least_delay}: the correction "
                 f"may land in the step so many after the measurement's, and none lands before its measurement arrives; "
                 f"give {self.least_delay} or more"
             )
         if wrong:
-            raise InputError(f"sensor {self.name!r}: {'; '.join(wrong)}")
+            raise InputError(f"sensor {self.name!r}: {'; '.join(wrong.values())}")
 
     @property
     def delayed(self) -> bool:
@@ -98,10 +97,15 @@ class Sensor:
         return range(self.offset, steps, self.every)
 
 
-def ends(delays: Sequence[int]) -> tuple[int, int]:
-    """The least and the greatest, at once of a long range too."""
-    candidates = (delays[0], delays[-1]) if isinstance(delays, range) else delays
-    return min(candidates), max(candidates)
+SENSOR_FIELDS = {
+    "name": text("it is how its costs and results are found"),
+    "every": at_least(1, "the number of steps between measurements"),
+    "offset": at_least(0, "the step of the first measurement"),
+    "dropout": probability,
+    "delays": steps_drawn,
+    "land_by": any_whole,
+    "priority": any_whole,
+}
 
 
 @dataclass(frozen=True)
@@ -132,35 +136,27 @@ class Scenario:
     harness: bool = False
 
     def __post_init__(self) -> None:
-        wrong = []
-        if not self.name.strip():
-            wrong.append("the name is empty: give one, tables and charts show it")
-        if self.steps < 1:
-            wrong.append(f"steps {self.steps} must be at least 1: it is how many HR steps are simulated")
-        if self.steps > MOST_STEPS:
-            wrong.append(f"steps {short(self.steps)} is above {MOST_STEPS:,}: simulate fewer HR steps")
-        if self.speed <= 0:
-            wrong.append(f"speed {float(self.speed):g} must be greater than 0 cost units per HR period")
-        if self.seed < 0:
-            wrong.append(f"seed {self.seed} must be a whole number, 0 or more")
-        if self.context_switch < 0:
-            wrong.append(f"context_switch {float(self.context_switch):g} must be 0 or more cost units")
-        names = [sensor.name for sensor in self.sensors]
-        wrong += [
-            f"sensor {name!r} is there {names.count(name)} times: give each its own name"
-            for name in dict.fromkeys(names)
-            if names.count(name) > 1
-        ]
-        wrong += [
-            f"task {task.name!r}: cpu {task.cpu} is not there; give cpus = {task.cpu}, or cpu = 1"
-            for task in self.tasks
-            if task.cpu > self.cpus
-        ]
-        wrong += _lacking(self)
+        bad = settle(self, SCENARIO_FIELDS)
+        wrong = [*bad.values(), *self._at_odds({*bad})]
         if not wrong and self.late == "larsen":
             wrong = self._in_flight_at_once()
         if wrong:
             raise InputError(f"scenario {self.name!r}: {'; '.join(wrong)}")
+
+    def _at_odds(self, bad: set[str]) -> Iterator[str]:
+        """What to say of fields that cannot be together; bad: those that cannot be by themselves."""
+        if "sensors" in bad:
+            return
+        names = [sensor.name for sensor in self.sensors]
+        for name in dict.fromkeys(names):
+            if names.count(name) > 1:
+                yield f"sensor {name!r} is there {names.count(name)} times: give each its own name"
+        if not bad & {"tasks", "cpus"}:
+            for task in self.tasks:
+                if task.cpu > self.cpus:
+                    yield f"task {task.name!r}: cpu {task.cpu} is not there; give cpus = {task.cpu}, or cpu = 1"
+        if not bad & {"costs", "late"}:
+            yield from _lacking(self)
 
     def _in_flight_at_once(self) -> list[str]:
         """What to say of late measurements that Larsen's method cannot wait for."""
@@ -184,6 +180,36 @@ class Scenario:
     def preempted(self, sensor: Sensor) -> bool:
         """Whether predict jobs go on while a correction of `sensor` is under way."""
         return self.cpus == 2 or sensor.priority > self.priority
+
+
+def _so_many(value: Any, name: str) -> int:
+    steps = at_least(1, "how many HR steps are simulated")(value, name)
+    if steps > MOST_STEPS:
+        raise InputError(f"{name} {short(steps)} is above {MOST_STEPS:,}: simulate fewer HR steps")
+    return steps
+
+
+def _speed(value: Any, name: str) -> Fraction:
+    speed = exact(value, name)
+    if speed <= 0:
+        raise InputError(f"{name} {float(speed):g} must be greater than 0 cost units per HR period")
+    return speed
+
+
+SCENARIO_FIELDS = {
+    "name": text("tables and charts show it"),
+    "steps": _so_many,
+    "speed": _speed,
+    "sensors": all_of(Sensor, least=1),
+    "costs": samples,
+    "hr_hz": rate,
+    "seed": at_least(0, "a whole number that the draws start from"),
+    "late": one_of(*get_args(Late)),
+    "priority": any_whole,
+    "tasks": all_of(Task),
+    "context_switch": work,
+    "cpus": one_of(1, 2),
+}
 
 
 def needed_parts(sensors: Sequence[Sensor], late: Late) -> list[str]:

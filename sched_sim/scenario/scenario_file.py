@@ -19,7 +19,8 @@ from sched_sim.files.toml_problems import problems
 from sched_sim.files.toml_reader import read_toml
 from sched_sim.processors.part import seconds_for
 from sched_sim.processors.part_file import load_part, shipped_parts
-from sched_sim.scenario.scenario import Late, Samples, Scenario, Sensor, ends, needed_parts
+from sched_sim.scenario.fields import ends
+from sched_sim.scenario.scenario import Late, Samples, Scenario, Sensor, needed_parts
 from sched_sim.schedule.jobs import HR, LR
 from sched_sim.schedule.length import check_simulation
 from sched_sim.schedule.task_file import TaskEntry, wrong_together

@@ -51,11 +51,11 @@ def write(folder: Path, scenario: str = SHORT, costs: str = COSTS) -> None:
 
 def test_a_scenario_is_read_exactly() -> None:
     rocket = read_scenario(ROCKET)
-    assert rocket.sensors == [
+    assert rocket.sensors == (
         Sensor("gps", 40, range(15, 31), land_by=69, dropout=0.1, priority=20),
         Sensor("barometer", 8, (0,), land_by=7, priority=10),
-    ]
-    assert rocket.tasks == [Task("control", Fraction(2), Fraction(5, 10**4), priority=5)]
+    )
+    assert rocket.tasks == (Task("control", Fraction(2), Fraction(5, 10**4), priority=5),)
     assert rocket.costs["predict"] == (Fraction(5, 10**4), Fraction(6, 10**4), Fraction(9, 10**4))
     assert (rocket.speed, rocket.hr_hz, rocket.late) == (Fraction(1, 400), 400, "recalculate")
 

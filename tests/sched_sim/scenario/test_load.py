@@ -287,7 +287,7 @@ def test_a_processor_that_is_always_busy_with_less_than_it_can_do_is_explained()
 
 
 def test_a_demand_just_above_what_the_processor_can_do_does_not_read_as_all_of_it() -> None:
-    asked = case(1, {"predict": "1.0001", "correct.a": "0"}, sensor("a", 10, 0), steps=400)
+    asked = case(1, {"predict": "1.0001", "correct.a": "0.000001"}, sensor("a", 10, 0), steps=400)
     cause, *_ = why(asked)
     assert cause.startswith("demand is a little more than 100% of the processor, so that work piles up: ")
 

@@ -19,7 +19,7 @@ from sched_sim.design.timing import Timing
 from sched_sim.scenario.run import Outcome, run_scenario
 from sched_sim.scenario.scenario import Late, Scenario
 from sched_sim.schedule.tasks import Task
-from tests.scenarios import HR, LR, scenario, sensor
+from tests.scenarios import BY_HAND, HR, LR, scenario, sensor
 
 
 def near(share: float, probability: float, count: int) -> bool:
@@ -70,7 +70,7 @@ def test_larsen_at_the_predictors_priority_is_larsen(M: int, accumulate: str, sp
 def test_a_task_may_begin_within_a_step() -> None:
     """Released at 10/3 of a period of 10, behind a predict job of 4 it ends at 5."""
     task = Task("control", Fraction(2), Fraction(1), priority=30, offset=Fraction(1, 3))
-    found = run_scenario(scenario(10, {"predict": 4}, steps=2, tasks=[task]))
+    found = run_scenario(scenario(10, BY_HAND, sensor("gps", 20, offset=2), steps=2, tasks=[task]))
     assert found.jobs["task:control"].responses == [pytest.approx((5 - 10 / 3) / 10)]
 
 
