@@ -107,7 +107,8 @@ class Schedule:
     def _repr_html_(self) -> str:
         from sched_sim.html_table import html_table
 
-        landed = ", ".join(f"{cycles} at L = {L}" for L, cycles in sorted(self.achieved.items())) or "none"
+        counts = ", ".join(f"{cycles} at L = {L}" for L, cycles in sorted(self.achieved.items()))
+        landed = f"corrections landed: {counts}; " if counts else ""
         headings = ("job", "released", "finished", "worst response", "mean response", "deadlines missed", "preempted")
         rows = [
             (
@@ -122,8 +123,8 @@ class Schedule:
             for kind, figures in self.responses.items()
         ]
         return html_table(
-            f"{self.horizon / self.period:g} HR periods, busy {float(self.utilization):.1%}; corrections landed: "
-            f"{landed}; responses in HR periods",
+            f"{self.horizon / self.period:g} HR periods, busy {float(self.utilization):.1%}; {landed}responses in HR "
+            f"periods",
             headings,
             rows,
         )

@@ -95,3 +95,10 @@ def test_errors_name_the_argument(case: str) -> None:
 
 def test_an_outcome_prints_in_a_few_lines() -> None:
     assert len(repr(run_scenario(built(steps=2000)))) < 1500
+
+
+def test_a_schedule_of_a_scenario_says_nothing_of_cycles() -> None:
+    """Its corrections are in the outcome, by sensor."""
+    shown = run_scenario(built()).schedule._repr_html_()
+    assert "landed" not in shown
+    assert "responses in HR periods" in shown
