@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from typing import Any
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -16,20 +17,26 @@ from reports.charts.scale import Scale
 from reports.drawing.legend import draw_legend, fill_entries, legend_height, sign_entries
 from reports.drawing.picture import image, save
 from reports.drawing.style import FONT_PT, INK, PALE, RED, TITLE_PT, WIDTH_MM, axes_at, drawing, page, text_width_mm
+from sched_sim.bounds import short
+from sched_sim.errors import InputError
+from sched_sim.ticks import exact
 
 __all__ = ["Panel", "gantt", "image", "method_panel", "save"]
 
 TITLE_MM, MARKS_MM, AXIS_MM, PANEL_GAP_MM, EDGE_MM, RIGHT_MM = 4.2, 4.2, 10.0, 3.5, 2.0, 7.0
 BETWEEN_MM = 4.4
+NARROWEST_MM, WIDEST_MM = 40, 1000
 
 
-def gantt(panels: Sequence[Panel], *, width_mm: float = WIDTH_MM) -> Figure:
-    """Draw the panels below one another, at print size.
+def gantt(panels: Panel | Iterable[Panel], *, width_mm: float = WIDTH_MM) -> Figure:
+    """Draw the panels, or one of them, below one another, at print size; width_mm: from 40 to 1000.
 
     Work is labelled as in the paper's legend (P, U, HRP, HRU, LRP, LRU), as far as the labels fit. An arrow up below
     a row is a release, an arrow down above it a deadline, both black; a missed deadline is red with a cross, work
     done after its deadline hatched in red; a job that was released and does not run is a thin bar.
+    Raises InputError for what is no panel, and for another width.
     """
+    panels, width_mm = _panels(panels), _width_mm(width_mm)
     with drawing():
         names = [shortened(row.name) for panel in panels for row in rows(panel.schedule)]
         left = EDGE_MM + max(8.0, *(text_width_mm(name) for name in names)) + 2.0
@@ -56,6 +63,25 @@ def gantt(panels: Sequence[Panel], *, width_mm: float = WIDTH_MM) -> Figure:
             top += head + body + PANEL_GAP_MM
         draw_legend(figure, legend, left, top - PANEL_GAP_MM + AXIS_MM, across)
         return figure
+
+
+def _panels(given: Any) -> Sequence[Panel]:
+    panels = [given] if isinstance(given, Panel) or not isinstance(given, Iterable) else list(given)
+    if not panels:
+        raise InputError("panels is empty: give at least one, such as method_panel(...)")
+    for panel in panels:
+        if not isinstance(panel, Panel):
+            raise InputError(
+                f"panels holds {short(repr(panel))}: give method_panel(...) or scenario_panel(...), or a list of them"
+            )
+    return panels
+
+
+def _width_mm(given: Any) -> float:
+    width = float(exact(given, "width_mm"))
+    if not NARROWEST_MM <= width <= WIDEST_MM:
+        raise InputError(f"width_mm is {width:g}: give from {NARROWEST_MM} to {WIDEST_MM}")
+    return width
 
 
 def frame(axes: Axes, scale: Scale, height_mm: float, end: int, *, with_axis: bool) -> None:

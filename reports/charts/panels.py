@@ -7,6 +7,7 @@ from dataclasses import dataclass, fields, replace
 from fractions import Fraction
 from typing import NamedTuple
 
+from sched_sim.bounds import at_least_one
 from sched_sim.costs.methods import MULTIRATE_METHODS, TWO_RATE_METHODS
 from sched_sim.costs.table import CostTable
 from sched_sim.design.methods import select
@@ -18,6 +19,7 @@ from sched_sim.errors import InputError
 from sched_sim.schedule.length import check_simulation
 from sched_sim.schedule.outcome import Schedule
 from sched_sim.schedule.tasks import Task
+from sched_sim.ticks import Number, positive
 
 METHOD_NAMES = {
     "standard": "Standard (no delay)",
@@ -118,7 +120,7 @@ def method_panel(
     table: CostTable,
     method: str,
     timing: Timing,
-    speed: Fraction,
+    speed: Number,
     cycles: int = 1,
     options: Options = Options(),
     tasks: Sequence[Task] = (),
@@ -131,6 +133,7 @@ def method_panel(
     speed: cost units per HR period; cycles: how many measurement cycles are shown.
     Raises InputError as `methods.select` and `simulate` do, and for more steps than a chart can show.
     """
+    speed, cycles = positive(speed, "speed"), at_least_one(cycles, "cycles")
     if cycles * timing.N > MOST_STEPS:
         raise InputError(
             f"a Gantt chart of {cycles} cycles with N={timing.N} has {cycles * timing.N} steps; at most {MOST_STEPS} "

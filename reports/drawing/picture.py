@@ -42,7 +42,13 @@ def check_picture(path: Path, what: str = "picture") -> str:
 def save(figure: Figure, path: str | Path, what: str = "picture") -> None:
     """Write the figure to `path`, in the format that its suffix names. what: the option that the path is for.
 
-    Raises InputError for another suffix and for a path that cannot be written.
+    Raises InputError for another suffix, for a path that cannot be written, and for arguments that are not these.
     """
+    if not isinstance(figure, Figure):
+        raise InputError(
+            f"figure is a {type(figure).__name__}: give save(figure, path), with a figure such as gantt(...)"
+        )
+    if not isinstance(path, str | Path):
+        raise InputError(f"path is a {type(path).__name__}: give save(figure, path), with the name of a file")
     path = Path(path)
     write(path, image(figure, check_picture(path, what)), what)
