@@ -12,13 +12,17 @@ from collections.abc import Mapping, Sequence
 from datetime import UTC, datetime
 from fractions import Fraction
 from importlib.metadata import version
-from typing import Any, Literal, TypeVar
+from typing import Any, Literal, TypeVar, get_args
 
+from filters.arrays import as_array
 from filters.backends.counted import Operations, count
 from filters.backends.uncountable import UncountableError
-from filters.covariance_forms import CovarianceFormName
+from filters.choice import check_choice
+from filters.covariance_forms import COVARIANCE_FORMS, CovarianceFormName
 from filters.jobs import Job
+from filters.problem import check_system
 from filters.registry import ALL_METHODS
+from filters.seed import check_seed
 from filters.system import System
 from sched_sim.costs.table import Cost, CostTable
 from sched_sim.errors import InputError
@@ -50,9 +54,18 @@ def measure(
     update: the covariance form, of no use to methods that keep factors of the covariance.
     x0 (n,): a typical state of the system, zero if not given.
 
-    Raises InputError if the standard filter, with which typical arguments are made, cannot be run from there, or if a
-    function of the system cannot be counted or compiled.
+    Raises InputError for an argument that is none of these, if the standard filter, with which typical arguments are
+    made, cannot be run from there, or if a function of the system cannot be counted or compiled.
     """
+    try:
+        check_system("system", system)
+        check_choice("backend", backend, get_args(BackendName))
+        check_choice("update", update, COVARIANCE_FORMS)
+        check_seed(seed)
+        _check_methods(methods)
+        _check_state(x0, system.states)
+    except ValueError as error:
+        raise InputError(str(error)) from None
     jobs = {
         (method, kind): job
         for method in methods
@@ -70,6 +83,18 @@ def measure(
         raise
     except ValueError as error:
         raise InputError(f"the system cannot be filtered from its typical state: {error}") from error
+
+
+def _check_methods(methods: Sequence[str]) -> None:
+    if isinstance(methods, str) or not isinstance(methods, Sequence) or not methods:
+        raise ValueError(f"methods={methods!r:.60}: give a list of some of {', '.join(ALL_METHODS)}")
+    for method in methods:
+        check_choice("methods", method, ALL_METHODS)
+
+
+def _check_state(x0: Any, states: int) -> None:
+    if x0 is not None and (shape := as_array("x0", x0).shape) != (states,):
+        raise ValueError(f"x0 has the shape {shape}; give ({states},), a value for each state of the system")
 
 
 def cost_table(

@@ -8,9 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from fractions import Fraction
-from typing import Any, Literal, TypeAlias
+from typing import Any, Literal, TypeAlias, get_args
 
+from filters.choice import check_choice
+from filters.seed import check_seed
 from sched_sim.costs.sample_file import SampledCosts
+from sched_sim.errors import InputError
 from studies.measurement.job_times import Progress, Protocol, seconds_per_run, silent
 from studies.measurement.methods import COUNTED_SOURCE, counted, nonzero, where_timed
 from studies.measurement.user_filter import UserFilter
@@ -33,8 +36,13 @@ def measure_filter(
 ) -> SampledCosts:
     """The costs of the filter's parts. compiled: samples in seconds; counted: exact operations, one sample of each.
 
-    Raises InputError for a part that numba cannot compile, or that cannot be counted.
+    Raises InputError for another backend or seed, and for a part that numba cannot compile, or that cannot be counted.
     """
+    try:
+        check_choice("backend", backend, get_args(Backend))
+        check_seed(seed)
+    except ValueError as error:
+        raise InputError(str(error)) from None
     if backend == "compiled":
         return timed_together({name: user}, thorough=thorough, seed=seed, progress=progress)[name]
     operations = counted(user.jobs, progress)

@@ -30,7 +30,7 @@ from sched_sim.design.pieces import Statistic
 from sched_sim.errors import InputError, option
 from sched_sim.files.toml_problems import problem, problems
 from sched_sim.files.toml_reader import read_toml
-from sched_sim.processors.part import on_part
+from sched_sim.processors.part import Part, on_part
 from sched_sim.processors.part_file import load_part, shipped_parts
 from sched_sim.schedule.task_file import read_tasks
 from studies.sweep.axes import numbers, whole_numbers, words
@@ -62,10 +62,19 @@ def _works(entry: Any, info: ValidationInfo) -> tuple[Fraction, ...]:
     return numbers(entry, _called(info), zero=True)
 
 
+def _listed(entry: Any) -> list[Any]:
+    return entry if isinstance(entry, list) else [entry]
+
+
 def _names_of(what: str) -> PlainValidator:
     def validated(entry: Any, info: ValidationInfo) -> tuple[str, ...]:
-        items = [entry] if isinstance(entry, str) else entry
-        if not isinstance(items, list) or not items or not all(isinstance(item, str) and item for item in items):
+        items = [str(item) if isinstance(item, Path) else item for item in _listed(entry)]
+        for item in items:
+            if isinstance(item, CostTable | Part):
+                raise InputError(
+                    f"{_called(info)} is a {type(item).__name__}: give its file's path, or the name of a shipped {what}"
+                )
+        if not items or not all(isinstance(item, str) and item for item in items):
             raise InputError(
                 f"{_called(info)} {short(repr(entry))}: give the name of a shipped {what}, or the path of a TOML file"
             )
