@@ -63,6 +63,10 @@ def one_of(*known: object) -> Made[object]:
     return made
 
 
+def cpu_count(value: Any, name: str) -> object:
+    return one_of(1, 2)(any_whole(value, name), name)
+
+
 def work(value: Any, name: str) -> Fraction:
     number = exact(value, name)
     if number < 0:

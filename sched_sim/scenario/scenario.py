@@ -16,6 +16,7 @@ from sched_sim.scenario.fields import (
     all_of,
     any_whole,
     at_least,
+    cpu_count,
     ends,
     one_of,
     probability,
@@ -208,7 +209,7 @@ SCENARIO_FIELDS = {
     "priority": any_whole,
     "tasks": all_of(Task),
     "context_switch": work,
-    "cpus": one_of(1, 2),
+    "cpus": cpu_count,
 }
 
 

@@ -35,6 +35,7 @@ def sensor(**settings: Any) -> Sensor:
 def test_numbers_are_what_they_write(speed: Any) -> None:
     expected = built(speed=Fraction(4, 5), hr_hz=Fraction(4, 5), context_switch=Fraction(4, 5))
     assert built(speed=speed, hr_hz=speed, context_switch=speed) == expected
+    assert built(cpus=np.int64(2), steps=np.int64(50), seed=np.int32(1)) == built(cpus=2, steps=50, seed=1)
     costs = {"predict": Fraction(4, 5), "correct.gps": [Fraction(4, 5)]}
     assert built(costs={"predict": speed, "correct.gps": [speed]}) == built(costs=costs)
 
@@ -68,6 +69,7 @@ BAD: dict[str, tuple[Callable[[], Any], str]] = {
     "hr_hz": (lambda: built(hr_hz=0), "hr_hz is 0: it must be greater than 0"),
     "context_switch": (lambda: built(context_switch=-1), "context_switch -1 must be 0 or more cost units"),
     "cpus": (lambda: built(cpus=3), "cpus is 3: choose from 1, 2"),
+    "cpus as text": (lambda: built(cpus="2"), "cpus is '2': give a whole number"),
     "late": (lambda: built(late="dual-rate"), "late is 'dual-rate': choose from 'recalculate', 'larsen'"),
     "seed": (lambda: built(seed=0.5), "seed is 0.5: give a whole number"),
     "no sensors": (lambda: built(sensors=[]), "sensors is empty: give at least one Sensor"),
