@@ -94,7 +94,9 @@ def several(value: Any) -> Sequence[Any]:
 
 
 def steps_drawn(value: Any, name: str) -> Sequence[int]:
-    """Delays; they are called so in a file, too."""
+    """Delays; a file calls them `delay`."""
+    if isinstance(value, Mapping):
+        raise InputError(f"{name} is {short(repr(value))}: give a number of steps, a list, or range(least, most + 1)")
     steps = several(value)
     if not steps:
         raise InputError(

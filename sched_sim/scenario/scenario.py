@@ -47,7 +47,7 @@ class Sensor:
     """One sensor; all times in HR steps.
 
     A measurement is taken in steps offset, offset + every, ...; it never arrives with the probability `dropout`, else
-    at the start of the step k + delay, the delay drawn from `delays` with equal probability.
+    at the start of the step k + delay, the delay drawn from `delays`, one or several, with equal probability.
     priority: of its corrections; smaller is more urgent. land_by: the correction must finish during step k + land_by,
     or before; its deadline is the end of that step, met exactly if the achieved l is k + land_by or less.
     Raises InputError that names the sensor and lists all that is wrong with it.
@@ -114,7 +114,7 @@ class Scenario:
     """What is simulated, for so many HR `steps`.
 
     speed: cost units that the processor does per HR period; hr_hz: the HR rate where the unit is a second, else None.
-    costs: from `sample_file`, all parts that `needed_parts` names. priority: of the predict jobs.
+    costs: by part, one or several execution times, of all parts that `needed_parts` names. priority: of the predict jobs.
     cpus: with 2, corrections run on the second. context_switch: in cost units, as in `options.Options`.
     files: those that its own file names, from which costs were read.
     harness: whether any of the costs are samples of `measure --filter`, from which no probability of a miss follows.

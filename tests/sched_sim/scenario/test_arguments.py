@@ -60,6 +60,7 @@ BAD: dict[str, tuple[Callable[[], Any], str]] = {
     "offset": (lambda: sensor(offset=None), "offset is None: give a whole number"),
     "priority": (lambda: sensor(priority="high"), "priority is 'high': give a whole number"),
     "delays": (lambda: sensor(delays="4"), "delays is '4': give a whole number"),
+    "a range": (lambda: sensor(delays={"least": 3, "most": 5}), "give a number of steps, a list, or range(least, most"),
     "one delay": (lambda: sensor(delays=[4, 5.5]), "delays is 5.5: give a whole number"),
     "no delays": (lambda: sensor(delays=np.array([])), "delay has nothing to draw from"),
     "dropout": (lambda: sensor(dropout="often"), "dropout is 'often': give a finite number"),
