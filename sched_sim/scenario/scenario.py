@@ -114,7 +114,7 @@ class Scenario:
     """What is simulated, for so many HR `steps`.
 
     speed: cost units that the processor does per HR period; hr_hz: the HR rate where the unit is a second, else None.
-    costs: by part, one or several execution times, of all parts that `needed_parts` names. priority: of the predict jobs.
+    costs: by part, one or several execution times, of all `needed_parts`. priority: of the predict jobs.
     cpus: with 2, corrections run on the second. context_switch: in cost units, as in `options.Options`.
     files: those that its own file names, from which costs were read.
     harness: whether any of the costs are samples of `measure --filter`, from which no probability of a miss follows.
