@@ -26,7 +26,11 @@ def test_what_is_measured(more: dict[str, Any]) -> None:
     assert measured(**more).costs == measured().costs
 
 
-@pytest.mark.parametrize("M", [{2, 1}, (m for m in (1, 2)), iter("12"), frozenset(["1", "2"]), range(1, 3)], ids=repr)
+@pytest.mark.parametrize(
+    "M",
+    [{2, 1}, (m for m in (1, 2)), iter("12"), frozenset(["1", "2"]), range(1, 3)],
+    ids=lambda values: type(values).__name__,
+)
 def test_values_of_an_axis(M: Any) -> None:
     assert run_sweep(N=4, M=M).table.equals(run_sweep(N=4, M=[1, 2]).table)
 

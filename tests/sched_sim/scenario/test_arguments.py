@@ -40,7 +40,9 @@ def test_numbers_are_what_they_write(speed: Any) -> None:
     assert built(costs={"predict": speed, "correct.gps": [speed]}) == built(costs=costs)
 
 
-@pytest.mark.parametrize("delays", [[4, 6], np.array([4, 6]), iter((4, 6)), (np.int64(4), 6)], ids=repr)
+@pytest.mark.parametrize(
+    "delays", [[4, 6], np.array([4, 6]), iter((4, 6)), (np.int64(4), 6)], ids=lambda values: type(values).__name__
+)
 def test_delays_are_any_whole_numbers(delays: Any) -> None:
     assert sensor(delays=delays) == sensor(delays=(4, 6))
     assert sensor(delays=4) == sensor(delays=(4,)) == sensor(delays=np.int64(4))
