@@ -19,7 +19,7 @@ from reports.steffes.curves import achieved_curve, hr_limit, knee, speed_grid
 from sched_sim.costs.methods import DELAYED_METHODS
 from sched_sim.costs.table import CostTable
 from sched_sim.design.least_speed import Stair, staircase
-from sched_sim.design.methods import select
+from sched_sim.design.methods import METHODS, select
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import DualRateCosts
 
@@ -113,7 +113,11 @@ def achieved_figure(
 
 
 def _flights(table: CostTable, design: Design, options: Options) -> Mapping[str, Sequence[Stair]]:
-    return {method: staircase(select(table, method, options), *design, options) for method in DELAYED_METHODS}
+    possible = [name for name in DELAYED_METHODS if METHODS[name].law(options.feedback).why_none(*design) is None]
+    return {
+        name: staircase(select(table, name, options), *design, options) if name in possible else []
+        for name in DELAYED_METHODS
+    }
 
 
 def _limits(flights: Mapping[Design, Mapping[str, Sequence[Stair]]], below: float) -> tuple[float, float]:
