@@ -153,7 +153,7 @@ def test_a_rocket_that_is_too_heavy_is_refused() -> None:
         simulate_flight(ROCKET._replace(dry_mass=400.0), backend="reference")
 
 
-@pytest.mark.slow
+@pytest.mark.exhaust
 def test_compiled_flights_are_the_same() -> None:
     found, expected = flight(ROCKET, 0, "compiled"), flight(ROCKET)
     np.testing.assert_allclose(found.states, expected.states, rtol=1e-9, atol=1e-9)

@@ -236,8 +236,8 @@ def test_a_breakdown_is_named_in_every_form(update: Update) -> None:
             run(composed, [0.8, 0.1], np.eye(2), np.zeros((8, 0)), [])
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("update", [pytest.param("joseph", marks=pytest.mark.exhaust), "u-d"])
+@pytest.mark.exhaust
+@pytest.mark.parametrize("update", ["joseph", "u-d"])
 def test_compiled_equals_reference(update: Update) -> None:
     (position, _) = LINEAR.composed.sensors
     case = LINEAR.with_sensors(position)

@@ -126,7 +126,7 @@ def test_kill_9_of_a_worker(tmp_path, uninterrupted):
     [
         pytest.param(signal.SIGINT, True, id="ctrl-c"),
         pytest.param(signal.SIGINT, False, id="sigint", marks=pytest.mark.exhaust),
-        pytest.param(signal.SIGTERM, False, id="sigterm"),
+        pytest.param(signal.SIGTERM, False, id="sigterm", marks=pytest.mark.exhaust),
     ],
 )
 def test_signals(tmp_path, uninterrupted, number, to_all):
