@@ -5,17 +5,19 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import TYPE_CHECKING
 
 from sched_sim.design.arguments import checked
 from sched_sim.design.least_speed import LeastSpeed, achieved_l, has_closed_form, least_speed
 from sched_sim.design.load import loads
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import Costs
-from sched_sim.design.search import OnProgress
-from sched_sim.design.steady import run_until_steady
 from sched_sim.design.timing import Timing
 from sched_sim.schedule.tasks import Task
 from sched_sim.ticks import Number, positive
+
+if TYPE_CHECKING:
+    from sched_sim.design.search import OnProgress
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,6 +60,8 @@ def fit(
     least = least_speed(costs, timing, options, tasks, on_progress)
     busy = sum(loads(costs, timing, pace, options, tasks), Fraction(0)) / options.cpus
     if not has_closed_form(options, tasks):
+        from sched_sim.design.steady import run_until_steady
+
         steady = run_until_steady(costs, timing, pace, options, tasks)
         fits, landed = steady.repeats, max(steady.schedule.achieved, default=None)
         if options.context_switch:
