@@ -23,7 +23,8 @@ from sched_sim.scenario.fields import ends
 from sched_sim.scenario.scenario import Late, Samples, Scenario, Sensor, needed_parts
 from sched_sim.schedule.jobs import HR, LR
 from sched_sim.schedule.length import check_simulation
-from sched_sim.schedule.task_file import TaskEntry, wrong_together
+from sched_sim.schedule.task_file import TaskEntry
+from sched_sim.schedule.tasks import wrong_together
 
 
 def _several(value: Any, what: str, read: Callable[[Any], Any]) -> tuple[Any, ...]:

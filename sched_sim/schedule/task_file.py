@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Sequence
 from fractions import Fraction
 from pathlib import Path
 from typing import Annotated, Self
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
-from sched_sim.bounds import MOST_TASKS
 from sched_sim.errors import InputError, option
 from sched_sim.files.toml_numbers import Number, Positive, Whole
 from sched_sim.files.toml_problems import problems
 from sched_sim.files.toml_reader import read_toml
-from sched_sim.schedule.tasks import Task
+from sched_sim.schedule.tasks import Task, wrong_together
 
 
 class TaskEntry(BaseModel):
@@ -61,11 +58,3 @@ def read_tasks(path: str | Path) -> list[Task]:
     if together := wrong_together(tasks):
         raise InputError(f"{what}: {'; '.join(together)}")
     return tasks
-
-
-def wrong_together(tasks: Sequence[Task]) -> list[str]:
-    """What to say of names that several tasks have, and of more tasks than anyone has."""
-    if len(tasks) > MOST_TASKS:
-        return [f"there are {len(tasks):,} tasks: give at most {MOST_TASKS:,}"]
-    count = Counter(task.name for task in tasks)
-    return [f"task name {name!r} is used twice; give each task its own" for name, times in count.items() if times > 1]

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
 
-from sched_sim.bounds import check_kind, short, whole
+from sched_sim.bounds import MOST_TASKS, check_kind, short, whole
 from sched_sim.errors import InputError, option
 from sched_sim.schedule.jobs import Job
 from sched_sim.ticks import exact, to_ticks
@@ -58,10 +58,18 @@ def checked_tasks(tasks: Iterable[Task], cpus: int) -> tuple[Task, ...]:
     known = tuple(tasks)
     for task in known:
         check_kind(task, Task, "a task", "Task(name, period, cost, priority)")
-    if twice := [name for name, times in Counter(task.name for task in known).items() if times > 1]:
-        raise InputError(f"task name {twice[0]!r} is used twice; give each task its own")
+    if together := wrong_together(known):
+        raise InputError("; ".join(together))
     check_cpus(known, cpus)
     return known
+
+
+def wrong_together(tasks: Sequence[Task]) -> list[str]:
+    """What to say of names that several tasks have, and of more tasks than anyone has."""
+    if len(tasks) > MOST_TASKS:
+        return [f"there are {len(tasks):,} tasks: give at most {MOST_TASKS:,}"]
+    count = Counter(task.name for task in tasks)
+    return [f"task name {name!r} is used twice; give each task its own" for name, times in count.items() if times > 1]
 
 
 def check_cpus(tasks: Sequence[Task], cpus: int) -> None:
