@@ -18,6 +18,8 @@ from filters.history import History
 from filters.kernels.definite import first_indefinite
 from filters.noises import check_noises
 from filters.problem import Problem
+from filters.records import Estimate
+from filters.rounding import check_rounding
 from filters.system import System
 
 
@@ -30,16 +32,24 @@ def first_broken(x: FloatArray, P: FloatArray, every: int, backend: BackendName)
 
 
 def check_history(
-    history: History, problem: Problem, every: int, remedy: str, backend: BackendName, coarse: System | None = None
+    history: History,
+    x_reference: FloatArray | None,
+    problem: Problem,
+    every: int,
+    remedy: str,
+    backend: BackendName,
+    coarse: System | None = None,
 ) -> History:
     """The history, if its estimates are finite, and its covariances, Q and R are some; innovations of what was lost
     become nan.
 
+    x_reference (cycles, n): x_{k^-}; None if rounding is not to be looked for, as where P is an approximation.
     every: steps between the P_reference. remedy: what to do about rounding. coarse: what P comes from, if not from the
     system of the run.
 
     Raises:
-        ValueError: they are not; the step is named, and the function of the system that is to blame, or the remedy.
+        ValueError: they are not, or rounding has made them wrong, see `check_rounding`; the step is named, and the
+            function of the system that is to blame, or the remedy.
     """
     steps, rows = len(problem.inputs), len(problem.measured.y)
     R = range(0, min(steps + 1, rows * every), every)
@@ -49,6 +59,9 @@ def check_history(
         check_noises(coarse, range(0, steps + 1 - every, every), R, backend)
     broken = first_broken(history.x, history.P_reference, every, backend)
     if broken is None:
+        if x_reference is not None:
+            reference = Estimate(x_reference, history.P_reference)
+            check_rounding(problem.system, history.x, reference, history.gains, problem.inputs, every, 1, remedy)
         lost = ~problem.measured.present[: len(history.innovations)]
         return history._replace(innovations=np.where(lost, np.nan, history.innovations))
     since = range(max(0, broken - 2 * every), broken + 1)
@@ -66,8 +79,10 @@ def breakdown(step: int, remedy: str) -> ValueError:
 
 def sturdier(update: CovarianceFormName, form: FactoredFormName = "conventional") -> str:
     """What to do where rounding is too much for these forms."""
-    others = [] if update == "joseph" or form != "conventional" else ["update='joseph'"]
-    others += [] if form != "conventional" else ["filters.multirate_gain with form='square-root' or 'u-d'"]
+    others = []
+    if form == "conventional":
+        others = [f"update={other!r}" for other in ("short", "joseph") if other != update]
+        others += ["filters.multirate_gain with form='square-root' or 'u-d'"]
     return f"give {', or '.join([*others, 'a smaller P0 or more noise (Q, R)'])}"
 
 

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from filters.arrays import FloatArray
-from filters.records import Correction
+from filters.records import Correction, Estimate
 from filters.system import System
 
 
@@ -31,7 +31,7 @@ class HistoryRecorder:
     def __init__(self, system: System) -> None:
         self._system = system
         self._x: list[FloatArray] = []
-        self._P: list[FloatArray] = []
+        self._references: list[Estimate] = []
         self._z: list[FloatArray] = []
         self._K: list[FloatArray] = []
 
@@ -39,21 +39,25 @@ class HistoryRecorder:
         """The estimate at the end of a step."""
         self._x.append(x)
 
-    def reference(self, P: FloatArray) -> None:
-        """P_{k^-} of a measurement reference step."""
-        self._P.append(P)
+    def reference(self, x: FloatArray, P: FloatArray) -> None:
+        """x_{k^-} and P_{k^-} of a measurement reference step."""
+        self._references.append(Estimate(x, P))
 
     def correction(self, correction: Correction) -> None:
         """What a measurement that was used has said."""
         self._z.append(correction.z)
         self._K.append(correction.K)
 
+    def references(self) -> Estimate:
+        """x_{k^-} (cycles, n) and P_{k^-} (cycles, n, n)."""
+        return Estimate(*map(np.array, zip(*self._references, strict=True)))
+
     def history(self) -> History:
         """What was collected, as arrays."""
         n, p = self._system.states, self._system.measurements
         return History(
             np.array(self._x),
-            np.array(self._P),
+            self.references().P,
             np.array(self._z).reshape(-1, p),
             np.array(self._K).reshape(-1, n, p),
         )

@@ -25,6 +25,7 @@ from filters.kernels.dense import add_vectors
 from filters.measured import Measurements
 from filters.problem import check_multirate_problem, check_system
 from filters.records import Correction, Sample, new_correction
+from filters.rounding import check_rounding
 from filters.running import running
 from filters.system import System
 from filters.systems.coarse import over
@@ -177,7 +178,7 @@ def run(
                 u = moves[j - n]
                 run_covariance_gain(coarse_model, bound, j, n, x_last, u, x, factors, predicted, K, posterior, work)
             kept.covariance(predicted, P)
-            recorder.reference(P)
+            recorder.reference(x.copy(), P)
             factors = posterior
             gains.append(K)
         correction = new_correction(system)._replace(K=np.where(present[j], gains[cycle_in_use(j, n, L)], 0.0))
@@ -186,7 +187,10 @@ def run(
             x_last = x
         recorder.correction(correction)
         recorder.state(x)
-    return check_history(recorder.history(), problem, n, sturdier(update, form), backend, coarse)
+    remedy = sturdier(update, form)
+    history = check_history(recorder.history(), None, problem, n, remedy, backend, coarse)
+    check_rounding(coarse, history.x, recorder.references(), n * np.array(gains), moves, n, n, remedy)
+    return history
 
 
 def _state_update(system: System, _form: FactoredForm, at: Sample) -> tuple[Any, ...]:

@@ -189,7 +189,7 @@ def run(
             correction = None
         if j % N == 0:
             measured = j // N < len(y)
-            recorder.reference(low_rate.propagate(high_rate.message(j), measured=measured))
+            recorder.reference(high_rate.x, low_rate.propagate(high_rate.message(j), measured=measured))
         if j % N == M and j // N < len(y):  # m < k + N, so the cycle is still that of k
             correction = low_rate.update(y[j // N])
             recorder.correction(correction)
@@ -197,7 +197,8 @@ def run(
             high_rate.correct(L, correction.delta_x)
             correction = None
         recorder.state(high_rate.x)
-    return check_history(recorder.history(), problem, N, sturdier(update), backend)
+    exact = recorder.references().x if low_rate_noise == "exact" else None
+    return check_history(recorder.history(), exact, problem, N, sturdier(update), backend)
 
 
 def _check_feedback_step(N: int, M: int, L: int, feedback: Feedback) -> None:

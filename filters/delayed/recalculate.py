@@ -56,7 +56,7 @@ def run(
             estimate = propagated(j - 1, estimate)
         if j % N == 0 and M < N:
             reference = estimate
-            recorder.reference(reference.P)
+            recorder.reference(*reference)
 
         k = j - M
         if k >= 0 and k % N == 0 and k // N < len(y):
@@ -69,9 +69,9 @@ def run(
 
         if j % N == 0 and M == N:  # the measurement that has just arrived belonged to the reference before this one
             reference = estimate
-            recorder.reference(reference.P)
+            recorder.reference(*reference)
         recorder.state(estimate.x)
-    return check_history(recorder.history(), problem, N, sturdier(update), backend)
+    return check_history(recorder.history(), recorder.references().x, problem, N, sturdier(update), backend)
 
 
 JOBS = (standard.PROPAGATE, standard.UPDATE, ("replay", *standard.PROPAGATE[1:]))

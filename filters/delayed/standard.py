@@ -122,15 +122,15 @@ def run(
     measurements (cycles, p): row c is taken at k = cN; where there are fewer than steps // N + 1, the last are missing.
         None in place of a row, or of a number in it, says that it was lost: the filter uses the rest, as if H and R had
         no other rows. Of what was lost the innovation is nan and the gain zero.
-    update: the covariance form. With textbook and short, P may cease to be a covariance where R is near 1e-16 H P H^T,
-        the rounding of what it is taken from. Joseph's stays one for any gain, also for a gain that rounding has made
-        wrong, as where H P H^T + R is nearly singular: it may then be far too sure. Most is borne by the factors of P
-        that `multirate_gain.run` can keep, for n = 1 the same filter.
+    update: the covariance form. All lose digits where R is tiny beside H P H^T, or measurements nearly the same: P may
+        cease to be a covariance (textbook, short), or the gain be far from the best one (joseph). A run that has been
+        spoilt so is refused. Most is borne by the factors of P that `multirate_gain.run` can keep, for n = 1 the same
+        filter.
 
     Raises:
         ValueError: N, M, L or a shape is wrong, a name is unknown, or a number is not finite; the system gives one that
-            is not, or a Q or R that is no covariance; or a covariance is no longer one, see `breakdown`. The step is
-            named, and what to do.
+            is not, or a Q or R that is no covariance; or rounding has been too much for a covariance or a gain, see
+            `breakdown` and `rounding`. The step is named, and what to do.
     """
     problem = check_problem(system, N, M, L, x0, P0, inputs, measurements)
     steps, cycles = len(problem.inputs), len(problem.inputs) // N + 1
@@ -151,7 +151,9 @@ def run(
         new_correction(system),
         new_workspace(system),
     )
-    return check_history(history, problem, N, sturdier(update), backend)
+    x_reference = history.x[::N].copy()
+    x_reference[:updates] -= np.einsum("cnp,cp->cn", history.gains, history.innovations)  # what was added (10, 12)
+    return check_history(history, x_reference, problem, N, sturdier(update), backend)
 
 
 def _propagate(system: System, form: CovarianceForm, at: Sample) -> tuple[Any, ...]:

@@ -9,9 +9,9 @@ from sched_sim.costs.table import CostTable
 
 MEASURE = "`sched-sim measure --update"
 FORMS = {
-    "textbook": f"textbook (Eq. 11); {MEASURE} short` counts a cheaper one, joseph a safer one",
-    "joseph": f"joseph, the safest; {MEASURE} short` counts a cheaper one",
-    "short": f"short, P - K (P H')', the cheapest; {MEASURE} joseph` counts a safer one",
+    "textbook": f"textbook (Eq. 11); {MEASURE} short` counts a cheaper one, joseph one that bears any gain",
+    "joseph": f"joseph, which bears any gain; {MEASURE} short` counts a cheaper one",
+    "short": f"short, P - K (P H')', the cheapest; {MEASURE} joseph` counts one that bears any gain",
 }
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from typing import Any
 
@@ -209,7 +210,7 @@ def test_no_covariance_is_returned_that_is_none(method: str, form: str, P0: floa
     try:
         P = run_ill_conditioned(method, form, P0, R).P_reference
     except ValueError as error:
-        assert "no longer positive semidefinite" in str(error)  # noqa: PT017 - either may be
+        assert re.search("no longer positive semidefinite|rounding errors", str(error))  # noqa: PT017 - either may be
         return
     deviations = np.sqrt(np.diagonal(P, axis1=1, axis2=2))
     assert np.linalg.eigvalsh(P / (deviations[:, :, np.newaxis] * deviations[:, np.newaxis, :])).min() > -1e-7

@@ -35,7 +35,7 @@ def write(folder: Path, form: str) -> None:
     ("form", "said"),
     [
         ("textbook", "covariance update: textbook (Eq. 11); `sched-sim measure --update short` counts a cheaper one"),
-        ("joseph", "covariance update: joseph, the safest"),
+        ("joseph", "covariance update: joseph, which bears any gain"),
         ("short", "covariance update: short, P - K (P H')', the cheapest"),
         ("my own", "covariance update: my own"),
     ],
