@@ -3,7 +3,8 @@
 Where a measurement is far more precise than the estimate, or two measurements are nearly the same, what is left of P is
 a difference of numbers that are nearly equal. P may still be a covariance and yet say far too little, and a gain may be
 far from the best one. Square roots keep twice as many digits: for such a run, and no other, the covariances are
-computed again as P = C C^T, by orthogonal transformations (Kaminski, Bryson and Schmidt, IEEE Trans. Automatic Control 16, 1971).
+computed again as P = C C^T, by orthogonal transformations (Kaminski, Bryson and Schmidt, IEEE Transactions on
+Automatic Control 16, 1971).
 """
 
 from __future__ import annotations

@@ -107,7 +107,7 @@ def _span(slices: Sequence[Slice]) -> JobSpan:
 
 def never_ran(schedule: Schedule) -> int:
     """How many of the missed jobs had not got the processor by the horizon."""
-    return sum(job.missed and not job.runs for job in jobs(schedule))
+    return sum(job.missed and job.finish is None and not job.runs for job in jobs(schedule))
 
 
 def waits(job: JobSpan, horizon: int) -> list[tuple[int, int]]:

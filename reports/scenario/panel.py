@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from math import ceil
 from typing import NamedTuple
@@ -27,16 +27,6 @@ BEFORE_ARRIVAL, AFTER_ARRIVAL = 4, 8
 """Steps shown about a late measurement's arrival, at the least."""
 
 
-class Expected(NamedTuple):
-    """A job by its release, whether it has run or not; times in ticks."""
-
-    kind: str
-    step: int
-    cpu: int
-    release: int
-    deadline: int
-
-
 class Late(NamedTuple):
     """A measurement taken in step k that arrives in step m."""
 
@@ -51,12 +41,10 @@ def scenario_panel(scenario: Scenario, outcome: Outcome) -> Panel:
     first, last = window(scenario, outcome.first_miss, late)
     slices: list[Slice] = []
     again = run_scenario(replace(scenario, steps=last), on_slice=slices.append)
-    ran = {(piece.kind, piece.step): piece for piece in slices}  # the last of each job
-    silent = list(_silent(scenario, last, again, {*ran}))
     start = first * again.schedule.period
-    ended = ran | {(piece.kind, piece.step): piece for piece in silent}
-    alive = {job for job, piece in ended.items() if not piece.finished or piece.end > start}
-    shown = tuple(piece for piece in [*slices, *silent] if (piece.kind, piece.step) in alive)
+    last_of = {(piece.kind, piece.step): piece for piece in slices}
+    alive = {job for job, piece in last_of.items() if not piece.finished or piece.end > start}
+    shown = tuple(piece for piece in slices if (piece.kind, piece.step) in alive)
     schedule = replace(again.schedule, slices=shown)
     ms = None if scenario.hr_hz is None else float(1000 / scenario.hr_hz)
     pace = f"speed {float(scenario.speed):.4g}" if ms is None else f"HR period {ms:.4g} ms"
@@ -101,40 +89,6 @@ def _drawn(scenario: Scenario, sensor: Sensor, steps: int) -> list[tuple[int, in
     """The step in which each measurement is taken, and its delay."""
     taken = range(sensor.offset, steps, sensor.every)
     return list(zip(taken, fates(sensor.delays, sensor.dropout, len(taken), scenario.seed, sensor.name), strict=True))
-
-
-def _silent(scenario: Scenario, steps: int, outcome: Outcome, ran: set[tuple[str, int]]) -> Iterator[Slice]:
-    """For each job without a slice one that lasts no time: another does its work too.
-
-    Jobs of one kind finish in the order of their releases.
-    """
-    period = outcome.schedule.period
-    for expected in _expected(scenario, steps, period):
-        responses = outcome.jobs[expected[0].kind].responses if expected else ()
-        for number, job in enumerate(expected):
-            if (job.kind, job.step) in ran:
-                continue
-            finished = number < len(responses)
-            end = job.release + round(responses[number] * period) if finished else outcome.schedule.horizon
-            yield Slice(job.cpu, end, end, job.kind, job.step, 0, 0, (), finished, job.release, job.deadline, period)
-
-
-def _expected(scenario: Scenario, steps: int, period: int) -> Iterator[list[Expected]]:
-    """The jobs of each kind in the order of their releases."""
-    yield [Expected("predict", step, 0, step * period, (step + 1) * period) for step in range(steps)]
-    for sensor in scenario.sensors:
-        arrivals = sorted(
-            (step + delay, step)
-            for step, delay in _drawn(scenario, sensor, steps)
-            if delay is not None and step + delay < steps
-        )
-        kind, cpu = correct_kind(sensor), scenario.cpus - 1
-        yield [Expected(kind, k, cpu, m * period, (k + sensor.land_by + 1) * period) for m, k in arrivals]
-    for task in scenario.tasks:
-        count = max(ceil((steps - task.offset) / task.period), 0)
-        at = [int((task.offset + number * task.period) * period) for number in range(count + 1)]
-        kind, cpu = f"task:{task.name}", task.cpu - 1
-        yield [Expected(kind, number, cpu, at[number], at[number + 1]) for number in range(count)]
 
 
 def _marks(late: Late, schedule: Schedule) -> Sequence[Mark]:

@@ -126,7 +126,7 @@ def run_scenario(
 ) -> Outcome:
     """Simulate it: the same outcome every time, from its seed.
 
-    on_slice: called as slices end; corrections that go together have the slices of the first.
+    on_slice: called as slices end; of corrections that go together the first has the work.
     on_progress: called about a hundred times.
     """
     if not isinstance(scenario, Scenario):

@@ -12,7 +12,8 @@ from sched_sim.schedule.jobs import Parts
 
 
 class Slice(NamedTuple):
-    """A stretch of uninterrupted execution, [start, end) in ticks; of no length for a job unfinished at the horizon.
+    """A stretch of uninterrupted execution, [start, end) in ticks; of no length for a job that is unfinished at the
+    horizon, or whose work another has done.
 
     cpu: from 0; kind, step: of the job; begin: work of the job done before this slice, without overhead;
     overhead: ticks at the start of the slice that went into the context switch; parts: of the whole job;

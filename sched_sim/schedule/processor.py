@@ -150,6 +150,8 @@ class Processor:
                             tally.worst = response
                         if now > done.deadline:
                             self._missed(done, now)
+                        if on_slice is not None and done is not job:
+                            on_slice(self._slice(done, now, now, finished=True))
                         if on_finish is not None:
                             on_finish(done, now)
                     for new in following:
@@ -218,10 +220,9 @@ class Processor:
                 if self.on_slice is not None:
                     self.on_slice(piece)
                 unfinished.append(cpu.running)
-        if self.on_slice is not None:
-            for job in unfinished:
-                self.on_slice(self._slice(job, self.horizon, self.horizon, finished=False))
         for waiting in [each for job in unfinished for each in (job, *job.companions)]:
+            if self.on_slice is not None:
+                self.on_slice(self._slice(waiting, self.horizon, self.horizon, finished=False))
             self.tallies[waiting.kind].releases += 1
             if waiting.deadline <= self.horizon:
                 self._missed(waiting, self.horizon)

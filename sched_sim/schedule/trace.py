@@ -20,6 +20,9 @@ COLUMNS = ("cpu", "kind", "piece", "step", "start", "end", "release", "deadline"
 UNFINISHED = "unfinished"
 """Instead of a piece: how a job stands at the end of the simulated time, whether it has run before or not."""
 
+TOGETHER = "together"
+"""Instead of a piece: a job that is done as another one is, with no work of its own."""
+
 
 @contextmanager
 def open_trace(path: str | Path, microseconds_per_period: float = 1000.0) -> Iterator[Write]:
@@ -27,7 +30,7 @@ def open_trace(path: str | Path, microseconds_per_period: float = 1000.0) -> Ite
 
     CSV: a row for each piece of a slice, times in HR periods. JSON: one complete event for each piece, one HR period
     lasting `microseconds_per_period`; each CPU is a process, each job kind a thread. A job that is unfinished at
-    the end has a row of no length, or an instant event.
+    the end, or done together with another, has a row of no length, or an instant event.
     The file is there once all is written. Raises InputError for another suffix and for a path that cannot be written.
     """
     path = Path(path)
@@ -53,7 +56,7 @@ def _csv(file: StreamWriter, _scale: float) -> Iterator[Write]:
 
     def write(piece: Slice) -> None:
         period = piece.period
-        for label, start, end in piece.pieces() or [(UNFINISHED, piece.start, piece.end)]:
+        for label, start, end in piece.pieces() or [(_standing(piece), piece.start, piece.end)]:
             writer.writerow(
                 (
                     piece.cpu + 1,
@@ -104,14 +107,18 @@ def _chrome(file: StreamWriter, scale: float) -> Iterator[Write]:
                 dur=(end - start) * scale / period,
                 args=about,
             )
-        unfinished = piece.start == piece.end
-        if unfinished or (piece.finished and piece.missed):
-            name = "missed" if piece.missed else UNFINISHED
+        if piece.start == piece.end or (piece.finished and piece.missed):
+            name = "missed" if piece.missed else _standing(piece)
             event(name=name, ph="i", s="t", pid=cpu, tid=tid, ts=piece.end * scale / period, args=about)
 
     file.write('{"displayTimeUnit": "ms", "traceEvents": [')
     yield write
     file.write("\n]}\n")
+
+
+def _standing(piece: Slice) -> str:
+    """What a slice of no length says."""
+    return TOGETHER if piece.finished else UNFINISHED
 
 
 WRITERS = {".csv": _csv, ".json": _chrome}

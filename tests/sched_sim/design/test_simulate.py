@@ -134,7 +134,7 @@ def test_a_job_that_goes_on_is_booked_once_and_its_companions_with_it() -> None:
     )
     processor.run()
     responses = processor.schedule().responses
-    assert slices == [(0, 5, False), (5, 6, False), (6, 8, True), (8, 10, True)]
+    assert slices == [(0, 5, False), (5, 6, False), (6, 8, True), (8, 10, True), (10, 10, True)]
     assert finishes == [("urgent", 8), ("first", 10), ("companion", 10)]
     assert (responses["first"].finished, responses["first"].worst, responses["first"].misses) == (1, 10, 0)
     assert (responses["companion"].finished, responses["companion"].worst, responses["companion"].misses) == (1, 9, 1)

@@ -16,8 +16,10 @@ from sched_sim.design.options import Options
 from sched_sim.design.simulate import simulate
 from sched_sim.design.timing import Timing
 from sched_sim.errors import InputError
+from sched_sim.scenario.run import run_scenario
 from sched_sim.schedule.outcome import Schedule
 from sched_sim.schedule.trace import open_trace
+from tests.scenarios import BY_HAND, scenario, sensor
 
 
 def traced(path: Path, speed: str = "0.77", scale: float = 1000.0) -> Schedule:
@@ -70,6 +72,21 @@ def test_a_job_that_never_ran_is_in_both_traces(tmp_path: Path) -> None:
     (thread,) = [event["tid"] for event in events if event["args"].get("name") == "lr_update"]
     missed = [event for event in events if event["name"] == "missed" and event["tid"] == thread]
     assert [(event["ts"], event["args"]["step"]) for event in missed] == [(30_000, k) for k in (0, 10, 20)]
+
+
+def test_corrections_that_go_together_are_all_in_both_traces(tmp_path: Path) -> None:
+    """Both arrive at 60 and are done from 64 to 75, of 30 a step; the imu's, of step 1, is the second."""
+    late = sensor("gps", 100, 2), sensor("imu", 100, 1, offset=1)
+    for name in ("slices.csv", "slices.json"):
+        with open_trace(tmp_path / name) as write:
+            run_scenario(scenario(30, BY_HAND, *late, steps=4), on_slice=write)
+    with (tmp_path / "slices.csv").open() as file:
+        (row,) = [row for row in csv.DictReader(file) if row["kind"] == "correct imu"]
+    assert [row[name] for name in ("piece", "step", "start", "end", "release", "finished", "missed")] == [
+        "together", "1", "2.5", "2.5", "2.0", "1", "0",
+    ]  # fmt: skip
+    events = json.loads((tmp_path / "slices.json").read_text())["traceEvents"]
+    assert [event["ts"] for event in events if event["name"] == "together"] == [2500]
 
 
 @pytest.mark.parametrize(("name", "said"), [("trace.txt", r"must end in \.csv or \.json"), ("no/t.csv", "cannot be")])
