@@ -16,7 +16,10 @@ from filters.systems.shaped import shaped
 
 
 class TrueCovariance(NamedTuple):
-    """The estimation error's in every step: before and after its measurement, each (..., steps + 1, n, n)."""
+    """The estimation error's in every step.
+
+    before, after (..., steps + 1, n, n): its measurement.
+    """
 
     before: FloatArray
     after: FloatArray

@@ -24,8 +24,9 @@ Observation: TypeAlias = Callable[[FloatArray, FloatArray], None]
 
 
 class Corrector(NamedTuple):
-    """expect(view, observed, space, before, work) fills `expected`, `S` and `cross` of work, and `H` unless unscented.
+    """What a measurement of one sensor says about the state; as `linear_corrector` and others make it for `Sensor`.
 
+    expect(view, observed, space, before, work) fills `expected`, `S` and `cross` of work, and `H` unless unscented.
     observe(view, observed, space, x, work): its part that fills `expected` and `H`; None if it is unscented.
     view(n): the model that expect takes, for a state whose error has length n; raises ValueError if it does not fit.
     observed: what a measurement stands for; of: what the state stands for. R (p, p): of the measurement's error.

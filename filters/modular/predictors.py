@@ -34,8 +34,9 @@ DIFFERENCE = 1e-3
 
 
 class Predictor(NamedTuple):
-    """predict(motion, space, before, u, dt, after, work) fills `after` from `before`; motion: the model that it takes.
+    """How an estimate gets from one step to the next; as `linear_predictor` and others make it for `ModularFilter`.
 
+    predict(motion, space, before, u, dt, after, work) fills `after` from `before`; motion: the model that it takes.
     evolve(motion, space, x, u, dt, x_next, work): its part that leaves F in work; None if it is unscented.
     states: the length of the state's error.
     """

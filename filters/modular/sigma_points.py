@@ -17,7 +17,7 @@ MEAN_TOLERANCE = 1e-24
 
 
 class SigmaPoints(NamedTuple):
-    """How sigma points are spread, from `merwe` or `maccormack`."""
+    """How sigma points are spread; made by `merwe` or `maccormack`."""
 
     form: Literal["merwe", "maccormack"]
     alpha: float

@@ -34,6 +34,7 @@ class Cost:
 
     @classmethod
     def of(cls, value: Fraction) -> Cost:
+        """A cost that is always so much."""
         return cls(value, value, value)
 
     def __truediv__(self, unit: Fraction) -> Cost:

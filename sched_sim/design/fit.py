@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING
 
 from sched_sim.design.arguments import checked
 from sched_sim.design.least_speed import LeastSpeed, achieved_l, has_closed_form, least_speed
@@ -15,9 +14,6 @@ from sched_sim.design.pieces import Costs
 from sched_sim.design.timing import Timing
 from sched_sim.schedule.tasks import Task
 from sched_sim.ticks import Number, positive
-
-if TYPE_CHECKING:
-    from sched_sim.design.search import OnProgress
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,7 +45,7 @@ def fit(
     hr_hz: Number,
     options: Options = Options(),
     tasks: Sequence[Task] = (),
-    on_progress: OnProgress = lambda _runs: None,
+    on_progress: Callable[[int], None] = lambda _runs: None,
 ) -> Fit:
     """costs: in seconds, as `part.on_part` makes them; hr_hz: rate of the HR loop.
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from fractions import Fraction
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -18,20 +18,24 @@ from sched_sim.errors import InputError
 from sched_sim.schedule.tasks import Task
 from sched_sim.ticks import Number, positive, ticks_per_unit, to_ticks
 
-if TYPE_CHECKING:
-    from sched_sim.design.search import OnProgress
-
 
 class LeastSpeed(NamedTuple):
-    """speed: the least, in cost units per HR period; binding: the name of an `analysis.Binding`, "task:NAME" or
-    "load", where nothing is missed soon and work piles up."""
+    """The least speed of one design, and what fixes it.
+
+    speed: in cost units per HR period; binding: as in the column of a sweep, the name of an `analysis.Binding`,
+    "task:NAME" or "load", where nothing is missed soon and work piles up.
+    """
 
     speed: Fraction
     binding: str
 
 
 class Stair(NamedTuple):
-    """For one L asked for: the least speed, what fixes it, and the L at which corrections land at that speed."""
+    """What one L asks of the processor.
+
+    L: as asked for, in HR steps; speed: the least, in cost units per HR period; binding: what fixes it, as in
+    `LeastSpeed`; achieved: the L at which corrections land at that speed, in HR steps.
+    """
 
     L: int
     speed: Fraction
@@ -44,7 +48,7 @@ def least_speed(
     timing: Timing,
     options: Options = Options(),
     tasks: Sequence[Task] = (),
-    on_progress: OnProgress = lambda _runs: None,
+    on_progress: Callable[[int], None] = lambda _runs: None,
 ) -> LeastSpeed:
     """The least speed at which every deadline holds (Steffes 2014, Sec. III.C: needed processing power).
 

@@ -25,7 +25,7 @@ class StandardCosts(Generic[Number]):
 
 @dataclass(frozen=True, slots=True)
 class RecalculateCosts(Generic[Number]):
-    """Work of the pieces of recalculate; update: the fixed part at m, replay: each re-propagated step."""
+    """Work of the pieces of recalculate; update: the fixed part at m; replay: each re-propagated step."""
 
     propagate: Number
     update: Number

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 
 class Flight(NamedTuple):
-    """A measurement of the sensor of this name, taken in one step, that arrives in a later one."""
+    """A measurement of the sensor of this name, taken in one HR step, that arrives in a later one."""
 
     sensor: str
     taken: int

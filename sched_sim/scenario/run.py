@@ -72,7 +72,9 @@ class SensorFigures:
 
 @dataclass(frozen=True)
 class Outcome:
-    """jobs: by kind, "predict", "correct NAME", "task:NAME"; sensors: by name; schedule: of the processor;
+    """What came out of a scenario.
+
+    jobs: by kind, "predict", "correct NAME", "task:NAME"; sensors: by name; schedule: of the processor;
     first_miss: the earliest deadline that was missed, in HR periods from the start.
 
     A correction is one job, from its arrival until it lands, whether it has to catch up or lands together with others.
@@ -85,6 +87,7 @@ class Outcome:
 
     @property
     def misses(self) -> int:
+        """How many deadlines were missed, of all kinds of job."""
         return sum(figures.misses for figures in self.jobs.values())
 
     def _repr_html_(self) -> str:

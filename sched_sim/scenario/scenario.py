@@ -79,10 +79,12 @@ class Sensor:
 
     @property
     def least_delay(self) -> int:
+        """In HR steps."""
         return ends(self.delays)[0]
 
     @property
     def longest_delay(self) -> int:
+        """In HR steps."""
         return ends(self.delays)[1]
 
     def fates(self, steps: int, seed: int) -> list[int | None]:

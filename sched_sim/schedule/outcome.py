@@ -52,7 +52,11 @@ class Slice(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Response:
-    """Figures of all jobs of one kind; times in ticks.
+    """Figures of all jobs of one kind; times in ticks, of which the schedule's `period` are an HR period.
+
+    releases: how many were released; finished: how many of them by the horizon; worst: the longest response time;
+    total: the sum of all response times; misses: deadlines missed; worst_lateness: the longest time after a deadline;
+    preemptions: how often one was interrupted by another job.
 
     A job that is unfinished at the horizon counts in `releases`, and in `misses` and `worst_lateness` if its
     deadline has passed; not in the response times.
@@ -68,6 +72,7 @@ class Response:
 
     @property
     def mean(self) -> Fraction:
+        """The mean response time in ticks; 0 if none finished."""
         return Fraction(self.total, self.finished) if self.finished else Fraction(0)
 
 
@@ -94,10 +99,12 @@ class Schedule:
 
     @property
     def misses(self) -> int:
+        """How many deadlines were missed, of all kinds of job."""
         return sum(response.misses for response in self.responses.values())
 
     @property
     def preemptions(self) -> int:
+        """How often a job was interrupted by another."""
         return sum(response.preemptions for response in self.responses.values())
 
     @property

@@ -19,7 +19,7 @@ HOW = (
 
 
 class UserFilter(NamedTuple):
-    """A filter and its jobs, by part."""
+    """A filter and its jobs, by part; made by `studies.measurement.user_filter.load_filter`."""
 
     composed: ModularFilter
     jobs: Mapping[str, Job]
