@@ -7,6 +7,8 @@ import re
 from collections.abc import Iterator
 from typing import Any
 
+from sphinx.addnodes import desc_addname, desc_signature
+
 NAME = r"(\w+)(\([^)]*\)| \([^)]*\))?"  # of an argument, perhaps with how it is called, f(x), or its shape, P0 (n, n)
 ITEM = re.compile(rf"(?:^|(?<=[;.] ))({NAME}(?:, {NAME})*): |^(\w+)\([^)]*\) (?=\w)", re.MULTILINE)
 FLOATS = r"~?numpy\.ndarray\[tuple\[~?typing\.Any, \.\.\.\], ~?numpy\.dtype\[~?numpy\.float64\]\]"
@@ -72,8 +74,29 @@ def types_as_written(app: Any, *_described: Any) -> None:
             types[name] = re.sub(FLOATS, "FloatArray", re.sub(r"TypeAliasForwardRef\('(\w+)'\)", r"\1", words))
 
 
+def without_room(app: Any, domain: str, _kind: str, content: Any) -> None:
+    """What is no public name of its package is shown without the module in which it happens to be."""
+    for signature in content.parent.findall(desc_signature) if domain == "py" else ():
+        if signature["module"] not in app.env.domains.python_domain.modules:
+            for module in list(signature.findall(desc_addname)):
+                signature.remove(module)
+
+
+def to_public(app: Any, env: Any, reference: Any, words: Any) -> Any:
+    """A type is linked to the public name that it has in the nearest package above its module."""
+    package, _, name = reference["reftarget"].rpartition(".")
+    python = env.domains.python_domain
+    while package := package.rpartition(".")[0]:
+        public = f"{package}.{name}"
+        if public in python.objects:
+            return python.resolve_xref(env, reference["refdoc"], app.builder, "class", public, reference, words)
+    return None
+
+
 def setup(app: Any) -> dict[str, bool]:
     app.connect("autodoc-process-docstring", as_text)
     app.connect("autodoc-skip-member", is_no_alias)
     app.connect("object-description-transform", types_as_written, priority=400)  # autodoc's own comes after
+    app.connect("object-description-transform", without_room)
+    app.connect("missing-reference", to_public)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
