@@ -9,7 +9,7 @@ sys.path.insert(0, str(Path(__file__).parent / "extensions"))
 project = "sched_sim"
 copyright = "the sched_sim authors"
 version = release = installed("sched-sim")
-extensions = ["myst_parser", "sphinx.ext.autodoc", "commands", "docstrings", "drawn", "equations", "published"]
+extensions = ["myst_parser", "sphinx.ext.autodoc", "commands", "docstrings", "drawn", "equations", "published", "wide"]
 exclude_patterns = ["extensions"]
 nitpicky = True
 ALIASES = ("ArrayLike", "Costs", "FloatArray", "Number")  # shown as these names, not as all that they stand for

@@ -30,7 +30,7 @@ class Drawn(SphinxDirective):
             raise self.error(done.output)
         shown = nodes.literal_block(line, line, language="sh")
         place = os.path.relpath(picture, Path(self.env.doc2path(self.env.docname)).parent)
-        return [shown, nodes.image(uri=place, alt=self.options["alt"], classes=["drawn"])]
+        return [shown, nodes.image(uri=place, alt=self.options["alt"])]
 
 
 def setup(app: Any) -> dict[str, bool]:

@@ -16,7 +16,7 @@ def inline(page: Any, node: nodes.math) -> None:
 def block(page: Any, node: nodes.math_block) -> None:
     number = f'<span class="eqno">({node["number"]})</span>' if node["number"] else ""
     target = f' id="{node["ids"][0]}"' if node["ids"] else ""
-    page.body.append(f'<div class="math"{target}>{number}{convert(node.astext(), display="block")}</div>')
+    page.body.append(f'<div class="math"{target} tabindex="0">{number}{convert(node.astext(), display="block")}</div>')
     raise nodes.SkipNode
 
 

@@ -32,19 +32,22 @@ PACKAGES = ("sched_sim", "filters", "filters.modular", "studies", "reports")
 
 
 class Page(HTMLParser):
-    """What a page loads, where it links to, what can be linked to in it, and its text."""
+    """What a page loads, where it links to, what can be linked to in it, what the Tab key stops at, and its text."""
 
     def __init__(self, path: Path) -> None:
         super().__init__()
         self.loads: list[str] = []
         self.links: list[str] = []
         self.ids: set[str] = set()
+        self.stops: set[str] = set()
         self.text = ""
         self.feed(path.read_text(encoding="utf-8"))
 
     def handle_starttag(self, tag: str, attributes: list[tuple[str, str | None]]) -> None:
         given = {name: value or "" for name, value in attributes}
         self.ids.add(given.get("id", ""))
+        if "tabindex" in given:
+            self.stops.update([tag, *given.get("class", "").split()])
         if tag == "a" and "href" in given:
             self.links.append(given["href"])
         elif tag in LOADED and LOADED[tag] in given and given.get("rel") not in ("index", "search", "next", "prev"):
@@ -87,6 +90,9 @@ def test_the_site_is_whole(tmp_path: Path) -> None:
     pages = build(site)
     assert list(from_elsewhere(site, pages)) == []
     assert list(dead_links(pages)) == []
+    assert set().union(*(page.stops for page in pages.values())) >= {"pre", "table-wrapper", "math"}, "to be scrolled"
+    pictures = [(page.links, load) for page in pages.values() for load in page.loads if load.endswith(".svg")]
+    assert [picture for links, picture in pictures if picture not in links] == []
     raw = {path.name: re.findall(r"\$\$|\\frac|\\begin|\{eval-rst\}", page.text) for path, page in pages.items()}
     assert not {name: found for name, found in raw.items() if found}
     ids = set().union(*(page.ids for page in pages.values()))
