@@ -6,6 +6,7 @@ end. Messages name the option or the key, the value and the bound.
 
 from __future__ import annotations
 
+from collections.abc import Sized
 from decimal import Decimal
 from fractions import Fraction
 from operator import index
@@ -88,6 +89,12 @@ def at_least_one(value: int, what: str) -> int:
     if number < 1:
         raise InputError(f"{what} is {short(number)}: give at least 1")
     return number
+
+
+def check_sensors(sensors: Sized) -> None:
+    """Raises InputError for more than MOST_SENSORS."""
+    if len(sensors) > MOST_SENSORS:
+        raise InputError(f"there are {len(sensors):,} sensors: give at most {MOST_SENSORS}")
 
 
 def check_kind(value: object, kind: type | tuple[type, ...], what: str, needed: str) -> None:

@@ -8,7 +8,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any, Literal, get_args
 
-from sched_sim.bounds import MOST_STEPS, short
+from sched_sim.bounds import MOST_STEPS, check_sensors, short
 from sched_sim.errors import InputError
 from sched_sim.files.toml_writer import toml_key
 from sched_sim.scenario.draws import fates
@@ -192,6 +192,12 @@ def _so_many(value: Any, name: str) -> int:
     return steps
 
 
+def _sensors(value: Any, name: str) -> tuple[Sensor, ...]:
+    sensors = all_of(Sensor, least=1)(value, name)
+    check_sensors(sensors)
+    return sensors
+
+
 def _speed(value: Any, name: str) -> Fraction:
     speed = exact(value, name)
     if speed <= 0:
@@ -203,7 +209,7 @@ SCENARIO_FIELDS = {
     "name": text("tables and charts show it"),
     "steps": _so_many,
     "speed": _speed,
-    "sensors": all_of(Sensor, least=1),
+    "sensors": _sensors,
     "costs": samples,
     "hr_hz": rate,
     "seed": at_least(0, "a whole number that the draws start from"),

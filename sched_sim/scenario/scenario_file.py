@@ -10,7 +10,7 @@ from typing import Annotated, Any, Literal, Self, get_args
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, model_validator
 
-from sched_sim.bounds import MOST_SENSORS, MOST_STEPS, short
+from sched_sim.bounds import MOST_STEPS, check_sensors, short
 from sched_sim.costs.sample_file import SampledCosts, read_sampled_costs
 from sched_sim.costs.table import SECONDS
 from sched_sim.errors import InputError, option
@@ -100,8 +100,8 @@ _Delays = Annotated[Any, BeforeValidator(_delays)]
 
 
 def _not_too_many(sensors: Any) -> Any:
-    if isinstance(sensors, list) and len(sensors) > MOST_SENSORS:
-        raise ValueError(f"there are {len(sensors):,} sensors: give at most {MOST_SENSORS}")
+    if isinstance(sensors, list):
+        check_sensors(sensors)
     return sensors
 
 

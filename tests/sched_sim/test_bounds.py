@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -122,7 +123,11 @@ def test_more_sensors_than_any_filter_has(sched_sim: Run, tmp_path: Path) -> Non
     (tmp_path / "s.toml").write_text(head + "".join(entries))
     is_refused(sched_sim("simulate --scenario s.toml"), ["s.toml", "there are 101 sensors: give at most 100"])
     (tmp_path / "s.toml").write_text(head + "".join(entries[:100]))
-    assert len(read_scenario(tmp_path / "s.toml").sensors) == 100
+    scenario = read_scenario(tmp_path / "s.toml")
+    more = [*scenario.sensors, replace(scenario.sensors[0], name="another")]
+    costs = {**scenario.costs, "correct.another": [1]}
+    with pytest.raises(InputError, match="there are 101 sensors: give at most 100"):
+        replace(scenario, sensors=more, costs=costs)
 
 
 def test_more_workers_than_any_machine_runs(sched_sim: Run) -> None:
