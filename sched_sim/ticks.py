@@ -34,6 +34,8 @@ def exact(value: Number, what: str) -> Fraction:
     except (ArithmeticError, ValueError):
         if isinstance(value, Decimal):
             raise InputError(f'{what} is {value}: give a finite number such as 0.78 or "77/100"') from None
+        if hasattr(value, what):
+            raise InputError(f"{what} is {short(value)}: give its .{what}") from None
         raise InputError(f"{what} is {short(value)!r}: give a finite number such as 0.78 or 77/100") from None
     check_size(number, what, value)
     return number

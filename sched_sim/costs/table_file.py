@@ -136,9 +136,9 @@ def load_costs(name_or_path: str | Path) -> CostTable:
     Raises InputError that names the file, every wrong entry in it, and the remedy.
     """
     check_kind(name_or_path, (str, Path), "name_or_path", "the name of a shipped cost table, or the path of a file")
-    name = str(name_or_path)
-    if name not in shipped_tables():
-        return read_costs(Path(name))
+    name, shipped = str(name_or_path), shipped_tables()
+    if name not in shipped:
+        return _read(Path(name), name, f"give one of {', '.join(shipped)}, or the path of a TOML file")
     return replace(read_costs(TABLES / f"{name}.toml", shown=name), found_in=_shipped_with)
 
 
@@ -151,9 +151,12 @@ def read_costs(path: str | Path, shown: str = "") -> CostTable:
 
     Raises InputError that lists every wrong entry of the file with its value.
     """
-    shown = shown or str(path)
-    remedy = f"give one of {', '.join(shipped_tables())}, or the path of a TOML file"
-    document = read_toml(Path(path), f"cost table {shown!r}", remedy)
+    remedy = f"give the path of a TOML file; `load_costs` also takes the names {', '.join(shipped_tables())}"
+    return _read(Path(path), shown or str(path), remedy)
+
+
+def _read(path: Path, shown: str, remedy: str) -> CostTable:
+    document = read_toml(path, f"cost table {shown!r}", remedy)
     refuse_samples(document, f"cost table {shown!r}")
     try:
         checked = _CostFile.model_validate(document)

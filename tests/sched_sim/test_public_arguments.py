@@ -56,6 +56,10 @@ def test_a_path_is_text_or_a_path(tmp_path: Path) -> None:
 BAD: dict[str, tuple[Callable[[], Any], str]] = {
     "speed": (lambda: simulate(COSTS, TIMING, -1), "speed is -1: it must be greater than 0"),
     "no speed": (lambda: achieved_l(COSTS, TIMING, "fast"), "speed is 'fast': give a finite number"),
+    "a least speed": (
+        lambda: simulate(COSTS, TIMING, least_speed(COSTS, TIMING)),
+        "speed is LeastSpeed(speed=Fraction(77, 100), binding='lr_update'): give its .speed",
+    ),
     "hr_hz": (lambda: fit(COSTS, TIMING, 0), "hr_hz is 0"),
     "cycles": (lambda: simulate(COSTS, TIMING, 1, 0), "cycles is 0: give at least 1"),
     "cycles as text": (lambda: simulate(COSTS, TIMING, 1, "3"), "cycles is '3': give a whole number"),
@@ -70,6 +74,10 @@ BAD: dict[str, tuple[Callable[[], Any], str]] = {
     "period": (lambda: Task("a", "soon", 1, 5), "task 'a': period is 'soon'"),
     "method": (lambda: select(TABLE, "dualrate"), "method 'dualrate' is unknown: choose from"),
     "no costs": (lambda: load_costs("none"), "cost table 'none' not found: give one of"),
+    "no file of costs": (
+        lambda: sched_sim.read_costs("steffes2014"),
+        "cost table 'steffes2014' not found: give the path of a TOML file; `load_costs` also takes the names ",
+    ),
     "no tasks": (lambda: sched_sim.read_tasks("none.toml"), "tasks 'none.toml' not found"),
     "no scenario": (lambda: sched_sim.read_scenario("none.toml"), "scenario 'none.toml' not found"),
     "no closed form": (
