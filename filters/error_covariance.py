@@ -18,7 +18,7 @@ from filters.systems.shaped import shaped
 class TrueCovariance(NamedTuple):
     """The estimation error's in every step.
 
-    before, after (..., steps + 1, n, n): its measurement.
+    before (..., steps + 1, n, n): before its measurement is used; after (..., steps + 1, n, n): after that.
     """
 
     before: FloatArray

@@ -25,7 +25,7 @@ MOST = 100_000
 class Space(NamedTuple):
     """What the numbers of a state or a measurement stand for; made by `space`.
 
-    numbers, errors: the lengths of a point and of an error; attitudes (attitudes,): where their quaternions begin in a
+    numbers: the length of a point; errors: that of an error; attitudes (attitudes,): where their quaternions begin in a
     point, ascending; angles (angles,): which entries of an error are angles of their own, in radians.
     """
 

@@ -36,7 +36,10 @@ class Late(NamedTuple):
 
 
 def scenario_panel(scenario: Scenario, outcome: Outcome) -> Panel:
-    """outcome: of this scenario; it says where to look. The steps up to there are simulated again, to the same end."""
+    """The steps of a scenario about its first missed deadline, or its first late measurement.
+
+    outcome: of this scenario; it says where to look. The steps up to there are simulated again, to the same end.
+    """
     late = first_late(scenario)
     first, last = window(scenario, outcome.first_miss, late)
     slices: list[Slice] = []

@@ -189,7 +189,7 @@ def costs_text(table: CostTable) -> str:
 
 
 def write_costs(table: CostTable, path: str | Path) -> None:
-    """Raises InputError if the path cannot be written."""
+    """Write the table to `path`, as `read_costs` reads it. Raises InputError if the path cannot be written."""
     check_kind(table, CostTable, "table", "a cost table, as `load_costs` returns it")
     write(Path(path), costs_text(table).encode(), "cost table")
 

@@ -47,7 +47,9 @@ def fit(
     tasks: Sequence[Task] = (),
     on_progress: Callable[[int], None] = lambda _runs: None,
 ) -> Fit:
-    """costs: in seconds, as `part.on_part` makes them; hr_hz: rate of the HR loop.
+    """Whether a method meets every deadline on a processor, and how much of it is needed.
+
+    costs: in seconds, as `part.on_part` makes them; hr_hz: rate of the HR loop.
 
     Raises InputError as `least_speed` does.
     """

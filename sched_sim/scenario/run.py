@@ -37,7 +37,7 @@ class JobFigures:
 
     @property
     def miss_probability(self) -> float | None:
-        """None if no job was decided."""
+        """The share of those decided that missed their deadline; None if no job was decided."""
         return self.misses / self.decided if self.decided else None
 
     @property
