@@ -29,7 +29,7 @@ from sched_sim.scenario.fields import (
 )
 from sched_sim.scenario.in_flight import Flight, first_overlap
 from sched_sim.schedule.jobs import HR, LR
-from sched_sim.schedule.tasks import Task
+from sched_sim.schedule.tasks import Task, wrong_together
 from sched_sim.ticks import exact
 
 Late = Literal["recalculate", "larsen"]
@@ -154,6 +154,8 @@ class Scenario:
         for name in dict.fromkeys(names):
             if names.count(name) > 1:
                 yield f"sensor {name!r} is there {names.count(name)} times: give each its own name"
+        if "tasks" not in bad:
+            yield from wrong_together(self.tasks)
         if not bad & {"tasks", "cpus"}:
             for task in self.tasks:
                 if task.cpu > self.cpus:

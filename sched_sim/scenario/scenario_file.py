@@ -24,7 +24,6 @@ from sched_sim.scenario.scenario import Late, Samples, Scenario, Sensor, needed_
 from sched_sim.schedule.jobs import HR, LR
 from sched_sim.schedule.length import check_simulation
 from sched_sim.schedule.task_file import TaskEntry
-from sched_sim.schedule.tasks import wrong_together
 
 
 def _several(value: Any, what: str, read: Callable[[Any], Any]) -> tuple[Any, ...]:
@@ -218,8 +217,6 @@ def read_scenario(path: str | Path) -> Scenario:
 
 def _scenario(checked: _ScenarioFile, folder: Path) -> Scenario:
     tasks = [entry.task() for entry in checked.task]
-    if wrong := wrong_together(tasks):
-        raise InputError("; ".join(wrong))
     check_simulation(checked.steps, tasks, f"steps = {checked.steps}")
     stated = {f"correct.{sensor.name}": sensor.cost for sensor in checked.sensor if sensor.cost is not None}
     if checked.predictor.cost is not None:

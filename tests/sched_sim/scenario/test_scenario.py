@@ -12,6 +12,7 @@ import pytest
 
 from sched_sim.errors import InputError
 from sched_sim.scenario.scenario import Sensor
+from sched_sim.schedule.tasks import Task
 from tests.scenarios import BY_HAND, scenario, sensor
 
 
@@ -29,6 +30,11 @@ from tests.scenarios import BY_HAND, scenario, sensor
 def test_a_sensor_that_cannot_be_is_refused_by_name(settings: dict[str, Any], said: str) -> None:
     with pytest.raises(InputError, match=f"sensor 'gps': .*{said}"):
         Sensor(**({"name": "gps", "every": 10, "delays": (4,), "land_by": 10} | settings))
+
+
+def test_two_tasks_of_one_name_are_refused() -> None:
+    with pytest.raises(InputError, match="task name 'control' is used twice; give each task its own"):
+        scenario(10, BY_HAND, sensor("gps", 20, 2), tasks=[Task("control", 4, 1, 5), Task("control", 2, 1, 5)])
 
 
 def test_two_sensors_of_one_name_are_refused() -> None:
