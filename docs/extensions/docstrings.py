@@ -5,13 +5,18 @@ from __future__ import annotations
 import inspect
 import re
 from collections.abc import Iterator
+from operator import itemgetter
 from typing import Any
 
-from sphinx.addnodes import desc_addname, desc_signature
+from docutils import nodes
+from sphinx.addnodes import desc_addname, desc_parameter, desc_signature
 
 NAME = r"(\w+)(\([^)]*\)| \([^)]*\))?"  # of an argument, perhaps with how it is called, f(x), or its shape, P0 (n, n)
 ITEM = re.compile(rf"(?:^|(?<=[;.] ))({NAME}(?:, {NAME})*): |^(\w+)\([^)]*\) (?=\w)", re.MULTILINE)
 FLOATS = r"~?numpy\.ndarray\[tuple\[~?typing\.Any, \.\.\.\], ~?numpy\.dtype\[~?numpy\.float64\]\]"
+UNSAID = re.compile(r"<[^<>]*>|lambda \w*: [^,)]+")
+"""Default values that are no Python that one could write."""
+
 RAISES = re.compile(r"^Raises:\n((?: {4}.*\n?)+)", re.MULTILINE)
 
 
@@ -74,6 +79,32 @@ def types_as_written(app: Any, *_described: Any) -> None:
             types[name] = re.sub(FLOATS, "FloatArray", re.sub(r"TypeAliasForwardRef\('(\w+)'\)", r"\1", words))
 
 
+def defaults_to_read(_app: Any, *described: Any) -> tuple[str | None, str | None]:
+    """A default that only the code can write is an ellipsis."""
+    *_, arguments, returned = described
+    return UNSAID.sub("...", arguments) if arguments else arguments, returned
+
+
+def in_order(_app: Any, domain: str, _kind: str, content: Any) -> None:
+    """Arguments are listed as they are passed, those with words and those with a type alone."""
+    signature = next(content.parent.findall(desc_signature)) if domain == "py" else nodes.Text("")
+    names = [re.findall(r"\w+", argument.astext())[:1] for argument in signature.findall(desc_parameter)]
+    for fields in content.findall(nodes.field_list):
+        about = [(re.findall(r"\w+", field[0].astext()), field) for field in fields]
+        ours = [(names.index(words[1:]), field) for words, field in about if words[1:] in names]
+        for _, field in ours:
+            fields.remove(field)
+        fields[:0] = [field for _, field in sorted(ours, key=itemgetter(0))]
+
+
+def with_dashes(_app: Any, doctree: nodes.document) -> None:
+    """Between an argument and what is said of it Sphinx writes two hyphens."""
+    for field in doctree.findall(nodes.field_body):
+        for text in list(field.findall(nodes.Text)):
+            if text == " -- ":
+                text.parent.replace(text, nodes.Text(" \N{EN DASH} "))
+
+
 def without_room(app: Any, domain: str, _kind: str, content: Any) -> None:
     """What is no public name of its package is shown without the module in which it happens to be."""
     for signature in content.parent.findall(desc_signature) if domain == "py" else ():
@@ -98,5 +129,8 @@ def setup(app: Any) -> dict[str, bool]:
     app.connect("autodoc-skip-member", is_no_alias)
     app.connect("object-description-transform", types_as_written, priority=400)  # autodoc's own comes after
     app.connect("object-description-transform", without_room)
+    app.connect("object-description-transform", in_order, priority=600)  # and comes before this
+    app.connect("autodoc-process-signature", defaults_to_read)
+    app.connect("doctree-read", with_dashes)
     app.connect("missing-reference", to_public)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
