@@ -12,6 +12,7 @@ from docutils import nodes
 from sphinx.addnodes import download_reference
 
 PUBLISHED = Path(__file__).parents[2] / "reports" / "published"
+BACK = '<p><a href="../../index.html">sched_sim</a> / <a href="../../reproduced.html">what is reproduced</a></p>'
 
 
 def link_as_file(_app: Any, _name: str, source: list[str]) -> None:
@@ -31,7 +32,10 @@ def to_page(app: Any, doctree: nodes.document) -> None:
 
 def copy(app: Any, _failed: Exception | None) -> None:
     pictures = shutil.ignore_patterns("*.svg", "*.md")  # which are in the page itself
-    shutil.copytree(PUBLISHED, Path(app.outdir, "published"), ignore=pictures, dirs_exist_ok=True)
+    copied = Path(shutil.copytree(PUBLISHED, Path(app.outdir, "published"), ignore=pictures, dirs_exist_ok=True))
+    for page in copied.glob("*/index.html"):
+        text = page.read_text(encoding="utf-8")
+        page.write_text(text.replace("<body>", f"<body>\n{BACK}", 1), encoding="utf-8")
 
 
 def setup(app: Any) -> dict[str, bool]:
