@@ -28,6 +28,8 @@ def value(parameter: Any) -> str:
     kind = get_args(annotation)[0] if get_origin(annotation) is list else annotation
     if get_origin(kind) is Literal:
         return "|".join(map(str, get_args(kind)))
+    if kind is Path and (parameter.help or "").startswith("Folder"):
+        return "FOLDER"
     return parameter.metavar or VALUES[kind]
 
 
