@@ -1,4 +1,4 @@
-"""What is wider than a phone: the keyboard can scroll it too, and a picture opens on its own."""
+"""What is wider than a phone: the keyboard can scroll it too, and a picture opens on its own. Options stay whole."""
 
 from __future__ import annotations
 
@@ -13,6 +13,9 @@ from reports.drawing.style import WIDTH_MM
 NARROWEST = 36
 """Characters of code that are on a line of a phone."""
 
+HYPHENED = re.compile(r'<span class="pre">(?=[^<]*-[^<]*</span>)(?=[^<]{1,18}<)')
+"""A short word of code at whose hyphens a line would be broken, such as --hr-hz."""
+
 
 def open_alone(_app: Any, doctree: nodes.document) -> None:
     """Sphinx links a picture whose width is stated to its file."""
@@ -24,6 +27,7 @@ def to_scroll(_app: Any, _page: str, _template: str, context: dict[str, Any], _d
     """Code with a long line, and tables, are stops of the Tab key."""
     code = re.compile(r"<pre>(?=(.*?)</pre>)", re.DOTALL)
     body = code.sub(lambda tag: '<pre tabindex="0">' if is_long(tag[1]) else tag[0], context.get("body", ""))
+    body = HYPHENED.sub('<span class="pre whole">', body)
     context["body"] = body.replace('<div class="table-wrapper ', '<div tabindex="0" class="table-wrapper ')
 
 
