@@ -330,6 +330,7 @@ def _schedule(counted: Mapping[SystemName, CostTable], parts: list[Part], slowes
                 fits[part.name] = {m: fit(work, timing, Fraction(HR_HZ)) for m, work in on.items() if work is not None}
     here, here_in_every_step = able[slowest.name], in_every_step[slowest.name]
     alone = {m: tables.on(position, slowest, m) for m in ROBUST_METHODS}
+    every_way = [name for name, of_part in able.items() if all(verdict.fits for verdict in of_part.values())]
     lacking = [part.name for part in parts if part.name not in able]
     failing = [tables.WAYS[method] for method, verdict in here_in_every_step.items() if not verdict.fits]
     return {
@@ -341,7 +342,10 @@ def _schedule(counted: Mapping[SystemName, CostTable], parts: list[Part], slowes
         "one_period": {m: percent((work.inertial + work.robust_step) * HR_HZ) for m, work in alone.items() if work},
         "inertial": f"{float(100 * HR_HZ * _inertial(position, slowest)):.2f}",
         "able": len(able),
-        "all_fit": all(verdict.fits for of_part in able.values() for verdict in of_part.values()),
+        "every_way": every_way,
+        "not_every_way": f", not {' and '.join(name for name in able if name not in every_way)}"
+        * (every_way != list(able)),
+        "single": [part.name for part in parts if part.precision == "single"],
         "lacking": lacking,
         "every_step": {method: percent(verdict.needed) for method, verdict in here_in_every_step.items()},
         "every_step_fails": f": the processor is too slow for {' and '.join(failing)}" if failing else "",

@@ -85,7 +85,7 @@ def test_in_short() -> None:
         "1.053 times the optimum for a receiver that hardly manoeuvres, 1.449 times on the road, and 3.590 times",
         "144 times the optimum",
         "1.619, 2.396, 5.137 times the optimum",
-        "6 of the 7 processors",
+        "11 of the 12 processors",
     ):
         assert said in text()
 

@@ -113,6 +113,25 @@ def test_every_shipped_processor_runs_the_counted_filters(name: str) -> None:
     assert timed.provenance["machine"] == load_part(name).title
 
 
+@pytest.mark.parametrize(
+    ("name", "cycles"),
+    [
+        ("cortex-m4f", 14),
+        ("cortex-m7-single", 9),
+        ("cortex-m33", 10),
+        ("cortex-m0plus", 166 + 108 + 11),
+        ("rp2040", 62 + 78 + 2 * 6 + 11),
+        ("esp32", 12),
+    ],
+)
+def test_a_turn_of_the_inner_loop_of_a_matrix_product_takes_its_cycles(name: str, cycles: int) -> None:
+    """A multiply, an add, and the instructions around them that the file's sources list."""
+    part = load_part(name)
+    assert part.clock_hz is not None
+    assert part.precision == "single"
+    assert seconds({"multiply": 1, "add": 1}, part) * part.clock_hz == cycles
+
+
 def test_a_file_with_cycles_is_read_exactly(file: Path) -> None:
     board = load_part(file)
     assert board.clock_hz == 2_000_000
