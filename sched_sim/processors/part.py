@@ -90,6 +90,25 @@ def seconds_for(counts: Counts, processor: Part, job: str) -> Fraction:
     return sum((number * processor.seconds[operation] for operation, number in needed.items()), Fraction(0))
 
 
+def at_clock(processor: Part, clock_hz: Fraction) -> Part:
+    """The same processor at another clock, Hz: it takes as many cycles.
+
+    Raises InputError for a processor whose file gives times instead of cycles.
+    """
+    if processor.clock_hz is None:
+        raise InputError(
+            f"processor {processor.name!r} has no clock, its file gives [microseconds]: give [cycles] and clock_mhz in "
+            f"a copy of it"
+        )
+    slower = processor.clock_hz / clock_hz
+    return replace(
+        processor,
+        title=f"{processor.name} at {float(clock_hz / 10**6):g} MHz",
+        clock_hz=clock_hz,
+        seconds={kind: time * slower for kind, time in processor.seconds.items()},
+    )
+
+
 def _needed(counts: Counts, processor: Part) -> dict[str, Fraction]:
     """How many of each operation a job takes, its logic included."""
     if "function" in counts and "function" not in processor.seconds:

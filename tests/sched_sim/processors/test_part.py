@@ -15,7 +15,7 @@ from sched_sim.costs.operations import OPERATION_KINDS
 from sched_sim.costs.table import Cost, CostTable
 from sched_sim.costs.table_file import costs_text, load_costs, read_costs
 from sched_sim.errors import InputError
-from sched_sim.processors.part import Part, on_part
+from sched_sim.processors.part import Part, at_clock, on_part
 from sched_sim.processors.part_file import SHIPPED, load_part, shipped_parts
 
 MICROSECOND = Fraction(1, 10**6)
@@ -275,3 +275,8 @@ def test_a_file_that_is_no_text_cannot_be_read(file: Path) -> None:
     file.write_bytes(b"\xff\xfe")
     with pytest.raises(InputError, match="cannot be read"):
         load_part(file)
+
+
+def test_a_processor_without_a_clock_has_no_other() -> None:
+    with pytest.raises(InputError, match=r"'patent' has no clock.*clock_mhz in a copy"):
+        at_clock(load_part("patent"), Fraction(10**6))
