@@ -36,7 +36,8 @@ def fixed_by(binding: str | None) -> str | None:
 
 
 def fit_row(part: Part, hr_hz: Fraction, verdict: Fit | None) -> dict[str, Any]:
-    """needed_share, load and slack: of the part's speed, its time, its speed. None: not known, or it does not land.
+    """needed_share, load and slack: of the part's speed, its time, its speed; needed_share_least and needed_share_most:
+    by the part's calibration, None if it has none. None: not known, or it does not land.
 
     verdict: None if the part's time for some operation is not known.
     """
@@ -58,6 +59,9 @@ def _figures(part: Part, hr_hz: Fraction, verdict: Fit | None) -> dict[str, Any]
         "fits": verdict.fits,
         "highest_hr_hz": hr_hz / verdict.needed,
     }
+    if part.calibration is not None:
+        figures["needed_share_least"] = verdict.needed * part.calibration.least
+        figures["needed_share_most"] = verdict.needed * part.calibration.most
     if part.clock_hz is not None:
         figures["needed_mhz"] = verdict.needed * part.clock_hz / 10**6
     if verdict.landed is not None:
@@ -65,8 +69,8 @@ def _figures(part: Part, hr_hz: Fraction, verdict: Fit | None) -> dict[str, Any]
     return figures
 
 
-KEYS = ("processor", "hr_hz", "needed_mhz", "needed_share", "load", "slack", "fits", "achieved_l", "correction_ms",
-        "highest_hr_hz")  # fmt: skip
+KEYS = ("processor", "hr_hz", "needed_mhz", "needed_share", "needed_share_least", "needed_share_most", "load", "slack",
+        "fits", "achieved_l", "correction_ms", "highest_hr_hz")  # fmt: skip
 
 
 Figure: TypeAlias = Fraction | float

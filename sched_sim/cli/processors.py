@@ -134,6 +134,9 @@ def _figures(part: Part) -> dict[str, Any]:
         "clock_mhz": None if part.clock_hz is None else float(part.clock_hz / 10**6),
         "seconds": {kind: float(time) for kind, time in part.seconds.items()},
         "logic_per_arithmetic": float(part.logic_per_arithmetic),
+        "calibration_least": None if part.calibration is None else float(part.calibration.least),
+        "calibration_most": None if part.calibration is None else float(part.calibration.most),
+        "calibration_source": None if part.calibration is None else part.calibration.source,
         "sources": dict(part.sources),
     }
 
@@ -171,7 +174,7 @@ def _verdicts(
     of, and why some processors cannot be told of."""
     from sched_sim.cli.parts import fit_row, fit_words, fixed_by, least_row
     from sched_sim.cli.progress import simulations
-    from sched_sim.cli.update_form import update_form, update_note
+    from sched_sim.cli.update_form import form_note, ground_note, update_form
     from sched_sim.costs.table_file import load_costs
     from sched_sim.design.fit import fit
     from sched_sim.design.methods import select
@@ -200,4 +203,5 @@ def _verdicts(
             name = {"method": method} if len(designs) > 1 else {}
             about = {"processor": part.name, "precision": part.precision, **name}
             shown.append(about | fit_words(part, rate, verdict) | {"fixed by": fixed_by(row["binding"])})
-    return rows, shown, [update_note(counts, designs), *reasons]
+    calibrations = {part.name: None if part.calibration is None else part.calibration.text for part in parts}
+    return rows, shown, [form_note(counts, designs), ground_note(counts, designs, calibrations), *reasons]

@@ -1,9 +1,10 @@
-"""Which covariance update the costs are of: it matters as much as the method."""
+"""What the costs are of: which covariance update, which matters as much as the method, and on what ground."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
+from sched_sim.cli.output import lines
 from sched_sim.costs.methods import DELAYED_METHODS
 from sched_sim.costs.table import CostTable
 
@@ -23,6 +24,29 @@ def update_form(table: CostTable, method: str) -> dict[str, str | None]:
 
 
 def update_note(table: CostTable, methods: Iterable[str]) -> str:
+    """For people, lines below a table: the form, and on a part the ground of its times; empty where there is nothing to
+    say."""
+    named = list(methods)
+    about = table.provenance.get("processor")
+    ground = (
+        ground_note(table, named, {str(about.get("name")): about.get("calibration")}) if isinstance(about, dict) else ""
+    )
+    return lines(form_note(table, named), ground)
+
+
+def ground_note(table: CostTable, methods: Iterable[str], calibrations: Mapping[str, str | None]) -> str:
+    """What verdicts on parts rest on; calibrations: of each part by its name, None if it has none."""
+    forms = _forms(table, methods)
+    counts = f"dense counts, {forms[0]} form" if forms else "operations as counted"
+    known = [f"{text} on {name}" for name, text in calibrations.items() if text]
+    return f"{counts}; measured over predicted {', '.join(known) or 'is not known'}"
+
+
+def form_note(table: CostTable, methods: Iterable[str]) -> str:
     """For people, a line below a table; empty where there is nothing to say."""
-    forms = [form for method in methods if (form := update_form(table, method).get("update_form"))]
+    forms = _forms(table, methods)
     return f"covariance update: {FORMS.get(forms[0], forms[0])}" if forms else ""
+
+
+def _forms(table: CostTable, methods: Iterable[str]) -> list[str]:
+    return [form for method in methods if (form := update_form(table, method).get("update_form"))]

@@ -25,13 +25,29 @@ its polynomial (k_cos.c) and the first step of the reduction of its argument (e_
 
 
 @dataclass(frozen=True)
+class Calibration:
+    """Measured over predicted on a part, at least and at most; source: which jobs of whose, on which board."""
+
+    least: Fraction
+    most: Fraction
+    source: str = ""
+
+    @property
+    def text(self) -> str:
+        """Of people: "0.68 to 1.05 (KFCore, STM32F429)"."""
+        ends = " to ".join(dict.fromkeys(f"{float(end):.3g}" for end in (self.least, self.most)))
+        return f"{ends} ({self.source})" if self.source else ends
+
+
+@dataclass(frozen=True)
 class Part:
     """What each kind of operation takes on one processor.
 
     seconds: by kind of operation (`operations.OPERATION_KINDS`), those that the file gives. clock_hz: None if the file
     gives times instead of cycles. precision: of the arithmetic, "single" or "double". logic_per_arithmetic: logic
     operations around each arithmetic one, for jobs that do not count their own. sources: where each figure is from,
-    by its name in the file. path: where the file was read from, for messages.
+    by its name in the file. path: where the file was read from, for messages. calibration: None where nothing was
+    measured; it changes no time.
     """
 
     name: str
@@ -42,6 +58,7 @@ class Part:
     logic_per_arithmetic: Fraction
     sources: Mapping[str, str]
     path: str = ""
+    calibration: Calibration | None = None
 
 
 def on_part(table: CostTable, processor: Part) -> CostTable:
@@ -142,5 +159,6 @@ def _about(processor: Part) -> dict[str, str]:
         "precision": processor.precision,
         **clock,
         "logic_per_arithmetic": str(processor.logic_per_arithmetic),
+        **({} if processor.calibration is None else {"calibration": processor.calibration.text}),
         **{f"{figure}_source": source for figure, source in processor.sources.items() if source},
     }

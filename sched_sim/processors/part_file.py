@@ -13,7 +13,7 @@ from sched_sim.costs.operations import OPERATION_KINDS
 from sched_sim.errors import InputError
 from sched_sim.files.toml_problems import problems
 from sched_sim.files.toml_reader import read_toml
-from sched_sim.processors.part import Part
+from sched_sim.processors.part import Calibration, Part
 from sched_sim.ticks import exact, positive
 
 SHIPPED = Path(__file__).parent
@@ -50,6 +50,25 @@ class _Cycles(_Figure):
 
 class _Microseconds(_Figure):
     value: _Number = Field(alias="microseconds")
+
+
+class _Calibration(BaseModel):
+    model_config = ConfigDict(extra="forbid", arbitrary_types_allowed=True)
+    least: _Number
+    most: _Number
+    source: str = ""
+
+    @model_validator(mode="after")
+    def _in_order(self) -> Self:
+        positive(self.least, "least")
+        if self.most < self.least:
+            raise ValueError(f"most is {self.most}: it must be at least least, {self.least}")
+        return self
+
+
+def _range(value: Any) -> Any:
+    """A plain number stands for a range of one."""
+    return value if isinstance(value, dict) else {"least": value, "most": value}
 
 
 def _figure(key: str) -> BeforeValidator:
@@ -91,6 +110,7 @@ class _ProcessorFile(BaseModel):
     precision: Literal["single", "double", "unstated"]
     clock_mhz: Annotated[_Figure, _figure("value"), AfterValidator(_positive)] | None = None
     logic_per_arithmetic: Annotated[_Figure, _figure("value"), AfterValidator(_not_negative)]
+    calibration: Annotated[_Calibration, BeforeValidator(_range)] | None = None
     cycles: _InCycles = {}
     microseconds: _InMicroseconds = {}
 
@@ -152,4 +172,5 @@ def read_part(path: Path, shown: str = "") -> Part:
         logic_per_arithmetic=checked.logic_per_arithmetic.value,
         sources={name: figure.text for name, figure in named.items()},
         path=shown,
+        calibration=None if checked.calibration is None else Calibration(**dict(checked.calibration)),
     )

@@ -82,3 +82,26 @@ def test_a_form_that_would_be_ignored_is_refused(sched_sim: Run) -> None:
 def test_a_size_that_would_be_ignored_is_refused(sched_sim: Run) -> None:
     line = "measure --system own_system:car --backend counted --states 4 --inputs 0"
     is_refused(sched_sim(line), ["--system 'own_system:car'", "leave out --states, --inputs"])
+
+
+ON_PARTS = [
+    ("minimum -N 10 -M 4 --processor cortex-m4f --hr-hz 400", "0.68 to 1.05 (KFCore, STM32F429) on cortex-m4f"),
+    ("minimum -N 10 -M 4 --processor cortex-m7", "is not known"),
+    ("simulate -N 10 -M 4 --processor leon3", "is not known"),
+    ("processors -N 10 -M 4 --hr-hz 400 --processor leon3", "is not known"),
+    ("processors -N 10 -M 4 --hr-hz 400", "0.68 to 1.05 (KFCore, STM32F429) on cortex-m4f, 0.85 to 1.25 (products"),
+]
+
+
+@pytest.mark.parametrize(("line", "measured"), ON_PARTS)
+def test_on_a_part_the_ground_is_said(sched_sim: Run, line: str, measured: str) -> None:
+    assert f"dense counts, textbook form; measured over predicted {measured}" in sched_sim(line).out
+
+
+def test_counts_without_a_form_are_what_was_counted(sched_sim: Run) -> None:
+    line = "minimum -N 5 --costs patent-multirate --processor patent --hr-hz 1"
+    assert "operations as counted; measured over predicted is not known" in sched_sim(line).out
+
+
+def test_without_a_part_there_is_no_ground(sched_sim: Run) -> None:
+    assert "measured over predicted" not in sched_sim("minimum -N 10 -M 4 --costs counted-9-3-3").out

@@ -61,6 +61,23 @@ def test_a_gain_computed_early_needs_less_of_a_part(sched_sim: Run) -> None:
 EARLY = Options(gain="precomputed")
 
 
+def test_a_calibration_gives_a_range_of_what_a_part_needs_and_changes_no_verdict(sched_sim: Run) -> None:
+    line = "processors -N 10 -M 4 --hr-hz 400 --format json"
+    rows = {row["processor"]: row for row in json.loads(sched_sim(line).out)}
+    row = rows["cortex-m4f"]
+    assert row["needed_share_least"] == pytest.approx(0.68 * row["needed_share"])
+    assert row["needed_share_most"] == pytest.approx(1.05 * row["needed_share"])
+    assert row["fits"] == (row["needed_share"] <= 1)
+    assert rows["leon3"]["needed_share_least"] is rows["leon3"]["needed_share_most"] is None
+
+
+def test_the_list_has_the_calibrations(sched_sim: Run) -> None:
+    rows = {row["processor"]: row for row in json.loads(sched_sim("processors --format json").out)}
+    assert [rows["cortex-m4f"][f"calibration_{key}"] for key in ("least", "most")] == [0.68, 1.05]
+    assert rows["leon3"]["calibration_source"] is None
+    assert "calibration_least,calibration_most,calibration_source" in sched_sim("processors --format csv").out
+
+
 def test_a_task_takes_its_share_of_every_part(sched_sim: Run, tmp_path: Path) -> None:
     """100 us in every second period of 2.5 ms are 2 %, whatever the part."""
     (tmp_path / "tasks.toml").write_text(TASKS)

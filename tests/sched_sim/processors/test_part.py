@@ -15,7 +15,7 @@ from sched_sim.costs.operations import OPERATION_KINDS
 from sched_sim.costs.table import Cost, CostTable
 from sched_sim.costs.table_file import costs_text, load_costs, read_costs
 from sched_sim.errors import InputError
-from sched_sim.processors.part import Part, at_clock, on_part
+from sched_sim.processors.part import Calibration, Part, at_clock, on_part
 from sched_sim.processors.part_file import SHIPPED, load_part, shipped_parts
 
 MICROSECOND = Fraction(1, 10**6)
@@ -280,3 +280,42 @@ def test_a_file_that_is_no_text_cannot_be_read(file: Path) -> None:
 def test_a_processor_without_a_clock_has_no_other() -> None:
     with pytest.raises(InputError, match=r"'patent' has no clock.*clock_mhz in a copy"):
         at_clock(load_part("patent"), Fraction(10**6))
+
+
+RANGE = 'calibration = { least = 0.9, most = "13/10", source = "larsen, -O2" }'
+
+
+@pytest.mark.parametrize(
+    ("line", "calibration", "text"),
+    [
+        (RANGE, Calibration(Fraction(9, 10), Fraction(13, 10), "larsen, -O2"), "0.9 to 1.3 (larsen, -O2)"),
+        ("calibration = 1.25", Calibration(Fraction(5, 4), Fraction(5, 4)), "1.25"),
+    ],
+)
+def test_a_calibration_is_read_and_changes_no_time(file: Path, line: str, calibration: Calibration, text: str) -> None:
+    plain = load_part(file)
+    file.write_text(f"{line}\n{BOARD}")
+    board = load_part(file)
+    assert board.calibration == calibration
+    assert calibration.text == text
+    assert replace(board, calibration=None) == plain
+    assert on_part(table({"multiply": 1}), board).provenance["processor"]["calibration"] == text
+
+
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        ("calibration = 0", ["calibration", "least is 0", "greater than 0"]),
+        ('calibration = "half"', ["calibration", "half", "finite number"]),
+        ("calibration = [0.9, 1.3]", ["calibration", "must be a number"]),
+        ("calibration = { least = 0.9 }", ["calibration.most: is missing: write `most = ...`"]),
+        ("calibration = { least = 1.3, most = 0.9 }", ["calibration", "most is 9/10", "at least least, 13/10"]),
+        ("calibration = { least = 1, most = 2, of = 3 }", ["calibration.of", "least, most, source"]),
+    ],
+)
+def test_what_is_wrong_in_a_calibration_is_named(file: Path, line: str, said: list[str]) -> None:
+    file.write_text(f"{line}\n{BOARD}")
+    with pytest.raises(InputError) as error:
+        load_part(file)
+    for words in [str(file), *said]:
+        assert words in str(error.value)

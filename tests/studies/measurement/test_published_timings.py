@@ -9,7 +9,7 @@ import pytest
 
 from filters.backends.counted import Operations
 from sched_sim.processors.part import at_clock, seconds_for
-from sched_sim.processors.part_file import load_part
+from sched_sim.processors.part_file import load_part, shipped_parts
 from studies.measurement.published_timings import JOBS, calibration, markdown, published_timings
 from tests.docs.test_examples import ROOT
 
@@ -70,6 +70,15 @@ def test_only_plain_loops_calibrate() -> None:
     measured = calibration("cortex-m4f")
     assert measured is not None
     np.testing.assert_allclose([float(end) for end in measured], [0.679, 1.052], atol=5e-4)
+
+
+@pytest.mark.parametrize("name", shipped_parts())
+def test_the_calibrations_that_ship_are_of_these_timings(name: str) -> None:
+    shipped, measured = load_part(name).calibration, calibration(name)
+    assert (shipped is None) == (measured is None)
+    if shipped is not None and measured is not None:
+        assert [shipped.least, shipped.most] == [Fraction(f"{float(end):.2f}") for end in measured]
+        assert shipped.source
 
 
 def test_the_same_part_at_another_clock_takes_as_many_cycles() -> None:
