@@ -3,9 +3,9 @@
 One rule for the shipped files. A processor that issues in order waits for each result: arithmetic is charged its
 latency, for the product of a dot product is wanted by its add, and that by the next add. One that works out of order
 overlaps the dot products: arithmetic is charged its throughput. Logic is charged what it takes to issue, for nothing
-waits for the next index. No operations overlap otherwise, so this errs on the safe side: fused multiply-adds and vector
-instructions make a processor faster. Misses of its caches and wait states of its memory, which are not in it, make it
-slower.
+waits for the next index. No operations overlap otherwise. What is left out goes both ways: fused multiply-adds and
+vector instructions make a processor faster; misses of its caches, wait states of its memory, calls and copies around
+the algebra make it slower.
 """
 
 from __future__ import annotations
