@@ -18,6 +18,7 @@ from sched_sim.design.options import Options
 if TYPE_CHECKING:
     from fractions import Fraction
 
+    from sched_sim.design.fit import Fit
     from sched_sim.design.pieces import Statistic
     from sched_sim.design.timing import Timing
     from sched_sim.processors.part import Part
@@ -27,7 +28,7 @@ Parts = Annotated[
     list[str] | None,
     typer.Option(
         "--processor",
-        help="Repeatable: a shipped one by name, or your own TOML file by path; by default all that are shipped.",
+        help="Repeatable: a shipped one by name, instead of all of them; or your own TOML file by path, beside them.",
         rich_help_panel=opt.PROCESSOR,
     ),
 ]
@@ -81,10 +82,10 @@ def processors(
     sched-sim processors -N 40 -M 20 --hr-hz 400 --method dual-rate --gain precomputed
     """
     from sched_sim.errors import InputError
-    from sched_sim.processors.part_file import load_part, shipped_parts
+    from sched_sim.processors.part_file import load_part
     from sched_sim.ticks import positive
 
-    parts = [load_part(name) for name in dict.fromkeys(processor or shipped_parts())]
+    parts = [load_part(name) for name in _listed(processor or ())]
     if not opt.given_options(context, lambda name: name not in OF_THE_LIST):
         rows = [_figures(part) for part in parts]
         shown = [_figures_in_words(part) for part in parts]
@@ -107,6 +108,15 @@ def processors(
         print_csv([_flat(row) for row in rows])
     else:
         print_table(title, shown, note)
+
+
+def _listed(named: Sequence[str]) -> list[str]:
+    """The shipped ones that are named, all if none is; and the user's own files."""
+    from sched_sim.processors.part_file import shipped_parts
+
+    shipped, once = shipped_parts(), list(dict.fromkeys(named))
+    chosen = [name for name in once if name in shipped]
+    return (chosen or shipped) + [name for name in once if name not in shipped]
 
 
 def _titles(parts: list[Part]) -> str:
@@ -170,8 +180,8 @@ def _verdicts(
     options: Options,
     tasks: Sequence[Task],
 ) -> tuple[list[dict[str, Any]], list[dict[str, Any]], list[str]]:
-    """A row for each processor and method, the same in words, and remarks: which covariance update the operations are
-    of, and why some processors cannot be told of."""
+    """A row for each processor and method; the same in words, in the order of `_by_slack`; and remarks: which
+    covariance update the operations are of, the ground, and why some processors cannot be told of."""
     from sched_sim.cli.parts import fit_row, fit_words, fixed_by, least_row
     from sched_sim.cli.progress import simulations
     from sched_sim.cli.update_form import form_note, ground_note, update_form
@@ -182,6 +192,7 @@ def _verdicts(
     from sched_sim.processors.part import on_part
 
     rows, shown, reasons = [], [], []
+    verdicts: list[Fit | None] = []
     counts = load_costs(COUNTED if costs is None else costs)
     for part in parts:
         table = on_part(counts, part)
@@ -197,6 +208,7 @@ def _verdicts(
             else:
                 with simulations(f"{method} on {part.name}") as on_progress:
                     verdict = fit(work, timing, rate, options, tasks, on_progress)
+            verdicts.append(verdict)
             least = None if verdict is None else verdict.least
             row = least_row(method, timing, least) | update_form(counts, method) | fit_row(part, rate, verdict)
             rows.append(row | {"reason": reason})
@@ -204,4 +216,17 @@ def _verdicts(
             about = {"processor": part.name, "precision": part.precision, **name}
             shown.append(about | fit_words(part, rate, verdict) | {"fixed by": fixed_by(row["binding"])})
     calibrations = {part.name: None if part.calibration is None else part.calibration.text for part in parts}
-    return rows, shown, [form_note(counts, designs), ground_note(counts, designs, calibrations), *reasons]
+    in_order = sorted(range(len(shown)), key=lambda index: _by_slack(verdicts[index]))
+    return (
+        rows,
+        [shown[index] for index in in_order],
+        [form_note(counts, designs), ground_note(counts, designs, calibrations), *reasons],
+    )
+
+
+def _by_slack(verdict: Fit | None) -> tuple[int, Fraction | int]:
+    """What fits is first, that with the least slack before the others; then what does not, the nearest first; last what
+    is not known."""
+    if verdict is None:
+        return 2, 0
+    return (0, verdict.slack) if verdict.fits else (1, verdict.needed)

@@ -14,7 +14,7 @@ from sched_sim.design.options import Options
 from sched_sim.design.simulate import simulate
 from sched_sim.design.timing import Timing
 from sched_sim.processors.part import on_part
-from sched_sim.processors.part_file import load_part
+from sched_sim.processors.part_file import load_part, shipped_parts
 from tests.command_line import Run, is_refused
 
 TASKS = '[[task]]\nname = "control"\nperiod = 2\ncost = 1e-4\npriority = 15\n'
@@ -97,6 +97,55 @@ def test_several_methods_are_told_apart(sched_sim: Run) -> None:
     table = sched_sim(line).out
     assert "larsen, dual-rate, HR loop at 400 Hz" in table
     assert "method" in table
+
+
+MINE = """\
+name = "mine"
+title = "my own part"
+precision = "double"
+clock_mhz = {clock_mhz}
+logic_per_arithmetic = 0
+[cycles]
+multiply = 2
+add = 1
+divide = 10
+"""
+
+
+@pytest.mark.parametrize(
+    ("named", "listed"),
+    [
+        ("", shipped_parts()),
+        ("--processor mine.toml", [*shipped_parts(), "mine"]),
+        ("--processor leon3", ["leon3"]),
+        ("--processor mine.toml --processor leon3 --processor mine.toml", ["leon3", "mine"]),
+    ],
+)
+@pytest.mark.parametrize("design", ["", "-N 10 -M 4 --hr-hz 400"])
+def test_a_file_of_ones_own_is_listed_beside_the_others(
+    sched_sim: Run, tmp_path: Path, named: str, listed: list[str], design: str
+) -> None:
+    (tmp_path / "mine.toml").write_text(MINE.format(clock_mhz=100))
+    rows = json.loads(sched_sim(f"processors {design} {named} --format json").out)
+    assert [row["processor"] for row in rows] == listed
+
+
+def test_the_table_begins_with_what_just_fits(sched_sim: Run, tmp_path: Path) -> None:
+    """What fits, the least slack first; what does not, the nearest first; what is not known."""
+    (tmp_path / "mine.toml").write_text(MINE.format(clock_mhz="0.1"))
+    (tmp_path / "other.toml").write_text(MINE.format(clock_mhz=1).replace("divide", "sqrt").replace("mine", "other"))
+    line = "processors -N 10 -M 4 --hr-hz 400 --processor mine.toml --processor other.toml --method larsen"
+    line += " --method dual-rate"
+    rows = {(row["processor"], row["method"]): row for row in json.loads(sched_sim(f"{line} --format json").out)}
+    table = [text.split() for text in sched_sim(line).out.splitlines()]
+    order = [(words[0], words[2]) for words in table if words[1:2] in (["single"], ["double"], ["unstated"])]
+    assert sorted(order) == sorted(rows)
+    verdicts = [rows[key]["fits"] for key in order]
+    assert verdicts == sorted(verdicts, key=[True, False, None].index)
+    for fits in (True, False):
+        shares = [rows[key]["needed_share"] for key in order if rows[key]["fits"] is fits]
+        assert shares == sorted(shares, reverse=fits)
+    assert {key[0] for key in order[-2:]} == {"other"}
 
 
 def test_parts_that_can_do_no_job_of_a_table_are_listed_with_the_reason(sched_sim: Run) -> None:
