@@ -27,7 +27,8 @@ from studies.measurement.methods import nonzero
 class PublishedTiming:
     """A job's execution time on a part, as `source` at `url` has it.
 
-    states, measurements, noises: sizes of the job, the noises those of G in G Q G^T, 0 where Q is given as a matrix.
+    states, measurements, noises: sizes of the job; no measurements where it has none or they are not stated, the noises
+    those of G in G Q G^T, 0 where Q is given as a matrix.
     job: one of `JOBS`. plain: whether the code is dense loops in C, as they are counted. code: what it is, in words.
     least_us, most_us: the time, microseconds.
     """
@@ -157,7 +158,7 @@ def _arguments(sizes: PublishedTiming) -> tuple[Any, Any, Any, Any]:
 
 
 def _workspace(sizes: PublishedTiming) -> Any:
-    n, p = sizes.states, sizes.measurements
+    n, p = sizes.states, max(sizes.measurements, 1)
     system = linear_system(np.eye(n), np.zeros((n, 0)), np.ones((p, n)), np.eye(n), np.eye(p))
     return new_factored_workspace(system)
 
