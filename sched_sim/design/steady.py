@@ -92,11 +92,11 @@ def hyperperiod_steps(timing: Timing, tasks: Sequence[Task]) -> int:
 def longest_run(timing: Timing, tasks: Sequence[Task]) -> int:
     """HR periods to simulate before a schedule is said not to repeat: until the last task has started, and six
     hyperperiods. Raises InputError where one of the two is longer than LONGEST, or they release too many jobs."""
-    hyperperiod, started = hyperperiod_steps(timing, tasks), max((ceil(task.offset) for task in tasks), default=0)
+    hyperperiod, started = hyperperiod_steps(timing, tasks), max((ceil(task.start) for task in tasks), default=0)
     if started > LONGEST:
-        last = max(tasks, key=lambda task: task.offset)
+        last = max(tasks, key=lambda task: task.start)
         raise InputError(
-            f"task {last.name!r}: offset {float(last.offset):g} is more than the {LONGEST} HR periods that are "
+            f"task {last.name!r}: offset {float(last.start):g} is more than the {LONGEST} HR periods that are "
             f"simulated: give one below its period, {float(last.period):g}"
         )
     if hyperperiod > LONGEST and not tasks:

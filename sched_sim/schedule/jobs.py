@@ -28,11 +28,12 @@ class Job:
     then: see `Then`;
     companions: jobs that are done as this one is, with no work of their own;
     overhead: context-switch work charged and not yet done;
-    held: the release came while an earlier job of the same chain was unfinished.
+    held: the release came while an earlier job of the same chain was unfinished;
+    preemptive: whether another job may take its processor before it has finished.
     """
 
-    __slots__ = ("companions", "cpu", "deadline", "held", "kind", "overhead", "parts", "priority", "release",
-                 "remaining", "step", "then")  # fmt: skip
+    __slots__ = ("companions", "cpu", "deadline", "held", "kind", "overhead", "parts", "preemptive",
+                 "priority", "release", "remaining", "step", "then")  # fmt: skip
 
     def __init__(
         self,
@@ -45,6 +46,7 @@ class Job:
         parts: Parts,
         then: Then | None = None,
         cpu: int = 0,
+        preemptive: bool = True,
     ) -> None:
         self.kind = kind
         self.step = step
@@ -58,6 +60,7 @@ class Job:
         self.companions: tuple[Job, ...] = ()
         self.overhead = 0
         self.held = False
+        self.preemptive = preemptive
 
     def go_on(self, parts: Parts, then: Then | None) -> Job:
         """The same job with more to do, for its `then` to return.

@@ -172,7 +172,7 @@ class Processor:
             next_finish = -1
             for cpu in cpus:  # 3. dispatch
                 ready, running = cpu.ready, cpu.running
-                if ready and (running is None or ready[0][0] < cpu.entry[0]):
+                if ready and (running is None or (running.preemptive and ready[0][0] < cpu.entry[0])):
                     if running is None:
                         cpu.entry = heappop(ready)
                     else:

@@ -1,0 +1,113 @@
+"""Least speed and landing that hold whatever the phases of the tasks are."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from fractions import Fraction
+from itertools import count
+from math import ceil
+
+from sched_sim.design.load import loads
+from sched_sim.design.methods import method_of
+from sched_sim.design.options import Options
+from sched_sim.design.phased import Phased, ceiling, phased
+from sched_sim.design.pieces import Costs, StandardCosts
+from sched_sim.design.search import search_resolution
+from sched_sim.design.timing import Timing
+from sched_sim.design.worst_demand import overloaded
+from sched_sim.design.worst_phase import EndlessError, finishes
+from sched_sim.errors import InputError, option
+from sched_sim.schedule.tasks import Task
+
+LOAD = "load"
+
+FIRST_STEP = 1_000
+"""The search starts so small a share above the load: nearer to it, busy periods are long."""
+
+
+def phases_matter(tasks: Sequence[Task]) -> bool:
+    """Whether there are several schedules, of which the answer must hold for the worst."""
+    return any(task.offset == "any" or task.jitter for task in tasks)
+
+
+def least_speed_of_any_phase(
+    costs: Costs,
+    timing: Timing,
+    options: Options,
+    tasks: Sequence[Task],
+    on_progress: Callable[[int], None] = lambda _runs: None,
+) -> tuple[Fraction, str]:
+    """(least speed, binding): there no deadline is missed, whatever the phases, to one tick of `search_resolution`.
+
+    on_progress: called with how many speeds have been looked at.
+    """
+    resolution = search_resolution(costs, options, tasks)
+    runs = count(1)
+
+    def binding(period: int) -> str | None:
+        on_progress(next(runs))
+        return late_job(costs, timing, Fraction(period, resolution), options, tasks)
+
+    too_slow = max(ceil(max(loads(costs, timing, Fraction(1), options, tasks)) * resolution) - 1, 0)
+    ahead, why = max(too_slow // FIRST_STEP, 1), LOAD
+    while found := binding(too_slow + ahead):
+        too_slow, ahead, why = too_slow + ahead, 2 * ahead, found
+    enough = too_slow + ahead
+    while enough - too_slow > 1:
+        middle = (too_slow + enough) // 2
+        if found := binding(middle):
+            too_slow, why = middle, found
+        else:
+            enough = middle
+    return Fraction(enough, resolution), why
+
+
+def late_job(costs: Costs, timing: Timing, speed: Fraction, options: Options, tasks: Sequence[Task]) -> str | None:
+    """What may be late at some phase, named as in a sweep's `binding`; None if nothing may.
+
+    Raises InputError for earliest deadline first on two processors.
+    """
+    if options.policy == "edf" and options.cpus == 2:
+        name = next(task.name for task in tasks if phases_matter([task]))
+        raise InputError(
+            f"task {name!r} may have any phase, and what is the worst one is not known with {option('policy')} edf on "
+            f"two processors: give each task an offset, and no jitter, or choose {option('policy')} fixed"
+        )
+    if max(loads(costs, timing, speed, options, tasks)) > 1:
+        return LOAD
+    design = phased(costs, timing, speed, options, tasks)
+    kind, held = _late(design)
+    if kind is None or kind == LOAD or kind.startswith("task:"):
+        return kind
+    return method_of(costs).binding(kind, held, timing, options)
+
+
+def worst_landing(
+    costs: Costs, timing: Timing, speed: Fraction, options: Options, tasks: Sequence[Task]
+) -> int | None:
+    """The L at which corrections have landed at any phase; None where something may be late."""
+    if late_job(costs, timing, speed, options, tasks) is not None:
+        return None
+    design = phased(costs, timing, speed, options, tasks)
+    if not design.cycle.low:
+        return 0 if isinstance(costs, StandardCosts) else timing.M
+    if options.policy == "edf":
+        return timing.L
+    due = design.cycle.low[-1].due
+    found = [each for each in finishes(design) if each.kind in (design.cycle.low[-1].kind, "hr_update")][-1]
+    steps = int((ceiling(found.at - found.due, design.period) + due).max())
+    return steps - design.cycle.apart
+
+
+def _late(design: Phased) -> tuple[str | None, bool]:
+    """The kind of the first job found that may be late, and whether it waited for others of its chain."""
+    try:
+        if design.options.policy == "edf":
+            return overloaded(design), False
+        for found in finishes(design):
+            late = found.at > found.due
+            if late.any():
+                return found.kind, bool(found.held[late].all())
+    except EndlessError:
+        return LOAD, False
+    return None, False

@@ -1,0 +1,83 @@
+"""The jobs of one measurement cycle of each method, as demand: when they come, what they take, when they are due.
+
+Written from the timeline, not from the sources of the simulation, which are the oracle of what is built on it.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from sched_sim.design.options import Options
+from sched_sim.design.pieces import (
+    DualRateCosts,
+    JobCosts,
+    LarsenCosts,
+    MultirateCosts,
+    RecalculateCosts,
+    RobustCosts,
+    StandardCosts,
+    works,
+)
+from sched_sim.design.timing import Timing
+
+
+class LowJob(NamedTuple):
+    """An LR job. release, due: steps after k; work: in ticks; after_high: it comes when the HR job of k finishes."""
+
+    kind: str
+    release: int
+    work: int
+    due: int
+    after_high: bool = False
+
+
+class Cycle(NamedTuple):
+    """high: work of the HR job of each step, from k on, without the correction.
+
+    correction: HR work that comes once, in any step from k + first to k + last, its own job if `apart`. low: in the
+    order in which they run.
+    """
+
+    high: list[int]
+    correction: int = 0
+    first: int = 1
+    last: int = 0
+    apart: bool = False
+    low: tuple[LowJob, ...] = ()
+
+
+def cycle_of(costs: JobCosts[int], timing: Timing, options: Options) -> Cycle:
+    """costs in ticks."""
+    N, M, L = timing.N, timing.M, timing.L
+    match costs:
+        case StandardCosts(propagate, update):
+            return Cycle([propagate + update, *[propagate] * (N - 1)])
+        case RecalculateCosts(propagate, update, replay):
+            high = [propagate] * N
+            high[M % N] += update + M * replay
+            return Cycle(high)
+        case LarsenCosts(propagate, accumulate, update):
+            high = [accumulate if 2 <= step < M else propagate for step in range(N)]
+            updated = update + (accumulate if M >= 2 else propagate)
+            high[M % N] = max(updated, propagate) if M == N else updated  # the first step has no measurement yet
+            return Cycle(high)
+        case MultirateCosts() | RobustCosts():
+            each_step, once = works(costs)
+            kind = "lr_gain" if isinstance(costs, MultirateCosts) else "lr_step"
+            return Cycle([each_step] * N, low=(LowJob(kind, 0, once, L, after_high=True),))
+        case DualRateCosts():
+            return _dual_rate(costs, timing, options)
+
+
+def _dual_rate(costs: DualRateCosts[int], timing: Timing, options: Options) -> Cycle:
+    N, M, L = timing.N, timing.M, timing.L
+    apart = options.feedback == "same-step"
+    due = L + 1 if apart else L
+    early = due if options.lr_propagate_by == "l" or M == 0 else M
+    high = [costs.hr] * N
+    high[1 % N] = costs.hr_restart
+    low = [LowJob("lr_propagate", 0, costs.lr_propagate, early, after_high=True)]
+    if costs.lr_gain:
+        low.append(LowJob("lr_gain", 0, costs.lr_gain, early, after_high=True))
+    low.append(LowJob("lr_update", M, costs.lr_update, due, after_high=M == 0))
+    return Cycle(high, costs.hr_update, M if apart else M + 1, L, apart, tuple(low))

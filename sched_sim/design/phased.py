@@ -1,0 +1,149 @@
+"""What may come in a window of time where the phases of tasks are not known: work released, and work released and due.
+
+Times in ticks from a k at which all that is known repeats; a window [start, start + length) opens where something is
+released, with every task whose phase is not known. Arrays throughout.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from itertools import chain
+from math import gcd, lcm
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from sched_sim.design.cycle import Cycle, cycle_of
+from sched_sim.design.demand import Ints
+from sched_sim.design.options import Options
+from sched_sim.design.pieces import Costs, converted, works
+from sched_sim.design.timing import Timing
+from sched_sim.schedule.tasks import Task, work_and_times
+from sched_sim.ticks import ticks_per_unit, to_ticks
+
+LONGEST_BUSY = 2**16
+"""HR periods; a busy period that is longer is taken for one without end."""
+
+
+def ceiling(a: Any, b: Any) -> Any:
+    """The least whole number that is not less than a / b."""
+    return -(-a // b)
+
+
+class PhasedTask(NamedTuple):
+    """A task. work: with its context switches; first: its first release in a period, None if it may be any."""
+
+    name: str
+    priority: int
+    cpu: int
+    work: int
+    period: int
+    first: int | None
+    jitter: int
+    deadline: int
+    preemptive: bool
+
+    def released(self, start: Ints, length: Ints) -> Ints:
+        """How often in [start, start + length), at the most."""
+        if self.first is None:
+            return ceiling(length + self.jitter, self.period)
+        return ceiling(start + length - self.first, self.period) - ceiling(
+            start - self.jitter - self.first, self.period
+        )
+
+    def due(self, start: Ints, length: Ints) -> Ints:
+        """How often released and due in [start, start + length], at the most."""
+        if self.first is None:
+            return np.maximum((length + self.jitter - self.deadline) // self.period + 1, 0)
+        before = ceiling(start - self.jitter - self.first, self.period)
+        return np.maximum((start + length - self.deadline - self.first) // self.period - before + 1, 0)
+
+
+class Phased(NamedTuple):
+    """A design at one speed.
+
+    N: steps of a cycle; steps: after which all whose phase is known repeats; period: of the HR loop; switches: two
+    context switches; before: work of the HR jobs of a cycle up to each step; policy and cpus are in the options.
+    """
+
+    N: int
+    steps: int
+    period: int
+    switches: int
+    cycle: Cycle
+    before: Ints
+    tasks: tuple[PhasedTask, ...]
+    options: Options
+
+    @property
+    def low_cpu(self) -> int:
+        return self.options.cpus - 1
+
+    def counted(self, number: int) -> Ints:
+        """0, 1, 2, ..., in the type of the others."""
+        return np.arange(number).astype(self.before.dtype)
+
+    def first_step(self, instant: Ints) -> Ints:
+        """The first that begins then or later."""
+        return ceiling(instant, self.period)
+
+    def high(self, first: Ints, end: Ints) -> Ints:
+        """Work of the HR jobs of steps [first, end), without corrections."""
+        return self._high_up_to(end) - self._high_up_to(first)
+
+    def _high_up_to(self, step: Ints) -> Ints:
+        return step // self.N * self.before[-1] + self.before[(step % self.N).astype(np.intp)]
+
+    def high_and_corrections(self, first: Ints, end: Ints, last_cycle: Ints | None = None) -> Ints:
+        """Work of the HR jobs of steps [first, end), and of the corrections that may come in them, of cycles up to the
+        last."""
+        return self.high(first, end) + np.where(end > first, self.corrections(first, end, last_cycle), 0)
+
+    def corrections(self, first: Ints, end: Ints, last_cycle: Ints | None = None) -> Ints:
+        """Work of those that may come before step `end` and are not due before `first`, of cycles up to the last."""
+        latest = (end - 1 - self.cycle.first) // self.N
+        if last_cycle is not None:
+            latest = np.minimum(latest, last_cycle)
+        count = np.maximum(latest - ceiling(first - self.cycle.last, self.N) + 1, 0)
+        return count * (self.cycle.correction + self.switches * self.cycle.apart)
+
+    def low(self, start: Ints, end: Ints, late: int) -> Ints:
+        """Work of the LR jobs that come in [start, end). late: those behind an HR job may come so much later."""
+        cycle = self.N * self.period
+        total = 0 * start
+        for job in self.cycle.low:
+            release = job.release * self.period
+            first = ceiling(start - late * job.after_high - release, cycle)
+            total = total + (ceiling(end - release, cycle) - first) * (job.work + self.switches)
+        return total
+
+
+def phased(costs: Costs, timing: Timing, speed: Fraction, options: Options, tasks: Sequence[Task]) -> Phased:
+    """In the fewest ticks per cost unit in which all is whole; in int64 where nothing can overflow."""
+    costs = converted(costs, Fraction)
+    of_tasks = [work_and_times(task, speed) for task in tasks]
+    resolution = ticks_per_unit([speed, options.context_switch, *works(costs), *chain.from_iterable(of_tasks)])
+    period, switches = to_ticks(speed, resolution), 2 * to_ticks(options.context_switch, resolution)
+    cycle = cycle_of(converted(costs, lambda work: to_ticks(work, resolution)), timing, options)
+    in_ticks = []
+    for task, times in zip(tasks, of_tasks, strict=True):
+        work, every, first, jitter, deadline = (to_ticks(time, resolution) for time in times)
+        at = None if task.offset == "any" else first % every
+        kind, work = f"task:{task.name}", work + switches
+        in_ticks.append(
+            PhasedTask(kind, task.priority, task.cpu - 1, work, every, at, jitter, deadline, task.preemptive)
+        )
+    steps = common_period(timing.N, [task.period for task in tasks if task.offset != "any"])
+    largest = max([period, *(max(task.work, task.period) for task in in_ticks), *cycle.high, *(low.work for low in cycle.low)])
+    whole = np.int64 if largest * (steps + LONGEST_BUSY) < 2**56 else object
+    before = np.concatenate([[0], np.cumsum(np.array(cycle.high, dtype=whole) + switches)]).astype(whole)
+    return Phased(timing.N, steps, period, switches, cycle, before, tuple(in_ticks), options)
+
+
+def common_period(N: int, periods: Sequence[Fraction]) -> int:
+    """HR steps after which measurements and tasks of these periods are released together again as they were."""
+    common = Fraction(N)
+    for period in periods:
+        common = Fraction(lcm(common.numerator, period.numerator), gcd(common.denominator, period.denominator))
+    return common.numerator
