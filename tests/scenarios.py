@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
+from math import ceil, floor
 from pathlib import Path
 from typing import Any
 
+from sched_sim.scenario.instants import Steps
 from sched_sim.scenario.run import run_scenario
 from sched_sim.scenario.scenario import Scenario, Sensor
 from sched_sim.schedule.outcome import Slice
@@ -25,9 +27,9 @@ def costs(entries: dict[str, Any]) -> Costs:
     }
 
 
-def sensor(name: str, every: int, delay: int | Sequence[int] = 0, **settings: Any) -> Sensor:
-    delays = (delay,) if isinstance(delay, int) else delay
-    return Sensor(name, every, delays, **({"land_by": max(delays) + every - 1} | settings))
+def sensor(name: str, every: Steps, delay: Steps | Sequence[Steps] = 0, **settings: Any) -> Sensor:
+    delays = delay if isinstance(delay, Sequence) else (delay,)
+    return Sensor(name, every, delays, **({"land_by": ceil(max(delays)) + floor(every) - 1} | settings))
 
 
 def scenario(speed: object, entries: dict[str, Any], *sensors: Sensor, steps: int = 400, **settings: Any) -> Scenario:

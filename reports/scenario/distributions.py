@@ -74,7 +74,7 @@ def distributions_figure(scenario: Scenario, outcome: Outcome) -> Figure:
         plain.append(None)
     for sensor in scenario.sensors:
         kind = correct_kind(sensor)
-        least, most = min(sensor.delays), max(sensor.delays)
+        least, most = sensor.least_delay, sensor.longest_delay
         deadline = float(sensor.land_by + 1 - most) if least == most else None
         plain.append(
             _response(f"correct {shortened(sensor.name)}", scenario, outcome.jobs[kind], FILLS["CO"], deadline)
@@ -206,7 +206,7 @@ def _response_notes(values: Sequence[float], figures: JobFigures, unit: str) -> 
 
 def _achieved(sensor: Sensor, figures: SensorFigures) -> Cell:
     landed = figures.achieved.total()
-    steps = sorted(figures.achieved) or [min(sensor.delays)]
+    steps = sorted(figures.achieved) or [sensor.least_delay]
     first, last = steps[0], steps[-1]
     shown = max(last, first + FEWEST_SHOWN)
     limit = sensor.land_by + 0.5  # what lands in step k + land_by has met it

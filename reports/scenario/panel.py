@@ -9,9 +9,8 @@ from typing import NamedTuple
 
 from reports.charts.intervals import jobs
 from reports.charts.panels import Mark, Panel
-from sched_sim.scenario.draws import fates
 from sched_sim.scenario.run import Outcome, run_scenario
-from sched_sim.scenario.scenario import Scenario, Sensor
+from sched_sim.scenario.scenario import Scenario
 from sched_sim.scenario.source import correct_kind
 from sched_sim.schedule.jobs import step_at
 from sched_sim.schedule.outcome import Schedule, Slice
@@ -65,7 +64,7 @@ def scenario_panel(scenario: Scenario, outcome: Outcome) -> Panel:
 
 def window(scenario: Scenario, first_miss: float | None, late: Late | None) -> tuple[int, int]:
     """The first step shown, and the one at whose start the panel ends."""
-    cycles = CYCLES * max((sensor.every for sensor in scenario.sensors), default=0)
+    cycles = ceil(CYCLES * max((sensor.every for sensor in scenario.sensors), default=0))
     width = min(max(cycles, FEWEST_STEPS), MOST_STEPS, scenario.steps)
     if first_miss is not None:
         first = ceil(first_miss) + AFTER_MISS - width
@@ -82,16 +81,10 @@ def first_late(scenario: Scenario) -> Late | None:
     arrivals = [
         Late(step + delay, step, correct_kind(sensor))
         for sensor in scenario.sensors
-        for step, delay in _drawn(scenario, sensor, scenario.steps)
+        for step, delay in sensor.measurements(scenario.steps, scenario.seed)
         if delay and step + delay < scenario.steps
     ]
     return min(arrivals, default=None)
-
-
-def _drawn(scenario: Scenario, sensor: Sensor, steps: int) -> list[tuple[int, int | None]]:
-    """The step in which each measurement is taken, and its delay."""
-    taken = range(sensor.offset, steps, sensor.every)
-    return list(zip(taken, fates(sensor.delays, sensor.dropout, len(taken), scenario.seed, sensor.name), strict=True))
 
 
 def _marks(late: Late, schedule: Schedule) -> Sequence[Mark]:

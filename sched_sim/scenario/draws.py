@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TypeVar
 
 import numpy as np
+
+Drawn = TypeVar("Drawn")
 
 
 def stream(seed: int, purpose: str) -> np.random.Generator:
@@ -19,8 +22,8 @@ def total(samples: Sequence[int], generator: np.random.Generator, executions: in
     return sum(samples[number] for number in generator.integers(len(samples), size=executions).tolist())
 
 
-def fates(delays: Sequence[int], dropout: float, count: int, seed: int, name: str) -> list[int | None]:
-    """For each of a sensor's measurements the steps until it arrives, or None if it never does.
+def fates(delays: Sequence[Drawn], dropout: float, count: int, seed: int, name: str) -> list[Drawn | None]:
+    """For each of a sensor's measurements the delay until it arrives, or None if it never does.
 
     delays: drawn from with equal probability; dropout: the probability of None. A measurement that is lost has used up
     its delay, so that another dropout leaves the delays of those that arrive as they are.

@@ -8,9 +8,11 @@ from typing import Any, TypeVar
 
 from sched_sim.bounds import MOST_DIGITS, MOST_STEPS, short, whole
 from sched_sim.errors import InputError
+from sched_sim.scenario.instants import Spread, Steps
 from sched_sim.ticks import exact, positive
 
 Held = TypeVar("Held")
+Number = TypeVar("Number", int, Steps)
 Made = Callable[[Any, str], Held]
 """What a field holds, of what was given and the field's name; raises InputError."""
 
@@ -41,11 +43,27 @@ def any_whole(value: Any, name: str) -> int:
     return whole(value, name, 10**MOST_DIGITS)
 
 
+def steps(value: Any, name: str) -> Steps:
+    """So many HR steps, whole or not."""
+    if hasattr(value, "__index__"):
+        return any_whole(value, name)
+    number = exact(value, name)
+    return number.numerator if number.denominator == 1 else number
+
+
+def steps_at_least(least: int, why: str) -> Made[Steps]:
+    return _at_least(steps, least, why)
+
+
 def at_least(least: int, why: str) -> Made[int]:
+    return _at_least(any_whole, least, why)
+
+
+def _at_least(read: Made[Number], least: int, why: str) -> Made[Number]:
     bound = f"at least {least}" if least else "0 or more"
 
-    def made(value: Any, name: str) -> int:
-        number = any_whole(value, name)
+    def made(value: Any, name: str) -> Number:
+        number = read(value, name)
         if number < least:
             raise InputError(f"{name} {number} must be {bound}: it is {why}")
         return number
@@ -86,35 +104,35 @@ def probability(value: Any, name: str) -> float:
 
 
 def several(value: Any) -> Sequence[Any]:
-    """One value, or as many as there are, also an iterator's or NumPy's; a range stays, for it may be long."""
+    """One value, or as many as there are, also an iterator's or NumPy's; what may be long and is no list stays."""
     value = value.tolist() if hasattr(value, "tolist") else value
-    if isinstance(value, range):
+    if isinstance(value, range | Spread):
         return value
     return (value,) if isinstance(value, str) or not isinstance(value, Iterable) else tuple(value)
 
 
-def steps_drawn(value: Any, name: str) -> Sequence[int]:
+def steps_drawn(value: Any, name: str) -> Sequence[Steps]:
     """Delays; a file calls them `delay`."""
     if isinstance(value, Mapping):
         raise InputError(f"{name} is {short(repr(value))}: give a number of steps, a list, or range(least, most + 1)")
-    steps = several(value)
-    if not steps:
+    delays = several(value)
+    if not delays:
         raise InputError(
             "delay has nothing to draw from: give a number of steps, a list, or { least = ..., most = ... }"
         )
-    if not isinstance(steps, range):
-        steps = tuple(any_whole(step, name) for step in steps)
-    least, longest = ends(steps)
+    if not isinstance(delays, range | Spread):
+        delays = tuple(steps(delay, name) for delay in delays)
+    least, longest = ends(delays)
     if least < 0:
         raise InputError(f"delay {least} must be 0 or more: no measurement arrives before it is taken")
     if longest > MOST_STEPS:
         raise InputError(f"delay {short(longest)} is above {MOST_STEPS:,} HR steps: give fewer")
-    return steps
+    return delays
 
 
-def ends(delays: Sequence[int]) -> tuple[int, int]:
+def ends(delays: Sequence[Steps]) -> tuple[Steps, Steps]:
     """The least and the greatest, at once of a long range too."""
-    candidates = (delays[0], delays[-1]) if isinstance(delays, range) else delays
+    candidates = (delays[0], delays[-1]) if isinstance(delays, range | Spread) else delays
     return min(candidates), max(candidates)
 
 

@@ -4,12 +4,16 @@ in flight. On average over one whole pattern of the sensors; of a very long patt
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import lcm
+from fractions import Fraction
+from math import ceil, isqrt, lcm
 from typing import TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
+from sched_sim.scenario.fields import ends
+from sched_sim.scenario.instants import Steps
+from sched_sim.scenario.instants import lag as steps_late
 from sched_sim.scenario.scenario import Sensor
 
 Floats: TypeAlias = npt.NDArray[np.float64]
@@ -21,20 +25,29 @@ MOST_CASES = 200_000
 """So many pairs of a measurement and its delay are looked at, of all sensors."""
 RAREST = 1 << 40
 """HR steps between measurements; what is rarer meets nothing."""
+MOST_PARTS = 256
+"""So many parts of sensors are looked at, and the fewer the later they may arrive: an `every` of more is rounded."""
+MOST_LAGS = 10**9
+"""So many lags of all pairs of parts."""
 
 
 class Arrivals:
-    """One sensor's. at: the probability that a measurement arrives so many steps late, by lag; before: that it has
-    arrived earlier than that."""
+    """Those of a sensor's measurements that recur every so many whole steps: of an `every` of 40/3 each third, whose
+    every is 40.
 
-    def __init__(self, sensor: Sensor, longest: int) -> None:
-        delays = np.asarray(sensor.delays[:: 1 + len(sensor.delays) // MOST_DELAYS])
+    owner: the number of the sensor. at: the probability that a measurement arrives so many steps late, by lag; before:
+    that it has arrived earlier than that; late: whether each that arrives does so in a later step.
+    """
+
+    def __init__(self, owner: int, sensor: Sensor, every: int, instant: Steps, lags: Ints, longest: int) -> None:
+        self.owner = owner
         self.sensor = sensor
         self.priority = sensor.priority
-        self.every = min(sensor.every, RAREST)
-        self.offset = sensor.offset % self.every
-        self.at: Floats = (1 - sensor.dropout) * np.bincount(delays, minlength=longest + 1) / delays.size
+        self.every = every
+        self.offset = ceil(instant) % every
+        self.at: Floats = (1 - sensor.dropout) * np.bincount(lags, minlength=longest + 1) / lags.size
         self.before: Floats = np.cumsum(self.at) - self.at
+        self.late = bool(lags.min() > 0)
 
     def steps(self, others: Sequence[Arrivals], most: int) -> Ints:
         """In which measurements are taken, until the pattern of all sensors repeats."""
@@ -66,8 +79,26 @@ def _steps(every: int, offset: int, others: Sequence[Arrivals], most: int) -> In
 
 
 def _arrivals(sensors: Sequence[Sensor]) -> list[Arrivals]:
-    longest = max((sensor.longest_delay for sensor in sensors), default=0)
-    return [Arrivals(sensor, longest) for sensor in sensors]
+    longest = max((ceil(ends(sensor.delays)[1]) for sensor in sensors), default=0)
+    most = min(MOST_PARTS, isqrt(MOST_LAGS // (longest + 1))) // max(len(sensors), 1)
+    return [
+        Arrivals(owner, sensor, every, instant, _lags(sensor, instant, parts), longest)
+        for owner, sensor in enumerate(sensors)
+        for every, parts in [_recurrence(sensor.every, max(most, 1))]
+        for instant in [sensor.offset + number * Fraction(every, parts) for number in range(parts)]
+    ]
+
+
+def _recurrence(every: Steps, most: int) -> tuple[int, int]:
+    """The whole steps after which a sensor's measurements recur, and how many they are: at most so many."""
+    near = Fraction(min(every, RAREST)).limit_denominator(most)
+    return near.numerator, near.denominator
+
+
+def _lags(sensor: Sensor, instant: Steps, parts: int) -> Ints:
+    """Of a measurement of this instant, by its delay."""
+    delays = sensor.delays[:: 1 + len(sensor.delays) * parts // MOST_DELAYS]
+    return np.asarray(delays if isinstance(delays, range) else [steps_late(instant, delay) for delay in delays])
 
 
 def going_back(sensors: Sequence[Sensor], predict: float, corrections: Sequence[float]) -> list[float]:
@@ -79,7 +110,10 @@ def going_back(sensors: Sequence[Sensor], predict: float, corrections: Sequence[
     own priority that arrive in m go back with it, to the earliest of them.
     """
     arrivals = _arrivals(sensors)
-    return [_going_back(number, arrivals, predict, corrections) for number in range(len(arrivals))]
+    works = [0.0] * len(sensors)
+    for number, own in enumerate(arrivals):
+        works[own.owner] += _going_back(number, arrivals, predict, corrections)
+    return works
 
 
 def _going_back(number: int, arrivals: Sequence[Arrivals], predict: float, corrections: Sequence[float]) -> float:
@@ -90,7 +124,7 @@ def _going_back(number: int, arrivals: Sequence[Arrivals], predict: float, corre
     now = taken + delays
     first = np.broadcast_to(own.at[delays], now.shape)  # it arrives then, and no late one before it in the row does
     work = np.broadcast_to(delays * predict, now.shape)
-    for index, (rival, correction) in enumerate(zip(arrivals, corrections, strict=True)):
+    for index, rival in enumerate(arrivals):
         there = rival.before + rival.at if rival.priority < own.priority else rival.before
         counts = rival.sums(there, now, delays - (index == number))
         if rival.priority == own.priority:
@@ -99,7 +133,7 @@ def _going_back(number: int, arrivals: Sequence[Arrivals], predict: float, corre
                 at, before = rival.at[delays], rival.before[delays]
                 of_step = (taken - rival.offset) % rival.every == 0
                 counts = counts + of_step * before * at / np.where(at < 1, 1 - at, np.inf)
-        work = work + correction * counts
+        work = work + corrections[rival.owner] * counts
     return float((first * late * work).sum()) / taken.size / own.every
 
 
@@ -111,16 +145,22 @@ def in_flight(sensors: Sequence[Sensor], sensor: Sensor | None = None) -> float:
     flight counts too.
     """
     late = [arrivals for arrivals in _arrivals(sensors) if arrivals.sensor.delayed]
-    every, offset = (1, 0) if sensor is None else (min(sensor.every, RAREST), sensor.offset)
-    steps = _steps(every, offset % every, late, MOST_CASES)
+    if sensor is None:
+        steps = _steps(1, 0, late, MOST_CASES)
+    else:
+        parts = _arrivals([sensor])
+        steps = np.concatenate([part.steps(late, MOST_CASES // len(parts)) for part in parts])
     flying = np.zeros(steps.size)
-    lags = [(steps - 1 - arrivals.offset) % arrivals.every for arrivals in late]  # to the step before, since the last
-    surely = [lag for arrivals, lag in zip(late, lags, strict=True) if arrivals.sensor.least_delay > 0]
+    lags = [(steps - 1 - arrivals.offset) % arrivals.every for arrivals in late]
+    surely = [lag for arrivals, lag in zip(late, lags, strict=True) if arrivals.late]
     newest = np.min(surely, axis=0) if surely else np.full(steps.size, RAREST)
     waits = np.ones(steps.size, bool)  # for a lost one: no other is taken in this step, before the correction
     if sensor is not None:
         for arrivals in late:
-            waits &= (steps - arrivals.offset) % arrivals.every > 0 if arrivals.sensor.least_delay > 0 else True
+            waits &= (steps - arrivals.offset) % arrivals.every > 0 if arrivals.late else True
+    last: dict[int, Ints] = {}  # to the step before, since the last of all of a sensor's
+    for arrivals, lag in zip(late, lags, strict=True):
+        last[arrivals.owner] = np.minimum(lag, last.get(arrivals.owner, lag))
     for arrivals, lag in zip(late, lags, strict=True):
         there = 1 - arrivals.sensor.dropout - arrivals.before
         if sensor is not None and arrivals.priority <= sensor.priority:
@@ -128,5 +168,9 @@ def in_flight(sensors: Sequence[Sensor], sensor: Sensor | None = None) -> float:
         there[0] = 0
         flying += arrivals.sums(there, steps, np.full(steps.size, there.size - 1))
         if arrivals.sensor.dropout:
-            flying += arrivals.sensor.dropout / (1 - arrivals.at[0]) * (waits & (lag <= newest))
+            flying += (
+                arrivals.sensor.dropout
+                / (1 - arrivals.at[0])
+                * (waits & (lag <= newest) & (lag == last[arrivals.owner]))
+            )
     return float(np.minimum(flying, 1).mean())

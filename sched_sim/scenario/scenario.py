@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from math import ceil
 from pathlib import Path
 from typing import Any, Literal, get_args
 
@@ -23,11 +24,13 @@ from sched_sim.scenario.fields import (
     rate,
     samples,
     settle,
+    steps_at_least,
     steps_drawn,
     text,
     work,
 )
 from sched_sim.scenario.in_flight import Flight, first_overlap
+from sched_sim.scenario.instants import Steps, lag, roundings, taken
 from sched_sim.schedule.jobs import HR, LR
 from sched_sim.schedule.tasks import Task, wrong_together
 from sched_sim.ticks import exact
@@ -44,26 +47,27 @@ LARSENS = ("predict_accumulate", "correct_accumulate", "correct_late")
 
 @dataclass(frozen=True)
 class Sensor:
-    """One sensor; all times in HR steps.
+    """One sensor; all times in HR steps, whole ones or quotients, such as Fraction(40, 3).
 
-    A measurement is taken in steps offset, offset + every, ...; it never arrives with the probability `dropout`, else
-    at the start of the step k + delay, the delay drawn from `delays`, one or several, with equal probability.
+    A measurement is taken at the instants offset, offset + every, ...; k is the step that starts then, or the first
+    after it. It never arrives with the probability `dropout`, else in the first step that starts at instant + delay or
+    after it, the delay drawn from `delays`, one or several, with equal probability.
     priority: of its corrections; smaller is more urgent. land_by: the correction must finish during step k + land_by,
     or before; its deadline is the end of that step, met exactly if the achieved l is k + land_by or less.
     Raises InputError that names the sensor and lists all that is wrong with it.
     """
 
     name: str
-    every: int
-    delays: Sequence[int]
+    every: Steps
+    delays: Sequence[Steps]
     land_by: int
-    offset: int = 0
+    offset: Steps = 0
     dropout: float = 0.0
     priority: int = LR
 
     def __post_init__(self) -> None:
         wrong = settle(self, SENSOR_FIELDS)
-        if not {"delays", "land_by"} & {*wrong} and self.land_by < self.least_delay:
+        if not {"every", "offset", "delays", "land_by"} & {*wrong} and self.land_by < self.least_delay:
             wrong["land_by"] = (
                 f"land_by {self.land_by} must not be less than the least delay {self.least_delay}: the correction "
                 f"may land in the step so many after the measurement's, and none lands before its measurement arrives; "
@@ -79,31 +83,38 @@ class Sensor:
 
     @property
     def least_delay(self) -> int:
-        """In HR steps."""
-        return ends(self.delays)[0]
+        """HR steps from the step in which a measurement is taken to that in which it arrives, at the least."""
+        return ceil(ends(self.delays)[0] - roundings(self.every, self.offset)[1])
 
     @property
     def longest_delay(self) -> int:
-        """In HR steps."""
-        return ends(self.delays)[1]
+        """The same at the most."""
+        return ceil(ends(self.delays)[1] - roundings(self.every, self.offset)[0])
 
-    def fates(self, steps: int, seed: int) -> list[int | None]:
-        """The drawn delay of each measurement of a simulation of so many steps; None: it never arrives."""
-        return fates(self.delays, self.dropout, len(self._takes(steps)), seed, self.name)
+    def takes(self, steps: int) -> Sequence[int]:
+        """The steps, of so many, in which its measurements are taken."""
+        return taken(self.every, self.offset, steps)
+
+    def measurements(self, steps: int, seed: int) -> Iterator[tuple[int, int | None]]:
+        """Those of a simulation of so many steps: the step in which each is taken, and how many later it arrives; None:
+        it never does."""
+        takes = self.takes(steps)
+        drawn = fates(self.delays, self.dropout, len(takes), seed, self.name)
+        for number, (step, delay) in enumerate(zip(takes, drawn, strict=True)):
+            if delay is None or isinstance(delay, int):
+                yield step, delay
+            else:
+                yield step, lag(self.offset + number * self.every, delay)
 
     def flights(self, steps: int, seed: int) -> list[Flight]:
         """Those of its measurements that arrive in a later step."""
-        drawn = zip(self._takes(steps), self.fates(steps, seed), strict=True)
-        return [Flight(self.name, step, step + delay) for step, delay in drawn if delay]
-
-    def _takes(self, steps: int) -> range:
-        return range(self.offset, steps, self.every)
+        return [Flight(self.name, step, step + late) for step, late in self.measurements(steps, seed) if late]
 
 
 SENSOR_FIELDS = {
     "name": text("it is how its costs and results are found"),
-    "every": at_least(1, "the number of steps between measurements"),
-    "offset": at_least(0, "the step of the first measurement"),
+    "every": steps_at_least(1, "the number of steps between measurements"),
+    "offset": steps_at_least(0, "the step of the first measurement"),
     "dropout": probability,
     "delays": steps_drawn,
     "land_by": any_whole,
@@ -166,7 +177,7 @@ class Scenario:
     def _in_flight_at_once(self) -> list[str]:
         """What to say of late measurements that Larsen's method cannot wait for."""
         delayed = [sensor for sensor in self.sensors if sensor.delayed]
-        if len(delayed) == 1 and delayed[0].longest_delay <= delayed[0].every:
+        if len(delayed) == 1 and ends(delayed[0].delays)[1] <= delayed[0].every:
             return []
         overlap = first_overlap(flight for sensor in delayed for flight in sensor.flights(self.steps, self.seed))
         if overlap is None:

@@ -144,7 +144,7 @@ class _Sensor(_Entry):
             name=self.name,
             every=self.every,
             delays=self.delay,
-            land_by=ends(self.delay)[1] + max(self.every, 1) - 1 if self.land_by is None else self.land_by,
+            land_by=int(ends(self.delay)[1]) + max(self.every, 1) - 1 if self.land_by is None else self.land_by,
             offset=self.offset,
             dropout=float(self.dropout),
             priority=self.priority,

@@ -87,7 +87,8 @@ class Awaited(NamedTuple):
 class ComposedFilter(Source):
     """Releases the jobs; `period` (the HR period) and `costs`, by part, in ticks.
 
-    taken, dropped: measurements so far, by the number of the sensor; pending: arrived and not landed, sorted.
+    following: each sensor's next measurement; taken, dropped: measurements so far, by the number of the sensor;
+    pending: arrived and not landed, sorted.
     """
 
     def __init__(self, scenario: Scenario, costs: Mapping[str, Sequence[int]], period: int) -> None:
@@ -102,7 +103,8 @@ class ComposedFilter(Source):
         self.pending: list[Measurement] = []
         self.corrector_cpu = scenario.cpus - 1
         self.larsen = scenario.late == "larsen"
-        self.fates = [sensor.fates(scenario.steps, scenario.seed) for sensor in self.sensors]
+        self.measurements = [sensor.measurements(scenario.steps, scenario.seed) for sensor in self.sensors]
+        self.following = [next(measurements, None) for measurements in self.measurements]
         self.predict_stream = stream(scenario.seed, "predictor cost")
         self.streams = [stream(scenario.seed, f"{sensor.name} cost") for sensor in self.sensors]
         self.arrivals: defaultdict[int, list[Measurement]] = defaultdict(list)  # by step
@@ -116,9 +118,10 @@ class ComposedFilter(Source):
         step, start = self.step, self.next_release
         self.step, self.next_release = step + 1, start + self.period
         jobs = [self._predict(step, start)]
-        for number, sensor in enumerate(self.sensors):
-            if step >= sensor.offset and (step - sensor.offset) % sensor.every == 0:
-                self._take(number, sensor, step)
+        for number, following in enumerate(self.following):
+            if following is not None and following[0] == step:
+                self._take(number, *following)
+                self.following[number] = next(self.measurements[number], None)
         if self.awaited is not None and self.awaited.arrives == step:
             self.awaited = None
         arrived = sorted(self.arrivals.pop(step, []), key=self._order)
@@ -152,8 +155,8 @@ class ComposedFilter(Source):
         priority = self.scenario.priority
         return Job("predict", step, priority, start, start + self.period, work, (("PR", work),))
 
-    def _take(self, number: int, sensor: Sensor, step: int) -> None:
-        delay = self.fates[number][self.taken[number]]
+    def _take(self, number: int, step: int, delay: int | None) -> None:
+        sensor = self.sensors[number]
         arrives = None if delay is None else step + delay
         self.taken[number] += 1
         if self.larsen and sensor.delayed and arrives != step:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Sequence
+from fractions import Fraction
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -23,9 +24,13 @@ from filters.modular import (
 )
 from filters.modular import Sensor as FilterSensor
 from sched_sim.errors import InputError
+from sched_sim.scenario.instants import Steps
 from sched_sim.scenario.run import run_scenario
 from sched_sim.scenario.scenario import Sensor
 from tests.scenarios import BY_HAND, HR, LR, scenario, sensor
+
+QUOTIENTS = st.sampled_from([Fraction(4, 3), Fraction(5, 2), Fraction(7, 2)])
+"""Of HR steps: what is between two of them."""
 
 # ------------------------------------------------------------------------------- the work is that of the filter
 
@@ -34,8 +39,7 @@ def fated(sensors: Sequence[Sensor], steps: int, seed: int) -> list[Measurement]
     """The measurements of such a simulation that arrive."""
     found = []
     for each in sensors:
-        taken = range(each.offset, steps, each.every)
-        drawn = zip(taken, each.fates(steps, seed), strict=True)
+        drawn = each.measurements(steps, seed)
         found += [Measurement(each.name, k, k + delay, np.zeros(1)) for k, delay in drawn if delay is not None]
     return found
 
@@ -96,15 +100,15 @@ def roll_backs(sensors: Sequence[Sensor], steps: int, seed: int) -> int:
 
 
 @given(
-    delays=st.lists(st.lists(st.integers(0, 5), min_size=1, max_size=3), min_size=1, max_size=3),
-    every=st.lists(st.integers(1, 4), min_size=3, max_size=3),
-    offset=st.integers(0, 2),
+    delays=st.lists(st.lists(st.integers(0, 5) | QUOTIENTS, min_size=1, max_size=3), min_size=1, max_size=3),
+    every=st.lists(st.integers(1, 4) | QUOTIENTS, min_size=3, max_size=3),
+    offset=st.integers(0, 2) | QUOTIENTS,
     priority=st.sampled_from([HR, LR]),
     seed=st.integers(0, 9),
 )
 @settings(max_examples=60, deadline=None)
 def test_on_a_fast_processor_the_work_is_the_filters_and_the_prediction_of_each_step_that_is_rolled_back(
-    delays: list[list[int]], every: list[int], offset: int, priority: int, seed: int
+    delays: list[list[Steps]], every: list[Steps], offset: Steps, priority: int, seed: int
 ) -> None:
     """The filter's first step has no prediction, the scenario's has."""
     steps = 16
@@ -154,18 +158,19 @@ def test_what_never_arrives_is_in_no_ones_way() -> None:
 
 
 @given(
-    delays=st.lists(st.integers(0, 6), min_size=1, max_size=3),
+    every=st.sampled_from([6, Fraction(20, 3)]),
+    delays=st.lists(st.integers(0, 6) | QUOTIENTS, min_size=1, max_size=3),
     others=st.lists(st.integers(0, 2), min_size=1, max_size=2),
-    offset=st.integers(0, 8),
+    offset=st.integers(0, 8) | QUOTIENTS,
     dropout=st.sampled_from([0.0, 0.5, 0.9]),
     seed=st.integers(0, 9),
 )
 @settings(max_examples=100, deadline=None)
 def test_larsen_refuses_exactly_what_the_filter_refuses(
-    delays: list[int], others: list[int], offset: int, dropout: float, seed: int
+    every: Steps, delays: list[Steps], others: list[int], offset: Steps, dropout: float, seed: int
 ) -> None:
     steps = 30
-    gps = sensor("gps", 6, delays, dropout=dropout)
+    gps = sensor("gps", every, delays, dropout=dropout)
     camera = sensor("camera", 12, others, offset=offset, dropout=dropout)
     entries = LARSENS | {"correct.camera": 1, "correct_accumulate.gps": 1, "correct_accumulate.camera": 1}
     try:

@@ -43,7 +43,7 @@ def test_numbers_are_what_they_write(speed: Any) -> None:
 @pytest.mark.parametrize(
     "delays", [[4, 6], np.array([4, 6]), iter((4, 6)), (np.int64(4), 6)], ids=lambda values: type(values).__name__
 )
-def test_delays_are_any_whole_numbers(delays: Any) -> None:
+def test_delays_are_any_numbers(delays: Any) -> None:
     assert sensor(delays=delays) == sensor(delays=(4, 6))
     assert sensor(delays=4) == sensor(delays=(4,)) == sensor(delays=np.int64(4))
 
@@ -57,13 +57,14 @@ def test_what_comes_from_an_iterator_stays() -> None:
 
 BAD: dict[str, tuple[Callable[[], Any], str]] = {
     "name": (lambda: Sensor(5, 10, (4,), 10), "sensor 5: name is 5: give text"),  # type: ignore[arg-type]
-    "every": (lambda: sensor(every=2.5), "sensor 'gps': every is 2.5: give a whole number"),
+    "every": (lambda: sensor(every="often"), "sensor 'gps': every is 'often': give a finite number"),
+    "more often than a step": (lambda: sensor(every=0.5), "sensor 'gps': every 1/2 must be at least 1"),
     "land_by": (lambda: sensor(land_by="10"), "land_by is '10': give a whole number"),
-    "offset": (lambda: sensor(offset=None), "offset is None: give a whole number"),
+    "offset": (lambda: sensor(offset=None), "offset is 'None': give a finite number"),
     "priority": (lambda: sensor(priority="high"), "priority is 'high': give a whole number"),
-    "delays": (lambda: sensor(delays="4"), "delays is '4': give a whole number"),
+    "delays": (lambda: sensor(delays="late"), "delays is 'late': give a finite number"),
     "a range": (lambda: sensor(delays={"least": 3, "most": 5}), "give a number of steps, a list, or range(least, most"),
-    "one delay": (lambda: sensor(delays=[4, 5.5]), "delays is 5.5: give a whole number"),
+    "one delay": (lambda: sensor(delays=[4, "late"]), "delays is 'late': give a finite number"),
     "no delays": (lambda: sensor(delays=np.array([])), "delay has nothing to draw from"),
     "dropout": (lambda: sensor(dropout="often"), "dropout is 'often': give a finite number"),
     "nan": (lambda: sensor(dropout=float("nan")), "dropout is 'nan': give a finite number"),
@@ -107,3 +108,12 @@ def test_a_schedule_of_a_scenario_says_nothing_of_cycles() -> None:
     shown = run_scenario(built()).schedule._repr_html_()
     assert "landed" not in shown
     assert "responses in HR periods" in shown
+
+
+def test_steps_are_numbers_as_people_write_them() -> None:
+    """In the repr too, whole ones are whole numbers."""
+    third = Fraction(40, 3)
+    assert sensor(every="40/3", delays=["9/2", 4.5], offset=0.5, land_by=10) == sensor(
+        every=third, delays=(Fraction(9, 2), Fraction(9, 2)), offset=Fraction(1, 2)
+    )
+    assert repr(sensor(every=Fraction(10), delays=[Fraction(4)])) == repr(sensor(every=10, delays=[4]))

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from fractions import Fraction
+from math import ceil, floor
 
 import pytest
 from hypothesis import given
@@ -24,8 +26,10 @@ def certain(draw: st.DrawFn) -> list[Sensor]:
     """Up to three sensors, each with one delay."""
     found = []
     for name in "abc"[: draw(st.integers(1, 3))]:
-        every, delay = draw(st.sampled_from([1, 2, 3, 4, 5, 6])), draw(st.integers(0, 7))
-        offset, priority = draw(st.integers(0, every - 1)), draw(st.sampled_from([HR - 5, HR, LR]))
+        every = draw(st.sampled_from([1, 2, 3, 4, 5, 6, Fraction(4, 3), Fraction(5, 2), Fraction(10, 3)]))
+        delay = draw(st.integers(0, 7) | st.sampled_from([Fraction(1, 3), Fraction(5, 2), Fraction(14, 3)]))
+        offset = draw(st.integers(0, floor(every) - 1) | st.sampled_from([Fraction(1, 2), Fraction(5, 3)]))
+        priority = draw(st.sampled_from([HR - 5, HR, LR]))
         found.append(sensor(name, every, delay, offset=offset, priority=priority))
     return found
 
@@ -33,9 +37,9 @@ def certain(draw: st.DrawFn) -> list[Sensor]:
 def counted(sensors: list[Sensor], number: int) -> float:
     """Each measurement of one sensor, of the second pattern, by itself."""
     taken = [
-        (t, other, t + one.longest_delay)
+        (t, other, ceil(one.offset + i * one.every + one.delays[0]))
         for other, one in enumerate(sensors)
-        for t in range(one.offset, 3 * PATTERN, one.every)
+        for i, t in enumerate(one.takes(3 * PATTERN))
     ]
     work = 0.0
     priority = sensors[number].priority
@@ -109,6 +113,10 @@ def as_urgent(of: Sensor) -> Sensor:
         ([sensor("a", 6, 1, dropout=1.0), sensor("c", 6, [0, 1], offset=3)], None, 1),  # that is late for certain
         ([A, sensor("b", 1)], None, 5 / 9),
         ([sensor("a", 6, 1)], None, 1 / 6),
+        ([sensor("a", Fraction(9, 2), Fraction(5, 2))], None, 5 / 9),  # of step 0 until 3, of step 5 until 7
+        ([sensor("a", Fraction(9, 2), Fraction(5, 2))], sensor("b", Fraction(9, 2), offset=3, priority=HR), 1 / 2),
+        ([sensor("a", Fraction(9, 2), Fraction(5, 2))], as_urgent(sensor("b", Fraction(9, 2), offset=3)), 0),
+        ([sensor("a", Fraction(9, 2), [0, 2], dropout=0.5)], None, 2 / 3 + 1 / 4 * 4 / 9),
         ([sensor("b", 1)], None, 0),
     ],
 )

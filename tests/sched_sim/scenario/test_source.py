@@ -207,7 +207,7 @@ def test_larsen_one_that_is_not_late_for_once_is_not_in_flight_in_its_own_step()
         "correct_late.gps": 3,
     }
     imu, gps = sensor("imu", 1, priority=HR), sensor("gps", 4, [0, 2])
-    seed = next(seed for seed in count() if gps.fates(1, seed) == [0])
+    seed = next(seed for seed in count() if [*gps.measurements(1, seed)] == [(0, 0)])
     of = scenario(10, entries, imu, gps, late="larsen", steps=1, seed=seed)
     assert slices_of(of, "correct imu") == [(1, 2)]
     assert slices_of(of, "correct gps") == [(2, 5)]
