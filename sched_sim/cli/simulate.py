@@ -44,9 +44,10 @@ ScenarioFile = Annotated[
     typer.Option(
         "--scenario",
         help="TOML file of a predictor and several sensors, several measurements on their way at once, dropout, random "
-        "delay and measured costs; instead of the options for one filter. At least: name, steps, hr_hz (costs are then "
-        "in seconds) or speed (cost units per HR period), \\[predictor] cost, \\[\\[sensor]] name, every, cost; a "
-        "sensor's delay is 0 by default, its deadline land_by the longest delay + every - 1.",
+        "delay and measured costs; instead of the options for one filter. With hr_hz, the steps in a second, times are "
+        "as you have them. At least: name, hr_hz, duration_s, \\[predictor] cost_us, \\[\\[sensor]] name, hz, cost_us; "
+        "a sensor's delay_ms is 0 by default. With speed, cost units per HR period: name, steps, \\[predictor] cost, "
+        "\\[\\[sensor]] name, every, cost. The deadline land_by is by default the longest delay + every - 1, in steps.",
         rich_help_panel=opt.DESIGN,
     ),
 ]

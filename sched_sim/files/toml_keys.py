@@ -25,7 +25,9 @@ def keys_of(table: type[BaseModel]) -> list[str]:
 
 
 def required_keys(table: type[BaseModel]) -> list[str]:
-    return [field.alias or name for name, field in table.model_fields.items() if field.is_required()]
+    """Those, and the pairs of which one is; a model names these as its `one_of`."""
+    required = [field.alias or name for name, field in table.model_fields.items() if field.is_required()]
+    return [*required, *getattr(table, "one_of", ())]
 
 
 def no_such_key(key: str, table: type[BaseModel]) -> str:

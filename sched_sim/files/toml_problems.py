@@ -102,7 +102,7 @@ def _no_table(value: Any, path: At, model: type[BaseModel]) -> str:
 
 def _given(item: ErrorDetails) -> str:
     value = item["input"]
-    if isinstance(value, dict | list):
+    if value is None or isinstance(value, dict | list):
         return ""
     if isinstance(value, str) and item["type"] not in ("literal_error", "extra_forbidden") and _NUMBER.fullmatch(value):
         return f' (given: "{value}", which is text: write {value}, without quotes)'

@@ -3,69 +3,32 @@ decimals, or as quotients in quotes."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from fractions import Fraction
+from math import ceil, isclose
 from pathlib import Path
-from typing import Annotated, Any, Literal, Self, get_args
+from typing import Annotated, Any, ClassVar, Literal, Self, get_args
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, model_validator
+from pydantic import BeforeValidator, Field, ValidationError, ValidationInfo, model_validator
 
 from sched_sim.bounds import MOST_STEPS, check_sensors, short
 from sched_sim.costs.sample_file import SampledCosts, read_sampled_costs
 from sched_sim.costs.table import SECONDS
 from sched_sim.errors import InputError, option
-from sched_sim.files.toml_numbers import Number, Positive, Whole, above_zero, whole
+from sched_sim.files.toml_numbers import Positive, Whole, above_zero, whole
 from sched_sim.files.toml_problems import problems
 from sched_sim.files.toml_reader import read_toml
 from sched_sim.processors.part import seconds_for
 from sched_sim.processors.part_file import load_part, shipped_parts
+from sched_sim.scenario.composition import Composition, Describe, with_its_sensors
 from sched_sim.scenario.fields import ends
-from sched_sim.scenario.scenario import Late, Samples, Scenario, Sensor, needed_parts
-from sched_sim.schedule.jobs import HR, LR
+from sched_sim.scenario.file_entries import Entry, PredictorEntry, SensorEntry, not_negative
+from sched_sim.scenario.file_units import Said, Units, agreed, costs_said, plain_cost, shown, time, timed_cost, units_of
+from sched_sim.scenario.scenario import Late, Samples, Scenario, needed_parts
 from sched_sim.schedule.length import check_simulation
 from sched_sim.schedule.task_file import TaskEntry
-
-
-def _several(value: Any, what: str, read: Callable[[Any], Any]) -> tuple[Any, ...]:
-    """A number, or a list of at least one."""
-    if not isinstance(value, list):
-        return (read(value),)
-    if not value:
-        raise ValueError(f"is an empty list: give at least one {what}")
-    entries = []
-    for number, item in enumerate(value):
-        try:
-            entries.append(read(item))
-        except ValueError as error:
-            shown = "" if isinstance(item, dict | list) else f" is {short(item)}"
-            raise ValueError(f"entry {number}{shown}: {error}") from None
-    return tuple(entries)
-
-
-def _cost(value: Any) -> tuple[Fraction, ...]:
-    if isinstance(value, dict):
-        raise ValueError("must be a number, or a list to draw from, such as [0.3, 0.5]")
-    return _several(value, "execution time", above_zero)
-
-
-class _Range(BaseModel):
-    model_config = ConfigDict(extra="forbid")
-    least: Whole
-    most: Whole
-
-
-def _delays(value: Any) -> Sequence[int]:
-    if not isinstance(value, dict):
-        return _several(value, "number of steps", whole)
-    if lacking := [key for key in _Range.model_fields if key not in value]:
-        raise ValueError(f"has no {' and no '.join(lacking)}: give both, as {{ least = 3, most = 5 }}, in whole steps")
-    try:
-        between = _Range.model_validate(value)
-    except ValidationError as error:
-        raise ValueError(f"{{ least = ..., most = ... }} in whole steps: {problems(error, _Range)}") from None
-    if between.least > between.most:
-        raise ValueError(f"least = {between.least} is above most = {between.most}: exchange them")
-    return range(between.least, between.most + 1)
+from sched_sim.schedule.tasks import Task
 
 
 def _file(value: Any, what: str) -> str:
@@ -73,6 +36,12 @@ def _file(value: Any, what: str) -> str:
         raise ValueError(f"must be the path of a file, {what}")
     if not value:
         raise ValueError("the name is empty: give the path of a TOML file, or delete the key")
+    return value
+
+
+def _filter(value: Any) -> str:
+    if not isinstance(value, str) or not value:
+        raise ValueError('must name a function that returns a filter: write filter = "module:function"')
     return value
 
 
@@ -94,92 +63,85 @@ def _late(value: Any) -> Any:
     return value
 
 
-_Cost = Annotated[tuple[Fraction, ...], BeforeValidator(_cost)]
-_Delays = Annotated[Any, BeforeValidator(_delays)]
-
-
 def _not_too_many(sensors: Any) -> Any:
     if isinstance(sensors, list):
         check_sensors(sensors)
     return sensors
 
 
-class _Entry(BaseModel):
-    model_config = ConfigDict(extra="forbid", arbitrary_types_allowed=True)
+def _steps(value: Any, info: ValidationInfo) -> int | None:
+    """It may be left out where `duration_s` says it."""
+    if value is not None:
+        return whole(value)
+    if "duration_s" in info.data and info.data["duration_s"] is None:
+        raise ValueError("is missing: write `steps = ...`, or `duration_s = ...` beside hr_hz")
+    return None
 
 
-class _Predictor(_Entry):
-    priority: Whole = HR
-    cost: _Cost | None = None
+_Steps = Annotated[Annotated[int, Field(ge=1, le=MOST_STEPS)] | None, BeforeValidator(_steps)]
+_Switch = Annotated[Fraction | None, BeforeValidator(plain_cost(not_negative))]
+_TimedSwitch = Annotated[Fraction | None, BeforeValidator(timed_cost(not_negative))]
 
 
-class _Sensor(_Entry):
-    name: str
-    every: Whole
-    delay: _Delays = (0,)
-    offset: Whole = 0
-    dropout: Number = Fraction(0)
-    priority: Whole = LR
-    land_by: Whole | None = None
-    cost: _Cost | None = None
+class _ScenarioFile(Entry):
+    one_of: ClassVar[Sequence[str]] = ("steps (or duration_s)",)
 
-    @model_validator(mode="after")
-    def _possible(self) -> Self:
-        try:
-            self.sensor()
-        except InputError as error:
-            raise ValueError(str(error).removeprefix(f"sensor {self.name!r}: ")) from None
-        return self
-
-    @property
-    def first(self) -> str:
-        """The earliest step in which one arrives, as the subject of a sentence."""
-        least = ends(self.delay)[0]
-        if self.offset and least:
-            return f"offset {self.offset} and the least delay {least} together are"
-        return f"the offset {self.offset} is" if self.offset else f"the least delay {least} is"
-
-    def sensor(self) -> Sensor:
-        return Sensor(
-            name=self.name,
-            every=self.every,
-            delays=self.delay,
-            land_by=int(ends(self.delay)[1]) + max(self.every, 1) - 1 if self.land_by is None else self.land_by,
-            offset=self.offset,
-            dropout=float(self.dropout),
-            priority=self.priority,
-        )
-
-
-class _ScenarioFile(_Entry):
     name: Annotated[str, Field(min_length=1)]
-    steps: Annotated[Whole, Field(ge=1, le=MOST_STEPS)]
-    seed: Annotated[Whole, Field(ge=0)] = 0
-    late: Annotated[Late, BeforeValidator(_late)] = "recalculate"
     hr_hz: Positive | None = None
     speed: Positive | None = None
+    unit: Literal["us", "ms", "s"] | None = None
+    duration_s: Annotated[Fraction | None, BeforeValidator(time(above_zero))] = None
+    steps: Annotated[_Steps, Field(validate_default=True)] = None
+    seed: Annotated[Whole, Field(ge=0)] = 0
+    late: Annotated[Late, BeforeValidator(_late)] = "recalculate"
+    filter: Annotated[str | None, BeforeValidator(_filter)] = None
     costs: Annotated[str | None, BeforeValidator(_cost_file)] = None
     processor: Annotated[str | None, BeforeValidator(_processor)] = None
     times_slower: Positive | None = None
-    context_switch: Annotated[Number, Field(ge=0)] = Fraction(0)
+    context_switch: _Switch = None
+    context_switch_us: _TimedSwitch = None
+    context_switch_ms: _TimedSwitch = None
+    context_switch_s: _TimedSwitch = None
     cpus: Annotated[Literal[1, 2], BeforeValidator(whole)] = 1
-    predictor: _Predictor = _Predictor()
-    sensor: Annotated[list[_Sensor], Field(min_length=1), BeforeValidator(_not_too_many)]
-    task: list[TaskEntry] = []
+    predictor: PredictorEntry = PredictorEntry()
+    sensor: Annotated[list[SensorEntry], Field(min_length=1), BeforeValidator(_not_too_many)]
+    task: list[TaskEntry] = Field(default_factory=list)
 
     @model_validator(mode="after")
-    def _together(self) -> Self:
-        if wrong := [*self._no_unit(), *self._never_arrive()]:
+    def _together(self, info: ValidationInfo) -> Self:
+        units = units_of(info)
+        wrong = [*self._no_unit(units)]
+        if units.sure:
+            try:
+                wrong += self._never_arrive(units, self.so_many(units))
+            except InputError as error:
+                wrong.append(str(error))
+        if wrong:
             raise ValueError("; ".join(wrong))
         return self
 
-    def _no_unit(self) -> Iterator[str]:
+    def so_many(self, units: Units) -> int:
+        """HR steps; those that start within `duration_s`."""
+        within = None if self.duration_s is None else ceil(units.steps(1000 * self.duration_s))
+        steps: int = agreed(
+            [
+                None if self.steps is None else Said(f"steps = {self.steps}", self.steps),
+                None if within is None else Said(f"duration_s = {shown(self.duration_s)} ({within} steps)", within),
+            ]
+        )
+        if steps > MOST_STEPS:
+            raise InputError(f"duration_s = {shown(self.duration_s)} is {steps:,} steps: give at most {MOST_STEPS:,}")
+        return steps
+
+    def _no_unit(self, units: Units) -> Iterator[str]:
         if (self.hr_hz is None) == (self.speed is None):
             problem = "neither is given" if self.speed is None else "both are given"
             yield (
-                f"{problem} of hr_hz and speed: give hr_hz (steps per second) where costs are in seconds, else speed "
+                f"{problem} of hr_hz and speed: give hr_hz (steps per second) where costs are times, else speed "
                 f"(cost units per HR period)"
             )
+        elif self.unit and self.hr_hz is None:
+            yield f"unit = {self.unit!r} makes times of costs: give hr_hz instead of speed, or delete it"
         elif self.processor and self.hr_hz is None:
             yield f"processor {self.processor!r} makes seconds of operations: give hr_hz instead of speed"
         if self.costs is None and (self.processor or self.times_slower):
@@ -187,18 +149,37 @@ class _ScenarioFile(_Entry):
             yield f"{key} has no meaning without a costs file: give costs, or delete it"
         elif self.processor and self.times_slower:
             yield "times_slower is for measured costs, processor for counted ones: give one of them"
-
-    def _never_arrive(self) -> Iterator[str]:
-        for sensor in self.sensor:
-            if sensor.offset + ends(sensor.delay)[0] >= self.steps:
+        if units.sure and self.hr_hz is not None and self.unit is None:
+            for task in self.task:
                 yield (
-                    f"sensor {sensor.name!r}: {sensor.first} not less than steps = {self.steps}: none arrives; give "
+                    f"task {task.name!r}: cost {shown(task.cost)} has no unit, and with hr_hz costs are times: write "
+                    f'unit = "s", "ms" or "us" at the top of the file'
+                )
+        dt = None if units.composition is None else units.composition.dt
+        if dt is not None and units.hr_hz is not None and not isclose(dt * float(units.hr_hz), 1, rel_tol=1e-9):
+            yield (
+                f"hr_hz = {shown(units.hr_hz)} and the filter's dt = {dt:g} ({1 / dt:g} Hz) do not agree: mend the one "
+                f"that is wrong"
+            )
+
+    def _never_arrive(self, units: Units, steps: int) -> Iterator[str]:
+        for entry in self.sensor:
+            sensor = entry.sensor(units)
+            if ceil(sensor.offset + ends(sensor.delays)[0]) >= steps:
+                yield (
+                    f"sensor {entry.name!r}: {entry.first(sensor)} not less than steps = {steps}: none arrives; give "
                     f"more steps"
                 )
 
+    def tasks(self, units: Units) -> list[Task]:
+        """The [[task]] entries, with their costs in seconds where there is hr_hz."""
+        return [replace(task, cost=units.plain * task.cost) for task in (entry.task() for entry in self.task)]
 
-def read_scenario(path: str | Path) -> Scenario:
+
+def read_scenario(path: str | Path, describe: Describe | None = None) -> Scenario:
     """The scenario in `path`; files that it names are looked for in its folder.
+
+    describe: what runs the function that its `filter` names; `studies.describe_filter`.
 
     What it says itself of costs is taken as it stands, before what the costs file says, which is made slower by
     `times_slower` or turned into seconds on `processor`.
@@ -207,22 +188,37 @@ def read_scenario(path: str | Path) -> Scenario:
     what, path = f"{option('scenario')} {str(path)!r}", Path(path)
     document = read_toml(path, what, "give the path of a TOML file with [predictor] and [[sensor]] entries")
     try:
-        checked = _ScenarioFile.model_validate(document)
-        return _scenario(checked, path.parent)
+        composition = _composition(document.get("filter"), describe, path.parent)
+        if composition is not None:
+            document = with_its_sensors(document, composition)
+        units = Units.of(document, composition)
+        return _scenario(_ScenarioFile.model_validate(document, context=units), units, path.parent)
     except ValidationError as error:
         raise InputError(f"{what}: {problems(error, _ScenarioFile, document)}") from None
     except InputError as error:
         raise InputError(f"{what}: {error}") from None
 
 
-def _scenario(checked: _ScenarioFile, folder: Path) -> Scenario:
-    tasks = [entry.task() for entry in checked.task]
-    check_simulation(checked.steps, tasks, f"steps = {checked.steps}")
-    stated = {f"correct.{sensor.name}": sensor.cost for sensor in checked.sensor if sensor.cost is not None}
-    if checked.predictor.cost is not None:
-        stated["predict"] = checked.predictor.cost
+def _composition(name: Any, describe: Describe | None, folder: Path) -> Composition | None:
+    """Of the filter that the file names, if it names one."""
+    if not isinstance(name, str) or not name:
+        return None
+    if describe is None:
+        raise InputError(
+            f"filter = {short(repr(name))} names a function, which read_scenario runs only if it is told to: give "
+            f"describe=studies.describe_filter"
+        )
+    return describe(name, folder)
+
+
+def _scenario(checked: _ScenarioFile, units: Units, folder: Path) -> Scenario:
+    steps, tasks = checked.so_many(units), checked.tasks(units)
+    check_simulation(steps, tasks, f"steps = {steps}")
+    parts = {"predict": checked.predictor} | {f"correct.{sensor.name}": sensor for sensor in checked.sensor}
+    found = {part: costs_said(entry, "cost", units) for part, entry in parts.items()}
+    stated = {part: cost for part, cost in found.items() if cost is not None}
     costs: dict[str, Sequence[Fraction]] = {}
-    sensors, harness = [sensor.sensor() for sensor in checked.sensor], False
+    sensors, harness = [sensor.sensor(units) for sensor in checked.sensor], False
     needed = needed_parts(sensors, checked.late)
     if unused := [part.partition(".")[2] for part in stated if part not in needed]:
         raise InputError(
@@ -239,7 +235,7 @@ def _scenario(checked: _ScenarioFile, folder: Path) -> Scenario:
     assert speed is not None  # see _one_unit
     return Scenario(
         name=checked.name,
-        steps=checked.steps,
+        steps=steps,
         speed=speed,
         sensors=sensors,
         costs=costs,
@@ -248,7 +244,7 @@ def _scenario(checked: _ScenarioFile, folder: Path) -> Scenario:
         late=checked.late,
         priority=checked.predictor.priority,
         tasks=tasks,
-        context_switch=checked.context_switch,
+        context_switch=costs_said(checked, "context_switch", units) or Fraction(0),
         cpus=checked.cpus,
         files=[folder / name for name in (checked.costs, checked.processor) if name is not None],
         harness=harness,

@@ -92,17 +92,19 @@ SAMPLES: Document = {
 SCENARIO: Document = {
     "name": "rocket",
     "hr_hz": 400,
+    "unit": "s",
     "steps": 40,
+    "duration_s": 0.1,
     "seed": 1,
     "late": "recalculate",
     "costs": "samples.toml",
     "times_slower": 2,
-    "context_switch": 0.00001,
+    "context_switch_us": 10,
     "cpus": 1,
     "predictor": {"priority": 10, "cost": [0.0005, 0.0006]},
     "sensor": [
         {"name": "gps", "every": 8, "delay": {"least": 1, "most": 3}, "dropout": 0.1, "land_by": 9, "priority": 20},
-        {"name": "radio", "every": 4, "offset": 1, "delay": [0, 1], "cost": 0.0003},
+        {"name": "radio", "hz": 30, "offset_ms": 3, "delay_ms": [0, 4], "land_within_ms": 40, "cost_ms": 0.3},
     ],
     "task": [{"name": "control", "period": 2, "cost": 0.0005, "priority": 5}],
 }

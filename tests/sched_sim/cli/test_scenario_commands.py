@@ -140,7 +140,7 @@ SAMPLED = 'name = "m"\nunit = "second"\n{}[samples]\npredict = [1e-6, 3e-6]\n[sa
 
 
 @pytest.mark.parametrize(
-    ("backend", "stated", "given"), [("", "", True), ("compiled", "", False), ("compiled", "cost = 1e-6", True)]
+    ("backend", "stated", "given"), [("", "", True), ("compiled", "", False), ("compiled", "cost_us = 1", True)]
 )
 def test_no_probability_of_a_miss_from_samples_of_measure_filter(
     backend: str, stated: str, given: bool, sched_sim: Run, tmp_path: Path
@@ -196,9 +196,10 @@ def test_pictures_and_traces_are_written(sched_sim: Run, tmp_path: Path) -> None
 
 def test_help_says_in_which_unit_costs_are_and_what_a_sensor_has_by_default(sched_sim: Run) -> None:
     words = " ".join(sched_sim("simulate --help").out.replace("│", " ").split())
-    assert "hr_hz (costs are then in seconds) or speed (cost units per HR period)" in words
-    assert "[[sensor]] name, every, cost; a sensor's delay is 0 by default" in words
-    assert "land_by the longest delay + every - 1" in words
+    assert "name, hr_hz, duration_s, [predictor] cost_us, [[sensor]] name, hz, cost_us" in words
+    assert "With speed, cost units per HR period: name, steps, [predictor] cost, [[sensor]] name, every, cost" in words
+    assert "a sensor's delay_ms is 0 by default" in words
+    assert "land_by is by default the longest delay + every - 1" in words
 
 
 def test_what_unfinished_jobs_hide_is_not_claimed(sched_sim: Run, tmp_path: Path) -> None:

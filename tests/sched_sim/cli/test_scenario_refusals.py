@@ -14,8 +14,12 @@ from tests.sched_sim.cli.test_scenario_commands import REST, SHORT, write
     ("change", "said"),
     [
         (("every = 10", "every = 0"), ["sensor 'gps'", "every 0 must be at least 1"]),
-        (("every = 10", "every = 1.5"), ["sensor 'gps'.every", "whole number", "1.5"]),
-        (("every = 10\n", ""), ["sensor 'gps'.every: is missing: write `every = ...`"]),
+        (("every = 10", "every = true"), ["sensor 'gps'.every", "must be a number", "True"]),
+        (("every = 10", 'every = "2/3"'), ["sensor 'gps'", "every 2/3 must be at least 1"]),
+        (
+            ("every = 10\n", ""),
+            ["sensor 'gps'.every: is missing: write `every = ...` in steps, or `hz = ...` beside hr_hz"],
+        ),
         (("every = 10", "every = 10\ndropout = 1.5"), ["sensor 'gps'", "dropout 1.5", "from 0 to 1"]),
         (("delay = 2", "delay = -2"), ["sensor 'gps'", "delay -2", "0 or more"]),
         (("delay = 2", "delay = []"), ["sensor 'gps'.delay", "empty"]),
@@ -39,13 +43,22 @@ from tests.sched_sim.cli.test_scenario_commands import REST, SHORT, write
         (("delay = 2", "delay = 2\ncost = [1, -1]"), ["sensor 'gps'.cost", "entry 1", "-1"]),
         (
             ("delay = 2", "latency = 2"),
-            ["sensor 'gps'.latency: this key is not permitted; the keys here are name, every, delay", "(given: 2)"],
+            [
+                "sensor 'gps'.latency: this key is not permitted; the keys here are name, hz, every, delay_ms, delay",
+                "(given: 2)",
+            ],
         ),
-        (("delay = 2", "dealy = 2"), ["sensor 'gps'.dealy", "did you mean delay? the keys here are name, every"]),
-        (("[predictor]", "[predictor]\ncosts = 3"), ["predictor.costs", "did you mean cost?", "are priority, cost"]),
+        (("delay = 2", "dealy = 2"), ["sensor 'gps'.dealy", "did you mean delay? the keys here are name, hz, every"]),
+        (
+            ("[predictor]", "[predictor]\ncosts = 3"),
+            ["predictor.costs", "did you mean cost_s?", "are priority, cost, cost_us, cost_ms, cost_s"],
+        ),
         (
             ("steps = 40", "step = 40"),
-            ["step: this key is not permitted; did you mean steps?", "steps: is missing: write `steps = ...`"],
+            [
+                "step: this key is not permitted; did you mean steps?",
+                "steps: is missing: write `steps = ...`, or `duration_s = ...` beside hr_hz",
+            ],
         ),
         (("[[sensor]]", "[sensor]"), ["sensor: this is one table", "write [[sensor]], in two pairs of brackets"]),
         ((SHORT[SHORT.index("[[sensor]]") :], ""), ["sensor: there is none", "[[sensor]], with name and every"]),
@@ -70,12 +83,18 @@ from tests.sched_sim.cli.test_scenario_commands import REST, SHORT, write
         ),
         (
             ("[predictor]", "predictor = 1"),
-            ["predictor: must be a table: write [predictor], which may have priority, cost (given: 1)"],
+            [
+                "predictor: must be a table: write [predictor], which may have priority, cost, cost_us, cost_ms, "
+                "cost_s (given: 1)"
+            ],
         ),
         (("[predictor]", "[[predictor]]"), ["predictor: this is a list", "write [predictor], in one pair of brackets"]),
         (
             (SHORT[SHORT.index("[predictor]") :], "sensor = [1, 2]"),
-            ["sensor.0: must be a table: write [[sensor]] for each, with name and every (given: 1)", "sensor.1"],
+            [
+                "sensor.0: must be a table: write [[sensor]] for each, with name and every (or hz) (given: 1)",
+                "sensor.1",
+            ],
         ),
         (('costs = "costs.toml"', "costs = 0.3"), ["costs: must be the path", "`cost` of [predictor]", "(given: 0.3)"]),
         (('costs = "costs.toml"', "[costs]\npredict = 1"), ["costs: must be the path of a file"]),
