@@ -93,8 +93,16 @@ def _document(scenario: Scenario, outcome: Outcome, busy: Sequence[float]) -> di
         "causes": causes(scenario, outcome, busy),
         "note": WITHHELD if scenario.harness else None,
         "jobs": {kind: _job(figures, ms, scenario.harness) for kind, figures in outcome.jobs.items()},
-        "sensors": {sensor.name: _sensor(sensor, outcome.sensors[sensor.name]) for sensor in scenario.sensors},
+        "sensors": {sensor.name: _of_sensor(scenario, sensor, outcome) for sensor in scenario.sensors},
     }
+
+
+def _of_sensor(scenario: Scenario, sensor: Sensor, outcome: Outcome) -> dict[str, Any]:
+    """every, and the delays from the step in which a measurement is taken, are in HR steps."""
+    hz = None if scenario.hr_hz is None else float(scenario.hr_hz / sensor.every)
+    rate = {"every": float(sensor.every), "hz": hz}
+    delays = {"least_delay": sensor.least_delay, "longest_delay": sensor.longest_delay}
+    return rate | delays | _sensor(sensor, outcome.sensors[sensor.name])
 
 
 WITHHELD = (
@@ -161,6 +169,8 @@ def _sensor(sensor: Sensor, figures: SensorFigures) -> dict[str, Any]:
 
 
 def _show(scenario: Scenario, outcome: Outcome, busy: Sequence[float]) -> None:
+    from sched_sim.cli.scenario_times import times
+
     ms = None if scenario.hr_hz is None else float(1000 / scenario.hr_hz)
     rate = f"at {float(scenario.speed):.6g} cost units a step" if ms is None else f"at {float(1000 / ms):g} Hz"
     unit = "HR periods" if ms is None else "ms"
@@ -173,7 +183,7 @@ def _show(scenario: Scenario, outcome: Outcome, busy: Sequence[float]) -> None:
         print_table(
             "Measurements, and the step l = k + ... in which their corrections landed",
             [_sensor_words(sensor, outcome.sensors[sensor.name]) for sensor in scenario.sensors],
-            _sensor_note(outcome.sensors.values()),
+            "\n".join([_sensor_note(outcome.sensors.values()), *times(scenario)]),
         )
 
 
