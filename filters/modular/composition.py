@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from fractions import Fraction
+from math import ceil
+from typing import Any
 
 import numpy as np
 
@@ -19,8 +23,9 @@ from filters.modular.updates import UPDATES, UpdateName
 class Sensor:
     """One sensor.
 
-    every: steps between its measurements, the first in step 0; delay: steps until one is available;
-    dropout: the probability that one never is.
+    every: steps between its measurements, the first in step 0; a Fraction where they are not whole, and then each is
+        taken in the first step at its instant or after it. delay: steps until one is available; of a range or a list
+        any, equally likely. dropout: the probability that one never is.
 
     Raises:
         ValueError: a number is out of range.
@@ -28,8 +33,8 @@ class Sensor:
 
     name: str
     corrector: Corrector
-    every: int = 1
-    delay: int = 0
+    every: int | Fraction = 1
+    delay: int | Sequence[int] = 0
     dropout: float = 0.0
 
     def __post_init__(self) -> None:
@@ -42,20 +47,51 @@ class Sensor:
                 f"sensor {self.name!r}: the corrector is a {type(self.corrector).__name__}; make one by "
                 f"linear_corrector, extended_corrector or unscented_corrector"
             )
-        if not isinstance(self.every, int | np.integer) or self.every < 1:
+        if not isinstance(self.every, int | np.integer | Fraction) or self.every < 1:
             raise ValueError(
-                f"sensor {self.name!r}: every={self.every!r} must be a whole number, at least 1: the steps between "
-                f"measurements"
+                f"sensor {self.name!r}: every={self.every!r} must be a whole number or a Fraction, at least 1: the "
+                f"steps between measurements"
             )
-        if not isinstance(self.delay, int | np.integer) or self.delay < 0:
+        if isinstance(self.every, Fraction) and self.every.denominator == 1:
+            object.__setattr__(self, "every", self.every.numerator)
+        if not isinstance(self.delay, int | np.integer | range):
+            object.__setattr__(self, "delay", _listed(self.delay))
+        if not all(isinstance(delay, int | np.integer) and delay >= 0 for delay in _ends(self.delays)):
             raise ValueError(
-                f"sensor {self.name!r}: delay={self.delay!r} must be a whole number, at least 0: the steps until a "
-                f"measurement is available"
+                f"sensor {self.name!r}: delay={self.delay!r:.60} must be a whole number, at least 0, or a range or a "
+                f"list of such: the steps until a measurement is available"
             )
         if not (isinstance(self.dropout, int | float) and 0 <= self.dropout <= 1):
             raise ValueError(
                 f"sensor {self.name!r}: dropout={self.dropout!r} must lie in [0, 1]: it is a probability; 10 % is 0.1"
             )
+
+    @property
+    def delays(self) -> Sequence[int]:
+        """What its delay is drawn from; one if it is always the same."""
+        return self.delay if isinstance(self.delay, Sequence) else (self.delay,)
+
+    @property
+    def longest_delay(self) -> int:
+        """In steps."""
+        return max(map(int, _ends(self.delays)))
+
+    def takes(self, steps: int) -> list[int]:
+        """The steps, of 0, 1, ... so many, in which its measurements are taken."""
+        count = int((steps - 1) // self.every) + 1
+        return [ceil(number * self.every) for number in range(count)]
+
+
+def _listed(delay: Any) -> Any:
+    """A list, or an array, as a tuple; what is neither, and a list of none, stays as it is."""
+    if isinstance(delay, np.ndarray):
+        delay = delay.tolist()
+    return tuple(delay) if isinstance(delay, Sequence) and not isinstance(delay, str) and delay else delay
+
+
+def _ends(delays: Sequence[Any]) -> Sequence[Any]:
+    """Those among which the least and the greatest are."""
+    return (delays[0], delays[-1]) if isinstance(delays, range) and delays else delays or (None,)
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,6 +9,7 @@ correction.
 from __future__ import annotations
 
 from collections.abc import Iterable
+from fractions import Fraction
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -63,7 +64,8 @@ def run(
     """
     check_linearised(composed, "dual-rate")
     sensor = _only_sensor(composed)
-    N, lands = sensor.every, sensor.every if L is None else L
+    N = _whole_rate(sensor)
+    lands = N if L is None else L
     _check_landing(sensor, lands)
     x, P, moves = check_problem(composed, x0, P0, inputs)
     oldest = lands - 1 if too_old == "drop" else len(moves)
@@ -158,12 +160,21 @@ def _only_sensor(composed: ModularFilter) -> Sensor:
     return sensor
 
 
-def _check_landing(sensor: Sensor, L: int) -> None:
-    if not (isinstance(L, int | np.integer) and sensor.delay < L <= sensor.every):
+def _whole_rate(sensor: Sensor) -> int:
+    if isinstance(sensor.every, Fraction):
         raise ValueError(
-            f"sensor {sensor.name!r}: L={L!r} must be a whole number, more than delay={sensor.delay} and at most "
-            f"every={sensor.every}: the correction lands after the measurement has arrived and no later than the next "
-            f"is taken; give such an L, or use late='recalculate'"
+            f"sensor {sensor.name!r}: every={sensor.every!r}, and late='dual-rate' takes measurements every so many "
+            f"whole steps; use late='recalculate' or 'larsen'"
+        )
+    return sensor.every
+
+
+def _check_landing(sensor: Sensor, L: int) -> None:
+    if not (isinstance(L, int | np.integer) and sensor.longest_delay < L <= sensor.every):
+        raise ValueError(
+            f"sensor {sensor.name!r}: L={L!r} must be a whole number, more than delay={sensor.longest_delay} and at "
+            f"most every={sensor.every}: the correction lands after the measurement has arrived and no later than the "
+            f"next is taken; give such an L, or use late='recalculate'"
         )
 
 

@@ -29,8 +29,8 @@ class Measurement(NamedTuple):
 def observe(composed: ModularFilter, truth: FloatArray, seed: int) -> list[Measurement]:
     """What the sensors of a filter would measure along true states (steps + 1, numbers), in the order of arrival.
 
-    Each with noise N(0, R), its delay, and its dropout. Each sensor has random numbers of its own, which do not depend
-    on its dropout: with a higher one the same measurements are left, or fewer.
+    Each with noise N(0, R), its delay, drawn where there are several, and its dropout. Each sensor has random numbers
+    of its own, which do not depend on its dropout: with a higher one the same measurements are left, or fewer.
 
     Raises:
         ValueError: composed is no filter, the seed no whole number, or the truth has a wrong shape or is not finite.
@@ -46,14 +46,15 @@ def observe(composed: ModularFilter, truth: FloatArray, seed: int) -> list[Measu
     for number, sensor in enumerate(composed.sensors):
         random = np.random.default_rng([seed, number])
         R, observed = sensor.corrector.R, sensor.corrector.observed
-        steps = range(0, len(truth), sensor.every)
+        steps = sensor.takes(len(truth))
         noise = random.multivariate_normal(np.zeros(len(R)), R, size=len(steps), method="cholesky")
         arrived = random.random(len(steps)) >= sensor.dropout
+        drawn = random.integers(len(sensor.delays), size=len(steps))
         expected = expected_by(sensor, composed.of)
         for at in np.flatnonzero(arrived):
             y = np.empty(observed.numbers)
             plus(observed, expected(np.asarray(truth[steps[at]])), noise[at], y)
-            measurements.append(Measurement(sensor.name, steps[at], steps[at] + sensor.delay, y))
+            measurements.append(Measurement(sensor.name, steps[at], steps[at] + sensor.delays[drawn[at]], y))
     return sorted(measurements, key=lambda measurement: measurement.arrives)
 
 

@@ -149,7 +149,7 @@ def run(
     """
     x, P, moves = check_problem(composed, x0, P0, inputs)
     space = composed.of
-    depth = max((sensor.delay for sensor in composed.sensors), default=0) if history is None else history
+    depth = max((sensor.longest_delay for sensor in composed.sensors), default=0) if history is None else history
     if not isinstance(depth, int | np.integer) or depth < 0:
         raise ValueError(
             f"history={history!r} must be a whole number, at least 0: how many steps the filter can go back"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
@@ -34,10 +35,16 @@ NOT_DEFINITE = np.array([[1.0, 2.0], [2.0, 1.0]])
 @pytest.mark.parametrize(
     ("timing", "message"),
     [
-        ({"every": 0}, "sensor 'gps': every=0 must be a whole number, at least 1"),
-        ({"every": 1.5}, "sensor 'gps': every=1.5 must be a whole number"),
+        ({"every": 0}, "sensor 'gps': every=0 must be a whole number or a Fraction, at least 1"),
+        ({"every": 1.5}, "sensor 'gps': every=1.5 must be a whole number or a Fraction"),
+        ({"every": Fraction(1, 2)}, r"sensor 'gps': every=Fraction\(1, 2\) must be a whole number or a Fraction, at"),
         ({"delay": -1}, "sensor 'gps': delay=-1 must be a whole number, at least 0"),
         ({"delay": np.nan}, "sensor 'gps': delay=nan must be a whole number"),
+        ({"delay": []}, r"sensor 'gps': delay=\[\] must be a whole number, at least 0, or a range or a list of such"),
+        ({"delay": range(3, 3)}, r"sensor 'gps': delay=range\(3, 3\) must be a whole number"),
+        ({"delay": range(-1, 3)}, r"sensor 'gps': delay=range\(-1, 3\) must be a whole number"),
+        ({"delay": [2, 2.5]}, r"sensor 'gps': delay=\(2, 2.5\) must be a whole number"),
+        ({"delay": "23"}, "sensor 'gps': delay='23' must be a whole number"),
         ({"dropout": 1.01}, r"sensor 'gps': dropout=1.01 must lie in \[0, 1\]: it is a probability; 10 % is 0.1"),
         ({"dropout": -0.1}, r"sensor 'gps': dropout=-0.1 must lie in \[0, 1\]"),
         ({"dropout": np.nan}, r"sensor 'gps': dropout=nan must lie in \[0, 1\]"),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from fractions import Fraction
 from functools import partial
 from typing import Any
 
@@ -68,6 +69,14 @@ def test_the_dual_rate_way_needs_one_sensor_that_fits_its_cycle() -> None:
         filtered(case, "dual-rate", L=5),
     )
     refused("sensor 'gps': L=3.5 must be a whole number", filtered(case, "dual-rate", L=3.5))
+    refused(
+        "sensor 'gps': L=3 must be a whole number, more than delay=3 and",
+        filtered(linear_case(Sensor("gps", POSITION, every=4, delay=[1, 3, 2])), "dual-rate", L=3),
+    )
+    refused(
+        r"sensor 'gps': every=Fraction\(9, 2\), and late='dual-rate' takes .* use late='recalculate'",
+        filtered(linear_case(Sensor("gps", POSITION, every=Fraction(9, 2))), "dual-rate"),
+    )
     late = Measurement("gps", 4, 7, Y)
     refused(
         "sensor 'gps', .* step 4: it arrives in step 7.*lands in step 7; give a greater",

@@ -129,6 +129,12 @@ def test_two_late_measurements_of_one_step_replay_once() -> None:
     assert of_the_scenario(sensors, 5, 0) == Work(5 + 3, {"gps": 1, "camera": 1})
 
 
+@given(every=st.fractions(1, 20, max_denominator=12), steps=st.integers(1, 60))
+def test_both_take_measurements_in_the_same_steps(every: Fraction, steps: int) -> None:
+    one = np.eye(1)
+    assert FilterSensor("s", linear_corrector(one, one), every=every).takes(steps) == [*sensor("s", every).takes(steps)]
+
+
 # ------------------------------------------------------------------------------- one late measurement at a time
 
 
