@@ -7,15 +7,17 @@ from typing import TYPE_CHECKING
 from sched_sim.lazy import lazily
 
 if TYPE_CHECKING:
+    from studies.measurement.described import describe_filter
     from studies.measurement.methods import measure
     from studies.measurement.samples import measure_filter
     from studies.sweep.library import run_sweep
 
-__all__ = ["measure", "measure_filter", "run_sweep"]
+__all__ = ["describe_filter", "measure", "measure_filter", "run_sweep"]
 
 __getattr__, __dir__ = lazily(
     __name__,
     {
+        "studies.measurement.described": "describe_filter",
         "studies.measurement.methods": "measure",
         "studies.measurement.samples": "measure_filter",
         "studies.sweep.library": "run_sweep",

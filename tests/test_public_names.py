@@ -16,7 +16,7 @@ PUBLIC = {
     "run_scenario Outcome open_trace InputError",
     "filters": "System linear_system example_system standard recalculate larsen dual_rate multirate_gain History "
     "true_covariance modular count Operations",
-    "studies": "measure measure_filter run_sweep",
+    "studies": "describe_filter measure measure_filter run_sweep",
     "reports": "gantt method_panel scenario_panel save",
 }
 

@@ -11,10 +11,11 @@ from typing import TYPE_CHECKING, Any
 
 from sched_sim import shares
 from sched_sim.cli.output import Format, print_csv, print_json, print_table
-from sched_sim.cli.outputs import Named, refuse_one_file_for_two
+from sched_sim.cli.outputs import Named, module_files, refuse_one_file_for_two
 from sched_sim.cli.progress import progress_bar
 
 if TYPE_CHECKING:
+    from sched_sim.scenario.composition import Composition
     from sched_sim.scenario.run import JobFigures, Outcome, SensorFigures
     from sched_sim.scenario.scenario import Scenario, Sensor
     from sched_sim.schedule.outcome import Slice
@@ -37,8 +38,9 @@ def simulate_scenario(
                 check_picture(picture, option)
     for trace in traces:
         check_trace(trace)
-    scenario = read_scenario(path)
-    refuse_one_file_for_two(outputs, [("--scenario", file) for file in scenario.files])
+    scenario = read_scenario(path, _describe)
+    read: list[Path | str] = [*scenario.files, *module_files()]
+    refuse_one_file_for_two(outputs, [("--scenario", file) for file in read])
     with ExitStack() as files:
         scale = 1000.0 if scenario.hr_hz is None else float(1e6 / scenario.hr_hz)
         writers = [files.enter_context(open_trace(trace, scale)) for trace in traces]
@@ -73,6 +75,13 @@ def simulate_scenario(
         print_csv([_flat(kind, figures, scenario.harness) for kind, figures in outcome.jobs.items()])
     else:
         _show(scenario, outcome, busy_shares)
+
+
+def _describe(name: str, folder: Path) -> Composition:
+    """Imports the filters only if the file names one."""
+    from studies.measurement.described import describe_filter
+
+    return describe_filter(name, folder)
 
 
 def _document(scenario: Scenario, outcome: Outcome, busy: Sequence[float]) -> dict[str, Any]:

@@ -31,20 +31,13 @@ raises InputError."""
 
 def with_its_sensors(document: Mapping[str, Any], composition: Composition) -> dict[str, Any]:
     """A scenario file with a [[sensor]] for each of the filter's, in the filter's order; what it says of them stays."""
-    given = document.get("sensor", [])
+    given, names = document.get("sensor", []), [*composition.sensors]
     if not isinstance(given, list):
         return dict(document)
-    names = [entry.get("name") if isinstance(entry, dict) else None for entry in given]
-    own = [entry for name in composition.sensors for entry in _entries(name, names, given)]
-    return {
-        **document,
-        "sensor": own + [e for name, e in zip(names, given, strict=True) if not _known(name, composition)],
-    }
+    there = [*map(_name, given)]
+    all_of_them = [*given, *({"name": name} for name in names if name not in there)]
+    return {**document, "sensor": sorted(all_of_them, key=lambda entry: [*names, _name(entry)].index(_name(entry)))}
 
 
-def _known(name: Any, composition: Composition) -> bool:
-    return isinstance(name, str) and name in composition.sensors
-
-
-def _entries(name: str, names: Sequence[Any], given: Sequence[Any]) -> list[Any]:
-    return [entry for other, entry in zip(names, given, strict=True) if other == name] or [{"name": name}]
+def _name(entry: Any) -> Any:
+    return entry.get("name") if isinstance(entry, Mapping) else None

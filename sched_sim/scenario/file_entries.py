@@ -218,7 +218,7 @@ class SensorEntry(Entry):
         stated = None if self.dropout is None else float(self.dropout)
         of = self._composed(units)
         dropout: float | None = agreed(
-            [_said("dropout", stated, stated), of and _said("the filter's dropout", of.dropout, of.dropout)]
+            [_said("dropout", self.dropout, stated), of and _said("the filter's dropout", of.dropout, of.dropout)]
         )
         return 0.0 if dropout is None else dropout
 

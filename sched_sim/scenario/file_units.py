@@ -48,6 +48,8 @@ class Units:
             hr_hz = None if rate is None else above_zero(rate)
         except ValueError:
             return cls(None, None, False, composition)
+        if composition is None and "filter" in document:  # no name, which is said where it stands
+            return cls(hr_hz, None, False, Composition({}, None))
         sure = unit in (None, *COST_UNITS) and not (hr_hz is not None and "speed" in document)
         return cls(hr_hz, unit, sure, composition)
 
@@ -170,6 +172,6 @@ def shown(value: Any) -> str:
         return f"{{ least = {shown(value[0])}, most = {shown(value[-1])} }}"
     if isinstance(value, Sequence):
         return shown(value[0]) if len(value) == 1 else f"[{', '.join(map(shown, value))}]"
-    number = Fraction(value)
+    number = Fraction(str(value))
     decimal = f"{float(number):.10g}"
     return decimal if Fraction(decimal) == number else str(number)

@@ -13,9 +13,9 @@ from studies.measurement.user_function import explained, returned_by
 
 HOW = (
     "name a function without arguments that returns a filters.modular.ModularFilter, or with it a typical state, "
-    "covariance and input: (filter, x0), (filter, x0, P0), (filter, x0, P0, u); as in --filter mymodule:my_filter for "
-    "a file mymodule.py in this folder"
+    "covariance and input: (filter, x0), (filter, x0, P0), (filter, x0, P0, u); as in "
 )
+EXAMPLE = "--filter mymodule:my_filter for a file mymodule.py in this folder"
 
 
 class UserFilter(NamedTuple):
@@ -25,6 +25,27 @@ class UserFilter(NamedTuple):
     jobs: Mapping[str, Job]
 
 
+class Composed(NamedTuple):
+    """A filter, and of x0, P0 and u, a typical start, as many as its function returned."""
+
+    composed: ModularFilter
+    typical: list[Any]
+
+
+def composed_by(name: str, option: str, example: str) -> Composed:
+    """What the function `package.module:function` returns; the current folder is searched first.
+
+    option: how the user named it; example: of how to.
+    Raises InputError that says what is wrong with the name, the module or what the function returned.
+    """
+    returned = returned_by(name, option, f"{HOW}{example}")
+    composed, *typical = returned.value if isinstance(returned.value, tuple) else (returned.value,)
+    if not isinstance(composed, ModularFilter) or len(typical) > 3:
+        said = f"{option} {name!r}: {returned.function}() returned {_shown(returned.value)}"
+        raise InputError(f"{said}; {HOW}{example}")
+    return Composed(composed, typical)
+
+
 def load_filter(name: str, seed: int = 0) -> UserFilter:
     """The filter that the function `package.module:function` returns; the current folder is searched first.
 
@@ -32,10 +53,7 @@ def load_filter(name: str, seed: int = 0) -> UserFilter:
     Raises InputError that says what is wrong with the name, the module or what the function returned, or which part of
     the filter does what.
     """
-    returned = returned_by(name, "--filter", HOW)
-    composed, *typical = returned.value if isinstance(returned.value, tuple) else (returned.value,)
-    if not isinstance(composed, ModularFilter) or len(typical) > 3:
-        raise InputError(f"--filter {name!r}: {returned.function}() returned {_shown(returned.value)}; {HOW}")
+    composed, typical = composed_by(name, "--filter", EXAMPLE)
     with explained(f"--filter {name!r}", f"; it was tried with {_tried(typical)}"):
         x0, P0, u = (*typical, None, None, None)[:3]
         return UserFilter(composed, modular_jobs(composed, x0, P0, u, seed))
