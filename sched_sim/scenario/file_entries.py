@@ -9,7 +9,7 @@ from typing import Annotated, Any, ClassVar, Self
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, ValidationInfo, model_validator
 
-from sched_sim.bounds import short
+from sched_sim.bounds import MOST_STEPS, short
 from sched_sim.errors import InputError
 from sched_sim.files.toml_numbers import Number, Whole, above_zero, number
 from sched_sim.files.toml_problems import problems
@@ -110,7 +110,7 @@ class Entry(BaseModel):
 
 
 class PredictorEntry(Entry):
-    """[predictor]"""
+    """[predictor]."""
 
     priority: Whole = HR
     cost: Cost = None
@@ -156,20 +156,18 @@ class SensorEntry(Entry):
         if units.sensors is not None and self.name not in units.sensors:
             known = ", ".join(units.sensors)
             raise InputError(f"it is none of the filter's, which are {known}: give the name of one, or delete it")
-        every, delays, offset = self._every(units), self._delays(units), self._offset(units)
-        least, longest = ends(delays)
-        waits = roundings(every, offset)
-        default = ceil(longest - waits[0]) + max(floor(every), 1) - 1
-        land_by = self._land_by(units, waits[1], ceil(least - waits[1]))
-        return Sensor(
-            name=self.name,
-            every=every,
-            delays=delays,
-            land_by=default if land_by is None else land_by,
-            offset=offset,
-            dropout=self._dropout(units),
-            priority=self.priority,
-        )
+        readers = {"every": self._every, "delays": self._delays, "offset": self._offset, "dropout": self._dropout}
+        fields: dict[str, Any] = {}
+        wrong = []
+        for field, read in readers.items():
+            try:
+                fields[field] = read(units)
+            except InputError as error:
+                wrong.append(str(error))
+        if wrong:
+            raise InputError("; ".join(wrong))
+        land_by = self._land_by(units, fields["every"], fields["delays"], fields["offset"])
+        return Sensor(name=self.name, land_by=land_by, priority=self.priority, **fields)
 
     def first(self, sensor: Sensor) -> str:
         """The earliest step in which one arrives, as the subject of a sentence."""
@@ -222,19 +220,24 @@ class SensorEntry(Entry):
         )
         return 0.0 if dropout is None else dropout
 
-    def _land_by(self, units: Units, longest_wait: Fraction, least_delay: int) -> int | None:
-        """The last step that starts within the time after every instant, however long that waits for its step."""
-        within = self.land_within_ms
+    def _land_by(self, units: Units, every: Steps, delays: Sequence[Steps], offset: Steps) -> int:
+        """Of a time: the last step that starts within it after every instant, however long that waits for its step."""
+        within, (least, longest), (least_wait, longest_wait) = (
+            self.land_within_ms,
+            ends(delays),
+            roundings(every, offset),
+        )
         of_ms = None if within is None else floor(units.steps(within) - longest_wait)
-        if within is not None and of_ms is not None and of_ms < least_delay:
-            possible = ceil(10 * units.ms(least_delay + longest_wait)) / 10
+        first = ceil(least - longest_wait)
+        if within is not None and of_ms is not None and of_ms < first:
+            possible = ceil(10 * units.ms(first + longest_wait)) / 10
             raise InputError(
                 f"land_within_ms = {shown(within)} is before any correction can land: a measurement is used in the "
                 f"first step at its arrival or after it; give {possible:g} or more"
             )
         said = [_said("land_by", self.land_by, self.land_by), _said("land_within_ms", within, of_ms, "land_by {}")]
         land_by: int | None = agreed(said)
-        return land_by
+        return ceil(longest - least_wait) + max(floor(every), 1) - 1 if land_by is None else land_by
 
     def _composed(self, units: Units) -> ComposedSensor | None:
         return None if units.sensors is None else units.sensors[self.name]
@@ -249,6 +252,7 @@ def _said(key: str, given: Any, value: Any, became: str = "") -> Said | None:
 
 
 def _in_steps(given: tuple[Fraction, ...] | _Range, steps: Callable[[Fraction], Fraction]) -> Sequence[Steps]:
-    if isinstance(given, _Range):
-        return spread(steps(given.least), steps(given.most))
-    return tuple(map(steps, given))
+    if not isinstance(given, _Range):
+        return tuple(map(steps, given))
+    least, most = steps(given.least), steps(given.most)
+    return spread(least, most) if most <= MOST_STEPS else (most,)  # which is no sensor's

@@ -9,12 +9,15 @@ from typing import Any, NamedTuple
 
 from pydantic import ValidationInfo
 
+from sched_sim.bounds import short
 from sched_sim.costs.table import SECONDS
 from sched_sim.errors import InputError
 from sched_sim.files.toml_numbers import above_zero
 from sched_sim.scenario.composition import ComposedSensor, Composition
 from sched_sim.scenario.instants import Spread, Steps
 
+Read = Callable[[Any], Any]
+"""What a key holds, of what stands in the file; raises ValueError."""
 COST_UNITS = ("us", "ms", "s")
 """Behind `cost_`, or as `unit`."""
 STEPS_KEY = {
@@ -79,9 +82,6 @@ def units_of(info: ValidationInfo) -> Units:
     return units
 
 
-Read = Callable[[Any], Any]
-
-
 def time(read: Read) -> Callable[[Any, ValidationInfo], Any]:
     """A validator of a time, which needs hr_hz."""
 
@@ -103,15 +103,13 @@ def plain_cost(read: Read) -> Callable[[Any, ValidationInfo], Any]:
     def checked(value: Any, info: ValidationInfo) -> Any:
         found, units, key = read(value), units_of(info), info.field_name
         if units.hr_hz is not None and units.sure and units.unit is None and found not in (0, (0,)):
-            raise ValueError(f"{shown(found)} has no unit, and with hr_hz costs are times: {no_unit(str(key))}")
+            raise ValueError(
+                f"{shown(found)} has no unit, and with hr_hz costs are times: write {key}_us, {key}_ms or {key}_s "
+                f'instead, or unit = "s", "ms" or "us" at the top of the file for all'
+            )
         return found
 
     return checked
-
-
-def no_unit(key: str) -> str:
-    """The remedy."""
-    return f'write {key}_us, {key}_ms or {key}_s instead, or unit = "s", "ms" or "us" at the top of the file for all'
 
 
 def timed_cost(read: Read) -> Callable[[Any, ValidationInfo], Any]:
@@ -171,7 +169,7 @@ def shown(value: Any) -> str:
     if isinstance(value, range | Spread):
         return f"{{ least = {shown(value[0])}, most = {shown(value[-1])} }}"
     if isinstance(value, Sequence):
-        return shown(value[0]) if len(value) == 1 else f"[{', '.join(map(shown, value))}]"
+        return shown(value[0]) if len(value) == 1 else short(f"[{', '.join(map(shown, value))}]")
     number = Fraction(str(value))
     decimal = f"{float(number):.10g}"
     return decimal if Fraction(decimal) == number else str(number)

@@ -42,7 +42,6 @@ from sched_sim.costs.sample_file import SampledCosts
 from sched_sim.processors.part import seconds_for
 from sched_sim.processors.part_file import load_part
 from sched_sim.scenario.distribution import wilson
-from sched_sim.scenario.draws import fates
 from sched_sim.scenario.run import Outcome, run_scenario
 from sched_sim.scenario.scenario import Late, Scenario, Sensor
 from sched_sim.schedule.jobs import HR, LR
@@ -184,7 +183,7 @@ def counted() -> Costs:
 def scenario(costs: Costs, way: Way, urgency: str, clock_mhz: int, *, steps: int = STEPS, seed: int = SEED) -> Scenario:
     """urgency: one of `URGENCIES`. Costs stay in cycles."""
     composed = rocket_filter(way.predictor, DROPOUT)
-    late = Sensor(GPS, GPS_EVERY, GPS_DELAYS, LAND_BY, dropout=DROPOUT, priority=URGENCIES[urgency])
+    late = late_sensor(urgency)
     on_time = [
         Sensor(sensor.name, sensor.every, (0,), land_by=0, dropout=sensor.dropout, priority=HR)
         for sensor in composed.sensors
@@ -201,6 +200,11 @@ def scenario(costs: Costs, way: Way, urgency: str, clock_mhz: int, *, steps: int
         late=way.late,
         tasks=[control_task(costs)],
     )
+
+
+def late_sensor(urgency: str) -> Sensor:
+    """The GPS."""
+    return Sensor(GPS, GPS_EVERY, GPS_DELAYS, LAND_BY, dropout=DROPOUT, priority=URGENCIES[urgency])
 
 
 def control_task(costs: Costs) -> Task:
@@ -298,8 +302,8 @@ def chosen(costs: Costs, way: Way, urgency: str, clock_mhz: int, *, steps: int =
 def arrivals(steps: int = STEPS, seed: int = SEED) -> Counter[int]:
     """How many GPS measurements take so many steps to arrive, of those of a simulation: the achieved l - k if no
     computation took any time. The last ones may arrive after its end."""
-    fixes = fates(GPS_DELAYS, DROPOUT, len(range(0, steps, GPS_EVERY)), seed, GPS)
-    return Counter(delay for delay in fixes if delay is not None)
+    fixes = late_sensor("preempted").measurements(steps, seed)
+    return Counter(delay for _, delay in fixes if delay is not None)
 
 
 PURPOSES = ("prediction", "on-time corrections", "GPS correction", "replay", "catching up", "control")

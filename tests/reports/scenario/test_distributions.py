@@ -163,7 +163,13 @@ def test_histograms_hold_every_response_time_where_it_is() -> None:
     assert list(drawn.values()) == pytest.approx(shares)
 
 
-@pytest.mark.parametrize("scenario", [ROCKET, OVERLOAD], ids=["rocket", "overload"])
+BETWEEN_STEPS = replace(
+    OVERLOAD,
+    sensors=[replace(OVERLOAD.sensors[0], every=Fraction(40, 3), delays=(Fraction(9, 2),)), *OVERLOAD.sensors[1:]],
+)
+
+
+@pytest.mark.parametrize("scenario", [ROCKET, OVERLOAD, BETWEEN_STEPS], ids=["rocket", "overload", "between steps"])
 def test_both_pictures_can_be_read(scenario: Scenario) -> None:
     outcome = run_scenario(scenario)
     assert flaws(distributions_figure(scenario, outcome)) == []

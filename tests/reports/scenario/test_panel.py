@@ -34,6 +34,24 @@ STARVED = Scenario(
 )
 
 
+BETWEEN_STEPS = replace(
+    STARVED,
+    speed=Fraction(20),
+    sensors=[Sensor("s", Fraction(20, 3), (Fraction(7, 2), 5), land_by=12, offset=Fraction(1, 2))],
+)
+
+
+def test_a_measurement_between_steps_is_shown_where_it_is_used() -> None:
+    """The first, at 1/2 step, is of step 1; it arrives at 4 or 5 1/2."""
+    late = first_late(BETWEEN_STEPS)
+    assert late is not None
+    assert (late.k, late.m) in {(1, 4), (1, 6)}
+    panel = scenario_panel(BETWEEN_STEPS, run_scenario(BETWEEN_STEPS))
+    marks = {mark.text: mark.step for mark in panel.marks}
+    assert (marks["k"], marks.get("m", marks.get("m = l"))) == (late.k, late.m)
+    assert flaws(gantt([panel])) == []
+
+
 def test_the_chart_shows_each_sensor_on_a_line_of_its_own_up_to_the_first_miss() -> None:
     outcome = run_scenario(OVERLOAD)
     panel = scenario_panel(OVERLOAD, outcome)
@@ -85,6 +103,7 @@ def test_the_window_is_short_and_about_what_matters(
         replace(OVERLOAD, steps=60),
         replace(OVERLOAD, steps=60, cpus=2, speed=Fraction(6)),
         replace(ROCKET, steps=60, cpus=2),
+        BETWEEN_STEPS,
     ],
 )
 def test_every_job_is_drawn_whether_it_ran_or_not(scenario: Scenario, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -123,6 +123,14 @@ def test_a_scenario_in_ms_is_the_one_in_steps(tmp_path: Path) -> None:
         ("delay_ms = { least = 5, most = 3 }", "sensor 'gps'.delay_ms: least = 5 is above most = 3: exchange them"),
         ("delay_ms = { least = 5 }", "delay_ms: has no most: give both, as { least = 120, most = 200 }, in ms"),
         ("delay_ms = 1e12", "sensor 'gps': delay 400000000000 is above 10,000,000 HR steps: give fewer"),
+        (
+            "delay_ms = { least = 0, most = 1e18 }",
+            "sensor 'gps': delay 400000000000000000 is above 10,000,000 HR steps",
+        ),
+        (
+            "every = 13\ndelay = 43\ndelay_ms = 110",
+            "do not agree: leave out the one that is wrong; delay = 43 and delay",
+        ),
         ("offset_ms = -1", "sensor 'gps'.offset_ms: must be at least 0 (given: -1)"),
         ("land_within_ms = -1", "sensor 'gps'.land_within_ms: must be at least 0 (given: -1)"),
         (
