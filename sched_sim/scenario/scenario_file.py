@@ -8,7 +8,7 @@ from dataclasses import replace
 from fractions import Fraction
 from math import ceil, isclose
 from pathlib import Path
-from typing import Annotated, Any, ClassVar, Literal, Self, get_args
+from typing import Annotated, Any, Literal, Self, get_args
 
 from pydantic import BeforeValidator, Field, ValidationError, ValidationInfo, model_validator
 
@@ -84,8 +84,6 @@ _TimedSwitch = Annotated[Fraction | None, BeforeValidator(timed_cost(not_negativ
 
 
 class _ScenarioFile(Entry):
-    one_of: ClassVar[Sequence[str]] = ("steps (or duration_s)",)
-
     name: Annotated[str, Field(min_length=1)]
     hr_hz: Positive | None = None
     speed: Positive | None = None
@@ -110,10 +108,10 @@ class _ScenarioFile(Entry):
     @model_validator(mode="after")
     def _together(self, info: ValidationInfo) -> Self:
         units = units_of(info)
-        wrong = [*self._no_unit(units)]
-        if units.sure:
+        wrong = [*self._no_unit(), *self._other_rate(units)]
+        for check in (self._never_arrive, self.tasks) if units.sure else ():
             try:
-                wrong += self._never_arrive(units, self.so_many(units))
+                check(units)
             except InputError as error:
                 wrong.append(str(error))
         if wrong:
@@ -133,7 +131,7 @@ class _ScenarioFile(Entry):
             raise InputError(f"duration_s = {shown(self.duration_s)} is {steps:,} steps: give at most {MOST_STEPS:,}")
         return steps
 
-    def _no_unit(self, units: Units) -> Iterator[str]:
+    def _no_unit(self) -> Iterator[str]:
         if (self.hr_hz is None) == (self.speed is None):
             problem = "neither is given" if self.speed is None else "both are given"
             yield (
@@ -149,12 +147,8 @@ class _ScenarioFile(Entry):
             yield f"{key} has no meaning without a costs file: give costs, or delete it"
         elif self.processor and self.times_slower:
             yield "times_slower is for measured costs, processor for counted ones: give one of them"
-        if units.sure and self.hr_hz is not None and self.unit is None:
-            for task in self.task:
-                yield (
-                    f"task {task.name!r}: cost {shown(task.cost)} has no unit, and with hr_hz costs are times: write "
-                    f'unit = "s", "ms" or "us" at the top of the file'
-                )
+
+    def _other_rate(self, units: Units) -> Iterator[str]:
         dt = None if units.composition is None else units.composition.dt
         if dt is not None and units.hr_hz is not None and not isclose(dt * float(units.hr_hz), 1, rel_tol=1e-9):
             yield (
@@ -162,18 +156,27 @@ class _ScenarioFile(Entry):
                 f"that is wrong"
             )
 
-    def _never_arrive(self, units: Units, steps: int) -> Iterator[str]:
+    def _never_arrive(self, units: Units) -> None:
+        """Raises InputError for sensors of which no measurement arrives."""
+        steps, never = self.so_many(units), []
         for entry in self.sensor:
             sensor = entry.sensor(units)
             if ceil(sensor.offset + ends(sensor.delays)[0]) >= steps:
-                yield (
-                    f"sensor {entry.name!r}: {entry.first(sensor)} not less than steps = {steps}: none arrives; give "
-                    f"more steps"
+                never.append(
+                    f"sensor {entry.name!r}: {entry.first(sensor)} not less than steps = {steps}: none arrives"
                 )
+        if never:
+            raise InputError(f"{'; '.join(never)}; give more steps")
 
     def tasks(self, units: Units) -> list[Task]:
-        """The [[task]] entries, with their costs in seconds where there is hr_hz."""
-        return [replace(task, cost=units.plain * task.cost) for task in (entry.task() for entry in self.task)]
+        """The [[task]] entries, their costs as all others; raises InputError for one whose unit is not said."""
+        tasks = [entry.task() for entry in self.task]
+        if units.hr_hz is not None and units.unit is None and tasks:
+            costs = "; ".join(f"task {task.name!r}: cost {shown(task.cost)} has no unit" for task in tasks)
+            raise InputError(
+                f'{costs}, and with hr_hz costs are times: write unit = "s", "ms" or "us" at the top of the file'
+            )
+        return [replace(task, cost=units.plain * task.cost) for task in tasks]
 
 
 def read_scenario(path: str | Path, describe: Describe | None = None) -> Scenario:

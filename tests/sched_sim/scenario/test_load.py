@@ -314,6 +314,14 @@ def test_many_sensors_without_a_common_step_are_soon_summed_up() -> None:
     assert demand(asked)[0] == pytest.approx(float(run_scenario(asked).schedule.utilization), rel=0.02)
 
 
+def test_of_rates_of_large_numbers_the_demand_is_that_of_rates_near_them() -> None:
+    """29.97 Hz at 400 Hz, late by 44.1 steps, beside two others."""
+    sensors = [sensor("a", Fraction(40_000, 2997), Fraction(441, 10)), sensor("b", Fraction(37, 7), Fraction(1, 3))]
+    entries = {"predict": "0.01"} | {f"correct.{name}": "0.001" for name in "abc"}
+    asked = case(1, entries, *sensors, sensor("c", Fraction(100, 9)), steps=20_000)
+    assert demand(asked)[0] == pytest.approx(float(run_scenario(asked).schedule.utilization), rel=0.005)
+
+
 def test_a_pattern_of_any_length_is_soon_looked_through() -> None:
     """Rates without a common step for longer than the world will last, and very many delays."""
     sensors = [

@@ -37,13 +37,13 @@ def of_any_rate():
 def nothing():
     return None
 """
-HEAD = 'name = "v"\nfilter = "vehicle:vehicle"\nhr_hz = 400\nduration_s = 2\nunit = "ms"\n[predictor]\ncost = 0.1\n'
+HEAD = 'name = "v"\nfilter = "craft:vehicle"\nhr_hz = 400\nduration_s = 2\nunit = "ms"\n[predictor]\ncost = 0.1\n'
 COSTS = "".join(f'[[sensor]]\nname = "{name}"\ncost = 0.2\n' for name in ("radio", "gps", "camera"))
 
 
 @pytest.fixture
 def folder(tmp_path: Path) -> Path:
-    (tmp_path / "vehicle.py").write_text(VEHICLE)
+    (tmp_path / "craft.py").write_text(VEHICLE)
     return tmp_path
 
 
@@ -91,12 +91,12 @@ def test_sensors_need_no_entry_where_a_file_has_their_costs(folder: Path) -> Non
         (('"gps"\n', '"gps"\ndropout = 0.2\n'), "dropout = 0.2 and the filter's dropout = 0.1 do not agree"),
         (('"gps"', '"gsp"'), "sensor 'gsp': it is none of the filter's, which are gps, camera, radio: give the name"),
         (("hr_hz = 400", "hr_hz = 100"), "hr_hz = 100 and the filter's dt = 0.0025 (400 Hz) do not agree: mend the"),
-        (("vehicle:vehicle", "vehicle:car"), "filter 'vehicle:car': module 'vehicle' has no function 'car'; name a"),
-        (("vehicle:vehicle", "vehicle:nothing"), "filter 'vehicle:nothing': nothing() returned a NoneType; name a"),
-        (("vehicle:vehicle", "car:car"), "filter 'car:car': module 'car' cannot be imported"),
-        (("vehicle:vehicle", "vehicle"), 'as in filter = "mymodule:my_filter" for a file mymodule.py in the folder of'),
-        (('"vehicle:vehicle"', "3"), 'filter: must name a function that returns a filter: write filter = "module:func'),
-        (("vehicle:vehicle", ""), 'filter: must name a function that returns a filter: write filter = "module:func'),
+        (("craft:vehicle", "craft:car"), "filter 'craft:car': module 'craft' has no function 'car'; name a"),
+        (("craft:vehicle", "craft:nothing"), "filter 'craft:nothing': nothing() returned a NoneType; name a"),
+        (("craft:vehicle", "car:car"), "filter 'car:car': module 'car' cannot be imported"),
+        (("craft:vehicle", "craft"), 'as in filter = "mymodule:my_filter" for a file mymodule.py in the folder of'),
+        (('"craft:vehicle"', "3"), 'filter: must name a function that returns a filter: write filter = "module:func'),
+        (("craft:vehicle", ""), 'filter: must name a function that returns a filter: write filter = "module:func'),
     ],
 )
 def test_what_does_not_agree_is_refused_with_both_values(folder: Path, change: tuple[str, str], said: str) -> None:
@@ -106,24 +106,24 @@ def test_what_does_not_agree_is_refused_with_both_values(folder: Path, change: t
 
 
 def test_a_filter_without_dt_is_of_any_rate(folder: Path) -> None:
-    text = (HEAD + COSTS).replace("vehicle:vehicle", "vehicle:of_any_rate").replace("400", "100")
+    text = (HEAD + COSTS).replace("craft:vehicle", "craft:of_any_rate").replace("400", "100")
     only_gps = re.sub(r'\[\[sensor\]\]\nname = "(radio|camera)"\ncost = 0.2\n', "", text)
     assert [sensor.name for sensor in read(folder, only_gps).sensors] == ["gps"]
 
 
 def test_reading_runs_no_code_unless_it_is_told_to(folder: Path) -> None:
     read(folder)
-    with pytest.raises(InputError, match=r"filter = 'vehicle:vehicle' names a function, .* describe=studies.describe_"):
+    with pytest.raises(InputError, match=r"filter = 'craft:vehicle' names a function, .* describe=studies.describe_"):
         read_scenario(folder / "v.toml")
 
 
 def test_the_command_looks_in_the_folder_of_the_scenario(sched_sim: Run, folder: Path) -> None:
     below = folder / "below"
     below.mkdir()
-    (folder / "vehicle.py").rename(below / "vehicle.py")
+    (folder / "craft.py").rename(below / "craft.py")
     (below / "v.toml").write_text(HEAD + COSTS)
     document = json.loads(sched_sim("simulate --scenario below/v.toml --format json").out)
     assert document["sensors"]["camera"]["every"] == 40 / 3
-    (folder / "out.csv").symlink_to(below / "vehicle.py")
-    said = ["--trace out.csv would write over what --scenario", "vehicle.py reads"]
+    (folder / "out.csv").symlink_to(below / "craft.py")
+    said = ["--trace out.csv would write over what --scenario", "craft.py reads"]
     is_refused(sched_sim("simulate --scenario below/v.toml --trace out.csv"), said)
