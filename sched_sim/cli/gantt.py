@@ -56,7 +56,8 @@ def gantt(
     inputs = [("--costs", costs), ("--processor", processor), ("--tasks", tasks)]
     refuse_one_file_for_two([("--output", output)], inputs)
     part = opt.make_processor(processor)
-    table, others, rate = opt.costs_on(costs, part), opt.make_tasks(tasks), opt.hr_rate(hr_hz)
+    table, rate = opt.costs_on(costs, part), opt.hr_rate(hr_hz)
+    others = opt.make_tasks(tasks, table.unit, rate)
     panels = []
     for name in opt.wanted_methods(method or _usual(table), table):
         timing = opt.make_timing(N, M, L, name, options)

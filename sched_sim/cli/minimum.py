@@ -50,7 +50,8 @@ def minimum(
     from sched_sim.design.methods import METHODS, select
 
     part = opt.make_processor(processor)
-    table, others, rate = opt.costs_on(costs, part), opt.make_tasks(tasks), opt.hr_rate(hr_hz)
+    table, rate = opt.costs_on(costs, part), opt.hr_rate(hr_hz)
+    others = opt.make_tasks(tasks, table.unit, rate)
     design = f"N={N} M={_given(M, 'none')} L={_given(L, 'latest')}"
     rows: list[dict[str, Any]] = []
     shown: list[dict[str, Any]] = []
@@ -92,8 +93,14 @@ def minimum(
 
 def _landing(costs: Costs, timing: Timing, speed: Fraction, options: Options, tasks: Sequence[Task]) -> int:
     """The latest L at which a correction lands at the least speed."""
+    from sched_sim.design.any_phase import worst_landing
     from sched_sim.design.least_speed import achieved_l, has_closed_form
+    from sched_sim.schedule.tasks import phases_matter
 
+    if phases_matter(tasks):
+        landed = worst_landing(costs, timing, speed, options, tasks)
+        assert landed is not None
+        return landed
     if not has_closed_form(options, tasks):
         from sched_sim.design.steady import run_until_steady
 

@@ -12,7 +12,7 @@ import typer
 from sched_sim.bounds import MOST_STEPS, short
 from sched_sim.costs.methods import METHODS as NAMES
 from sched_sim.costs.methods import Method
-from sched_sim.costs.table import COUNTED, PAPERS, CostTable, default_methods
+from sched_sim.costs.table import COUNTED, PAPERS, SECONDS, CostTable, default_methods
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import Statistic
 from sched_sim.design.timing import Timing
@@ -120,7 +120,8 @@ Tasks = Annotated[
     Path | None,
     typer.Option(
         "--tasks",
-        help="TOML file of your other periodic tasks: \\[\\[task]] name, period, offset, cost, priority.",
+        help="TOML file of your other periodic tasks: \\[\\[task]] name, hz, cost_us, priority; or period in HR "
+        "periods, cost in the unit of the cost table; offset, if it is known.",
         rich_help_panel=PROCESSOR,
     ),
 ]
@@ -182,12 +183,13 @@ def make_timing(N: int, M: int | None, L: int | None, method: str, options: Opti
     return Timing(N, M, L)
 
 
-def make_tasks(path: Path | None) -> Sequence[Task]:
+def make_tasks(path: Path | None, unit: str, rate: Fraction | None) -> Sequence[Task]:
+    """unit: of the cost table."""
     if path is None:
         return ()
     from sched_sim.schedule.task_file import read_tasks
 
-    return read_tasks(path)
+    return read_tasks(path, hr_hz=rate, unit_s=SECONDS.get(unit))
 
 
 def hr_rate(text: str | None) -> Fraction | None:

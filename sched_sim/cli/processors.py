@@ -96,7 +96,8 @@ def processors(
     else:
         methods = opt.known_methods(method or ["dual-rate"])
         designs = {name: opt.make_timing(N, M, L, name, options) for name in methods}
-        rate, others = positive(hr_hz, "--hr-hz"), opt.make_tasks(tasks)
+        rate = positive(hr_hz, "--hr-hz")
+        others = opt.make_tasks(tasks, "second", rate)
         rows, shown, remarks = _verdicts(parts, designs, costs, statistic, rate, options, others)
         design = f"N={N} M={'none' if M is None else M} L={'latest' if L is None else L}"
         title = f"{', '.join(methods)}, HR loop at {hr_hz} Hz, {design} (operations: {costs or COUNTED})"

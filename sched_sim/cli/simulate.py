@@ -123,7 +123,8 @@ def simulate(
         check_trace(path)
     timing = opt.make_timing(N, M, L, method, options)
     part = opt.make_processor(processor)
-    table, others, rate = opt.costs_on(costs, part), opt.make_tasks(tasks), opt.hr_rate(hr_hz)
+    table, rate = opt.costs_on(costs, part), opt.hr_rate(hr_hz)
+    others = opt.make_tasks(tasks, table.unit, rate)
     work = select(table, method, options, statistic)
     pace = opt.pace(speed, rate, part, lambda: least_speed(work, timing, options, others))
     achieved: list[int | None] = [None] * cycles

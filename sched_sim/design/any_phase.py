@@ -17,17 +17,12 @@ from sched_sim.design.timing import Timing
 from sched_sim.design.worst_demand import overloaded
 from sched_sim.design.worst_phase import EndlessError, finishes
 from sched_sim.errors import InputError, option
-from sched_sim.schedule.tasks import Task
+from sched_sim.schedule.tasks import Task, phases_matter
 
 LOAD = "load"
 
 FIRST_STEP = 1_000
 """The search starts so small a share above the load: nearer to it, busy periods are long."""
-
-
-def phases_matter(tasks: Sequence[Task]) -> bool:
-    """Whether there are several schedules, of which the answer must hold for the worst."""
-    return any(task.offset == "any" or task.jitter for task in tasks)
 
 
 def least_speed_of_any_phase(
@@ -82,9 +77,7 @@ def late_job(costs: Costs, timing: Timing, speed: Fraction, options: Options, ta
     return method_of(costs).binding(kind, held, timing, options)
 
 
-def worst_landing(
-    costs: Costs, timing: Timing, speed: Fraction, options: Options, tasks: Sequence[Task]
-) -> int | None:
+def worst_landing(costs: Costs, timing: Timing, speed: Fraction, options: Options, tasks: Sequence[Task]) -> int | None:
     """The L at which corrections have landed at any phase; None where something may be late."""
     if late_job(costs, timing, speed, options, tasks) is not None:
         return None

@@ -12,7 +12,7 @@ from sched_sim.design.load import loads
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import Costs
 from sched_sim.design.timing import Timing
-from sched_sim.schedule.tasks import Task
+from sched_sim.schedule.tasks import Task, phases_matter
 from sched_sim.ticks import Number, positive
 
 
@@ -57,7 +57,12 @@ def fit(
     pace = 1 / positive(hr_hz, "hr_hz")
     least = least_speed(costs, timing, options, tasks, on_progress)
     busy = sum(loads(costs, timing, pace, options, tasks), Fraction(0)) / options.cpus
-    if not has_closed_form(options, tasks):
+    if phases_matter(tasks):
+        from sched_sim.design.any_phase import worst_landing
+
+        landed = worst_landing(costs, timing, pace, options, tasks)
+        fits = landed is not None
+    elif not has_closed_form(options, tasks):
         from sched_sim.design.steady import run_until_steady
 
         steady = run_until_steady(costs, timing, pace, options, tasks)

@@ -15,7 +15,7 @@ from sched_sim.design.options import Options
 from sched_sim.design.pieces import Costs, JobCosts, converted, works
 from sched_sim.design.timing import Timing
 from sched_sim.errors import InputError
-from sched_sim.schedule.tasks import Task
+from sched_sim.schedule.tasks import Task, phases_matter
 from sched_sim.ticks import Number, positive, ticks_per_unit, to_ticks
 
 
@@ -53,7 +53,9 @@ def least_speed(
     """The least speed at which every deadline holds (Steffes 2014, Sec. III.C: needed processing power).
 
     In closed form and exact; with context-switch costs, other tasks or earliest deadline first by bisection on the
-    simulation, which is exact to one tick and calls `on_progress` (see `search.least_speed_by_simulation`). Every
+    simulation, which is exact to one tick and calls `on_progress` (see `search.least_speed_by_simulation`); with tasks
+    whose offset may be any, or with jitter, by bisection on the worst response times, for every phase
+    (`any_phase.least_speed_of_any_phase`). Every
     faster processor does too, except where landing earlier costs more: the HR job of step k+1 is the longest of all, or
     same-step feedback spills into the next step.
     Raises InputError for an L that the method cannot have.
@@ -61,6 +63,10 @@ def least_speed(
     tasks = checked(timing, options, tasks)
     method_of(costs).check(timing, options.feedback)
     if not has_closed_form(options, tasks):
+        if phases_matter(tasks):
+            from sched_sim.design.any_phase import least_speed_of_any_phase
+
+            return LeastSpeed(*least_speed_of_any_phase(costs, timing, options, tasks, on_progress))
         from sched_sim.design.search import least_speed_by_simulation
 
         return LeastSpeed(*least_speed_by_simulation(costs, timing, options, tasks, on_progress))

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 from itertools import chain
 from math import gcd, lcm
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -26,9 +26,10 @@ LONGEST_BUSY = 2**16
 """HR periods; a busy period that is longer is taken for one without end."""
 
 
-def ceiling(a: Any, b: Any) -> Any:
+def ceiling(a: Ints, b: int) -> Ints:
     """The least whole number that is not less than a / b."""
-    return -(-a // b)
+    up: Ints = -(-a // b)
+    return up
 
 
 class PhasedTask(NamedTuple):
@@ -57,7 +58,8 @@ class PhasedTask(NamedTuple):
         if self.first is None:
             return np.maximum((length + self.jitter - self.deadline) // self.period + 1, 0)
         before = ceiling(start - self.jitter - self.first, self.period)
-        return np.maximum((start + length - self.deadline - self.first) // self.period - before + 1, 0)
+        count: Ints = np.maximum((start + length - self.deadline - self.first) // self.period - before + 1, 0)
+        return count
 
 
 class Phased(NamedTuple):
@@ -93,7 +95,8 @@ class Phased(NamedTuple):
         return self._high_up_to(end) - self._high_up_to(first)
 
     def _high_up_to(self, step: Ints) -> Ints:
-        return step // self.N * self.before[-1] + self.before[(step % self.N).astype(np.intp)]
+        work: Ints = step // self.N * self.before[-1] + self.before[(step % self.N).astype(np.intp)]
+        return work
 
     def high_and_corrections(self, first: Ints, end: Ints, last_cycle: Ints | None = None) -> Ints:
         """Work of the HR jobs of steps [first, end), and of the corrections that may come in them, of cycles up to the
@@ -105,7 +108,7 @@ class Phased(NamedTuple):
         latest = (end - 1 - self.cycle.first) // self.N
         if last_cycle is not None:
             latest = np.minimum(latest, last_cycle)
-        count = np.maximum(latest - ceiling(first - self.cycle.last, self.N) + 1, 0)
+        count: Ints = np.maximum(latest - ceiling(first - self.cycle.last, self.N) + 1, 0)
         return count * (self.cycle.correction + self.switches * self.cycle.apart)
 
     def low(self, start: Ints, end: Ints, late: int) -> Ints:
@@ -135,7 +138,9 @@ def phased(costs: Costs, timing: Timing, speed: Fraction, options: Options, task
             PhasedTask(kind, task.priority, task.cpu - 1, work, every, at, jitter, deadline, task.preemptive)
         )
     steps = common_period(timing.N, [task.period for task in tasks if task.offset != "any"])
-    largest = max([period, *(max(task.work, task.period) for task in in_ticks), *cycle.high, *(low.work for low in cycle.low)])
+    largest = max(
+        [period, *(max(task.work, task.period) for task in in_ticks), *cycle.high, *(low.work for low in cycle.low)]
+    )
     whole = np.int64 if largest * (steps + LONGEST_BUSY) < 2**56 else object
     before = np.concatenate([[0], np.cumsum(np.array(cycle.high, dtype=whole) + switches)]).astype(whole)
     return Phased(timing.N, steps, period, switches, cycle, before, tuple(in_ticks), options)

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
 from itertools import chain
+from math import ceil
 from typing import NamedTuple
 
 from sched_sim.bounds import at_least_one, short
@@ -14,8 +15,10 @@ from sched_sim.design.arguments import checked
 from sched_sim.design.hr_loop import OnLanding
 from sched_sim.design.methods import method_of
 from sched_sim.design.options import Options
+from sched_sim.design.phased import phased
 from sched_sim.design.pieces import Costs, converted, works
 from sched_sim.design.timing import Timing
+from sched_sim.design.worst_phase import critical_start
 from sched_sim.schedule.clock import Clock, OnProgress
 from sched_sim.schedule.jobs import RecurringSource
 from sched_sim.schedule.length import check_simulation
@@ -43,6 +46,8 @@ def simulate(
 
     costs: from `select`; speed: cost units the processor does per HR period.
     keep_slices: return every `Slice`; without it memory does not grow with `cycles`.
+    Tasks whose offset may be any are released together, the first time as late as their jitter allows, where that
+    delays the job with the least slack most (`worst_phase.critical_start`).
     on_slice, on_landing: called as slices end and as corrections land, with a `Slice` and with
     (cycle, achieved L). on_progress: called about a hundred times.
     Raises InputError for a speed that is not positive, an L the method cannot have, a task on a missing CPU, and more
@@ -50,6 +55,7 @@ def simulate(
     """
     tasks = checked(timing, options, tasks)
     speed, cycles = positive(speed, "speed"), at_least_one(cycles, "cycles")
+    tasks = at_worst_phase(costs, timing, speed, options, tasks)
     check_simulation(cycles * timing.N, tasks, f"{short(cycles)} cycles of N={timing.N}")
     achieved: Counter[int] = Counter()
 
@@ -78,6 +84,23 @@ def simulate(
     )
     processor.run()
     return replace(processor.schedule(), achieved=achieved, slices=tuple(slices))
+
+
+def at_worst_phase(
+    costs: Costs, timing: Timing, speed: Fraction, options: Options, tasks: Sequence[Task]
+) -> tuple[Task, ...]:
+    """The tasks, each with an offset; those that may have any are released together."""
+    if all(task.offset != "any" for task in tasks):
+        return tuple(tasks)
+    design = phased(costs, timing, speed, options, tasks)
+    start = Fraction(0) if options.policy == "edf" else Fraction(critical_start(design), design.period)
+
+    def released(task: Task) -> Task:
+        nominal = start - task.jitter
+        later = ceil(max(-nominal, Fraction(0)) / timing.N) * timing.N
+        return replace(task, offset=nominal + later) if task.offset == "any" else task
+
+    return tuple(map(released, tasks))
 
 
 class Workload(NamedTuple):

@@ -49,12 +49,13 @@ class Level(NamedTuple):
 
 
 class Finishes(NamedTuple):
-    """When jobs of one kind finish at the latest, and when they must. kind: as in a schedule; held: whether it is so
-    because they waited for others of their chain."""
+    """When jobs of one kind finish at the latest, and when they must. kind: as in a schedule; start: of the busy period
+    in which it is so; held: whether it starts before the release of the job."""
 
     kind: str
     at: Ints
     due: Ints
+    start: Ints
     held: Flags
 
 
@@ -68,6 +69,19 @@ def finishes(design: Phased) -> Iterator[Finishes]:
     yield from _low_jobs(design, late)
     for task in design.tasks:
         yield _task_jobs(design, task, late)
+
+
+def critical_start(design: Phased) -> int:
+    """Where all tasks whose phase may be any are released together so that the job with the least slack is latest; 0 if
+    no busy period ends."""
+    try:
+        _slack, start = min(
+            (int((found.due - found.at).min()), int(found.start[(found.due - found.at).argmin()]))
+            for found in finishes(design)
+        )
+    except EndlessError:
+        return 0
+    return start % (design.steps * design.period)
 
 
 def _high_jobs(design: Phased) -> Finishes:
@@ -104,8 +118,8 @@ def _low_jobs(design: Phased, late: int) -> Iterator[Finishes]:
 
         found = _finishes(low.kind, come, start, job, release, due)
         yield found
-    if design.cycle.apart:
-        yield _feedback(design, come, start, job, release, found)
+        if design.cycle.apart and low is design.cycle.low[-1]:
+            yield _feedback(design, come, start, job, release, found)
 
 
 def _feedback(design: Phased, come: Work, start: Ints, job: Ints, release: Ints, update: Finishes) -> Finishes:
@@ -200,7 +214,7 @@ def _busy_before(design: Phased, level: Level, release: Ints, late: int) -> tupl
     else:  # what came before k has been done by then, or something is late
         busy = design.N * design.period if level.low else 0
     span, once = design.steps * design.period, starts(design, level, late)
-    opened = np.concatenate([once - back * span for back in range(ceiling(busy, span) + 1, -2, -1)])
+    opened = np.concatenate([once - back * span for back in range(busy // span + 2, -2, -1)])
     first = np.searchsorted(opened, release - busy, "left")
     count = np.searchsorted(opened, release, "right") - first
     job = np.repeat(np.arange(len(release)), count)
@@ -227,11 +241,12 @@ def _finishes(
 ) -> Finishes:
     """least: ticks after its release that a job is under way at the least; after: work that nothing delays any more."""
     length = _first_idle(come, release[job] - start + least, due[job] - start - after)
-    at, alone = 0 * release, 0 * release
-    np.maximum.at(at, job, start + length + after)
-    own = start == release[job]
-    np.maximum.at(alone, job[own], (start + length + after)[own])
-    return Finishes(kind, at, due, at > alone)
+    finish = start + length + after
+    at, opened = 0 * release, 0 * release
+    np.maximum.at(at, job, finish)
+    latest = finish == at[job]
+    opened[job[latest]] = start[latest]
+    return Finishes(kind, at, due, opened, opened < release)
 
 
 def _first_idle(come: Work, length: Ints, limit: Ints) -> Ints:

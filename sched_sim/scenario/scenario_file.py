@@ -4,7 +4,6 @@ decimals, or as quotients in quotes."""
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from fractions import Fraction
 from math import ceil, isclose
 from pathlib import Path
@@ -27,7 +26,7 @@ from sched_sim.scenario.file_entries import Entry, PredictorEntry, SensorEntry, 
 from sched_sim.scenario.file_units import Said, Units, agreed, costs_said, plain_cost, shown, time, timed_cost, units_of
 from sched_sim.scenario.scenario import Late, Samples, Scenario, needed_parts
 from sched_sim.schedule.length import check_simulation
-from sched_sim.schedule.task_file import TaskEntry
+from sched_sim.schedule.task_file import TaskEntry, TaskUnits, tasks_of
 from sched_sim.schedule.tasks import Task
 
 
@@ -170,13 +169,8 @@ class _ScenarioFile(Entry):
 
     def tasks(self, units: Units) -> list[Task]:
         """The [[task]] entries, their costs as all others; raises InputError for one whose unit is not said."""
-        tasks = [entry.task() for entry in self.task]
-        if units.hr_hz is not None and units.unit is None and tasks:
-            costs = "; ".join(f"task {task.name!r}: cost {shown(task.cost)} has no unit" for task in tasks)
-            raise InputError(
-                f'{costs}, and with hr_hz costs are times: write unit = "s", "ms" or "us" at the top of the file'
-            )
-        return [replace(task, cost=units.plain * task.cost) for task in tasks]
+        second = None if units.hr_hz is None else Fraction(1)
+        return tasks_of(self.task, TaskUnits(units.hr_hz, second, units.unit))
 
 
 def read_scenario(path: str | Path, describe: Describe | None = None) -> Scenario:

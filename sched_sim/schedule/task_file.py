@@ -1,18 +1,40 @@
-"""Reading the user's other periodic tasks from TOML: `[[task]]` name, period, offset, cost, priority, cpu."""
+"""Reading the user's other periodic tasks from TOML: `[[task]]` in HR periods and cost units, or in Hz, ms and us."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from fractions import Fraction
 from pathlib import Path
-from typing import Annotated, Self
+from typing import Annotated, Any, Literal, NamedTuple
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
 
 from sched_sim.errors import InputError, option
-from sched_sim.files.toml_numbers import Number, Positive, Whole
+from sched_sim.files.toml_numbers import Number, Positive, Whole, number
 from sched_sim.files.toml_problems import problems
 from sched_sim.files.toml_reader import read_toml
 from sched_sim.schedule.tasks import Task, wrong_together
+from sched_sim.ticks import Number as AnyNumber
+from sched_sim.ticks import positive
+
+COST_UNITS: Mapping[str, Fraction] = {"us": Fraction(1, 10**6), "ms": Fraction(1, 1000), "s": Fraction(1)}
+"""In seconds."""
+
+
+class TaskUnits(NamedTuple):
+    """What the figures of tasks are turned into.
+
+    hr_hz: HR periods in a second, None if it is not given. unit_s: seconds in a cost unit, None if it is no time.
+    unit: of plain costs, one of `COST_UNITS`, where the file says it.
+    """
+
+    hr_hz: Fraction | None = None
+    unit_s: Fraction | None = None
+    unit: str | None = None
+
+
+def _offset(value: Any) -> Any:
+    return value if value == "any" else number(value)
 
 
 class TaskEntry(BaseModel):
@@ -20,41 +42,128 @@ class TaskEntry(BaseModel):
 
     model_config = ConfigDict(extra="forbid", arbitrary_types_allowed=True)
     name: str
-    period: Positive
-    cost: Positive
+    period: Positive | None = None
+    period_ms: Positive | None = None
+    hz: Positive | None = None
+    cost: Positive | None = None
+    cost_us: Positive | None = None
+    cost_ms: Positive | None = None
+    cost_s: Positive | None = None
     priority: Whole
-    offset: Number = Fraction(0)
+    offset: Annotated[Fraction | Literal["any"] | None, BeforeValidator(_offset)] = None
+    offset_ms: Number | None = None
+    jitter: Number | None = None
+    jitter_ms: Number | None = None
+    deadline: Positive | None = None
+    deadline_ms: Positive | None = None
+    preemptive: bool = True
     cpu: Whole = 1
 
-    @model_validator(mode="after")
-    def _possible(self) -> Self:
-        try:
-            self.task()
-        except InputError as error:
-            raise ValueError(str(error).removeprefix(f"task {self.name!r}: ")) from None
-        return self
+    def task(self, units: TaskUnits) -> Task:
+        """Raises InputError that names the task, and what is missing, contradictory or out of range."""
+        wrong: list[str] = []
 
-    def task(self) -> Task:
-        return Task(**dict(self))
+        def steps(key: str) -> Any:
+            ms = getattr(self, f"{key}_ms")
+            found = {key: getattr(self, key), f"{key}_ms": ms and _in_steps(ms, units)}
+            if key == "period":
+                found["hz"] = None if self.hz is None else units.hr_hz and units.hr_hz / self.hz
+            given = {name: found[name] for name in found if getattr(self, name) is not None}
+            if units.hr_hz is None and given.keys() - {key}:
+                wrong.append(
+                    f"{' and '.join(sorted(given.keys() - {key}))} needs {option('hr_hz')}, the HR periods in a "
+                    f"second: give it, or {key} = ... in HR periods"
+                )
+            elif len({*given.values()}) > 1:
+                said = " and ".join(f"{name} = {_shown(getattr(self, name))}" for name in given)
+                wrong.append(f"{said} do not agree: leave out the one that is wrong")
+            return next(iter(given.values()), None)
+
+        figures = {key: steps(key) for key in ("period", "offset", "jitter", "deadline")}
+        cost = self._cost(units, wrong)
+        if figures["period"] is None and not wrong:
+            wrong.append("the period is missing: give hz = ..., period_ms = ..., or period = ... in HR periods")
+        if wrong:
+            raise InputError(f"task {self.name!r}: {'; '.join(wrong)}")
+        known = {key: value for key, value in figures.items() if value is not None}
+        return Task(self.name, cost=cost, priority=self.priority, preemptive=self.preemptive, cpu=self.cpu, **known)
+
+    def _cost(self, units: TaskUnits, wrong: list[str]) -> Any:
+        given = {key: getattr(self, key) for key in ("cost", *(f"cost_{unit}" for unit in COST_UNITS))}
+        given = {key: value for key, value in given.items() if value is not None}
+        if len(given) != 1:
+            wrong.append(f"give one of cost, cost_us, cost_ms and cost_s, not {' and '.join(given) or 'none'}")
+            return None
+        ((key, value),) = given.items()
+        unit = key.removeprefix("cost").removeprefix("_") or units.unit
+        if unit is None and units.unit_s is not None:
+            wrong.append(
+                f"cost {_shown(value)} has no unit, and costs are times here: write cost_us, cost_ms or cost_s, "
+                f'or unit = "us", "ms" or "s" at the top of the file for all'
+            )
+        elif unit is not None and units.unit_s is None:
+            wrong.append(
+                f"{key} = {_shown(value)} is a time, and the unit of the cost table is none: give cost = ... in that "
+                f"unit, or a table in seconds ({option('costs')}, {option('processor')})"
+            )
+        if unit is None or units.unit_s is None:
+            return value
+        return value * COST_UNITS[unit] / units.unit_s
+
+
+def _in_steps(ms: Fraction, units: TaskUnits) -> Fraction | None:
+    return None if units.hr_hz is None else ms * units.hr_hz / 1000
+
+
+def _shown(value: Any) -> str:
+    return value if isinstance(value, str) else f"{float(value):g}"
 
 
 class _TaskFile(BaseModel):
     model_config = ConfigDict(extra="forbid")
+    unit: Literal["us", "ms", "s"] | None = None
     task: Annotated[list[TaskEntry], Field(min_length=1)]
 
 
-def read_tasks(path: str | Path) -> list[Task]:
-    """The tasks in `path`; raises InputError that lists every wrong entry with its value."""
+def read_tasks(path: str | Path, *, hr_hz: AnyNumber | None = None, unit_s: AnyNumber | None = None) -> list[Task]:
+    """The tasks in `path`, in HR periods and cost units.
+
+    hr_hz: rate of the HR loop, which times in ms and rates in Hz need. unit_s: seconds in a unit of the cost table,
+    which costs in us, ms or s need; None if that is no time.
+    Raises InputError that lists every wrong entry with its value.
+    """
     what = f"{option('tasks')} {str(path)!r}"
     document = read_toml(Path(path), what, "give the path of a TOML file with [[task]] entries")
     try:
-        tasks = [entry.task() for entry in _TaskFile.model_validate(document).task]
+        checked = _TaskFile.model_validate(document)
     except ValidationError as error:
         wrong = problems(error, _TaskFile, document)
         raise InputError(
-            f"{what}: {wrong}; each [[task]] has name, period and offset in HR periods, cost "
-            f"in the unit of the cost table, and priority (smaller is more urgent; HR jobs 10, LR jobs 20)"
+            f"{what}: {wrong}; each [[task]] has name, period (in HR periods; or period_ms, hz), cost (in the unit of "
+            f"the cost table; or cost_us, cost_ms), and priority (smaller is more urgent; HR jobs 10, LR jobs 20)"
         ) from None
+    units = TaskUnits(
+        None if hr_hz is None else positive(hr_hz, "hr_hz"),
+        None if unit_s is None else positive(unit_s, "unit_s"),
+        checked.unit,
+    )
+    try:
+        tasks = tasks_of(checked.task, units)
+    except InputError as error:
+        raise InputError(f"{what}: {error}") from None
     if together := wrong_together(tasks):
         raise InputError(f"{what}: {'; '.join(together)}")
+    return tasks
+
+
+def tasks_of(entries: list[TaskEntry], units: TaskUnits) -> list[Task]:
+    """Raises InputError that lists all that is wrong."""
+    tasks, wrong = [], []
+    for entry in entries:
+        try:
+            tasks.append(entry.task(units))
+        except InputError as error:
+            wrong.append(str(error))
+    if wrong:
+        raise InputError("; ".join(wrong))
     return tasks

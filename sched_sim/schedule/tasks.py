@@ -74,12 +74,12 @@ def _wrong(task: Task) -> Iterator[str]:
         yield f"offset {task.offset} must be 0 or more HR periods"
     if task.cpu not in (1, 2):
         yield f"cpu {task.cpu} must be 1 or 2"
-    if not isinstance(task.preemptive, bool):
+    if task.preemptive not in (True, False):
         yield f"preemptive is {short(repr(task.preemptive))}: give true or false"
     if task.period > 0 and not 0 < task.due <= task.period:
         yield (
-            f"deadline {float(task.due):g} must be greater than 0 and at most its period, {float(task.period):g}: a job "
-            f"is done before the next one comes"
+            f"deadline {float(task.due):g} must be greater than 0 and at most its period, {float(task.period):g}: a "
+            f"job is done before the next one comes"
         )
     elif task.period > 0 and not 0 <= task.jitter < task.due:
         yield f"jitter {float(task.jitter):g} must be 0 or more and less than the deadline, {float(task.due):g}"
@@ -114,6 +114,11 @@ def check_cpus(tasks: Sequence[Task], cpus: int) -> None:
             raise InputError(
                 f"task {task.name!r}: cpu {task.cpu} is not there; give {option('cpus')} {task.cpu}, or cpu = 1"
             )
+
+
+def phases_matter(tasks: Sequence[Task]) -> bool:
+    """Whether there are several schedules, of which an answer must hold for the worst."""
+    return any(task.offset == "any" or task.jitter for task in tasks)
 
 
 def work_and_times(task: Task, speed: Fraction) -> tuple[Fraction, ...]:

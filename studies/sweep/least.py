@@ -16,7 +16,7 @@ from sched_sim.design.least_speed import least_speed
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import Costs, JobCosts, converted, works
 from sched_sim.design.timing import Timing
-from sched_sim.schedule.tasks import Task
+from sched_sim.schedule.tasks import Task, phases_matter
 from sched_sim.ticks import ticks_per_unit, to_ticks
 from studies.sweep.grid import Chunk
 from studies.sweep.legal import Ints
@@ -131,11 +131,15 @@ FIRST_CYCLES = 4
 
 
 def _simulated(costs: Costs, timing: Timing, speed: Fraction, options: Options, tasks: Sequence[Task]) -> Outcome:
+    from sched_sim.design.any_phase import worst_landing
     from sched_sim.design.simulate import simulate
     from sched_sim.design.steady import run_until_steady
 
-    steady = run_until_steady(costs, timing, speed, options, tasks)
-    if steady.repeats:
+    if phases_matter(tasks):
+        landed = worst_landing(costs, timing, speed, options, tasks)
+        if landed is not None:
+            return Outcome(True, landed)
+    elif (steady := run_until_steady(costs, timing, speed, options, tasks)).repeats:
         return Outcome(True, max(steady.schedule.achieved))
     schedule = simulate(costs, timing, speed, FIRST_CYCLES, options, tasks)
     overrun = schedule.responses["hr"].misses > 0

@@ -23,7 +23,7 @@ from pydantic_core import ErrorDetails
 
 from sched_sim.bounds import MOST_STEPS, short
 from sched_sim.costs.methods import METHODS
-from sched_sim.costs.table import COUNTED, PAPERS, CostTable, default_methods
+from sched_sim.costs.table import COUNTED, PAPERS, SECONDS, CostTable, default_methods
 from sched_sim.costs.table_file import load_costs, shipped_tables
 from sched_sim.design.options import Options, choices
 from sched_sim.design.pieces import Statistic
@@ -33,6 +33,7 @@ from sched_sim.files.toml_reader import read_toml
 from sched_sim.processors.part import Part, on_part
 from sched_sim.processors.part_file import load_part, shipped_parts
 from sched_sim.schedule.task_file import read_tasks
+from sched_sim.schedule.tasks import Task
 from studies.sweep.axes import numbers, whole_numbers, words
 from studies.sweep.grid import Grid
 from studies.sweep.run import Sweep
@@ -139,9 +140,16 @@ class _Settings(BaseModel):
             tables=tables,
             options=self._options(),
             statistic=self.statistic,
-            tasks=() if self.tasks is None else tuple(read_tasks(Path(self.tasks))),
+            tasks=self._tasks(tables),
         )
         return Sweep(grid, self.cycles if self.simulate else None)
+
+    def _tasks(self, tables: Sequence[CostTable]) -> tuple[Task, ...]:
+        """In HR periods at the one rate there is, in the unit of the tables."""
+        if self.tasks is None:
+            return ()
+        rate = self.hr_hz[0] if len(self.hr_hz) == 1 else None
+        return tuple(read_tasks(Path(self.tasks), hr_hz=rate, unit_s=SECONDS.get(tables[0].unit)))
 
     def _tables(self) -> tuple[CostTable, ...]:
         """Each of them on each of the processors, if there are any."""
