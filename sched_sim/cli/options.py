@@ -85,6 +85,24 @@ FeedbackStep = Annotated[
         rich_help_panel=DESIGN,
     ),
 ]
+MeasurementHz = Annotated[
+    str | None,
+    typer.Option(
+        "--measurement-hz", help="Rate of the measurements, instead of -N; with --hr-hz.", rich_help_panel=DESIGN
+    ),
+]
+DelayMs = Annotated[
+    str | None,
+    typer.Option("--delay-ms", help="Delay of the measurement, instead of -M; with --hr-hz.", rich_help_panel=DESIGN),
+]
+LandWithinMs = Annotated[
+    str | None,
+    typer.Option(
+        "--land-within-ms",
+        help="The correction must land so long after the measurement was taken, instead of -L; with --hr-hz.",
+        rich_help_panel=DESIGN,
+    ),
+]
 Methods = Annotated[
     list[str] | None,
     typer.Option(
@@ -136,7 +154,7 @@ Speed = Annotated[
 ]
 HrHz = Annotated[
     str | None,
-    typer.Option("--hr-hz", help="Rate of the HR loop; adds absolute times and rates.", rich_help_panel=OUTPUT),
+    typer.Option("--hr-hz", help="Rate of the HR loop; adds absolute times and rates.", rich_help_panel=DESIGN),
 ]
 Format = Annotated[
     Literal["table", "json", "csv"],
@@ -179,7 +197,7 @@ def make_timing(N: int, M: int | None, L: int | None, method: str, options: Opti
             "have none)"
         )
     if L is None:
-        L = max(N - law.before, M) if 0 <= M <= N else N
+        L = law.latest(N, M) if 0 <= M <= N else N
     return Timing(N, M, L)
 
 

@@ -35,7 +35,7 @@ def fixed_by(binding: str | None) -> str | None:
     return None if binding is None else BINDING_WORDS.get(binding, binding)
 
 
-def fit_row(part: Part, hr_hz: Fraction, verdict: Fit | None) -> dict[str, Any]:
+def fit_row(part: Part | None, hr_hz: Fraction, verdict: Fit | None) -> dict[str, Any]:
     """needed_share, load and slack: of the part's speed, its time, its speed; needed_share_least and needed_share_most:
     by the part's calibration, None if it has none. None: not known, or it does not land.
 
@@ -47,9 +47,9 @@ def fit_row(part: Part, hr_hz: Fraction, verdict: Fit | None) -> dict[str, Any]:
     }
 
 
-def _figures(part: Part, hr_hz: Fraction, verdict: Fit | None) -> dict[str, Any]:
+def _figures(part: Part | None, hr_hz: Fraction, verdict: Fit | None) -> dict[str, Any]:
     """Exactly, by their keys in a row."""
-    figures: dict[str, Any] = dict.fromkeys(KEYS) | {"processor": part.name, "hr_hz": hr_hz}
+    figures: dict[str, Any] = dict.fromkeys(KEYS) | {"processor": part and part.name, "hr_hz": hr_hz}
     if verdict is None:
         return figures
     figures |= {
@@ -57,12 +57,12 @@ def _figures(part: Part, hr_hz: Fraction, verdict: Fit | None) -> dict[str, Any]
         "load": verdict.load,
         "slack": verdict.slack,
         "fits": verdict.fits,
-        "highest_hr_hz": hr_hz / verdict.needed,
+        "highest_hr_hz": verdict.highest_hz,
     }
-    if part.calibration is not None:
+    if part is not None and part.calibration is not None:
         figures["needed_share_least"] = verdict.needed * part.calibration.least
         figures["needed_share_most"] = verdict.needed * part.calibration.most
-    if part.clock_hz is not None:
+    if part is not None and part.clock_hz is not None:
         figures["needed_mhz"] = verdict.needed * part.clock_hz / 10**6
     if verdict.landed is not None:
         figures |= {"achieved_l": verdict.landed, "correction_ms": 1000 * verdict.landed / hr_hz}
@@ -126,7 +126,7 @@ MEANING = (
 TASKS_ON_PARTS = "the tasks of --tasks take the same seconds on every processor"
 
 
-def fit_words(part: Part, hr_hz: Fraction, verdict: Fit | None) -> dict[str, str | None]:
+def fit_words(part: Part | None, hr_hz: Fraction, verdict: Fit | None) -> dict[str, str | None]:
     """A `fit_row` in words."""
     figures = _figures(part, hr_hz, verdict)
     words = {heading: None if figures[key] is None else shown(figures[key]) for heading, (key, shown) in WORDS.items()}

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
     from sched_sim.design.fit import Fit
     from sched_sim.design.pieces import Statistic
+    from sched_sim.design.times import Times
     from sched_sim.design.timing import Timing
     from sched_sim.processors.part import Part
     from sched_sim.schedule.tasks import Task
@@ -49,38 +50,33 @@ RunMethods = Annotated[
         rich_help_panel=opt.DESIGN,
     ),
 ]
-DesignSteps = Annotated[
-    int | None,
-    typer.Option(
-        "-N",
-        help="HR steps from one measurement to the next: which processors can run the method?",
-        parser=opt.whole,
-        metavar="STEPS",
-        rich_help_panel=opt.DESIGN,
-    ),
-]
 
 
 @with_options
 def processors(
     context: typer.Context,
-    N: DesignSteps = None,
+    N: opt.StepsOrNone = None,
     M: opt.Delay = None,
     L: opt.FeedbackStep = None,
+    hr_hz: opt.HrHz = None,
+    measurement_hz: opt.MeasurementHz = None,
+    delay_ms: opt.DelayMs = None,
+    land_within_ms: opt.LandWithinMs = None,
     method: RunMethods = None,
     costs: Counts = None,
     statistic: opt.WhichCost = "minimum",
     processor: Parts = None,
     options: Options = Options(),
     tasks: opt.Tasks = None,
-    hr_hz: opt.HrHz = None,
     format: opt.Format = "table",
 ) -> None:
     """The processors that are known; with -N and --hr-hz, which of them can run a method, and with how much to spare.
 
     sched-sim processors
     sched-sim processors -N 40 -M 20 --hr-hz 400 --method dual-rate --gain precomputed
+    sched-sim processors --hr-hz 400 --measurement-hz 5 --delay-ms 110 --method larsen --method dual-rate
     """
+    from sched_sim.cli.design_times import make_design
     from sched_sim.errors import InputError
     from sched_sim.processors.part_file import load_part
     from sched_sim.ticks import positive
@@ -90,19 +86,19 @@ def processors(
         rows = [_figures(part) for part in parts]
         shown = [_figures_in_words(part) for part in parts]
         title, note = "Cycles (microseconds where there is no clock) per operation", _titles(parts)
-    elif N is None or hr_hz is None:
-        missing = "-N" if N is None else "--hr-hz"
+    elif hr_hz is None or (N is None and measurement_hz is None):
+        missing = "--hr-hz" if hr_hz is None else "-N (or --measurement-hz)"
         raise InputError(f"{missing} is missing: which processors can run a method depends on -N and --hr-hz")
     else:
-        methods = opt.known_methods(method or ["dual-rate"])
-        designs = {name: opt.make_timing(N, M, L, name, options) for name in methods}
         rate = positive(hr_hz, "--hr-hz")
+        design = make_design(N, M, L, rate, measurement_hz, delay_ms, land_within_ms)
+        methods = opt.known_methods(method or ["dual-rate"])
+        timings = {name: opt.make_timing(design.N, design.M, design.L, name, options) for name in methods}
         others = opt.make_tasks(tasks, "second", rate)
-        rows, shown, remarks = _verdicts(parts, designs, costs, statistic, rate, options, others)
-        design = f"N={N} M={'none' if M is None else M} L={'latest' if L is None else L}"
-        title = f"{', '.join(methods)}, HR loop at {hr_hz} Hz, {design} (operations: {costs or COUNTED})"
+        rows, shown, remarks = _verdicts(parts, timings, costs, statistic, rate, options, others, design.times)
+        title = f"{', '.join(methods)}, HR loop at {hr_hz} Hz, {design.shown} (operations: {costs or COUNTED})"
         same = TASKS_ON_PARTS if others and len(parts) > 1 else ""
-        note = lines(MEANING, same, *remarks)
+        note = lines(MEANING, same, design.words, *remarks)
     if format == "json":
         print_json(rows)
     elif format == "csv":
@@ -174,12 +170,13 @@ OTHER_FIGURES = ("clock_mhz", "logic_per_arithmetic")
 
 def _verdicts(
     parts: Sequence[Part],
-    designs: Mapping[str, Timing],
+    timings: Mapping[str, Timing],
     costs: str | None,
     statistic: Statistic,
     rate: Fraction,
     options: Options,
     tasks: Sequence[Task],
+    times: Times | None,
 ) -> tuple[list[dict[str, Any]], list[dict[str, Any]], list[str]]:
     """A row for each processor and method; the same in words, in the order of `_by_slack`; and remarks: which
     covariance update the operations are of, the ground, and why some processors cannot be told of."""
@@ -197,7 +194,7 @@ def _verdicts(
     counts = load_costs(COUNTED if costs is None else costs)
     for part in parts:
         table = on_part(counts, part)
-        for method, timing in designs.items():
+        for method, timing in timings.items():
             verdict, reason = None, None
             try:
                 work = select(table, method, options, statistic)
@@ -208,12 +205,12 @@ def _verdicts(
                 reasons.append(f"{part.name}: {reason}")
             else:
                 with simulations(f"{method} on {part.name}") as on_progress:
-                    verdict = fit(work, timing, rate, options, tasks, on_progress)
+                    verdict = fit(work, timing, rate, options, tasks, on_progress, times=times)
             verdicts.append(verdict)
             least = None if verdict is None else verdict.least
             row = least_row(method, timing, least) | update_form(counts, method) | fit_row(part, rate, verdict)
             rows.append(row | {"reason": reason})
-            name = {"method": method} if len(designs) > 1 else {}
+            name = {"method": method} if len(timings) > 1 else {}
             about = {"processor": part.name, "precision": part.precision, **name}
             shown.append(about | fit_words(part, rate, verdict) | {"fixed by": fixed_by(row["binding"])})
     calibrations = {part.name: None if part.calibration is None else part.calibration.text for part in parts}
@@ -221,7 +218,7 @@ def _verdicts(
     return (
         rows,
         [shown[index] for index in in_order],
-        [form_note(counts, designs), ground_note(counts, designs, calibrations), *reasons],
+        [form_note(counts, timings), ground_note(counts, timings, calibrations), *reasons],
     )
 
 

@@ -69,6 +69,10 @@ def simulate(
     N: opt.StepsOrNone = None,
     M: opt.Delay = None,
     L: opt.FeedbackStep = None,
+    hr_hz: opt.HrHz = None,
+    measurement_hz: opt.MeasurementHz = None,
+    delay_ms: opt.DelayMs = None,
+    land_within_ms: opt.LandWithinMs = None,
     method: opt.OneMethod = "dual-rate",
     speed: opt.Speed = None,
     cycles: opt.Cycles = 3,
@@ -79,7 +83,6 @@ def simulate(
     tasks: opt.Tasks = None,
     gantt: GanttFile = None,
     trace: TraceFiles = None,
-    hr_hz: opt.HrHz = None,
     scenario: ScenarioFile = None,
     histogram: HistogramFile = None,
     format: opt.Format = "table",
@@ -102,12 +105,13 @@ def simulate(
         return
     if histogram is not None:
         raise InputError(f"--histogram {histogram} is for random times: give --scenario FILE.toml too")
-    if N is None:
+    if N is None and measurement_hz is None:
         raise InputError(
             "-N is missing: give the HR steps between measurements, such as -N 10, or --scenario FILE.toml"
         )
     from contextlib import ExitStack
 
+    from sched_sim.cli.design_times import make_design
     from sched_sim.cli.update_form import update_form, update_note
     from sched_sim.costs.methods import MULTIRATE_METHODS
     from sched_sim.design.least_speed import least_speed
@@ -121,9 +125,10 @@ def simulate(
         check_picture(gantt, "--gantt")
     for path in trace or ():
         check_trace(path)
-    timing = opt.make_timing(N, M, L, method, options)
     part = opt.make_processor(processor)
     table, rate = opt.costs_on(costs, part), opt.hr_rate(hr_hz)
+    design = make_design(N, M, L, rate, measurement_hz, delay_ms, land_within_ms)
+    timing = opt.make_timing(design.N, design.M, design.L, method, options)
     others = opt.make_tasks(tasks, table.unit, rate)
     work = select(table, method, options, statistic)
     pace = opt.pace(speed, rate, part, lambda: least_speed(work, timing, options, others))
@@ -177,12 +182,12 @@ def simulate(
     elif format == "csv":
         print_csv([{"kind": kind, **figures} for kind, figures in response.items()])
     else:
-        delay = "" if M is None else f" M={M}"
+        delay = "" if design.M is None else f" M={design.M}"
         where = f"at speed {float(pace):.6g}" if part is None else f"on {part.title}"
         if part is not None and rate is None:
             where += f", as fast as it can: HR period {1e6 * float(pace):.6g} us"
-        title = f"{method}, N={N}{delay} L={timing.L}, {where}"
-        _show(title, document, rate, method in MULTIRATE_METHODS, update_note(table, [method]))
+        title = f"{method}, N={design.N}{delay} L={timing.L}, {where}"
+        _show(title, document, rate, method in MULTIRATE_METHODS, lines(design.words, update_note(table, [method])))
 
 
 def unseen(

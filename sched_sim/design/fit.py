@@ -7,12 +7,14 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from sched_sim.design.arguments import checked
-from sched_sim.design.least_speed import LeastSpeed, achieved_l, has_closed_form, least_speed
+from sched_sim.design.highest_rate import highest_rate, landing
+from sched_sim.design.least_speed import LeastSpeed, least_speed
 from sched_sim.design.load import loads
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import Costs
+from sched_sim.design.times import Times
 from sched_sim.design.timing import Timing
-from sched_sim.schedule.tasks import Task, phases_matter
+from sched_sim.schedule.tasks import Task
 from sched_sim.ticks import Number, positive
 
 
@@ -25,6 +27,7 @@ class Fit:
     load: the share of its time that it works at its own speed, mean of the processors where there are two; with context
         switches that of the simulated time, where it is at most 1 and which ends at a miss.
     fits: whether every deadline holds at its own speed. landed: the L at which corrections land then, None if not.
+    highest_hz: the highest HR rate at which it fits, with all else held in seconds, see `highest_rate`; None if none.
     """
 
     least: LeastSpeed
@@ -32,6 +35,7 @@ class Fit:
     load: Fraction
     fits: bool
     landed: int | None
+    highest_hz: Fraction | None
 
     @property
     def slack(self) -> Fraction:
@@ -46,30 +50,32 @@ def fit(
     options: Options = Options(),
     tasks: Sequence[Task] = (),
     on_progress: Callable[[int], None] = lambda _runs: None,
+    *,
+    times: Times | None = None,
 ) -> Fit:
     """Whether a method meets every deadline on a processor, and how much of it is needed.
 
-    costs: in seconds, as `part.on_part` makes them; hr_hz: rate of the HR loop.
+    costs: in seconds, as `part.on_part` makes them; hr_hz: rate of the HR loop. times: of the design, for the highest
+    rate; by default what its steps are at hr_hz.
 
     Raises InputError as `least_speed` does.
     """
     tasks = checked(timing, options, tasks)
-    pace = 1 / positive(hr_hz, "hr_hz")
+    rate = positive(hr_hz, "hr_hz")
     least = least_speed(costs, timing, options, tasks, on_progress)
-    busy = sum(loads(costs, timing, pace, options, tasks), Fraction(0)) / options.cpus
-    if phases_matter(tasks):
-        from sched_sim.design.any_phase import worst_landing
+    busy = sum(loads(costs, timing, 1 / rate, options, tasks), Fraction(0)) / options.cpus
+    if options.context_switch:
+        busy = _busy(costs, timing, 1 / rate, options, tasks)
+    landed = landing(costs, timing, 1 / rate, options, tasks)
+    period_ms = 1000 / rate
+    held = times or Times(rate / timing.N, timing.M * period_ms, timing.L * period_ms)
+    highest = highest_rate(costs, held, rate, options, tasks)
+    return Fit(least, least.speed * rate, busy, landed is not None, landed, highest)
 
-        landed = worst_landing(costs, timing, pace, options, tasks)
-        fits = landed is not None
-    elif not has_closed_form(options, tasks):
-        from sched_sim.design.steady import run_until_steady
 
-        steady = run_until_steady(costs, timing, pace, options, tasks)
-        fits, landed = steady.repeats, max(steady.schedule.achieved, default=None)
-        if options.context_switch:
-            busy = steady.schedule.utilization
-    else:
-        landed = achieved_l(costs, timing, pace, options)
-        fits = least.speed <= pace and landed is not None and landed <= timing.L
-    return Fit(least, least.speed / pace, busy, fits, landed if fits else None)
+def _busy(costs: Costs, timing: Timing, pace: Fraction, options: Options, tasks: Sequence[Task]) -> Fraction:
+    from sched_sim.design.simulate import at_worst_phase
+    from sched_sim.design.steady import run_until_steady
+
+    at = at_worst_phase(costs, timing, pace, options, tasks)
+    return run_until_steady(costs, timing, pace, options, at).schedule.utilization

@@ -34,6 +34,10 @@ class Law(NamedTuple):
         first = M + self.after
         return range(first, first + 1 if self.only_first else N - self.before + 1)
 
+    def latest(self, N: int, M: int) -> int:
+        """The last L, or what comes nearest to one where there is none."""
+        return max(N - self.before, M)
+
     def why_none(self, N: int, M: int) -> str | None:
         """Why no L is left, although other methods have one; None if one is."""
         if M + self.after <= N - self.before:

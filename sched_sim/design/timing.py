@@ -6,7 +6,9 @@ from dataclasses import dataclass
 from typing import Literal
 
 from sched_sim.bounds import whole
+from sched_sim.design.times import Times
 from sched_sim.errors import InputError
+from sched_sim.ticks import Number, positive
 
 Feedback = Literal["next-step", "same-step"]
 
@@ -23,6 +25,22 @@ class Timing:
     N: int
     M: int
     L: int
+
+    @classmethod
+    def at(
+        cls, hr_hz: Number, measurement_hz: Number, delay_ms: Number = 0, land_within_ms: Number | None = None
+    ) -> Timing:
+        """Of an HR loop at this rate, of measurements that come so often and so late, and whose corrections must be in
+        the state so long after they were taken; by default before the next one is taken, L = N.
+
+        N and L are rounded down and M up: a measurement is used in the first step at or after its arrival. Raises
+        InputError as `Times` does.
+        """
+        rate = positive(hr_hz, "hr_hz")
+        N, M, L = Times.of(measurement_hz, delay_ms, land_within_ms).steps(rate)
+        assert N is not None
+        assert M is not None
+        return cls(N, M, N if L is None else min(L, N))
 
     def __post_init__(self) -> None:
         for name in ("N", "M", "L"):

@@ -1,0 +1,74 @@
+"""N, M and L of a command, given in steps or as rates and times."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import NamedTuple
+
+from sched_sim.design.times import Times
+from sched_sim.errors import InputError
+
+
+class Design(NamedTuple):
+    """What the user said of the steps. words: what times became in steps, as a note; times: what holds at any rate of
+    the HR loop, None where nothing was said in seconds and there is no rate."""
+
+    N: int
+    M: int | None
+    L: int | None
+    words: str
+    times: Times | None
+
+    @property
+    def shown(self) -> str:
+        """As the title of a table has it."""
+        delay = "none" if self.M is None else self.M
+        return f"N={self.N} M={delay} L={'latest' if self.L is None else self.L}"
+
+
+def make_design(
+    N: int | None,
+    M: int | None,
+    L: int | None,
+    rate: Fraction | None,
+    measurement_hz: str | None = None,
+    delay_ms: str | None = None,
+    land_within_ms: str | None = None,
+) -> Design:
+    """Raises InputError for times without a rate, for steps and times that do not agree, and if there is no N."""
+    times = Times.of(measurement_hz, delay_ms, land_within_ms)
+    said = {
+        "-N": (N, "--measurement-hz", measurement_hz),
+        "-M": (M, "--delay-ms", delay_ms),
+        "-L": (L, "--land-within-ms", land_within_ms),
+    }
+    flags = [flag for _, flag, value in said.values() if value is not None]
+    if flags and rate is None:
+        raise InputError(f"{' and '.join(flags)} without --hr-hz: give the rate of the HR loop, such as --hr-hz 400")
+    if rate is None:
+        return Design(_needed(N), M, L, "", None)
+    became = times.steps(rate)
+    for (short, (steps, flag, value)), in_steps in zip(said.items(), became, strict=True):
+        if steps is not None and in_steps is not None and steps != in_steps:
+            raise InputError(
+                f"{short} {steps} and {flag} {value} do not agree: at {float(rate):g} Hz that is {short} {in_steps}; "
+                f"leave out the one that is wrong"
+            )
+    N, M, L = (step if step is not None else other for step, other in zip((N, M, L), became, strict=True))
+    N = _needed(N)
+    period_ms = 1000 / rate
+    held = Times(
+        times.measurement_hz or rate / N,
+        times.delay_ms if times.delay_ms is not None or M is None else M * period_ms,
+        times.land_within_ms if times.land_within_ms is not None or L is None else L * period_ms,
+    )
+    return Design(N, M, L, "\n".join(times.words(rate)), held)
+
+
+def _needed(N: int | None) -> int:
+    if N is None:
+        raise InputError(
+            "-N is missing: give the HR steps from one measurement to the next, such as -N 10, or --measurement-hz "
+            "with --hr-hz"
+        )
+    return N
