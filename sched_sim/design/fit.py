@@ -14,6 +14,7 @@ from sched_sim.design.options import Options
 from sched_sim.design.pieces import Costs
 from sched_sim.design.times import Times
 from sched_sim.design.timing import Timing
+from sched_sim.errors import InputError
 from sched_sim.schedule.tasks import Task
 from sched_sim.ticks import Number, positive
 
@@ -58,10 +59,17 @@ def fit(
     costs: in seconds, as `part.on_part` makes them; hr_hz: rate of the HR loop. times: of the design, for the highest
     rate; by default what its steps are at hr_hz.
 
-    Raises InputError as `least_speed` does.
+    Raises InputError as `least_speed` does, and for a task that takes longer than its period.
     """
     tasks = checked(timing, options, tasks)
     rate = positive(hr_hz, "hr_hz")
+    for task in tasks:
+        if (share := task.cost / task.period * rate) > 1:
+            raise InputError(
+                f"task {task.name!r} alone needs {float(100 * share):.4g} % of the processor: its cost is "
+                f"{float(1000 * task.cost):.4g} ms and its period {float(1000 * task.period / rate):.4g} ms; mend "
+                f"them, or their units"
+            )
     least = least_speed(costs, timing, options, tasks, on_progress)
     busy = sum(loads(costs, timing, 1 / rate, options, tasks), Fraction(0)) / options.cpus
     if options.context_switch:

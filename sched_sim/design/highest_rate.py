@@ -52,12 +52,12 @@ def highest_rate(
     law = method_of(costs).law(options.feedback)
 
     def fits(rate: Fraction) -> bool:
-        N, M, L = times.steps(rate)
-        assert N is not None
-        M = M or 0
-        if N > MOST_STEPS or M > N:
-            return False
         try:
+            N, M, L = times.steps(rate)
+            assert N is not None
+            M = M or 0
+            if N > MOST_STEPS or M > N:
+                return False
             timing = Timing(N, M, law.latest(N, M) if L is None else min(L, law.latest(N, M)))
             method_of(costs).check(timing, options.feedback)
             return landing(costs, timing, 1 / rate, options, _at(tasks, rate, hr_hz)) is not None
@@ -94,8 +94,7 @@ def _bracket(fits: Callable[[Fraction], bool], start: Fraction, least: Fraction)
 
 def _grid(rate: Fraction) -> Fraction:
     """What the last of the digits of a rate counts."""
-    grid = Fraction(10) ** (len(str(int(rate))) - DIGITS) if rate >= 1 else Fraction(1, 10**DIGITS)
-    return grid
+    return Fraction(10) ** (len(str(int(rate))) - DIGITS) if rate >= 1 else Fraction(1, 10**DIGITS)
 
 
 def _at(tasks: Sequence[Task], rate: Fraction, hr_hz: Fraction) -> list[Task]:

@@ -53,7 +53,8 @@ class Times:
         )
         if times.delay_ms is not None and times.delay_ms < 0:
             raise InputError(
-                f"{option('delay_ms')} is {delay_ms}: it must be 0 or more, for no measurement arrives before it is taken"
+                f"{option('delay_ms')} is {delay_ms}: it must be 0 or more, for no measurement arrives before it is "
+                f"taken"
             )
         if times.land_within_ms is not None and times.land_within_ms < (times.delay_ms or 0):
             raise InputError(
