@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from sched_sim.design.methods import select
     from sched_sim.design.options import Options
     from sched_sim.design.simulate import simulate
+    from sched_sim.design.times import Times
     from sched_sim.design.timing import Timing
     from sched_sim.errors import InputError
     from sched_sim.processors.part import Part, on_part
@@ -44,6 +45,7 @@ __all__ = [
     "Sensor",
     "Slice",
     "Task",
+    "Times",
     "Timing",
     "achieved_l",
     "fit",
@@ -72,6 +74,7 @@ __getattr__, __dir__ = lazily(
         "sched_sim.design.methods": "select",
         "sched_sim.design.options": "Options",
         "sched_sim.design.simulate": "simulate",
+        "sched_sim.design.times": "Times",
         "sched_sim.design.timing": "Timing",
         "sched_sim.errors": "InputError",
         "sched_sim.processors.part": "Part on_part",

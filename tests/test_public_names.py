@@ -11,8 +11,8 @@ from pathlib import Path
 import pytest
 
 PUBLIC = {
-    "sched_sim": "Timing Options Task read_tasks CostTable load_costs read_costs write_costs Part load_part on_part "
-    "select least_speed achieved_l staircase simulate Schedule Slice fit Fit Sensor Scenario read_scenario "
+    "sched_sim": "Timing Times Options Task read_tasks CostTable load_costs read_costs write_costs Part load_part "
+    "on_part select least_speed achieved_l staircase simulate Schedule Slice fit Fit Sensor Scenario read_scenario "
     "run_scenario Outcome open_trace InputError",
     "filters": "System linear_system example_system standard recalculate larsen dual_rate multirate_gain History "
     "true_covariance modular count Operations",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -52,6 +53,16 @@ RunMethods = Annotated[
 ]
 
 
+OneScenario = Annotated[
+    Path | None,
+    typer.Option(
+        "--scenario",
+        help="TOML file of a predictor and several sensors, its costs counted: simulated on each part.",
+        rich_help_panel=opt.DESIGN,
+    ),
+]
+
+
 @with_options
 def processors(
     context: typer.Context,
@@ -68,26 +79,38 @@ def processors(
     processor: Parts = None,
     options: Options = Options(),
     tasks: opt.Tasks = None,
+    scenario: OneScenario = None,
     format: opt.Format = "table",
 ) -> None:
-    """The processors that are known; with -N and --hr-hz, which of them can run a method, and with how much to spare.
+    """The processors that are known; with -N and --hr-hz, which of them can run a method, and with how much to spare;
+    with --scenario, which of them run it without a miss.
 
     sched-sim processors
     sched-sim processors -N 40 -M 20 --hr-hz 400 --method dual-rate --gain precomputed
     sched-sim processors --hr-hz 400 --measurement-hz 5 --delay-ms 110 --method larsen --method dual-rate
+    sched-sim processors --scenario rocket.toml
     """
     from sched_sim.cli.design_times import make_design
     from sched_sim.errors import InputError
     from sched_sim.processors.part_file import load_part
     from sched_sim.ticks import positive
 
+    if scenario is not None:
+        from sched_sim.cli.processors_scenario import verdicts
+
+        if given := opt.given_options(context, lambda name: name not in ("processor", "scenario", "format")):
+            raise InputError(
+                f"{', '.join(given)} and --scenario {scenario} exclude each other: the file says what is simulated"
+            )
+        verdicts(scenario, _listed(processor or ()), format)
+        return
     parts = [load_part(name) for name in _listed(processor or ())]
     if not opt.given_options(context, lambda name: name not in OF_THE_LIST):
         rows = [_figures(part) for part in parts]
         shown = [_figures_in_words(part) for part in parts]
         title, note = "Cycles (microseconds where there is no clock) per operation", _titles(parts)
     elif hr_hz is None or (N is None and measurement_hz is None):
-        missing = "--hr-hz" if hr_hz is None else "-N (or --measurement-hz)"
+        missing = "--hr-hz" if N is not None or measurement_hz is not None else "-N"
         raise InputError(f"{missing} is missing: which processors can run a method depends on -N and --hr-hz")
     else:
         rate = positive(hr_hz, "--hr-hz")

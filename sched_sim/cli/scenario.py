@@ -38,7 +38,7 @@ def simulate_scenario(
                 check_picture(picture, option)
     for trace in traces:
         check_trace(trace)
-    scenario = read_scenario(path, _describe)
+    scenario = read_scenario(path, describe)
     read: list[Path | str] = [*scenario.files, *module_files()]
     refuse_one_file_for_two(outputs, [("--scenario", file) for file in read])
     with ExitStack() as files:
@@ -77,7 +77,7 @@ def simulate_scenario(
         _show(scenario, outcome, busy_shares)
 
 
-def _describe(name: str, folder: Path) -> Composition:
+def describe(name: str, folder: Path) -> Composition:
     """Imports the filters only if the file names one."""
     from studies.measurement.described import describe_filter
 

@@ -87,7 +87,7 @@ def critical_start(design: Phased) -> int:
 def _high_jobs(design: Phased) -> Finishes:
     """One after another, each in its step."""
     level = _level(design, 0, HR)
-    step = np.arange(design.steps)
+    step = design.counted(design.steps)
     release, due = step * design.period, (step + 1) * design.period
     start, job = _busy_before(design, level, release, 0)
     first = design.first_step(start)
@@ -98,7 +98,7 @@ def _high_jobs(design: Phased) -> Finishes:
 def _low_jobs(design: Phased, late: int) -> Iterator[Finishes]:
     """One after another; where the correction is a job of its own, that too."""
     level = _level(design, design.low_cpu, LR)
-    cycle = np.arange(design.steps // design.N)
+    cycle = design.counted(design.steps // design.N)
     k, span = cycle * design.N * design.period, design.N * design.period
     for number, low in enumerate(design.cycle.low):
         release, due = k + low.release * design.period + late * low.after_high, k + low.due * design.period
@@ -143,7 +143,7 @@ def _task_jobs(design: Phased, task: PhasedTask, late: int) -> Finishes:
         start = np.repeat(opened, count)
         before = np.tile(design.counted(count), len(opened))
         nominal = start - task.jitter + before * task.period
-        release, job = np.maximum(start, nominal), design.counted(len(start))
+        release, job = np.maximum(start, nominal), np.arange(len(start))
     else:
         span = design.steps * design.period
         nominal = task.first + design.counted(span // task.period) * task.period

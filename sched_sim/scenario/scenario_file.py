@@ -173,9 +173,10 @@ class _ScenarioFile(Entry):
         return tasks_of(self.task, TaskUnits(units.hr_hz, second, units.unit))
 
 
-def read_scenario(path: str | Path, describe: Describe | None = None) -> Scenario:
+def read_scenario(path: str | Path, describe: Describe | None = None, *, processor: str | None = None) -> Scenario:
     """The scenario in `path`; files that it names are looked for in its folder.
 
+    processor: a shipped one by name, or the path of a file, in place of the one that the file names.
     describe: what runs the function that its `filter` names; `studies.describe_filter`.
 
     What it says itself of costs is taken as it stands, before what the costs file says, which is made slower by
@@ -186,6 +187,9 @@ def read_scenario(path: str | Path, describe: Describe | None = None) -> Scenari
     document = read_toml(path, what, "give the path of a TOML file with [predictor] and [[sensor]] entries")
     try:
         composition = _composition(document.get("filter"), describe, path.parent)
+        if processor is not None:
+            shipped = processor in shipped_parts()
+            document = {**document, "processor": processor if shipped else str(Path(processor).resolve())}
         if composition is not None:
             document = with_its_sensors(document, composition)
         units = Units.of(document, composition)

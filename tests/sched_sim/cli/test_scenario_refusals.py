@@ -198,7 +198,7 @@ def test_all_that_does_not_go_together_is_listed(sched_sim: Run, tmp_path: Path)
         ("--scenario s.toml --costs steffes2014", ["--costs"]),
         ("--scenario s.toml --tasks tasks.toml", ["--tasks"]),
         ("--scenario s.toml --speed 3", ["--speed"]),
-        ("--scenario s.toml --processor cortex-m7 --hr-hz 400", ["--processor, --hr-hz"]),
+        ("--scenario s.toml --processor cortex-m7 --hr-hz 400", ["--hr-hz, --processor"]),
         ("--scenario s.toml --cycles 3", ["--cycles"]),
         ("--scenario s.toml --histogram h.gif", ["--histogram 'h.gif': suffix '.gif' is no picture format", ".svg"]),
         ("--scenario s.toml --gantt none/g.svg", ["--gantt 'none/g.svg'", "folder"]),
