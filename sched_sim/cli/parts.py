@@ -130,6 +130,8 @@ def fit_words(part: Part | None, hr_hz: Fraction, verdict: Fit | None) -> dict[s
     """A `fit_row` in words."""
     figures = _figures(part, hr_hz, verdict)
     words = {heading: None if figures[key] is None else shown(figures[key]) for heading, (key, shown) in WORDS.items()}
+    if part is None:
+        del words["needs, MHz"]
     if figures["fits"] is False:
         words["slack"] = "none"
     return {"fits": {True: "yes", False: "no", None: None}[figures["fits"]], **words}

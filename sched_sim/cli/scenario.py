@@ -209,6 +209,8 @@ def _note(scenario: Scenario, outcome: Outcome, busy: Sequence[float]) -> str:
             "Some jobs have not finished: min, mean and max are of those that have; median, p95 and p99 of all, "
             "- where the unfinished decide"
         )
+    if free := [task.name for task in scenario.tasks if task.offset == "any"]:
+        lines.append(f"{', '.join(free)}: of any phase, and here first released with step 0 (offset = ... for another)")
     return "\n".join([*lines, WITHHELD if scenario.harness else INTERVAL, *causes(scenario, outcome, busy)])
 
 

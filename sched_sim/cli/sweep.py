@@ -285,7 +285,7 @@ HEADINGS = {
     "highest_min_speed": "to",
     "min_speed": "least speed",
     "min_speed_exact": "exactly",
-    "highest_hr_hz": HIGHEST_HR_HZ,
+    "highest_hr_hz": f"{HIGHEST_HR_HZ}, same N, M, L",
     "binding": "fixed by",
 }
 
