@@ -16,6 +16,7 @@ from filters.system import System
 from filters.systems.lossy import lossy
 from filters.systems.shaped import shaped
 from filters.systems.trial import first_input, try_functions
+from filters.systems.turns import check_turns
 
 
 class Problem(NamedTuple):
@@ -105,6 +106,7 @@ def _check_system(system: System, x: FloatArray, inputs: FloatArray) -> None:
     Numbers that are not finite and depend on the estimate are left to the run, which says in which step they come.
     """
     try_functions(system, x, first_input(inputs))
+    check_turns(system, x, first_input(inputs))
     for name, covariance in (("Q", system.Q(0, system.parameters)), ("R", system.R(0, system.parameters))):
         check_noise(name, covariance, 0)
 

@@ -8,6 +8,7 @@ from filters.arrays import FloatArray, as_array
 from filters.covariances import check_covariance, check_measurement_noise
 from filters.system import System
 from filters.systems.trial import check_result, trials
+from filters.systems.turns import check_turns
 from sched_sim.bounds import MOST_STATES, short
 from sched_sim.errors import InputError
 from studies.measurement.user_function import explained, returned_by
@@ -59,6 +60,8 @@ def _try_model(name: str, system: System, x: FloatArray) -> None:
             raise InputError(f"--system {name!r}: {error}") from error
         _check_finite(name, trial.signature, value)
         values[trial.signature] = value
+    with explained(f"--system {name!r}"):
+        check_turns(system, x, np.zeros(system.inputs))
     try:
         check_covariance("Q(j, p)", values["Q(j, p)"])
         check_measurement_noise(values["R(k, p)"], 0)
