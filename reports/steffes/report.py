@@ -19,6 +19,7 @@ from sched_sim.design.least_speed import achieved_l, least_speed
 from sched_sim.design.load import utilization as busy
 from sched_sim.design.methods import select
 from sched_sim.design.options import Options
+from sched_sim.design.pieces import Statistic
 from sched_sim.design.simulate import simulate
 from sched_sim.design.timing import Timing
 from studies import steffes
@@ -50,8 +51,8 @@ def build(measured: CostTable) -> dict[str, bytes]:
         reached=sum(cell.reached for cell in cells),
         counted_deviation=f"{steffes.deviation(counted):.3f}",
         measured_deviation=f"{steffes.deviation(measured):.3f}",
-        least={name: _number(_least(table, "dual-rate", FIGURE_3)) for name, table in tables.items()},
-        larsen={name: _number(_least(table, "larsen", FIGURE_3)) for name, table in tables.items()},
+        least={name: _range(table, "dual-rate", FIGURE_3) for name, table in tables.items()},
+        larsen={name: _range(table, "larsen", FIGURE_3) for name, table in tables.items()},
         entries=entry_rows,
         table4=table4_rows,
         not_reached=_not_reached(cells),
@@ -90,8 +91,21 @@ def _percent(share: Fraction) -> str:
     return f"{100 * float(share):.0f} %"
 
 
-def _least(table: CostTable, method: str, timing: Timing, options: Options = Options()) -> Fraction:
-    return least_speed(select(table, method, options), timing, options).speed
+def _least(
+    table: CostTable,
+    method: str,
+    timing: Timing,
+    options: Options = Options(),
+    statistic: Statistic = "minimum",
+) -> Fraction:
+    return least_speed(select(table, method, options, statistic), timing, options).speed
+
+
+def _range(table: CostTable, method: str, timing: Timing) -> str:
+    """By the least costs and by their 95th percentile; one number where they are the same."""
+    low = _number(_least(table, method, timing, statistic="minimum"))
+    high = _number(_least(table, method, timing, statistic="p95"))
+    return low if low == high else f"{low} to {high}"
 
 
 def _entries(tables: dict[str, CostTable]) -> list[list[Any]]:
@@ -107,7 +121,7 @@ def _table4(tables: dict[str, CostTable]) -> list[list[Any]]:
     rows: list[list[Any]] = [[*heading, marked("measured")]]
     for cell in steffes.cells(tables["paper"]):
         N, M, L = cell.timing.N, cell.timing.M, cell.timing.L
-        others = [_number(_least(tables[name], cell.method, cell.timing)) for name in ("counted", "measured")]
+        others = [_range(tables[name], cell.method, cell.timing) for name in ("counted", "measured")]
         rows.append(
             [
                 *(N, M, L, cell.method, _number(cell.printed, 2), _number(cell.computed.speed)),
