@@ -30,8 +30,8 @@ class System(NamedTuple):
     f and h fill an array that they are given, because at step k + 1 the dual-rate filter does little else than f and
     an allocation would be as long again. The others return a matrix which nobody changes later, neither they nor
     the filters, so that the products of transition matrices start from it without a copy; it may be the same each time.
-    A new one each time costs several times what a small model computes. F and Q may fill two of scratch in turn, [j % 2],
-    for that of step j is read until step j + 1 is done; H and R one.
+    A new one each time costs several times what a small model computes. F and Q may fill two of scratch in turn,
+    [j % 2], for that of step j is read until step j + 1 is done; H and R one.
     """
 
     states: int

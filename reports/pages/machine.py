@@ -19,11 +19,15 @@ def unmarked(heading: str) -> str:
 
 
 def timed_on(about: Mapping[str, Any]) -> str:
-    """Where, when and how something was timed. about: the provenance of a measured cost table."""
+    """Where, when and how something was timed, and that the machine was busy if it was.
+
+    about: the provenance of a measured cost table.
+    """
     versions = ", ".join(f"{name} {number}" for name, number in about["versions"].items())
     protocol = about["protocol"]
     rounds = f"{protocol['rounds']} rounds of {protocol['repetitions']} repetitions"
-    return f"{about['machine']}, {about['date']} ({versions}; {rounds})"
+    busy = f", **which was busy** ({about['busy']}): times may be too long" if "busy" in about else ""
+    return f"{about['machine']}, {about['date']} ({versions}; {rounds}){busy}"
 
 
 def legend(timed: str, *, residues: bool = False) -> str:

@@ -11,7 +11,7 @@ import typer
 from sched_sim.bounds import MOST_STATES
 from sched_sim.cli import options as opt
 from sched_sim.cli.measure_filter import OF_A_SYSTEM, SIZES, measure_own_filter, refuse_with_filter
-from sched_sim.cli.output import print_csv, print_json, print_table, say, units
+from sched_sim.cli.output import lines, print_csv, print_json, print_table, say, units
 from sched_sim.cli.outputs import module_files, refuse_one_file_for_two
 from sched_sim.costs.methods import SYSTEM_METHODS
 from sched_sim.errors import InputError
@@ -140,6 +140,7 @@ def measure(
     sched-sim measure --filter mymodule:my_filter -o samples.toml
     """
     from filters.systems.example import example_system
+    from sched_sim.cli.measured_note import busy_note
     from sched_sim.cli.progress import progress_bar
     from sched_sim.cli.update_form import update_form
     from sched_sim.costs.table_file import write_costs
@@ -191,6 +192,7 @@ def measure(
             "median": float(cost.median),
             "p95": float(cost.p95),
             "standard_steps": None if unit is None else float(unit.entry(method, kind).minimum),
+            "standard_steps_p95": None if unit is None else float(unit.entry(method, kind).p95),
         }
         for method, kinds in table.costs.items()
         for kind, cost in kinds.items()
@@ -205,14 +207,15 @@ def measure(
             f"{'ns' if table.unit == 'second' else units(table.unit)}",
             rows,
             timed=table.unit == "second",
+            note=busy_note(table.provenance),
         )
     if output is not None:
         write_costs(table, output)
         say(f"Wrote {output}; use it with --costs {output}")
 
 
-def _show(title: str, rows: list[dict[str, Any]], timed: bool) -> None:
-    """Times in nanoseconds, operations as they are."""
+def _show(title: str, rows: list[dict[str, Any]], timed: bool, note: str) -> None:
+    """Times in nanoseconds, operations as they are. note: more lines below."""
     shown = []
     for row in rows:
         figures = (
@@ -221,12 +224,13 @@ def _show(title: str, rows: list[dict[str, Any]], timed: bool) -> None:
             else {"operations": f"{row['minimum']:.0f}"}
         )
         steps = row["standard_steps"]
-        relative = {} if steps is None else {"std steps": f"{steps:.3f}"}
+        until = f" to {row['standard_steps_p95']:.3f}" if timed and steps is not None else ""
+        relative = {} if steps is None else {"std steps": f"{steps:.3f}{until}"}
         shown.append({"method": row["method"], "job": row["job"], **figures, **relative})
     related = any(row["standard_steps"] is not None for row in rows)
-    print_table(
-        title, shown, "std steps: relative to one propagate + update of the standard filter." if related else ""
-    )
+    ends = ", from minimum to p95; another machine may lie outside" if timed else ""
+    meaning = f"std steps: relative to one propagate + update of the standard filter{ends}" if related else ""
+    print_table(title, shown, lines(meaning, note))
 
 
 def _robust(

@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
 import typer
 
+from sched_sim.cli.measured_note import busy_note
 from sched_sim.cli.options import given_options
-from sched_sim.cli.output import Format, print_csv, print_json, print_table, say
+from sched_sim.cli.output import Format, lines, print_csv, print_json, print_table, say
 from sched_sim.cli.outputs import module_files, refuse_one_file_for_two
 from sched_sim.cli.progress import progress_bar
 from sched_sim.errors import InputError
@@ -95,7 +96,12 @@ NOISY = 3
 
 def _note(costs: SampledCosts) -> str:
     repetitions = costs.provenance["protocol"]["repetitions"]
-    return "\n".join([str(costs.provenance["source"]), what_a_sample_means(repetitions), *noise(costs.samples)])
+    return lines(
+        str(costs.provenance["source"]),
+        what_a_sample_means(repetitions),
+        *noise(costs.samples),
+        busy_note(costs.provenance),
+    )
 
 
 def what_a_sample_means(repetitions: int) -> str:

@@ -236,6 +236,7 @@ def _progress(total: int) -> Iterator[Callable[[int], None]]:
 
 
 def _report(asked: Sweep, store: Store, outcome: Outcome, exports: Sequence[Path], format: opt.Format) -> None:
+    from sched_sim.cli.measured_note import busy_note
     from sched_sim.cli.update_form import form_note
     from studies.sweep.summary import best, by_method
 
@@ -262,7 +263,7 @@ def _report(asked: Sweep, store: Store, outcome: Outcome, exports: Sequence[Path
     left_out = f", {asked.grid.left_out} combinations left out as not legal" if asked.grid.left_out else ""
     before = f" ({outcome.before} of them were there before)" if outcome.before else ""
     several, in_seconds = len(tables) > 1, all(table.unit == "second" for table in tables)
-    notes = {form_note(table, asked.grid.methods): table.name for table in tables}
+    notes = {lines(form_note(table, asked.grid.methods), busy_note(table.provenance)): table.name for table in tables}
     forms = [note if len(notes) == 1 else f"{name}: {note}" for note, name in notes.items() if note]
     print_table(
         f"{asked.grid.size} points{before}{left_out}", [_for_people(row, several, in_seconds) for row in methods]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
+from sched_sim.cli.measured_note import busy_note
 from sched_sim.cli.output import lines
 from sched_sim.costs.methods import DELAYED_METHODS
 from sched_sim.costs.table import CostTable
@@ -24,14 +25,14 @@ def update_form(table: CostTable, method: str) -> dict[str, str | None]:
 
 
 def update_note(table: CostTable, methods: Iterable[str]) -> str:
-    """For people, lines below a table: the form, and on a part the ground of its times; empty where there is nothing to
-    say."""
+    """For people, lines below a table: the form, on a part the ground of its times, and that the machine was busy where
+    they were measured; empty where there is nothing to say."""
     named = list(methods)
     about = table.provenance.get("processor")
     ground = (
         ground_note(table, named, {str(about.get("name")): about.get("calibration")}) if isinstance(about, dict) else ""
     )
-    return lines(form_note(table, named), ground)
+    return lines(form_note(table, named), ground, busy_note(table.provenance))
 
 
 def ground_note(table: CostTable, methods: Iterable[str], calibrations: Mapping[str, str | None]) -> str:

@@ -13,13 +13,14 @@ import random
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from time import thread_time_ns
-from typing import Any, Literal, NamedTuple, TypeVar
+from typing import Any, Generic, Literal, NamedTuple, TypeVar
 
 from filters.backends.choose import arguments_for, function_for
 from filters.backends.numba_error import gist, is_numbas
 from filters.backends.repeat import repeat
 from filters.jobs import Job
 from sched_sim.errors import InputError
+from studies.measurement.busy import clocks, load, signs_of_others
 
 ARGUMENT_SETS = 8
 
@@ -36,22 +37,29 @@ class Protocol(NamedTuple):
     repetitions: int
 
 
+class Timed(NamedTuple, Generic[Key]):
+    """seconds: per run of each job, one figure a round. busy: what says that the machine was, empty if nothing does."""
+
+    seconds: dict[Key, list[float]]
+    busy: str
+
+
 def silent(_done: int, _total: int, _what: str) -> None:
     """No progress shown."""
 
 
-def seconds_per_run(
+def time_jobs(
     jobs: Mapping[Key, Job],
     backend: Literal["compiled", "numpy"],
     protocol: Protocol,
     seed: int,
     progress: Progress,
-) -> dict[Key, list[float]]:
-    """Seconds per run of each job, one figure a round; a key is the words that name the job.
+) -> Timed[Key]:
+    """What each job takes; a key is the words that name the job.
 
     Raises InputError for a job with a function of the user's that numba cannot compile.
     """
-    total = len(jobs) + protocol.rounds
+    before, total = load(), len(jobs) + protocol.rounds
     runs, empty_runs = {}, {}
     for done, (key, job) in enumerate(jobs.items()):
         progress(done, total, f"preparing {' '.join(key)}")
@@ -65,6 +73,7 @@ def seconds_per_run(
     times: dict[Key, list[int]] = {key: [] for key in jobs}
     overhead: dict[Key, list[int]] = {key: [] for key in jobs}
     order, shuffle = list(jobs), random.Random(seed)
+    start = clocks()
     with _no_garbage_collection():
         for round_number in range(protocol.rounds):
             progress(len(jobs) + round_number, total, "timing")
@@ -72,9 +81,11 @@ def seconds_per_run(
             for key in order:
                 times[key].append(runs[key](round_number))
                 overhead[key].append(empty_runs[key](round_number))
+    end = clocks()
     progress(total, total, "timed")
     scale = protocol.repetitions * 1e9
-    return {key: [max(each - min(overhead[key]), 1) / scale for each in times[key]] for key in jobs}
+    seconds = {key: [max(each - min(overhead[key]), 1) / scale for each in times[key]] for key in jobs}
+    return Timed(seconds, signs_of_others(before, start, end, times.values()))
 
 
 def _timer(

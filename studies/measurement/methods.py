@@ -26,7 +26,7 @@ from filters.seed import check_seed
 from filters.system import System
 from sched_sim.costs.table import Cost, CostTable
 from sched_sim.errors import InputError
-from studies.measurement.job_times import ARGUMENT_SETS, Progress, Protocol, seconds_per_run, silent
+from studies.measurement.job_times import ARGUMENT_SETS, Progress, Protocol, silent, time_jobs
 
 BackendName = Literal["compiled", "counted", "numpy"]
 
@@ -116,12 +116,12 @@ def cost_table(
         counts = {key: nonzero(tally) for key, tally in operations.items()}
         return CostTable(name, "operation", _by_method(costs), about, operations=_by_method(counts))
     protocol = _protocol(backend, thorough)
-    times = seconds_per_run(jobs, backend, protocol, seed, progress)
+    timed = time_jobs(jobs, backend, protocol, seed, progress)
     about |= {
         "source": "means over the repetitions of a round; minimum, median and 95th percentile over rounds",
-        **where_timed(protocol, seed),
+        **where_timed(protocol, seed, timed.busy),
     }
-    return CostTable(name, "second", _by_method({key: _cost(rounds) for key, rounds in times.items()}), about)
+    return CostTable(name, "second", _by_method({key: _cost(rounds) for key, rounds in timed.seconds.items()}), about)
 
 
 COUNTED_SOURCE = "exact operation counts: multiply, add, divide, square root, function count one each"
@@ -145,9 +145,11 @@ def counted(jobs: Mapping[Key, Job], progress: Progress = silent) -> dict[Key, O
     return operations
 
 
-def where_timed(protocol: Protocol, seed: int) -> dict[str, Any]:
-    """The machine, the day, the versions and the protocol of what was timed just now."""
+def where_timed(protocol: Protocol, seed: int, busy: str) -> dict[str, Any]:
+    """The machine, the day, the versions and the protocol of what was timed just now; busy: what says that the machine
+    was."""
     return {
+        **({"busy": busy} if busy else {}),
         "machine": machine(),
         "date": datetime.now(UTC).date().isoformat(),
         "versions": versions(),

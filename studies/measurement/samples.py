@@ -14,7 +14,7 @@ from filters.choice import check_choice
 from filters.seed import check_seed
 from sched_sim.costs.sample_file import SampledCosts
 from sched_sim.errors import InputError
-from studies.measurement.job_times import Progress, Protocol, seconds_per_run, silent
+from studies.measurement.job_times import Progress, Protocol, silent, time_jobs
 from studies.measurement.methods import COUNTED_SOURCE, counted, nonzero, where_timed
 from studies.measurement.user_filter import UserFilter
 
@@ -60,7 +60,7 @@ def timed_together(
     """
     protocol = THOROUGH if thorough else QUICK
     jobs = {(name, part): job for name, user in users.items() for part, job in user.jobs.items()}
-    times = seconds_per_run(jobs, "compiled", protocol, seed, progress)
+    timed = time_jobs(jobs, "compiled", protocol, seed, progress)
     source = (
         f"{protocol.rounds} samples of each part; a sample is the mean of {protocol.repetitions} executions in one "
         "compiled call, less the least time of an empty loop, so that most of it is the loop's; other parts run in "
@@ -70,9 +70,9 @@ def timed_together(
         name: SampledCosts(
             name,
             "second",
-            {part: tuple(Fraction(f"{each:.4g}") for each in times[name, part]) for part in user.jobs},
+            {part: tuple(Fraction(f"{each:.4g}") for each in timed.seconds[name, part]) for part in user.jobs},
             {},
-            _about(user, "compiled") | {"source": source, **where_timed(protocol, seed)},
+            _about(user, "compiled") | {"source": source, **where_timed(protocol, seed, timed.busy)},
         )
         for name, user in users.items()
     }

@@ -26,7 +26,7 @@ from filters.modular import (
     unscented_predictor,
 )
 from filters.modular.jobs import modular_jobs
-from studies.measurement.job_times import Progress, Protocol, seconds_per_run, silent
+from studies.measurement.job_times import Progress, Protocol, silent, time_jobs
 from studies.measurement.methods import QUICK, THOROUGH, where_timed
 
 Kind: TypeAlias = Literal["linear", "extended", "unscented"]
@@ -112,4 +112,5 @@ def operations() -> dict[Key, int]:
 def times(*, thorough: bool = False, seed: int = 0, progress: Progress = silent) -> Times:
     """Times of the compiled code on this machine; a minute or two if it was not compiled before."""
     protocol: Protocol = THOROUGH if thorough else QUICK
-    return Times(seconds_per_run(jobs(), "compiled", protocol, seed, progress), where_timed(protocol, seed))
+    timed = time_jobs(jobs(), "compiled", protocol, seed, progress)
+    return Times(timed.seconds, where_timed(protocol, seed, timed.busy))

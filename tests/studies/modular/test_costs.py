@@ -6,7 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from studies.measurement.job_times import Protocol
+from studies.measurement.job_times import Protocol, Timed
 from studies.modular import costs as modular_costs
 from studies.modular.costs import DT, KINDS, PARTS, STATES, jobs, move, move_jacobian, operations, see, see_jacobian
 
@@ -39,9 +39,9 @@ def test_times_are_of_all_jobs(monkeypatch) -> None:
 
     def seconds(of, backend, protocol, _seed, _progress):
         asked.append((set(of), backend, protocol))
-        return {key: [1e-6] for key in of}
+        return Timed({key: [1e-6] for key in of}, "")
 
-    monkeypatch.setattr(modular_costs, "seconds_per_run", seconds)
+    monkeypatch.setattr(modular_costs, "time_jobs", seconds)
     found = modular_costs.times()
     assert set(found.seconds) == set(jobs())
     ((_, backend, protocol),) = asked
