@@ -141,6 +141,7 @@ def measure(
     """
     from filters.systems.example import example_system
     from sched_sim.cli.measured_note import busy_note
+    from sched_sim.cli.own_note import own_note, own_share
     from sched_sim.cli.progress import progress_bar
     from sched_sim.cli.update_form import update_form
     from sched_sim.costs.table_file import write_costs
@@ -179,7 +180,15 @@ def measure(
                 the_system = f"--system {system!r}"
             with explained(f"{the_system}: cannot be measured by --backend {backend}"):
                 table = run(
-                    model, backend, update, name=name, thorough=thorough, x0=x0, progress=progress, methods=methods
+                    model,
+                    backend,
+                    update,
+                    name=name,
+                    thorough=thorough,
+                    x0=x0,
+                    progress=progress,
+                    methods=methods,
+                    own=system is not None,
                 )
     unit = table.normalised() if "standard" in table.costs else None
     rows = [
@@ -191,6 +200,7 @@ def measure(
             "minimum": float(cost.minimum),
             "median": float(cost.median),
             "p95": float(cost.p95),
+            **own_share(table, method, kind),
             "standard_steps": None if unit is None else float(unit.entry(method, kind).minimum),
             "standard_steps_p95": None if unit is None else float(unit.entry(method, kind).p95),
         }
@@ -207,7 +217,7 @@ def measure(
             f"{'ns' if table.unit == 'second' else units(table.unit)}",
             rows,
             timed=table.unit == "second",
-            note=busy_note(table.provenance),
+            note=lines(own_note(table), busy_note(table.provenance)),
         )
     if output is not None:
         write_costs(table, output)
@@ -226,7 +236,8 @@ def _show(title: str, rows: list[dict[str, Any]], timed: bool, note: str) -> Non
         steps = row["standard_steps"]
         until = f" to {row['standard_steps_p95']:.3f}" if timed and steps is not None else ""
         relative = {} if steps is None else {"std steps": f"{steps:.3f}{until}"}
-        shown.append({"method": row["method"], "job": row["job"], **figures, **relative})
+        own = {"own, %": f"{100 * row['own_share']:.0f}"} if "own_share" in row else {}
+        shown.append({"method": row["method"], "job": row["job"], **figures, **own, **relative})
     related = any(row["standard_steps"] is not None for row in rows)
     ends = ", from minimum to p95; another machine may lie outside" if timed else ""
     meaning = f"std steps: relative to one propagate + update of the standard filter{ends}" if related else ""

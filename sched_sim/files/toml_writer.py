@@ -5,8 +5,8 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Mapping
+from decimal import Decimal
 from fractions import Fraction
-from operator import methodcaller
 from typing import Any
 
 BARE = re.compile(r"[A-Za-z0-9_-]+")
@@ -24,10 +24,15 @@ def toml_number(value: Fraction) -> str:
 
 
 def toml_value(value: Any) -> str:
-    """A scalar, also one of NumPy's, a list or an inline table; JSON writes strings, numbers, booleans as TOML does."""
+    """A scalar, also one of NumPy's or a decimal, a list or an inline table; JSON writes strings, numbers, booleans as
+    TOML does."""
     if isinstance(value, Mapping):
         return "{ " + ", ".join(f"{toml_key(name)} = {toml_value(item)}" for name, item in value.items()) + " }"
-    return json.dumps(value, ensure_ascii=False, default=methodcaller("item"))
+    return json.dumps(value, ensure_ascii=False, default=_plain)
+
+
+def _plain(value: Any) -> Any:
+    return float(value) if isinstance(value, Decimal) else value.item()
 
 
 def toml_tables(name: str, values: Mapping[str, Any]) -> list[str]:

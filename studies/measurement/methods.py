@@ -27,6 +27,7 @@ from filters.system import System
 from sched_sim.costs.table import Cost, CostTable
 from sched_sim.errors import InputError
 from studies.measurement.job_times import ARGUMENT_SETS, Progress, Protocol, silent, time_jobs
+from studies.measurement.own_functions import with_own, with_shares
 
 BackendName = Literal["compiled", "counted", "numpy"]
 
@@ -47,12 +48,14 @@ def measure(
     seed: int = 0,
     progress: Progress = silent,
     methods: Sequence[str] = tuple(ALL_METHODS),
+    own: bool = False,
 ) -> CostTable:
     """The cost table of these methods on one system.
 
     unit: "operation" (each multiply, add, divide, square root counts one) for counted, else "second".
     update: the covariance form, of no use to methods that keep factors of the covariance.
     x0 (n,): a typical state of the system, zero if not given.
+    own: of compiled code, time the functions of the system too: the table's `own_share` is that of each job.
 
     Raises InputError for an argument that is none of these, if the standard filter, with which typical arguments are
     made, cannot be run from there, or if a function of the system cannot be counted or compiled.
@@ -71,6 +74,8 @@ def measure(
         for method in methods
         for kind, job in ALL_METHODS[method].jobs(system, update, seed, x0).items()
     }
+    own = own and backend == "compiled"
+    timed = with_own(jobs, system, seed, x0) if own else jobs
     about = {
         "update_form": update,
         "states": system.states,
@@ -78,7 +83,8 @@ def measure(
         "measurements": system.measurements,
     }
     try:
-        return cost_table(jobs, backend, about, name=name, thorough=thorough, seed=seed, progress=progress)
+        table = cost_table(timed, backend, about, name=name, thorough=thorough, seed=seed, progress=progress)
+        return with_shares(table, timed) if own else table
     except InputError:
         raise
     except ValueError as error:
