@@ -13,6 +13,7 @@ from sched_sim.cli.measured_note import busy_note
 from sched_sim.cli.options import given_options
 from sched_sim.cli.output import Format, lines, print_csv, print_json, print_table, say
 from sched_sim.cli.outputs import module_files, refuse_one_file_for_two
+from sched_sim.cli.own_note import parts_note
 from sched_sim.cli.progress import progress_bar
 from sched_sim.errors import InputError
 
@@ -100,6 +101,7 @@ def _note(costs: SampledCosts) -> str:
         str(costs.provenance["source"]),
         what_a_sample_means(repetitions),
         *noise(costs.samples),
+        parts_note(costs.provenance),
         busy_note(costs.provenance),
     )
 

@@ -1,6 +1,9 @@
-"""`sched-sim measure --system`: how much of each job is spent in the user's own functions, and why so much."""
+"""`sched-sim measure` of a user's own model: how much of each job is spent in its functions, and why so much."""
 
 from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
 
 from sched_sim.cli.output import lines
 from sched_sim.costs.table import CostTable
@@ -27,6 +30,17 @@ def own_note(table: CostTable) -> str:
         return ""
     large = any(share >= LARGE for kinds in shares.values() for share in kinds.values())
     return lines(MEANING, _allocating(table) if large else "")
+
+
+def parts_note(provenance: Mapping[str, Any]) -> str:
+    """For people, a line below the parts of a composed filter, if functions of the user's in them make new arrays."""
+    new = [f"{number} in {part}" for part, number in provenance.get("allocations", {}).items() if number]
+    if not new:
+        return ""
+    return (
+        f"your functions make new arrays, {', '.join(new)} each time, which slows all of it down: write into out "
+        "number by number"
+    )
 
 
 def _allocating(table: CostTable) -> str:

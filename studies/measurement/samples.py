@@ -7,9 +7,11 @@ what is subtracted. So the samples rank parts, and carry no probability of a rar
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any, Literal, TypeAlias, get_args
 
+from filters.backends.allocations import allocations
 from filters.choice import check_choice
 from filters.seed import check_seed
 from sched_sim.costs.sample_file import SampledCosts
@@ -34,7 +36,8 @@ def measure_filter(
     seed: int = 0,
     progress: Progress = silent,
 ) -> SampledCosts:
-    """The costs of the filter's parts. compiled: samples in seconds; counted: exact operations, one sample of each.
+    """The costs of the filter's parts. compiled: samples in seconds, and under `allocations` in the provenance the new
+    arrays that each part makes, all of them in the user's functions; counted: exact operations, one sample of each.
 
     Raises InputError for another backend or seed, and for a part that numba cannot compile, or that cannot be counted.
     """
@@ -44,7 +47,9 @@ def measure_filter(
     except ValueError as error:
         raise InputError(str(error)) from None
     if backend == "compiled":
-        return timed_together({name: user}, thorough=thorough, seed=seed, progress=progress)[name]
+        costs = timed_together({name: user}, thorough=thorough, seed=seed, progress=progress)[name]
+        new = {part: allocations(job.function, job.arguments(0)) for part, job in user.jobs.items()}
+        return replace(costs, provenance={**costs.provenance, "allocations": new})
     operations = counted(user.jobs, progress)
     samples = {part: (Fraction(tally.total),) for part, tally in operations.items()}
     counts = {part: nonzero(tally) for part, tally in operations.items()}

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 from sched_sim.cli.measure_filter import noise
+from sched_sim.cli.own_note import parts_note
 from sched_sim.costs.sample_file import SampledCosts, read_sampled_costs
 from sched_sim.errors import InputError
 from studies.measurement.user_filter import load_filter
@@ -166,6 +167,7 @@ def test_a_thousand_samples_of_each_part_are_timed(sched_sim: Run, tmp_path: Pat
     assert len(set(samples)) > 100
     assert "a sample is the mean of 20 executions" in costs.provenance["source"]
     assert {"machine", "date", "versions", "protocol"} <= set(costs.provenance)
+    assert costs.provenance["allocations"] == {"predict": 0}
 
 
 def times(*nanoseconds: int) -> list[Fraction]:
@@ -189,6 +191,13 @@ def test_below_the_times_it_is_said_what_a_sample_means_for_misses(
     assert "a mean of 7 executions hides single slow ones" in out
     assert "no probability of a miss follows from these samples" in out
     assert "noisy" not in out
+    assert "new arrays" not in out
+
+
+def test_parts_whose_functions_make_new_arrays_are_named() -> None:
+    said = "your functions make new arrays, 25 in predict, 1 in correct.gps each time, which slows all of it down"
+    assert parts_note({"allocations": {"predict": 25, "correct.gps": 1, "correct.eye": 0}}).startswith(said)
+    assert parts_note({"allocations": {"predict": 0}}) == parts_note({}) == ""
 
 
 @pytest.mark.slow
