@@ -70,6 +70,7 @@ def minimum(
             continue
         work = select(table, name, options, statistic)
         person: dict[str, Any] = {"method": "standard (no delay)" if name == "standard" else name}
+        unit_and_form = {"cost_unit": table.unit} | update_form(table, name)
         with simulations(name) as on_progress:
             if rate is not None and timed:
                 verdict = fit(
@@ -81,13 +82,13 @@ def minimum(
                     on_progress,
                     times=design.times,
                 )
-                row = least_row(name, timing, verdict.least) | update_form(table, name) | fit_row(part, rate, verdict)
+                row = least_row(name, timing, verdict.least) | unit_and_form | fit_row(part, rate, verdict)
                 person |= fit_words(part, rate, verdict) | {"fixed by": fixed_by(verdict.least.binding)}
             else:
                 least = least_speed(work, timing, options, others, on_progress)
                 landed = landing(work, timing, least.speed, options, others)
                 assert landed is not None
-                row = least_row(name, timing, least) | update_form(table, name) | {"achieved_l": landed}
+                row = least_row(name, timing, least) | unit_and_form | {"achieved_l": landed}
                 person |= _speed(least.speed, table.unit) | {"fixed by": fixed_by(least.binding), "lands at L": landed}
                 if rate is not None:
                     row |= {

@@ -26,9 +26,10 @@ def simulate_scenario(
 ) -> None:
     """outputs: the three, by their options. Raises InputError for a scenario that cannot be run, and for a file that
     cannot be written or is one that is read."""
+    from sched_sim.cli.trace import open_trace
     from sched_sim.scenario.run import run_scenario
     from sched_sim.scenario.scenario_file import read_scenario
-    from sched_sim.schedule.trace import check_trace, open_trace
+    from sched_sim.schedule.trace import check_trace
 
     if gantt is not None or histogram is not None:
         from reports.drawing.picture import check_picture
@@ -42,8 +43,7 @@ def simulate_scenario(
     read: list[Path | str] = [*scenario.files, *module_files()]
     refuse_one_file_for_two(outputs, [("--scenario", file) for file in read])
     with ExitStack() as files:
-        scale = 1000.0 if scenario.hr_hz is None else float(1e6 / scenario.hr_hz)
-        writers = [files.enter_context(open_trace(trace, scale)) for trace in traces]
+        writers = [files.enter_context(open_trace(trace, scenario.hr_hz)) for trace in traces]
 
         busy: Counter[int] = Counter()  # ticks, by processor
 
@@ -72,7 +72,7 @@ def simulate_scenario(
     if format == "json":
         print_json(_document(scenario, outcome, busy_shares))
     elif format == "csv":
-        print_csv([_flat(kind, figures, scenario.harness) for kind, figures in outcome.jobs.items()])
+        print_csv([_flat(scenario, kind, figures) for kind, figures in outcome.jobs.items()])
     else:
         _show(scenario, outcome, busy_shares)
 
@@ -95,6 +95,8 @@ def _document(scenario: Scenario, outcome: Outcome, busy: Sequence[float]) -> di
         "seed": scenario.seed,
         "late": scenario.late,
         "hr_hz": None if scenario.hr_hz is None else float(scenario.hr_hz),
+        "speed": float(scenario.speed),
+        "speed_exact": str(scenario.speed),
         "misses": outcome.misses,
         "utilization": float(outcome.schedule.utilization),
         "busy": busy,
@@ -132,7 +134,7 @@ def _job(figures: JobFigures, ms: float | None, harness: bool) -> dict[str, Any]
     return {
         "released": figures.released,
         "finished": finished,
-        "response": response,
+        "response_periods": response,
         "response_ms": in_ms,
         "misses": figures.misses,
         "decided": figures.decided,
@@ -145,16 +147,20 @@ def _times(unit: float, value: float | None) -> float | None:
     return None if value is None else unit * value
 
 
-def _flat(kind: str, figures: JobFigures, harness: bool) -> dict[str, Any]:
-    """One row of CSV, in HR periods."""
-    job = _job(figures, None, harness)
+def _flat(scenario: Scenario, kind: str, figures: JobFigures) -> dict[str, Any]:
+    """One row of CSV."""
+    from sched_sim.scenario.run import QUANTILES
+
+    ms = None if scenario.hr_hz is None else float(1000 / scenario.hr_hz)
+    job = _job(figures, ms, scenario.harness)
     least, most = job["miss_interval"] or (None, None)
-    response = job["response"] or dict.fromkeys(("minimum", "mean", "median", "p95", "p99", "maximum"))
+    units = ("periods",) if ms is None else ("periods", "ms")
+    responses = {unit: job[f"response_{unit}"] or dict.fromkeys(QUANTILES) for unit in units}
     return {
         "job": kind,
         "released": job["released"],
         "finished": job["finished"],
-        **{f"response_{name}": value for name, value in response.items()},
+        **{f"{name}_{unit}": value for unit, times in responses.items() for name, value in times.items()},
         "misses": job["misses"],
         "decided": job["decided"],
         "miss_probability": job["miss_probability"],
@@ -216,7 +222,7 @@ def _note(scenario: Scenario, outcome: Outcome, busy: Sequence[float]) -> str:
 
 def _job_words(kind: str, figures: JobFigures, unit: float, harness: bool) -> dict[str, Any]:
     job = _job(figures, None, harness)
-    response, probability, interval = job["response"], job["miss_probability"], job["miss_interval"]
+    response, probability, interval = job["response_periods"], job["miss_probability"], job["miss_interval"]
     shown = {"minimum": "min", "mean": "mean", "median": "median", "p95": "p95", "p99": "p99", "maximum": "max"}
     words = {
         "job": kind,

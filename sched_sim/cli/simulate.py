@@ -6,23 +6,22 @@ from collections.abc import Sequence
 from fractions import Fraction
 from math import ceil
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from sched_sim.cli import options as opt
 from sched_sim.cli.design_flags import with_options
-from sched_sim.cli.output import lines, print_csv, print_json, print_table, say
+from sched_sim.cli.output import print_csv, print_json, say
 from sched_sim.cli.outputs import refuse_one_file_for_two
 from sched_sim.cli.progress import progress_bar
 from sched_sim.design.options import Options
 from sched_sim.errors import InputError
-from sched_sim.shares import percent
 
 if TYPE_CHECKING:
     from sched_sim.design.pieces import Costs
     from sched_sim.design.timing import Timing
-    from sched_sim.schedule.outcome import Response, Slice
+    from sched_sim.schedule.outcome import Slice
     from sched_sim.schedule.tasks import Task
 
 GanttFile = Annotated[
@@ -33,7 +32,8 @@ TraceFiles = Annotated[
     list[Path] | None,
     typer.Option(
         "--trace",
-        help="Every slice: FILE.json (Chrome Trace Event, opens in Perfetto) or FILE.csv. Repeatable.",
+        help="Every slice: FILE.json (Chrome Trace Event, opens in Perfetto) or FILE.csv, in ms with --hr-hz, else in "
+        "HR periods. Repeatable.",
         rich_help_panel=opt.OUTPUT,
     ),
 ]
@@ -112,12 +112,14 @@ def simulate(
     from contextlib import ExitStack
 
     from sched_sim.cli.design_times import make_design
+    from sched_sim.cli.simulated import of_run, outcome, responses, show
+    from sched_sim.cli.trace import open_trace
     from sched_sim.cli.update_form import update_form, update_note
     from sched_sim.costs.methods import MULTIRATE_METHODS
     from sched_sim.design.least_speed import least_speed
     from sched_sim.design.methods import select
     from sched_sim.design.simulate import simulate as run
-    from sched_sim.schedule.trace import check_trace, open_trace
+    from sched_sim.schedule.trace import check_trace
 
     if gantt is not None:
         from reports.drawing.picture import check_picture
@@ -138,8 +140,7 @@ def simulate(
         achieved[cycle] = at
 
     with ExitStack() as files:
-        scale = 1000.0 if rate is None else float(1e6 / rate)
-        traces = [files.enter_context(open_trace(path, scale)) for path in trace or ()]
+        traces = [files.enter_context(open_trace(path, rate)) for path in trace or ()]
 
         def write(piece: Slice) -> None:
             for write_piece in traces:
@@ -165,29 +166,19 @@ def simulate(
         save(draw([panel]), gantt, "--gantt")
     if not schedule.misses and (note := unseen(work, timing, pace, cycles, options, others)):
         say(f"Note: {note}")
-    response = {kind: _response(figures, schedule.period) for kind, figures in schedule.responses.items()}
-    document: dict[str, Any] = {
-        **update_form(table, method),
-        "achieved_l": achieved,
-        "misses": schedule.misses,
-        "utilization": float(schedule.utilization),
-        "preemptions": schedule.preemptions,
-        "response": response,
-    }
-    if rate is not None:
-        document["hr_hz"] = float(rate)
-        document["correction_ms"] = [None if at is None else float(1000 * at / rate) for at in achieved]
+    about = of_run(method, timing, pace, table.unit, rate) | update_form(table, method)
     if format == "json":
-        print_json(document)
+        print_json(about | outcome(schedule, achieved, rate))
     elif format == "csv":
-        print_csv([{"kind": kind, **figures} for kind, figures in response.items()])
+        print_csv([about | {"kind": kind} | figures for kind, figures in responses(schedule, rate).items()])
     else:
         delay = "" if design.M is None else f" M={design.M}"
         where = f"at speed {float(pace):.6g}" if part is None else f"on {part.title}"
         if part is not None and rate is None:
             where += f", as fast as it can: HR period {1e6 * float(pace):.6g} us"
         title = f"{method}, N={design.N}{delay} L={timing.L}, {where}"
-        _show(title, document, rate, method in MULTIRATE_METHODS, lines(design.words, update_note(table, [method])))
+        note = lines(design.words, update_note(table, [method]))
+        show(title, schedule, achieved, rate, method in MULTIRATE_METHODS, note)
 
 
 def unseen(
@@ -231,54 +222,3 @@ def _refuse_beside_scenario(context: typer.Context, scenario: Path) -> None:
             f"{', '.join(options)} and --scenario {scenario} exclude each other: the file says what is simulated; "
             f"leave {'it' if len(options) == 1 else 'them'} out, or edit the file"
         )
-
-
-def _response(figures: Response, period: int) -> dict[str, Any]:
-    return {
-        "max": figures.worst / period if figures.finished else None,
-        "mean": float(figures.mean / period) if figures.finished else None,
-        "releases": figures.releases,
-        "misses": figures.misses,
-        "worst_lateness": figures.worst_lateness / period,
-        "preemptions": figures.preemptions,
-    }
-
-
-def _show(title: str, document: dict[str, Any], rate: Fraction | None, multirate: bool, more: str) -> None:
-    """more: another line of the note below the table."""
-    unit, scale = ("HR periods", 1.0) if rate is None else ("ms", float(1000 / rate))
-    rows = [
-        {
-            "job": kind,
-            "jobs": figures["releases"],
-            "worst": _scaled(figures["max"], scale),
-            "mean": _scaled(figures["mean"], scale),
-            "missed": figures["misses"],
-            "late by": _scaled(figures["worst_lateness"], scale),
-            "preempted": figures["preemptions"],
-        }
-        for kind, figures in document["response"].items()
-    ]
-    what = "Gains are in use from" if multirate else "Corrections land at"
-    note = f"{landings(document['achieved_l'], what)}; processor busy {percent(document['utilization'])} of the time"
-    unfinished = (
-        "Jobs that have not finished are not in worst and mean; past their deadline they are missed, late by that much "
-        "or more"
-    )
-    some = any(figures["max"] is None or figures["misses"] for figures in document["response"].values())
-    print_table(f"{title}; response times in {unit}", rows, lines(note, unfinished if some else "", more))
-
-
-def _scaled(periods: float | None, scale: float) -> str:
-    return "-" if periods is None else f"{periods * scale:.4g}"
-
-
-def landings(achieved: list[int | None], what: str = "Corrections land at") -> str:
-    """Where the corrections of all cycles landed, or from where their gains are in use, in words."""
-    landed = [at for at in achieved if at is not None]
-    lost = len(achieved) - len(landed)
-    if not landed:
-        return f"{what} no step of the simulated time"
-    first, last = min(landed), max(landed)
-    where = f"l = k + {first}" if first == last else f"l = k + {first} to k + {last}"
-    return f"{what} {where}" + (f", {lost} of {len(achieved)} not within the simulated time" if lost else "")

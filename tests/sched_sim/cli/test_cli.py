@@ -26,6 +26,7 @@ def test_minimum_prints_a_json_array_of_methods(sched_sim: Run) -> None:
         "min_speed": 0.77,
         "min_speed_exact": "77/100",
         "binding": "lr_update",
+        "cost_unit": "standard step",
         "achieved_l": 8,
     }
 
@@ -80,8 +81,37 @@ def test_simulate_prints_one_json_object(sched_sim: Run) -> None:
     assert document["utilization"] == pytest.approx((9 * 0.63 + 0.04 + 0.03 + 0.41 + 0.56) / 7.8)
     assert document["preemptions"] == 12
     assert set(document["response"]) == {"hr", "lr_propagate", "lr_update"}
-    assert document["response"]["lr_propagate"]["max"] == pytest.approx(0.45 / 0.78)
-    assert document["response"]["lr_update"]["mean"] == pytest.approx((3 * 0.78 + 0.63 + 0.56 - 3 * 0.15) / 0.78)
+    assert document["response"]["lr_propagate"]["max_periods"] == pytest.approx(0.45 / 0.78)
+    assert document["response"]["lr_update"]["mean_periods"] == pytest.approx(
+        (3 * 0.78 + 0.63 + 0.56 - 3 * 0.15) / 0.78
+    )
+
+
+def test_what_simulate_prints_for_scripts_says_of_what_it_is_and_in_which_unit(sched_sim: Run) -> None:
+    line = "simulate -N 10 -M 4 -L 8 --speed 0.78 --hr-hz 400"
+    document = json.loads(sched_sim(f"{line} --format json").out)
+    about = {"method": "dual-rate", "N": 10, "M": 4, "L": 8, "speed": 0.78, "speed_exact": "39/50"}
+    about |= {"cost_unit": "standard step", "hr_hz": 400.0}
+    assert {key: document[key] for key in about} == about
+    assert document["correction_ms"] == [20.0, 20.0, 20.0]
+    update = document["response"]["lr_update"]
+    for name in ("max", "mean", "worst_lateness"):
+        assert update[f"{name}_ms"] == pytest.approx(2.5 * update[f"{name}_periods"])
+    row = list(csv.DictReader(io.StringIO(sched_sim(f"{line} --format csv").out)))[-1]
+    assert row == {key: str(value) for key, value in {**about, "kind": "lr_update", **update}.items()}
+
+
+def test_without_a_rate_nothing_is_in_ms(sched_sim: Run) -> None:
+    assert "_ms" not in sched_sim("simulate -N 10 -M 4 --format json").out
+    assert "ms" not in sched_sim("simulate -N 10 -M 4").out
+
+
+def test_with_a_rate_the_table_of_simulate_is_in_ms(sched_sim: Run) -> None:
+    out = sched_sim("simulate -N 10 -M 4 -L 8 --speed 0.77 --hr-hz 400").out
+    assert "response times in ms" in out
+    assert "Corrections land at l = k + 8, 20 ms after k;" in out
+    (update,) = [row.split() for row in out.splitlines() if row.startswith(" lr_update")]
+    assert update == ["lr_update", "3", "10", "10", "0", "0", "9"]
 
 
 def test_json_and_csv_carry_no_colour_even_where_it_is_forced(sched_sim: Run, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -106,7 +106,7 @@ def test_json_has_the_distributions(sched_sim: Run) -> None:
     assert list(document["jobs"]) == ["predict", "correct gps", "correct barometer", "task:control"]
     gps = document["jobs"]["correct gps"]
     assert gps["response_ms"]["maximum"] == pytest.approx(2.5 * max(outcome.jobs["correct gps"].responses))
-    assert gps["response"].keys() == {"minimum", "mean", "median", "p95", "p99", "maximum"}
+    assert gps["response_periods"].keys() == {"minimum", "mean", "median", "p95", "p99", "maximum"}
     assert gps["miss_probability"] == 0
     assert gps["miss_interval"][0] == 0 < gps["miss_interval"][1] < 0.1
     found = document["sensors"]["gps"]
@@ -207,15 +207,15 @@ def test_what_unfinished_jobs_hide_is_not_claimed(sched_sim: Run, tmp_path: Path
     slow = SHORT.replace("speed = 10", "speed = 3").replace("priority = 10", "priority = 20\nland_by = 99")
     write(tmp_path, slow)
     (job,) = [one for one in json.loads(run_json(sched_sim))["jobs"].values() if not one["finished"]]
-    assert (job["released"], job["response"]) == (4, None)
+    assert (job["released"], job["response_periods"]) == (4, None)
     out = sched_sim("simulate --scenario s.toml").out
     assert "finished" in out
     assert "corrections of gps never catch up" in out
     write(tmp_path, SHORT.replace("speed = 10", "speed = 2"))
     job = json.loads(run_json(sched_sim))["jobs"]["predict"]
     assert 20 <= job["finished"] < job["released"] == 40
-    assert job["response"]["median"] is not None
-    assert job["response"]["p99"] is None
+    assert job["response_periods"]["median"] is not None
+    assert job["response_periods"]["p99"] is None
     out = sched_sim("simulate --scenario s.toml").out
     assert "Some jobs have not finished" in out
     assert "demand is 1" in out
@@ -246,7 +246,7 @@ def test_corrections_that_have_not_landed_count_as_later_than_all(sched_sim: Run
         '[[sensor]]\nname = "gps"\nevery = 1\npriority = 10\ncost = 0.3\n'
     )
     document = json.loads(run_json(sched_sim))
-    gps, response = document["sensors"]["gps"], document["jobs"]["correct gps"]["response"]
+    gps, response = document["sensors"]["gps"], document["jobs"]["correct gps"]["response_periods"]
     assert (gps["arrived"], gps["landed"], gps["not_landed"], gps["land_by"]) == (8000, 6400, 1600, 0)
     assert sum(gps["achieved_l"].values()) == pytest.approx(0.8)
     assert response["median"] == pytest.approx(1001, abs=1)
