@@ -12,8 +12,13 @@ from sched_sim.text import csv_cell, json_text, visible, visible_lines
 if TYPE_CHECKING:
     from rich.text import Text
 
+    from sched_sim.cli.columns import Column
+
 Row = Mapping[str, Any]
 Format = Literal["table", "json", "csv"]
+
+UNBOUNDED = 10**6
+"""Columns of a file or a pipe."""
 
 PLURALS = {"standard step": "standard steps", "second": "seconds", "operation": "operations"}
 
@@ -39,24 +44,43 @@ def print_csv(rows: Sequence[Row]) -> None:
 
 
 def print_table(title: str, rows: Sequence[Row], note: str = "") -> None:
-    """Columns are the rows' keys; numbers are aligned right. Nothing is cut off: long headings wrap, and a table that
-    goes into a file or a pipe is as wide as it needs to be."""
-    from rich.box import SIMPLE_HEAD
+    """Columns are the rows' keys; numbers are aligned right. A table that goes into a file or a pipe is as wide as it
+    needs to be. In a terminal that is too narrow, headings wrap, then the least important columns are left out, which a
+    line below says; where that is not enough, each row is a list of its own."""
     from rich.console import Console
-    from rich.table import Table
+    from rich.text import Text
+
+    from sched_sim.cli.columns import fitted
 
     console = Console()
     if not console.is_terminal:
-        console.width = 1000
+        console.width = UNBOUNDED
     console.print(_text(visible(title), "bold"))
-    table = Table(box=SIMPLE_HEAD, pad_edge=False)
-    for key, value in rows[0].items():
-        table.add_column(key, justify="left" if _is_text(value) else "right", overflow="fold")
-    for row in rows:
-        table.add_row(*(_text("-" if value is None else visible(str(value))) for value in row.values()))
-    console.print(table)
+    columns = [_column(key, [row[key] for row in rows]) for key in rows[0]]
+    columns[0] = columns[0]._replace(words=False)  # names
+    found = fitted(columns, console)
+    if found is None:
+        for number in range(len(rows)):
+            console.print()
+            for column in columns:
+                console.print(Text.assemble(column.heading, ": ", column.cells[number]))
+        console.print()
+    else:
+        console.print(found.table)
+        if found.left_out:
+            note = lines(
+                f"left out, as the terminal is narrow: {', '.join(found.left_out)}; --format json has all", note
+            )
     if note:
         console.print(_text("\n".join(map(visible, note.split("\n")))))
+
+
+def _column(heading: str, values: Sequence[Any]) -> Column:
+    from sched_sim.cli.columns import Column
+
+    texts = ["-" if value is None else visible(str(value)) for value in values]
+    words = not any(character.isdigit() for text in texts for character in text)
+    return Column(_text(heading), [_text(text) for text in texts], not _is_text(values[0]), words)
 
 
 def _text(text: str, style: str = "") -> Text:

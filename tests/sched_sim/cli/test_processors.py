@@ -44,6 +44,7 @@ def test_it_says_what_minimum_says(sched_sim: Run, tmp_path: Path, options: str)
     rows = json.loads(sched_sim(f"processors {asked} {line}").out)
     minimum = [row for part in parts for row in json.loads(sched_sim(f"minimum --processor {part} {line}").out)]
     assert [row.pop("reason") for row in rows] == [None] * 4
+    assert {row.pop("cost_unit") for row in minimum} == {"second"}
     assert rows == minimum
 
 
