@@ -12,7 +12,7 @@ import typer
 
 from sched_sim.cli import options as opt
 from sched_sim.cli.design_flags import with_options
-from sched_sim.cli.output import print_csv, print_json, say
+from sched_sim.cli.output import lines, print_csv, print_json, say
 from sched_sim.cli.outputs import refuse_one_file_for_two
 from sched_sim.cli.progress import progress_bar
 from sched_sim.design.options import Options
