@@ -89,10 +89,16 @@ def _high_jobs(design: Phased) -> Finishes:
     level = _level(design, 0, HR)
     step = design.counted(design.steps)
     release, due = step * design.period, (step + 1) * design.period
-    start, job = _busy_before(design, level, release, 0)
-    first = design.first_step(start)
-    fixed = design.high(first, step[job] + 1) + design.corrections(first, step[job] + (not design.cycle.apart))
-    return _finishes("hr", lambda length: fixed + _of_tasks(level, start, length), start, job, release, due)
+
+    def found(start: Ints, job: Ints) -> Finishes:
+        first = design.first_step(start)
+        fixed = design.high(first, step[job] + 1) + design.corrections(first, step[job] + (not design.cycle.apart))
+        return _finishes("hr", lambda length: fixed + _of_tasks(level, start, length), start, job, release, due)
+
+    at_once = found(release, np.arange(design.steps))
+    if (at_once.at > due).any():  # a processor that is much too slow has long busy periods, which need not be tried
+        return at_once
+    return found(*_busy_before(design, level, release, 0))
 
 
 def _low_jobs(design: Phased, late: int) -> Iterator[Finishes]:
