@@ -140,7 +140,7 @@ def measure(
     sched-sim measure --filter mymodule:my_filter -o samples.toml
     """
     from filters.systems.example import example_system
-    from sched_sim.cli.measured_note import busy_note
+    from sched_sim.cli.measured_note import busy_note, say_busy
     from sched_sim.cli.own_note import own_note, own_share
     from sched_sim.cli.progress import progress_bar
     from sched_sim.cli.update_form import update_form
@@ -219,6 +219,8 @@ def measure(
             timed=table.unit == "second",
             note=lines(own_note(table), busy_note(table.provenance)),
         )
+    if format != "table":
+        say_busy(table.name, table.provenance)
     if output is not None:
         write_costs(table, output)
         say(f"Wrote {output}; use it with --costs {output}")

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
 import typer
 
-from sched_sim.cli.measured_note import busy_note
+from sched_sim.cli.measured_note import busy_note, say_busy
 from sched_sim.cli.options import given_options
 from sched_sim.cli.output import Format, lines, print_csv, print_json, print_table, say
 from sched_sim.cli.outputs import module_files, refuse_one_file_for_two
@@ -64,6 +64,8 @@ def measure_own_filter(
         timed = costs.unit == "second"
         shown = [_timed(row) if timed else {key: row[key] for key in ("job", *KINDS, "operations")} for row in rows]
         print_table(f"{table}, in {'ns' if timed else 'operations'}", shown, _note(costs) if timed else "")
+    if format != "table":
+        say_busy(table, costs.provenance)
     if output is not None:
         from sched_sim.costs.sample_file import write_sampled_costs
 

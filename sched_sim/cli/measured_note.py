@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
+from sched_sim.cli.output import say
 from sched_sim.costs.table import SECONDS, CostTable
 
 if TYPE_CHECKING:
@@ -19,6 +20,12 @@ def busy_note(provenance: Mapping[str, Any]) -> str:
     """A line, if the machine was busy while the costs were timed; empty otherwise."""
     busy = provenance.get("busy")
     return f"measured on a busy machine: {busy}; measure again on an idle one" if busy else ""
+
+
+def say_busy(name: str, provenance: Mapping[str, Any]) -> None:
+    """The same on standard error, where there is no table for people; name: of the cost table."""
+    if note := busy_note(provenance):
+        say(f"Note: {name} was {note}")
 
 
 def range_note(table: CostTable, designs: Mapping[str, Timing], options: Options, tasks: Sequence[Task] = ()) -> str:

@@ -4,15 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import Annotated, Literal
 
 import typer
 
-from sched_sim.cli.measured_note import busy_note
+from sched_sim.cli.measured_note import say_busy
 from sched_sim.cli.output import say
-
-if TYPE_CHECKING:
-    from sched_sim.costs.table import CostTable
 
 Name = Annotated[Literal["steffes2014", "patent-multirate", "erkf", "modular"], typer.Argument(help="Which report.")]
 Folder = Annotated[Path, typer.Option("--output", "-o", help="Folder in which the report's own folder is written.")]
@@ -53,7 +50,7 @@ def _steffes(thorough: bool) -> dict[str, bytes]:
             progress=progress,
             methods=DELAYED_METHODS,
         )
-    _say_busy(measured)
+    say_busy(measured.name, measured.provenance)
     return build(measured)
 
 
@@ -75,7 +72,7 @@ def _erkf(thorough: bool) -> dict[str, bytes]:
     with progress_bar("Measuring and simulating") as progress:
         figures = results(thorough, progress)
     for measured in figures.measured.values():
-        _say_busy(measured)
+        say_busy(measured.name, measured.provenance)
     return build(figures)
 
 
@@ -87,11 +84,6 @@ def _modular(thorough: bool) -> dict[str, bytes]:
     with progress_bar("Simulating and measuring") as progress:
         figures = results(thorough, progress)
     return build(figures)
-
-
-def _say_busy(measured: CostTable) -> None:
-    if note := busy_note(measured.provenance):
-        say(f"Note: {measured.name} was {note}")
 
 
 REPORTS: Mapping[str, Callable[[bool], dict[str, bytes]]] = {

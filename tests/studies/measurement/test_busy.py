@@ -80,3 +80,15 @@ def test_each_command_that_uses_the_table_says_so(sched_sim: Run, tmp_path: Path
     (tmp_path / "mine.toml").write_text(COSTS.replace("busy", "idle"))
     (tmp_path / "sweep.sqlite").unlink(missing_ok=True)
     assert "busy machine" not in sched_sim(line).out
+
+
+def test_where_there_is_no_table_standard_error_says_so(sched_sim: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("studies.measurement.job_times.load", lambda: Load(9.0, 2))
+    line = "measure --states 1 --inputs 0 --measurements 1 --backend numpy --method standard"
+    result = sched_sim(f"{line} --format json")
+    assert "Note: numpy-1-0-1 was measured on a busy machine: " in result.err
+    assert "load average 9.0 on 2 processors before it" in result.err
+    assert "busy" not in result.out
+    assert "measured on a busy machine: " in sched_sim(line).out
+    counted = line.replace("numpy", "counted")
+    assert "busy" not in sched_sim(f"{counted} --format json").err
