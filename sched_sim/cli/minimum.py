@@ -42,6 +42,7 @@ def minimum(
     sched-sim minimum -N 40 -M 4 --hr-hz 400 --costs my-costs.toml --method dual-rate
     """
     from sched_sim.cli.design_times import make_design
+    from sched_sim.cli.measured_note import range_note
     from sched_sim.cli.parts import MEANING, fit_row, fit_words, fixed_by, least_row
     from sched_sim.cli.update_form import update_form, update_note
     from sched_sim.costs.table import COUNTED
@@ -102,7 +103,8 @@ def minimum(
                     }
         rows.append(row)
         shown.append(person)
-    note = lines(design.words, update_note(table, [row["method"] for row in rows]))
+    timings = {row["method"]: opt.make_timing(design.N, design.M, design.L, row["method"], options) for row in rows}
+    note = lines(design.words, update_note(table, [*timings]), range_note(table, timings, options, others))
     if format == "json":
         print_json(rows)
     elif format == "csv":
