@@ -26,8 +26,10 @@ WAIT_MM = 0.7
 SHORT_MM = 1.0
 JOINT_MM = 3.0
 """Jobs that follow one another without a gap are parted by a line where a step is at least so long."""
-ARROW_MM = 1.2
-"""Arrows closer together than this are left out; those of missed deadlines never are."""
+ARROW_MM, MOST_ARROWS = 1.2, 41
+"""Arrows of one kind in a row are no closer together than this, and no more, which are those of 40 steps and both ends:
+of a crowded row only those of every second, fifth ... job are drawn. Those of missed deadlines all are."""
+STRIDES = (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10_000)
 MANY_BARS = 2000
 """From here on hatches are left out: too fine to see, and slow to draw."""
 LONGEST_NAME_MM = 28.0
@@ -49,16 +51,23 @@ class Lane(NamedTuple):
         return self.foot + BAR_MM / 2
 
 
-def fills_of(schedules: Iterable[Schedule]) -> Fills:
-    """How everything that runs in these schedules is drawn, in the order of the legend."""
+def fills_of(schedules: Iterable[Schedule], longest_mm: float = LONGEST_MEANING_MM) -> Fills:
+    """How everything that runs in these schedules is drawn, in the order of the legend; longest_mm: of a task's name
+    there."""
     used = {bar.style for schedule in schedules for bar in bars(schedule)}
     tasks = sorted(style for style in used if style.startswith(TASK))
     fills = {style: fill for style, fill in FILLS.items() if style in used}
     for number, style in enumerate(tasks):
         fills[style] = TASK_FILLS[number % len(TASK_FILLS)]._replace(
-            meaning=shortened(style.removeprefix(TASK), LONGEST_MEANING_MM)
+            meaning=shortened(style.removeprefix(TASK), min(longest_mm, LONGEST_MEANING_MM))
         )
     return fills
+
+
+def shown_styles(schedule: Schedule, scale: Scale) -> set[str]:
+    """Of what runs where the axis shows it."""
+    visible = ((bar.style, scale.visible_mm(bar.start, bar.end)) for bar in bars(schedule))
+    return {style for style, (start, end) in visible if start < end}
 
 
 def shortened(name: str, width_mm: float = LONGEST_NAME_MM, points: float = FONT_PT, *, bold: bool = False) -> str:
@@ -96,16 +105,23 @@ def draw_lanes(
     fills: Fills,
     *,
     arrows: bool = True,
+    every: int = 1,
+    clipped: bool = False,
     least_bar_mm: float = 0.0,
 ) -> None:
     """Draw the schedule into axes whose x is in steps and whose y is in mm.
 
-    arrows: releases and deadlines too; least_bar_mm: shorter work is drawn so long, to be seen.
+    arrows: releases and deadlines too, in crowded rows those of one job in `every`; clipped: without what is beyond the
+    ends of the axis; least_bar_mm: shorter work is drawn so long, to be seen.
     """
     lane_of = {lane.row: lane for lane in places}
     all_bars, all_jobs = bars(schedule), jobs(schedule)
+    waiting = [(job.row, start, end) for job in all_jobs for start, end in waits(job, schedule.horizon)]
+    if clipped:
+        all_bars = [bar for bar in all_bars if scale.overlaps(bar.start, bar.end)]
+        waiting = [(row, start, end) for row, start, end in waiting if scale.overlaps(start, end)]
     _names(axes, places, schedule.cpus, min(scale.step(schedule.horizon), scale.end))
-    _waits(axes, all_jobs, lane_of, schedule.horizon, scale)
+    _waits(axes, waiting, lane_of, scale)
     _bars(axes, all_bars, lane_of, scale, fills, least_bar_mm)
     if scale.mm_per_step >= JOINT_MM:
         _joints(axes, all_bars, lane_of, scale)
@@ -114,7 +130,7 @@ def draw_lanes(
     for lane in places:
         _callouts(axes, lane, scale)
         if arrows:
-            _arrows(axes, lane, [job for job in all_jobs if job.row == lane.row], scale)
+            _arrows(axes, lane, [job for job in all_jobs if job.row == lane.row], scale, every)
 
 
 def _names(axes: Axes, places: Sequence[Lane], cpus: int, end: float) -> None:
@@ -133,12 +149,11 @@ def _boxes(spans: Iterable[tuple[float, float, float, float]]) -> list[list[tupl
     return [[(left, foot), (right, foot), (right, head), (left, head)] for left, right, foot, head in spans]
 
 
-def _waits(axes: Axes, all_jobs: Sequence[JobSpan], lane_of: Mapping[Row, Lane], horizon: int, scale: Scale) -> None:
+def _waits(axes: Axes, waiting: Iterable[tuple[Row, int, int]], lane_of: Mapping[Row, Lane], scale: Scale) -> None:
     boxes = []
-    for job in all_jobs:
-        middle = lane_of[job.row].middle
-        for start, end in waits(job, horizon):
-            boxes.append((scale.step(start), scale.step(end), middle - WAIT_MM / 2, middle + WAIT_MM / 2))
+    for row, start, end in waiting:
+        middle = lane_of[row].middle
+        boxes.append((scale.step(start), scale.step(end), middle - WAIT_MM / 2, middle + WAIT_MM / 2))
     axes.add_collection(
         PolyCollection(_boxes(boxes), facecolor=GREY, linewidth=0, zorder=1.5, snap=False), autolim=False
     )
@@ -240,16 +255,43 @@ def _callouts(axes: Axes, lane: Lane, scale: Scale) -> None:
         )
 
 
-def _arrows(axes: Axes, lane: Lane, row_jobs: Sequence[JobSpan], scale: Scale) -> None:
+def arrow_stride(schedule: Schedule, scale: Scale) -> int:
+    """Of how many jobs of a crowded row one has its arrows, so that none is crowded any more; 1 if none is."""
+    jobs_of: defaultdict[Row, list[JobSpan]] = defaultdict(list)
+    for job in jobs(schedule):
+        jobs_of[job.row].append(job)
+    most = max(_count(row_jobs, scale) for row_jobs in jobs_of.values())
+    return next(stride for stride in STRIDES if stride == STRIDES[-1] or most <= stride * _room(scale))
+
+
+def _count(row_jobs: Sequence[JobSpan], scale: Scale) -> int:
+    """Arrows of one kind that the axis shows."""
+    releases, deadlines = {job.release for job in row_jobs}, {job.deadline for job in row_jobs}
+    return max(sum(map(scale.shows, releases)), sum(map(scale.shows, deadlines)))
+
+
+def _room(scale: Scale) -> float:
+    """How many arrows there is room for."""
+    return min(scale.width_mm / ARROW_MM, MOST_ARROWS)
+
+
+def _thinned(row_jobs: Sequence[JobSpan], every: int) -> list[JobSpan]:
+    """One in so many of each kind, from the first released on."""
+    of_kind: defaultdict[str, list[JobSpan]] = defaultdict(list)
+    for job in row_jobs:
+        of_kind[job.kind].append(job)
+    return [job for kind_jobs in of_kind.values() for job in kind_jobs[::every]]
+
+
+def _arrows(axes: Axes, lane: Lane, row_jobs: Sequence[JobSpan], scale: Scale, every: int) -> None:
     """Releases from below, deadlines from above; missed ones in red with a cross."""
-    releases = sorted({job.release for job in row_jobs if scale.shows(job.release)})
-    deadlines = sorted({job.deadline for job in row_jobs if scale.shows(job.deadline) and not job.missed})
+    kept = _thinned(row_jobs, every) if _count(row_jobs, scale) > _room(scale) else row_jobs
+    releases = sorted({job.release for job in kept if scale.shows(job.release)})
+    deadlines = sorted({job.deadline for job in kept if scale.shows(job.deadline) and not job.missed})
     missed = sorted({job.deadline for job in row_jobs if scale.shows(job.deadline) and job.missed})
     foot, head = lane.foot, lane.head
-    if len(releases) * ARROW_MM <= scale.width_mm:
-        _arrow_row(axes, [scale.step(at) for at in releases], foot - 2.1, foot - 0.55, "^", INK)
-    if len(deadlines) * ARROW_MM <= scale.width_mm:
-        _arrow_row(axes, [scale.step(at) for at in deadlines], head + 2.1, head + 0.55, "v", INK)
+    _arrow_row(axes, [scale.step(at) for at in releases], foot - 2.1, foot - 0.55, "^", INK)
+    _arrow_row(axes, [scale.step(at) for at in deadlines], head + 2.1, head + 0.55, "v", INK)
     steps = [scale.step(at) for at in missed]
     _arrow_row(axes, steps, head + 2.1, head + 0.55, "v", RED)
     axes.plot(steps, [head + 1.75] * len(steps), "x", color=RED, ms=4, mew=1.1, clip_on=False, zorder=3.2)

@@ -7,7 +7,7 @@ from dataclasses import dataclass, fields, replace
 from fractions import Fraction
 from typing import NamedTuple
 
-from sched_sim.bounds import at_least_one
+from sched_sim.bounds import at_least_one, whole
 from sched_sim.costs.methods import MULTIRATE_METHODS, TWO_RATE_METHODS
 from sched_sim.costs.table import CostTable
 from sched_sim.design.methods import select
@@ -74,6 +74,21 @@ class Panel:
         return self.schedule.horizon // self.schedule.period if self.last is None else self.last
 
 
+def zoomed(panel: Panel, first: int, last: int) -> Panel:
+    """The steps from `first` to the start of `last`; a note says which. Raises InputError for steps it has not."""
+    first, last = whole(first, "first", panel.end - 1), whole(last, "last", panel.end)
+    if not 0 <= first < last:
+        raise InputError(f"first is {first} and last is {last}: the first step is 0 or later, and before the last")
+    return replace(panel, first=first, last=last, notes=(*panel.notes, steps_shown(first, last, panel.end)))
+
+
+def steps_shown(first: int, last: int, steps: int) -> str:
+    """Which of the simulated steps a panel shows, in words; the panel ends as `last` starts."""
+    if first:
+        return f"steps {first} to {last - 1} of {steps}"
+    return f"first {last} of {steps} steps" if last < steps else f"all {steps} steps"
+
+
 def cycle_marks(timing: Timing, cycles: int, landings: Mapping[int, int], *, arrives: bool = True) -> list[Mark]:
     """k, m and l of every cycle; steps that coincide share one mark, "m = l".
 
@@ -127,10 +142,13 @@ def method_panel(
     *,
     statistic: Statistic = "minimum",
     title: str | None = None,
+    first: int = 0,
+    last: int | None = None,
 ) -> Panel:
     """Simulate one method and say in the panel's title what came out.
 
-    speed: cost units per HR period; cycles: how many measurement cycles are shown.
+    speed: cost units per HR period; cycles: how many measurement cycles are simulated; first, last: the steps shown, up
+    to the start of the last one, by default all.
     Raises InputError as `methods.select` and `simulate` do, and for more steps than a chart can show.
     """
     speed, cycles = positive(speed, "speed"), at_least_one(cycles, "cycles")
@@ -151,12 +169,15 @@ def method_panel(
         notes[1] = "no delay: lands at $k$"
     if method in MULTIRATE_METHODS:
         notes[1] = notes[1].replace("correction", "gain").replace("lands at", "gain in use from")
-    return Panel(
+    panel = Panel(
         title=METHOD_NAMES[method] if title is None else title,
         schedule=schedule,
         notes=(*notes, *option_notes(options), f"{100 * float(schedule.utilization):.0f} % busy"),
         marks=cycle_marks(delay, cycles, landings, arrives=not two_rate),
     )
+    if first == 0 and last is None:
+        return panel
+    return zoomed(panel, first, panel.end if last is None else last)
 
 
 def option_notes(options: Options) -> list[str]:

@@ -32,6 +32,10 @@ class Scale(NamedTuple):
     def shows(self, ticks: float) -> bool:
         return self.first <= self.step(ticks) <= self.end
 
+    def overlaps(self, start: int, end: int) -> bool:
+        """Whether [start, end] ticks is on the axis, or touches it."""
+        return self.step(start) <= self.end and self.first <= self.step(end)
+
     def visible_mm(self, start: int, end: int) -> tuple[float, float]:
         """The part of [start, end) ticks that is on the axis, in mm; empty if the second is not the greater."""
         return max(self.mm(self.step(start)), 0.0), min(self.mm(self.step(end)), self.width_mm)

@@ -21,18 +21,25 @@ class Entry(NamedTuple):
     width: float
     draw: Callable[[Axes, float, float], None]
 
+    @property
+    def width_mm(self) -> float:
+        """With its text."""
+        return self.width + BESIDE_MM + text_width_mm(self.text, SMALL_PT)
+
 
 def fill_entries(fills: Mapping[str, Fill]) -> list[Entry]:
     """What runs, with its label."""
     return [Entry(_words(style, fill), SWATCH_MM, _swatch(fill)) for style, fill in fills.items()]
 
 
-def sign_entries(missing: bool) -> list[Entry]:
-    """What the other signs mean. missing: whether a deadline is missed somewhere."""
+def sign_entries(missing: bool, every: int = 1) -> list[Entry]:
+    """What the other signs mean. missing: whether a deadline is missed somewhere; every: of how many jobs of a crowded
+    row one has its arrows."""
+    some = f" (1 in {every} where crowded)" if every > 1 else ""
     entries = [
         Entry("released, not running", SWATCH_MM, _thin_bar),
-        Entry("release", SIGN_MM, _marker("^", INK)),
-        Entry("deadline", SIGN_MM, _marker("v", INK)),
+        Entry(f"release{some}", SIGN_MM, _marker("^", INK)),
+        Entry(f"deadline{some}", SIGN_MM, _marker("v", INK)),
     ]
     if missing:
         entries += [
@@ -80,12 +87,11 @@ def _broken(entries: Sequence[Entry], width_mm: float) -> list[list[tuple[float,
     lines: list[list[tuple[float, Entry]]] = [[]]
     x = 0.0
     for entry in entries:
-        width = entry.width + BESIDE_MM + text_width_mm(entry.text, SMALL_PT)
-        if lines[-1] and x + width > width_mm:
+        if lines[-1] and x + entry.width_mm > width_mm:
             lines.append([])
             x = 0.0
         lines[-1].append((x, entry))
-        x += width + GAP_MM
+        x += entry.width_mm + GAP_MM
     return lines
 
 

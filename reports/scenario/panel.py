@@ -8,7 +8,7 @@ from math import ceil
 from typing import NamedTuple
 
 from reports.charts.intervals import jobs
-from reports.charts.panels import Mark, Panel
+from reports.charts.panels import Mark, Panel, steps_shown
 from sched_sim.scenario.run import Outcome, run_scenario
 from sched_sim.scenario.scenario import Scenario
 from sched_sim.scenario.source import correct_kind
@@ -53,7 +53,7 @@ def scenario_panel(scenario: Scenario, outcome: Outcome) -> Panel:
     return Panel(
         title=scenario.name,
         schedule=schedule,
-        notes=(pace, scenario.late, _steps_shown(first, last, scenario.steps)),
+        notes=(pace, scenario.late, steps_shown(first, last, scenario.steps)),
         marks=_marks(late, schedule) if late else (),
         first=first,
         last=last,
@@ -95,12 +95,6 @@ def _marks(late: Late, schedule: Schedule) -> Sequence[Mark]:
         landed = step_at(finish, schedule.period)
         labels[landed] = "m = l" if landed == late.m else "l"
     return [Mark(step, text, 0, text == "k") for step, text in labels.items()]
-
-
-def _steps_shown(first: int, last: int, steps: int) -> str:
-    if first:
-        return f"steps {first} to {last - 1} of {steps}"
-    return f"first {last} of {steps} steps" if last < steps else f"all {steps} steps"
 
 
 def _misses(outcome: Outcome, schedule: Schedule, first: int) -> str:

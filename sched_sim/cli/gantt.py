@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from sched_sim.cli import options as opt
+from sched_sim.cli.chart_options import From, Until, Width, stretch, width_mm
 from sched_sim.cli.design_flags import with_options
 from sched_sim.cli.output import say
 from sched_sim.cli.outputs import refuse_one_file_for_two
@@ -37,22 +38,28 @@ def gantt(
     options: Options = Options(),
     tasks: opt.Tasks = None,
     hr_hz: opt.HrHz = None,
+    width: Width = "170mm",
+    first: From = None,
+    until: Until = None,
     output: Picture = Path("gantt.svg"),
 ) -> None:
     """Draw a Gantt chart: each method at its own least speed, or all at one --speed or on one --processor.
 
     sched-sim gantt -N 10 -M 4 -L 8 -o fig3.pdf
     sched-sim gantt -N 40 -M 20 --processor cortex-m7 --hr-hz 400
+    sched-sim gantt -N 40 -M 20 --hr-hz 400 --from 45ms --until 80ms --width 88mm -o column.pdf
     """
     from functools import partial
 
     from reports.charts.chart import gantt as draw
     from reports.charts.chart import method_panel, save
+    from reports.charts.panels import zoomed
     from reports.drawing.picture import check_picture
     from sched_sim.design.least_speed import least_speed
     from sched_sim.design.methods import select
 
     check_picture(output, "--output")
+    across = width_mm(width)
     inputs = [("--costs", costs), ("--processor", processor), ("--tasks", tasks)]
     refuse_one_file_for_two([("--output", output)], inputs)
     part = opt.make_processor(processor)
@@ -64,7 +71,10 @@ def gantt(
         work = select(table, name, options, statistic)
         pace = opt.pace(speed, rate, part, partial(least_speed, work, timing, options, others))
         panels.append(method_panel(table, name, timing, pace, cycles, options, others, statistic=statistic))
-    save(draw(panels), output, "--output")
+    if first is not None or until is not None:
+        start, end = stretch(first, until, rate, min(panel.end for panel in panels))
+        panels = [zoomed(panel, start, end) for panel in panels]
+    save(draw(panels, width_mm=across, hr_hz=rate), output, "--output")
     say(f"Wrote {output}")
 
 

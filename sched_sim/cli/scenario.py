@@ -64,7 +64,7 @@ def simulate_scenario(
         from reports.charts.chart import save
         from reports.scenario.panel import scenario_panel
 
-        save(draw([scenario_panel(scenario, outcome)]), gantt, "--gantt")
+        save(draw([scenario_panel(scenario, outcome)], hr_hz=scenario.hr_hz), gantt, "--gantt")
     schedule = outcome.schedule
     busy_shares = [float(schedule.utilization)]
     if scenario.cpus > 1:

@@ -163,7 +163,7 @@ def simulate(
         from reports.charts.chart import method_panel, save
 
         panel = method_panel(table, method, timing, pace, cycles, options, others, statistic=statistic)
-        save(draw([panel]), gantt, "--gantt")
+        save(draw([panel], hr_hz=rate), gantt, "--gantt")
     if not schedule.misses and (note := unseen(work, timing, pace, cycles, options, others)):
         say(f"Note: {note}")
     about = of_run(method, timing, pace, table.unit, rate) | update_form(table, method)

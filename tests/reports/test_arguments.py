@@ -28,7 +28,7 @@ def test_panels_are_one_or_any_number() -> None:
     assert image(gantt(panel for panel in [PANEL]), "svg") == expected
 
 
-@pytest.mark.parametrize("width_mm", [40, 1000, "170"])
+@pytest.mark.parametrize("width_mm", [50, 1000, "170"])
 def test_widths(width_mm: Any) -> None:
     assert gantt(PANEL, width_mm=width_mm).get_figwidth() * 25.4 == pytest.approx(float(width_mm))
 
@@ -43,9 +43,17 @@ BAD: dict[str, tuple[Callable[[], Any], str]] = {
         lambda: gantt(simulate(select(TABLE, "dual-rate"), TIMING, 1)),  # type: ignore[arg-type]
         "panels holds Schedule(",
     ),
-    "narrow": (lambda: gantt(PANEL, width_mm=39), "width_mm is 39: give from 40 to 1000"),
-    "wide": (lambda: gantt(PANEL, width_mm="1e6"), "width_mm is 1e+06: give from 40 to 1000"),  # type: ignore[arg-type]
+    "narrow": (lambda: gantt(PANEL, width_mm=49), "width_mm is 49: give from 50 to 1000"),
+    "wide": (lambda: gantt(PANEL, width_mm="1e6"), "width_mm is 1e+06: give from 50 to 1000"),  # type: ignore[arg-type]
     "no width": (lambda: gantt(PANEL, width_mm=None), "width_mm is 'None': give a finite number"),  # type: ignore[arg-type]
+    "no rate": (lambda: gantt(PANEL, hr_hz=0), "hr_hz is 0: it must be greater than 0"),
+    "first": (lambda: method_panel(TABLE, "dual-rate", TIMING, 1, first=10), "first is 10: give at most 9"),
+    "last": (lambda: method_panel(TABLE, "dual-rate", TIMING, 1, last=11), "last is 11: give at most 10"),
+    "order": (
+        lambda: method_panel(TABLE, "dual-rate", TIMING, 1, first=5, last=5),
+        "first is 5 and last is 5: the first step is 0 or later, and before the last",
+    ),
+    "no step": (lambda: method_panel(TABLE, "dual-rate", TIMING, 1, first=0.5), "first is 0.5: give a whole number"),  # type: ignore[arg-type]
     "swapped": (lambda: save("a.svg", gantt(PANEL)), "figure is a str: give save(figure, path)"),  # type: ignore[arg-type]
     "no path": (lambda: save(gantt(PANEL), None), "path is a NoneType: give save(figure, path)"),  # type: ignore[arg-type]
 }

@@ -10,7 +10,7 @@ from fractions import Fraction
 import pytest
 from matplotlib.collections import PolyCollection
 
-from reports.charts.chart import Panel, gantt
+from reports.charts.chart import Panel, gantt, title_lines
 from reports.charts.intervals import bars, jobs
 from reports.charts.panels import cycle_marks, method_panel
 from reports.drawing.style import RED
@@ -80,6 +80,12 @@ CASES: dict[str, Callable[[], list[Panel]]] = {
 @pytest.mark.parametrize("case", CASES)
 def test_texts_neither_overlap_nor_leave_the_page_and_none_is_small(case: str) -> None:
     assert flaws(gantt(CASES[case]())) == []
+
+
+@pytest.mark.parametrize("width_mm", [50, 88, 180])
+@pytest.mark.parametrize("case", CASES)
+def test_nor_do_they_in_a_column_of_another_width_with_a_second_axis(case: str, width_mm: float) -> None:
+    assert flaws(gantt(CASES[case](), width_mm=width_mm, hr_hz=400)) == []
 
 
 @pytest.mark.parametrize("case", ["figure 3", "overload", "2 CPUs", "context switch", "tasks"])
@@ -167,6 +173,60 @@ def test_steps_are_named_as_in_the_paper(
 def test_too_many_steps_are_refused() -> None:
     with pytest.raises(InputError, match=r"1000000 cycles .* give fewer cycles"):
         panel("larsen", 10, 4, 8, "1.47", 1_000_000)
+
+
+@pytest.mark.parametrize(("steps", "every"), [(40, 1), (42, 2), (100, 5), (300, 10)])
+def test_above_40_steps_arrows_thin_out_and_the_legend_says_so(steps: int, every: int) -> None:
+    figure = gantt(panel("larsen", steps, 4, 8, "1.5"))
+    for marker, first in ("^", 0), ("v", 1):
+        (found,) = [[*map(float, line.get_xdata())] for line in figure.axes[0].lines if line.get_marker() == marker][:1]
+        assert found == [*range(first, steps + first, every)]
+    said = {text.get_text() for text, _ in texts(figure)}
+    assert ("release" if every == 1 else f"release (1 in {every} where crowded)") in said
+
+
+def test_arrows_of_missed_deadlines_never_thin_out() -> None:
+    shown = panel("larsen", 100, 10, 80, "0.46")
+    crosses = [line for line in gantt(shown).axes[0].lines if line.get_marker() == "x"]
+    assert sum(len(line.get_xdata()) for line in crosses) == shown.schedule.misses > 41
+
+
+def test_a_stretch_shows_its_steps_and_nothing_beyond() -> None:
+    shown = panel("dual-rate", 10, 4, 8, "0.77", 3, first=12, last=19)
+    figure = gantt(shown, hr_hz=400)
+    axes = figure.axes[0]
+    assert axes.get_xlim() == (12, 19)
+    for collection in axes.collections:
+        if isinstance(collection, PolyCollection):
+            for path in collection.get_paths():
+                across = path.vertices[:, 0]
+                assert across.min() <= 19
+                assert across.max() >= 12
+    said = {text.get_text() for text, _ in texts(figure)}
+    assert {"steps 12 to 18 of 30", "$m+N$", "$l+N$", "LRU  low-rate update"} <= said
+    assert not {"LRP  low-rate propagate", "$k+N$", "$k+2N$"} & said
+    assert flaws(figure) == []
+
+
+def test_the_second_axis_is_the_first_in_ms() -> None:
+    without, figure = (gantt(figure_3(), hr_hz=rate) for rate in (None, 400))
+    ms = next(axes for axes in figure.axes if axes.get_xlabel().startswith("time (ms)"))
+    assert ms.get_xlim() == (0, 25)
+    assert ms.get_xlabel() == "time (ms), HR loop at 400 Hz"
+    steps = figure.axes[1]
+    assert (ms.get_position().x0, ms.get_position().x1) == (steps.get_position().x0, steps.get_position().x1)
+    assert not [axes for axes in without.axes if "ms" in axes.get_xlabel()]
+
+
+def test_a_title_too_long_for_a_line_goes_on_in_the_next() -> None:
+    lines = title_lines(panel("dual-rate", 10, 4, 8, "0.5"), 50)
+    assert [[text for text, _ in line] for line in lines] == [
+        ["Dual-rate", "speed 0.5"],
+        ["no correction lands", "100 % busy"],
+        ["✗ 11 of 12 jobs miss their"],
+        ["deadline, 2 never got the"],
+        ["processor"],
+    ]
 
 
 def test_drawing_does_not_import_pyplot() -> None:
