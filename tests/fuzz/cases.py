@@ -60,7 +60,10 @@ COMMANDS: dict[str, tuple[Options, Options]] = {
 OFTEN = {"minimum": 6, "simulate": 5, "simulate --scenario scenario.toml": 5, "processors": 3}
 """Others count one: a sweep waits for its disk."""
 DRAWN: dict[str, tuple[Options, Options]] = {
-    "gantt": ([*DESIGN, ("--output", "out.svg")], [*SETTINGS, *options("--output=out.png --output=out.pdf")]),
+    "gantt": (
+        [*DESIGN, ("--output", "out.svg")],
+        [*SETTINGS, *options("--output=out.png --output=out.pdf --width=88mm --from=2 --until=5")],
+    ),
     "simulate": ([*DESIGN, ("--gantt", "out.svg")], SETTINGS),
     "simulate --scenario scenario.toml": (options("--gantt=out.svg"), options("--histogram=out.svg --histogram=a.png")),
 }
