@@ -26,9 +26,13 @@ Picture = Annotated[Path, typer.Option("--output", "-o", help="FILE.svg, .pdf or
 
 @with_options
 def gantt(
-    N: opt.Steps,
+    N: opt.StepsOrNone = None,
     M: opt.Delay = None,
     L: opt.FeedbackStep = None,
+    hr_hz: opt.HrHz = None,
+    measurement_hz: opt.MeasurementHz = None,
+    delay_ms: opt.DelayMs = None,
+    land_within_ms: opt.LandWithinMs = None,
     method: ChartMethods = None,
     speed: opt.Speed = None,
     cycles: opt.Cycles = 1,
@@ -37,7 +41,6 @@ def gantt(
     processor: opt.OnProcessor = None,
     options: Options = Options(),
     tasks: opt.Tasks = None,
-    hr_hz: opt.HrHz = None,
     width: Width = "170mm",
     first: From = None,
     until: Until = None,
@@ -55,6 +58,7 @@ def gantt(
     from reports.charts.chart import method_panel, save
     from reports.charts.panels import zoomed
     from reports.drawing.picture import check_picture
+    from sched_sim.cli.design_times import make_design
     from sched_sim.design.least_speed import least_speed
     from sched_sim.design.methods import select
 
@@ -65,9 +69,10 @@ def gantt(
     part = opt.make_processor(processor)
     table, rate = opt.costs_on(costs, part), opt.hr_rate(hr_hz)
     others = opt.make_tasks(tasks, table.unit, rate)
+    design = make_design(N, M, L, rate, measurement_hz, delay_ms, land_within_ms)
     panels = []
     for name in opt.wanted_methods(method or _usual(table), table):
-        timing = opt.make_timing(N, M, L, name, options)
+        timing = opt.make_timing(design.N, design.M, design.L, name, options)
         work = select(table, name, options, statistic)
         pace = opt.pace(speed, rate, part, partial(least_speed, work, timing, options, others))
         panels.append(method_panel(table, name, timing, pace, cycles, options, others, statistic=statistic))
@@ -75,6 +80,8 @@ def gantt(
         start, end = stretch(first, until, rate, min(panel.end for panel in panels))
         panels = [zoomed(panel, start, end) for panel in panels]
     save(draw(panels, width_mm=across, hr_hz=rate), output, "--output")
+    if design.words:
+        say(design.words)
     say(f"Wrote {output}")
 
 

@@ -61,7 +61,6 @@ _STEPS = typer.Option(
     metavar="STEPS",
     rich_help_panel=DESIGN,
 )
-Steps = Annotated[int, _STEPS]
 StepsOrNone = Annotated[int | None, _STEPS]
 Delay = Annotated[
     int | None,
