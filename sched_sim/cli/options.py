@@ -192,8 +192,8 @@ def make_timing(N: int, M: int | None, L: int | None, method: str, options: Opti
         M = 0
     if M is None:
         raise InputError(
-            "-M is missing: give the delay of the measurement in HR steps, such as -M 4 (multirate and robust methods "
-            "have none)"
+            "-M is missing: give the delay of the measurement in HR steps, such as -M 4, or --delay-ms with --hr-hz "
+            "(multirate and robust methods have none)"
         )
     if L is None:
         L = law.latest(N, M) if 0 <= M <= N else N
