@@ -166,7 +166,7 @@ def simulate(
         save(draw([panel], hr_hz=rate), gantt, "--gantt")
     if not schedule.misses and (note := unseen(work, timing, pace, cycles, options, others)):
         say(f"Note: {note}")
-    about = of_run(method, timing, pace, table.unit, rate) | update_form(table, method)
+    about = of_run(method, timing, pace, table.unit, rate, part) | update_form(table, method)
     if format == "json":
         print_json(about | outcome(schedule, achieved, rate))
     elif format == "csv":

@@ -11,13 +11,16 @@ from sched_sim.shares import percent
 
 if TYPE_CHECKING:
     from sched_sim.design.timing import Timing
+    from sched_sim.processors.part import Part
     from sched_sim.schedule.outcome import Response, Schedule
 
 Achieved = Sequence[int | None]
 """By cycle, the steps from a measurement to where its correction landed; None if not within the simulated time."""
 
 
-def of_run(method: str, timing: Timing, speed: Fraction, unit: str, rate: Fraction | None) -> dict[str, Any]:
+def of_run(
+    method: str, timing: Timing, speed: Fraction, unit: str, rate: Fraction | None, part: Part | None
+) -> dict[str, Any]:
     """What was simulated. speed: in units of cost (`unit`) per HR period; rate: in Hz."""
     about = {
         "method": method,
@@ -28,7 +31,8 @@ def of_run(method: str, timing: Timing, speed: Fraction, unit: str, rate: Fracti
         "speed_exact": str(speed),
         "cost_unit": unit,
     }
-    return about if rate is None else about | {"hr_hz": float(rate)}
+    on = {} if part is None else {"processor": part.name}
+    return about | on | ({} if rate is None else {"hr_hz": float(rate)})
 
 
 def outcome(schedule: Schedule, achieved: Achieved, rate: Fraction | None) -> dict[str, Any]:

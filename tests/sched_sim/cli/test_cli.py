@@ -101,6 +101,12 @@ def test_what_simulate_prints_for_scripts_says_of_what_it_is_and_in_which_unit(s
     assert row == {key: str(value) for key, value in {**about, "kind": "lr_update", **update}.items()}
 
 
+def test_on_a_processor_the_speed_is_in_seconds_and_the_processor_is_named(sched_sim: Run) -> None:
+    document = json.loads(sched_sim("simulate -N 10 -M 4 --processor leon3 --hr-hz 400 --format json").out)
+    about = {"speed": 0.0025, "speed_exact": "1/400", "cost_unit": "second", "processor": "leon3", "hr_hz": 400.0}
+    assert {key: document[key] for key in about} == about
+
+
 def test_without_a_rate_nothing_is_in_ms(sched_sim: Run) -> None:
     assert "_ms" not in sched_sim("simulate -N 10 -M 4 --format json").out
     assert "ms" not in sched_sim("simulate -N 10 -M 4").out
