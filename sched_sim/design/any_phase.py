@@ -17,9 +17,12 @@ from sched_sim.design.timing import Timing
 from sched_sim.design.worst_demand import overloaded
 from sched_sim.design.worst_phase import EndlessError, finishes
 from sched_sim.errors import InputError, option
+from sched_sim.schedule.length import check_simulation
 from sched_sim.schedule.tasks import Task, phases_matter
 
 LOAD = "load"
+
+MOST_JOBS_OF_A_CYCLE = 1_000_000
 
 FIRST_STEP = 1_000
 """The search starts so small a share above the load: nearer to it, busy periods are long."""
@@ -60,7 +63,7 @@ def least_speed_of_any_phase(
 def late_job(costs: Costs, timing: Timing, speed: Fraction, options: Options, tasks: Sequence[Task]) -> str | None:
     """What may be late at some phase, named as in a sweep's `binding`; None if nothing may.
 
-    Raises InputError for earliest deadline first on two processors.
+    Raises InputError for earliest deadline first on two processors, and for tasks that release too many jobs.
     """
     if options.policy == "edf" and options.cpus == 2:
         name = next(task.name for task in tasks if phases_matter([task]))
@@ -68,6 +71,7 @@ def late_job(costs: Costs, timing: Timing, speed: Fraction, options: Options, ta
             f"task {name!r} may have any phase, and what is the worst one is not known with {option('policy')} edf on "
             f"two processors: give each task an offset, and no jitter, or choose {option('policy')} fixed"
         )
+    check_simulation(timing.N, tasks, f"the {timing.N} HR periods of a measurement cycle", MOST_JOBS_OF_A_CYCLE)
     if max(loads(costs, timing, speed, options, tasks)) > 1:
         return LOAD
     design = phased(costs, timing, speed, options, tasks)

@@ -55,8 +55,8 @@ def simulate(
     """
     tasks = checked(timing, options, tasks)
     speed, cycles = positive(speed, "speed"), at_least_one(cycles, "cycles")
-    tasks = at_worst_phase(costs, timing, speed, options, tasks)
     check_simulation(cycles * timing.N, tasks, f"{short(cycles)} cycles of N={timing.N}")
+    tasks = at_worst_phase(costs, timing, speed, options, tasks)
     achieved: Counter[int] = Counter()
 
     def landed(cycle: int, L: int) -> None:
@@ -94,13 +94,9 @@ def at_worst_phase(
         return tuple(tasks)
     design = phased(costs, timing, speed, options, tasks)
     start = Fraction(0) if options.policy == "edf" else Fraction(critical_start(design), design.period)
-
-    def released(task: Task) -> Task:
-        nominal = start - task.jitter
-        later = ceil(max(-nominal, Fraction(0)) / timing.N) * timing.N
-        return replace(task, offset=nominal + later) if task.offset == "any" else task
-
-    return tuple(map(released, tasks))
+    longest = max(task.jitter for task in tasks if task.offset == "any")
+    start += ceil(max(longest - start, Fraction(0)) / design.steps) * design.steps  # of all by the same
+    return tuple(replace(task, offset=start - task.jitter) if task.offset == "any" else task for task in tasks)
 
 
 class Workload(NamedTuple):

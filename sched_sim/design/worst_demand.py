@@ -88,5 +88,5 @@ def _due(design: Phased, start: Ints, length: Ints) -> Ints:
     for task in design.tasks:
         work = work + task.due(start, length) * task.work
         if not task.preemptive:
-            block = np.maximum(block, np.where(length < task.deadline, task.work, 0))
+            block = np.maximum(block, np.where(length < task.deadline, 0 * start + task.work, 0))
     return work + np.where(work > 0, block, 0)

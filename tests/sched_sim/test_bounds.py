@@ -90,8 +90,10 @@ def test_a_large_file_is_not_read(sched_sim: Run, tmp_path: Path) -> None:
     ],
 )
 def test_tasks_that_release_jobs_without_end(sched_sim: Run, tmp_path: Path, command: str) -> None:
-    (tmp_path / "t.toml").write_text(TASK + "1e-18")
-    is_refused(sched_sim(f"{command} -N 10 -M 4 --tasks t.toml"), ["'t'", "1e-18", "check its period"])
+    costs = TASK.replace("cost", "cost_us") if command.startswith("processors") else TASK
+    for offset in ('"any"', "0"):
+        (tmp_path / "t.toml").write_text(f"{costs}1e-18\noffset = {offset}\n")
+        is_refused(sched_sim(f"{command} -N 10 -M 4 --tasks t.toml"), ["'t'", "1e-18", "check its period"])
 
 
 def test_values_in_messages_are_short() -> None:
@@ -112,7 +114,7 @@ def test_values_in_messages_are_short() -> None:
     ],
 )
 def test_more_tasks_than_anyone_has(sched_sim: Run, tmp_path: Path, command: str, count: int, said: list[str]) -> None:
-    entry = '[[task]]\nname = "t{}"\ncost = 0.001\npriority = 5\nperiod = {}\n'
+    entry = '[[task]]\nname = "t{}"\ncost = 0.001\npriority = 5\noffset = 0\nperiod = {}\n'
     (tmp_path / "t.toml").write_text("".join(entry.format(number, number + 1) for number in range(count)))
     is_refused(sched_sim(f"{command} -N 10 -M 4 --tasks t.toml"), said)
 

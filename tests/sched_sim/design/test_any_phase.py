@@ -16,10 +16,11 @@ from hypothesis import strategies as st
 from sched_sim.costs.table_file import load_costs
 from sched_sim.design.any_phase import late_job, worst_landing
 from sched_sim.design.least_speed import achieved_l, least_speed
+from sched_sim.design.load import loads
 from sched_sim.design.methods import select
 from sched_sim.design.options import Options
 from sched_sim.design.phased import phased
-from sched_sim.design.pieces import DualRateCosts, MultirateCosts, StandardCosts
+from sched_sim.design.pieces import DualRateCosts, MultirateCosts, StandardCosts, converted
 from sched_sim.design.search import search_resolution
 from sched_sim.design.simulate import at_worst_phase, simulate
 from sched_sim.design.timing import Timing
@@ -155,7 +156,7 @@ def is_tight(loaded: Loaded) -> bool | None:
     slower = speed - Fraction(1, search_resolution(costs, options, tasks))
     if binding == "load":
         return None
-    whole = ceil(max(task.jitter for task in tasks) / timing.N) * timing.N
+    whole = (1 + ceil(max(task.jitter for task in tasks) / timing.N)) * timing.N  # the first cycle may lack an update
     for step in range(whole, whole + timing.N):
         together = [replace(task, offset=step - task.jitter) for task in tasks]
         if simulate(costs, timing, slower, cycles_of(together, timing.N), options, together).misses:
@@ -215,6 +216,27 @@ def test_a_control_law_whose_phase_is_known_may_need_less() -> None:
 def test_a_simulation_releases_tasks_together_where_it_is_worst() -> None:
     (control,) = at_worst_phase(LARSEN, ISSUE, Fraction(2), Options(), [CONTROL])
     assert control.start == 13
+    late = [
+        CONTROL,
+        replace(CONTROL, name="telemetry", period=Fraction(20), deadline=Fraction(20), jitter=Fraction(15)),
+    ]
+    control, telemetry = at_worst_phase(LARSEN, ISSUE, Fraction(3), Options(), late)
+    assert (control.start, telemetry.start) == (53, 53 - 15)
+
+
+@settings(max_examples=30)
+@given(with_tasks(), st.fractions(Fraction(9, 10), Fraction(11, 10), max_denominator=1000))
+def test_it_takes_integers_of_any_size(loaded: Loaded, share: Fraction) -> None:
+    """Costs of 10^17 times as many units, at a speed that is as much higher."""
+    (costs, timing, options), tasks = loaded
+    many = 10**17
+    scaled = converted(costs, lambda cost: Fraction(cost) * many)
+    of_scaled = replace(options, context_switch=options.context_switch * many)
+    scaled_tasks = [replace(task, cost=task.cost * many) for task in tasks]
+    speed = max(loads(costs, timing, Fraction(1), options, tasks)) * share * Fraction(3, 2)
+    for find in (late_job, worst_landing):
+        small = find(costs, timing, speed, options, tasks)
+        assert find(scaled, timing, speed * many, of_scaled, scaled_tasks) == small
 
 
 def test_earliest_deadline_first_on_two_processors_is_refused_by_name() -> None:
