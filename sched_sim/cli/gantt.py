@@ -59,6 +59,7 @@ def gantt(
     from reports.charts.panels import zoomed
     from reports.drawing.picture import check_picture
     from sched_sim.cli.design_times import make_design
+    from sched_sim.cli.simulate import released_together
     from sched_sim.design.least_speed import least_speed
     from sched_sim.design.methods import select
 
@@ -75,6 +76,8 @@ def gantt(
         timing = opt.make_timing(design.N, design.M, design.L, name, options)
         work = select(table, name, options, statistic)
         pace = opt.pace(speed, rate, part, partial(least_speed, work, timing, options, others))
+        if together := released_together(work, timing, pace, options, others):
+            say(f"Note: {name}: {together}")
         panels.append(method_panel(table, name, timing, pace, cycles, options, others, statistic=statistic))
     if first is not None or until is not None:
         start, end = stretch(first, until, rate, min(panel.end for panel in panels))

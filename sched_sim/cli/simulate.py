@@ -164,6 +164,8 @@ def simulate(
 
         panel = method_panel(table, method, timing, pace, cycles, options, others, statistic=statistic)
         save(draw([panel], hr_hz=rate), gantt, "--gantt")
+    if together := released_together(work, timing, pace, options, others):
+        say(f"Note: {together}")
     if not schedule.misses and (note := unseen(work, timing, pace, cycles, options, others)):
         say(f"Note: {note}")
     about = of_run(method, timing, pace, table.unit, rate, part) | update_form(table, method)
@@ -187,12 +189,15 @@ def unseen(
     """What is still to come after so many measurement cycles without a miss, in words; None if nothing new."""
     from sched_sim.design.least_speed import has_closed_form
     from sched_sim.design.load import loads
+    from sched_sim.schedule.tasks import phases_matter
 
     shown = f"{cycles} {'cycle is' if cycles == 1 else 'cycles are'} shown"
     if (most := max(loads(costs, timing, speed, options, tasks))) > 1:
         return f"{shown}; the work is {_above(most)} of what the processor can do, and piles up without end"
     if has_closed_form(options, tasks):
         return None
+    if phases_matter(tasks):
+        return _at_another_phase(costs, timing, speed, options, tasks)
     from sched_sim.design.steady import run_until_steady
 
     try:
@@ -207,6 +212,36 @@ def unseen(
     if steady.schedule.misses:
         return f"{shown}; a deadline is missed within {needed}: --cycles {needed}"
     return f"{shown}; work piles up slowly: after {needed} cycles it had not come to rest, and nothing was missed yet"
+
+
+def _at_another_phase(
+    costs: Costs, timing: Timing, speed: Fraction, options: Options, tasks: Sequence[Task]
+) -> str | None:
+    from sched_sim.cli.parts import fixed_by
+    from sched_sim.design.any_phase import LOAD, late_job
+
+    try:
+        late = late_job(costs, timing, speed, options, tasks)
+    except InputError as error:
+        return f"not all is seen: {error}"
+    if late == LOAD:
+        return "at another phase of the tasks something may be late: the work is nearly all that the processor can do"
+    return None if late is None else f"at another phase of the tasks {fixed_by(late)} may be late"
+
+
+def released_together(
+    costs: Costs, timing: Timing, speed: Fraction, options: Options, tasks: Sequence[Task]
+) -> str | None:
+    """At which step tasks of any phase are released together in a simulation, in words; None if there are none."""
+    from sched_sim.design.simulate import at_worst_phase
+
+    placed = at_worst_phase(costs, timing, speed, options, tasks)
+    starts = [at.start + at.jitter for at, task in zip(placed, tasks, strict=True) if task.offset == "any"]
+    if not starts:
+        return None
+    step = f"{float(min(starts)):.6g}"
+    worst = "" if options.policy == "edf" else ", the worst for them here"
+    return f"tasks of any phase are released together at step {step}{worst}"
 
 
 def _above(share: Fraction) -> str:

@@ -152,6 +152,7 @@ def test_with_tasks_the_landing_is_the_simulated_one_and_too_few_cycles_are_told
 ) -> None:
     """Two tasks that meet the measurements only after 91 cycles: three cycles do not show it all, of misses either."""
     task = '[[task]]\nname = "{}"\nperiod = {}\ncost = 0.1\npriority = {}\n'
+    task += "offset = 0\n"
     (tmp_path / "tasks.toml").write_text(task.format("a", 7, 5) + task.format("b", 13, 15))
     line = "-N 10 -M 4 --method larsen --tasks tasks.toml --format json"
     assert json.loads(sched_sim(f"minimum {line} --hr-hz 400").out)[0]["correction_ms"] == 10.0
@@ -160,6 +161,20 @@ def test_with_tasks_the_landing_is_the_simulated_one_and_too_few_cycles_are_told
     later = sched_sim(f"simulate {line} --speed 1.56")
     assert json.loads(later.out)["misses"] == 0
     assert "a deadline is missed within 7: --cycles 7" in later.err
+
+
+def test_a_simulation_says_where_tasks_of_any_phase_are_released_and_what_may_be_late_elsewhere(
+    sched_sim: Run, tmp_path: Path
+) -> None:
+    """At 1.26 only the step of the correction is full, and at 1.25 late where the task meets it: not at step 0."""
+    task = '[[task]]\nname = "control"\nperiod = 4\ncost = 0.6\npriority = 5\n'
+    (tmp_path / "tasks.toml").write_text(task)
+    line = "simulate -N 40 -M 13 --method {} --tasks tasks.toml"
+    full = sched_sim(line.format("larsen"))
+    assert full.err == "Note: tasks of any phase are released together at step 13, the worst for them here\n"
+    late = sched_sim(line.format("dual-rate --speed 1.25")).err.splitlines()
+    assert late[0].startswith("Note: tasks of any phase are released together at step ")
+    assert late[1:] == ["Note: at another phase of the tasks one HR job may be late"]
 
 
 def test_where_there_are_no_tasks_none_are_spoken_of(sched_sim: Run) -> None:
@@ -176,8 +191,12 @@ def test_what_has_no_closed_form_is_named_where_n_is_too_long(sched_sim: Run, op
 
 
 def test_tasks_whose_periods_hardly_ever_meet_the_measurements_can_be_simulated(sched_sim: Run, tmp_path: Path) -> None:
-    """Only the search for the least speed needs the schedule to repeat."""
-    (tmp_path / "odd.toml").write_text('[[task]]\nname = "odd"\nperiod = 3.141592653\ncost = 0.1\npriority = 30\n')
+    """Only the search for the least speed needs the schedule to repeat, and only where their phase is given."""
+    odd = '[[task]]\nname = "odd"\nperiod = 3.141592653\ncost = 0.1\npriority = 30\n'
+    (tmp_path / "odd.toml").write_text(odd)
+    assert sched_sim("minimum -N 10 -M 4 --tasks odd.toml").code == 0
+    assert "not all is seen" not in sched_sim("simulate -N 10 -M 4 --speed 0.9 --tasks odd.toml").err
+    (tmp_path / "odd.toml").write_text(f"{odd}offset = 0\n")
     simulated = sched_sim("simulate -N 10 -M 4 --speed 0.9 --tasks odd.toml")
     assert simulated.code == 0
     assert "not all is seen" in simulated.err

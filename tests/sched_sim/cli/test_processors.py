@@ -17,7 +17,7 @@ from sched_sim.processors.part import on_part
 from sched_sim.processors.part_file import load_part, shipped_parts
 from tests.command_line import Run, is_refused
 
-TASKS = '[[task]]\nname = "control"\nperiod = 2\ncost = 1e-4\npriority = 15\n'
+TASKS = '[[task]]\nname = "control"\nperiod = 2\ncost_us = 100\npriority = 15\n'
 
 
 @pytest.mark.parametrize(
@@ -178,5 +178,6 @@ def test_parts_that_can_do_no_job_of_a_table_are_listed_with_the_reason(sched_si
 )
 def test_wrong_input_is_refused(sched_sim: Run, tmp_path: Path, line: str, said: list[str]) -> None:
     (tmp_path / "tasks.toml").write_text(TASKS)
-    (tmp_path / "two.toml").write_text(f"{TASKS}cpu = 2\n")
+    two = TASKS if line.startswith("processors") else TASKS.replace("cost_us", "cost")
+    (tmp_path / "two.toml").write_text(f"{two}cpu = 2\n")
     is_refused(sched_sim(line), said)

@@ -40,7 +40,9 @@ ADVICE = re.compile(r"(larger|smaller|longer|shorter|lower|higher|fewer) (N\b|M\
     ],
 )
 def test_no_message_asks_for_other_facts(sched_sim: Run, tmp_path: Path, line: str, said: list[str]) -> None:
-    (tmp_path / "control.toml").write_text('[[task]]\nname = "control"\nperiod = 7.123457\ncost = 0.1\npriority = 5\n')
+    (tmp_path / "control.toml").write_text(
+        '[[task]]\nname = "control"\nperiod = 7.123457\noffset = 0\ncost = 0.1\npriority = 5\n'
+    )
     (tmp_path / "larsen.toml").write_text(scenario('late = "larsen"\n'))
     (tmp_path / "short.toml").write_text(scenario().replace("steps = 4000", "steps = 100"))
     result = sched_sim(line)

@@ -64,7 +64,7 @@ def test_equal_priorities_run_in_order_of_release_and_do_not_preempt() -> None:
 
 
 def test_of_equal_priorities_released_at_one_instant_the_filter_goes_first() -> None:
-    task = Task("control", Fraction(1), Fraction(1), priority=10)
+    task = Task("control", Fraction(1), Fraction(1), priority=10, offset=Fraction(0))
     schedule = simulate(StandardCosts(4, 6), Timing(4, 0, 4), Fraction(20), 1, tasks=[task], keep_slices=True)
     assert [(piece.kind, piece.start) for piece in schedule.slices if piece.end > piece.start] == [
         ("hr", 0), ("task:control", 10), ("hr", 20), ("task:control", 24),
@@ -243,7 +243,7 @@ def test_an_overrun_keeps_running_late_and_is_reported() -> None:
 def test_user_tasks_share_the_processor() -> None:
     tasks = [
         Task("control", period=Fraction(2), cost=Fraction(3), priority=5, offset=Fraction(1, 2)),
-        Task("telemetry", period=Fraction(6), cost=Fraction(4), priority=30),
+        Task("telemetry", period=Fraction(6), cost=Fraction(4), priority=30, offset=Fraction(0)),
     ]
     alone = simulate(DUAL_RATE, Timing(6, 1, 4), Fraction(10), 4)
     shared = simulate(DUAL_RATE, Timing(6, 1, 4), Fraction(10), 4, tasks=tasks)

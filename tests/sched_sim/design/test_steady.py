@@ -26,7 +26,7 @@ from tests.exhaust import share_of
 
 FIGURE_3 = Timing(10, 4, 8)
 OF_ONE_PRIORITY = [
-    Task("control", period=Fraction(10), cost=Fraction(5), priority=30),
+    Task("control", period=Fraction(10), cost=Fraction(5), priority=30, offset=Fraction(0)),
     Task("telemetry", period=Fraction(10), cost=Fraction(5), priority=30, offset=Fraction(5)),
 ]
 
@@ -57,13 +57,16 @@ def test_a_task_that_makes_a_correction_land_later_may_help() -> None:
     """Without it the correction lands in step 1, whose HR job is 2 + 25; with it in step 2, whose job is 1 + 25."""
     costs, timing = DualRateCosts(1, 2, 25, 1, 0, 24), Timing(3, 0, 3)
     assert least_speed(costs, timing).speed == 27
-    assert least_speed(costs, timing, tasks=[Task("a", Fraction(3), Fraction(1), priority=5)]).speed == 26
+    assert (
+        least_speed(costs, timing, tasks=[Task("a", Fraction(3), Fraction(1), priority=5, offset=Fraction(0))]).speed
+        == 26
+    )
 
 
 def test_a_backlog_that_grows_slowly_takes_no_more_simulations_than_another() -> None:
     """A period that is a tick too short misses its first deadline a little later than one that is two too short."""
     late = Fraction(7, 3)
-    tasks = [Task("a", 1, 4, 20), Task("b", 1, 1, 20, offset=late), Task("c", 1, 56, 20, offset=late)]
+    tasks = [Task("a", 1, 4, 20, offset=0), Task("b", 1, 1, 20, offset=late), Task("c", 1, 56, 20, offset=late)]
     runs: list[int] = []
     options = Options(context_switch=Fraction(3, 2))
     least_speed(StandardCosts(Fraction(1), Fraction(1)), Timing(1, 0, 1), options, tasks, on_progress=runs.append)
@@ -95,7 +98,10 @@ def test_what_is_seen_until_it_repeats_is_all_that_comes(loaded: tuple[Design, l
 
 
 def test_a_task_that_has_no_offset_and_no_backlog_repeats_after_one_hyperperiod() -> None:
-    step, task = StandardCosts(Fraction(1), Fraction(1)), Task("control", Fraction(3), Fraction(1), priority=30)
+    step, task = (
+        StandardCosts(Fraction(1), Fraction(1)),
+        Task("control", Fraction(3), Fraction(1), priority=30, offset=Fraction(0)),
+    )
     steady = run_until_steady(step, Timing(2, 0, 2), Fraction(4), tasks=[task])
     assert steady.repeats
     assert steady.steps == 6
@@ -113,7 +119,7 @@ def test_work_that_piles_up_never_repeats() -> None:
 @pytest.mark.parametrize(
     ("task", "told"),
     [
-        (Task("odd", Fraction("3.141592653"), Fraction(1), 30), r"round their periods \(odd 3\.14159\)"),
+        (Task("odd", Fraction("3.141592653"), Fraction(1), 30, Fraction(0)), r"round their periods \(odd 3\.14159\)"),
         (
             Task("late", Fraction(4), Fraction(1), 30, offset=Fraction(10**9)),
             r"'late': offset 1e\+09 .*below its period",

@@ -17,7 +17,7 @@ from tests.command_line import Run
 
 EDF = Options(policy="edf")
 HALF = StandardCosts(Fraction(1, 4), Fraction(1, 4))
-CONTROL = Task("control", Fraction(5, 2), Fraction(5, 4), 20)
+CONTROL = Task("control", Fraction(5, 2), Fraction(5, 4), 20, offset=Fraction(0))
 """Beside a step that takes half a period, it fills the processor."""
 
 
@@ -32,7 +32,7 @@ def test_by_deadlines_a_processor_that_is_full_misses_nothing() -> None:
 
 def test_of_equal_deadlines_the_job_released_first_runs() -> None:
     """The step from 2 and the task from 0 end at 3: the task, released first, is not preempted."""
-    task = Task("control", Fraction(3), Fraction(2), 20)
+    task = Task("control", Fraction(3), Fraction(2), 20, offset=Fraction(0))
     schedule = simulate(HALF, Timing(1, 0, 0), Fraction(1), 3, EDF, [task], keep_slices=True)
     assert [(piece.kind, piece.start, piece.end) for piece in schedule.slices if piece.kind != "hr"] == [
         ("task:control", 2, 4),

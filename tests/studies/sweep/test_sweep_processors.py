@@ -34,9 +34,11 @@ divide = 20
 logic = 1
 """
 TASKS = """
+unit = "s"
 [[task]]
 name = "control"
 period = 2
+offset = 0
 cost = 2e-4
 priority = 5
 [[task]]
@@ -50,6 +52,7 @@ EQUALS = """
 [[task]]
 name = "control"
 period = 10
+offset = 0
 cost = 5
 priority = 30
 [[task]]
@@ -96,7 +99,7 @@ def test_a_design_meets_its_deadlines_where_the_simulation_at_the_parts_own_spee
     assert {(row["processor"], float(row["hr_hz"])) for row in rows} == {
         (part, rate) for part in ("mine", "cortex-m4f") for rate in (50.0, 400.0, 1000.0)
     }
-    others = read_tasks(Path(tasks)) if tasks else ()
+    others = read_tasks(Path(tasks), unit_s=1) if tasks else ()
     for row in rows:
         part = load_part("mine.toml" if row["processor"] == "mine" else row["processor"])
         costs = select(on_part(load_costs("counted-9-3-3"), part), row["method"], Options())
@@ -259,13 +262,13 @@ def test_the_tables_name_processor_rate_and_covariance_update(sched_sim):
         ("--tasks equals.toml --costs steffes2014 --costs counted-9-3-3", ["standard step and operation", "--costs"]),
         ("numbers.toml", ["grid file", "processor", "7", "name of a shipped processor"]),
         ("list.toml", ["grid file", "tasks", "path of a TOML file"]),
-        ("--tasks tasks.toml --results tasks.toml", ["--results tasks.toml", "--tasks tasks.toml reads"]),
+        ("--tasks equals.toml --results equals.toml", ["--results equals.toml", "--tasks equals.toml reads"]),
         ("--processor mine.toml --results mine.toml", ["--results mine.toml", "--processor mine.toml reads"]),
     ],
 )
 def test_wrong_input_is_refused_before_anything_is_written(sched_sim, folder, line, said):
     (folder / "two.toml").write_text(EQUALS.replace("priority = 30", "priority = 30\ncpu = 2", 1))
-    (folder / "odd.toml").write_text(TASKS.replace("period = 2", "period = 7.123457"))
+    (folder / "odd.toml").write_text(TASKS.removeprefix('\nunit = "s"').replace("period = 2", "period = 7.123457"))
     (folder / "twin.toml").write_text(PART)
     (folder / "numbers.toml").write_text("processor = 7\n")
     (folder / "list.toml").write_text('tasks = ["tasks.toml"]\n')
