@@ -26,10 +26,9 @@ def simulate_scenario(
 ) -> None:
     """outputs: the three, by their options. Raises InputError for a scenario that cannot be run, and for a file that
     cannot be written or is one that is read."""
-    from sched_sim.cli.trace import open_trace
     from sched_sim.scenario.run import run_scenario
     from sched_sim.scenario.scenario_file import read_scenario
-    from sched_sim.schedule.trace import check_trace
+    from sched_sim.schedule.trace import check_trace, open_trace
 
     if gantt is not None or histogram is not None:
         from reports.drawing.picture import check_picture

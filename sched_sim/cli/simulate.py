@@ -113,13 +113,12 @@ def simulate(
 
     from sched_sim.cli.design_times import make_design
     from sched_sim.cli.simulated import of_run, outcome, responses, show
-    from sched_sim.cli.trace import open_trace
     from sched_sim.cli.update_form import update_form, update_note
     from sched_sim.costs.methods import MULTIRATE_METHODS
     from sched_sim.design.least_speed import least_speed
     from sched_sim.design.methods import select
     from sched_sim.design.simulate import simulate as run
-    from sched_sim.schedule.trace import check_trace
+    from sched_sim.schedule.trace import check_trace, open_trace
 
     if gantt is not None:
         from reports.drawing.picture import check_picture

@@ -1,4 +1,10 @@
-"""Every slice of a schedule, written as it ends: CSV, or Chrome Trace Event JSON (for Perfetto, chrome://tracing)."""
+"""Every slice of a schedule as it ends, in a file that says the unit of its times: ms where the HR rate is known, else
+HR periods.
+
+CSV: a row for each piece of a slice, the unit in the names of its columns. JSON (Chrome Trace Event): one complete
+event for each piece, each CPU a process, each job kind a thread. The format has no unit but of time: without a rate a
+period is drawn 1 ms long, and the names of the processes and `otherData` say so.
+"""
 
 from __future__ import annotations
 
@@ -6,16 +12,17 @@ import csv
 from codecs import StreamWriter, getwriter
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from fractions import Fraction
 from pathlib import Path
+from typing import NamedTuple
 
 from sched_sim.errors import InputError, option
 from sched_sim.files.writable import check_writable, writing
 from sched_sim.schedule.outcome import Slice
 from sched_sim.text import csv_cell, json_text
+from sched_sim.ticks import Number, positive
 
 Write = Callable[[Slice], None]
-
-COLUMNS = ("cpu", "kind", "piece", "step", "start", "end", "release", "deadline", "finished", "missed")
 
 UNFINISHED = "unfinished"
 """Instead of a piece: how a job stands at the end of the simulated time, whether it has run before or not."""
@@ -24,21 +31,41 @@ TOGETHER = "together"
 """Instead of a piece: a job that is done as another one is, with no work of its own."""
 
 
-@contextmanager
-def open_trace(path: str | Path, microseconds_per_period: float = 1000.0) -> Iterator[Write]:
-    """A function that writes one slice to `path`, in the format of its suffix.
+class TimeUnit(NamedTuple):
+    """name: as keys end; per_period: how many are an HR period; said: what a viewer of JSON must know, if anything;
+    hr_hz: None if it is not known."""
 
-    CSV: a row for each piece of a slice, times in HR periods. JSON: one complete event for each piece, one HR period
-    lasting `microseconds_per_period`; each CPU is a process, each job kind a thread. A job that is unfinished at
-    the end, or done together with another, has a row of no length, or an instant event.
-    The file is there once all is written. Raises InputError for another suffix and for a path that cannot be written.
+    name: str
+    per_period: float
+    said: str
+    hr_hz: float | None
+
+    def keys(self, *names: str) -> list[str]:
+        return [f"{name}_{self.name}" for name in names]
+
+    def of(self, ticks: int, piece: Slice) -> float:
+        return ticks * self.per_period / piece.period
+
+
+def time_unit(rate: Fraction | None) -> TimeUnit:
+    """rate: of the HR loop in Hz, if it is known."""
+    if rate is None:
+        return TimeUnit("periods", 1.0, "1 ms = 1 HR period", None)
+    return TimeUnit("ms", float(1000 / rate), "", float(rate))
+
+
+@contextmanager
+def open_trace(path: str | Path, hr_hz: Number | None = None) -> Iterator[Write]:
+    """A function that writes one slice to `path`, in the format of its suffix; the file is there once all is written.
+
+    hr_hz: rate of the HR loop in Hz, with which times are in ms, else in HR periods. A job that is unfinished at the
+    end, or done together with another, has a row of no length, or an instant event. Raises InputError for another
+    suffix and for a path that cannot be written.
     """
     path = Path(path)
     check_trace(path)
-    with (
-        writing(path, option("trace")) as file,
-        WRITERS[path.suffix](getwriter("utf-8")(file), microseconds_per_period) as write,
-    ):
+    unit = time_unit(None if hr_hz is None else positive(hr_hz, "hr_hz"))
+    with writing(path, option("trace")) as file, WRITERS[path.suffix](getwriter("utf-8")(file), unit) as write:
         yield write
 
 
@@ -50,35 +77,26 @@ def check_trace(path: Path) -> None:
 
 
 @contextmanager
-def _csv(file: StreamWriter, _scale: float) -> Iterator[Write]:
+def _csv(file: StreamWriter, unit: TimeUnit) -> Iterator[Write]:
     writer = csv.writer(file, lineterminator="\n")
-    writer.writerow(COLUMNS)
+    times = unit.keys("start", "end", "release", "deadline")
+    writer.writerow(("cpu", "kind", "piece", "step", *times, "finished", "missed"))
 
     def write(piece: Slice) -> None:
-        period = piece.period
         for label, start, end in piece.pieces() or [(_standing(piece), piece.start, piece.end)]:
-            writer.writerow(
-                (
-                    piece.cpu + 1,
-                    csv_cell(piece.kind),
-                    csv_cell(label),
-                    piece.step,
-                    start / period,
-                    end / period,
-                    piece.release / period,
-                    piece.deadline / period,
-                    int(piece.finished and end == piece.end),
-                    int(piece.missed),
-                )
-            )
+            instants = (unit.of(ticks, piece) for ticks in (start, end, piece.release, piece.deadline))
+            finished = int(piece.finished and end == piece.end)
+            about = (piece.cpu + 1, csv_cell(piece.kind), csv_cell(label), piece.step)
+            writer.writerow((*about, *instants, finished, int(piece.missed)))
 
     yield write
 
 
 @contextmanager
-def _chrome(file: StreamWriter, scale: float) -> Iterator[Write]:
+def _chrome(file: StreamWriter, unit: TimeUnit) -> Iterator[Write]:
     threads: dict[tuple[int, str], int] = {}
     separator = "\n"
+    drawn_us = 1000.0 if unit.hr_hz is None else 1e6 / unit.hr_hz
 
     def event(**fields: object) -> None:
         nonlocal separator
@@ -88,30 +106,24 @@ def _chrome(file: StreamWriter, scale: float) -> Iterator[Write]:
     def thread(cpu: int, kind: str) -> int:
         if (cpu, kind) not in threads:
             threads[cpu, kind] = tid = len(threads) + 1
-            event(name="process_name", ph="M", pid=cpu, args={"name": f"CPU {cpu}"})
+            name = f"CPU {cpu}, {unit.said}" if unit.said else f"CPU {cpu}"
+            event(name="process_name", ph="M", pid=cpu, args={"name": name})
             event(name="thread_name", ph="M", pid=cpu, tid=tid, args={"name": kind})
         return threads[cpu, kind]
 
     def write(piece: Slice) -> None:
-        cpu, period = piece.cpu + 1, piece.period
+        cpu, us = piece.cpu + 1, drawn_us / piece.period
         tid = thread(cpu, piece.kind)
-        about = {"step": piece.step, "release": piece.release / period, "deadline": piece.deadline / period}
+        instants = (unit.of(ticks, piece) for ticks in (piece.release, piece.deadline))
+        about = {"step": piece.step, **dict(zip(unit.keys("release", "deadline"), instants, strict=True))}
+        place = {"pid": cpu, "tid": tid, "args": about}
         for label, start, end in piece.pieces():
-            event(
-                name=label,
-                cat=piece.kind,
-                ph="X",
-                pid=cpu,
-                tid=tid,
-                ts=start * scale / period,
-                dur=(end - start) * scale / period,
-                args=about,
-            )
+            event(name=label, cat=piece.kind, ph="X", ts=start * us, dur=(end - start) * us, **place)
         if piece.start == piece.end or (piece.finished and piece.missed):
-            name = "missed" if piece.missed else _standing(piece)
-            event(name=name, ph="i", s="t", pid=cpu, tid=tid, ts=piece.end * scale / period, args=about)
+            event(name="missed" if piece.missed else _standing(piece), ph="i", s="t", ts=piece.end * us, **place)
 
-    file.write('{"displayTimeUnit": "ms", "traceEvents": [')
+    other = {"time_unit": unit.said or unit.name, "hr_hz": unit.hr_hz}
+    file.write(f'{{"displayTimeUnit": "ms", "otherData": {json_text(other)}, "traceEvents": [')
     yield write
     file.write("\n]}\n")
 

@@ -22,9 +22,9 @@ from sched_sim.schedule.trace import open_trace
 from tests.scenarios import BY_HAND, scenario, sensor
 
 
-def traced(path: Path, speed: str = "0.77", scale: float = 1000.0) -> Schedule:
+def traced(path: Path, speed: str = "0.77", hr_hz: int | None = None) -> Schedule:
     costs = select(load_costs("steffes2014"), "dual-rate", Options())
-    with open_trace(path, scale) as write:
+    with open_trace(path, hr_hz) as write:
         return simulate(costs, Timing(10, 4, 8), Fraction(speed), 3, on_slice=write)
 
 
@@ -34,13 +34,13 @@ def test_csv_rows_add_up_to_the_busy_time_by_piece(tmp_path: Path) -> None:
         rows = list(csv.DictReader(file))
     work: Counter[str] = Counter()
     for row in rows:
-        work[row["piece"]] += round((float(row["end"]) - float(row["start"])) * schedule.period)
+        work[row["piece"]] += round((float(row["end_periods"]) - float(row["start_periods"])) * schedule.period)
     assert work == {"HRP": 3 * (9 * 63 + 4), "HRU": 3 * 3, "LRP": 3 * 41, "LRU": 3 * 56}
     assert {row["missed"] for row in rows} == {"0"}
 
 
 def test_chrome_trace_has_complete_events_in_microseconds_and_named_threads(tmp_path: Path) -> None:
-    schedule = traced(tmp_path / "trace.json", scale=2500.0)
+    schedule = traced(tmp_path / "trace.json", hr_hz=400)
     events = json.loads((tmp_path / "trace.json").read_text())["traceEvents"]
     complete = [event for event in events if event["ph"] == "X"]
     assert sum(event["dur"] for event in complete) == pytest.approx(schedule.busy / schedule.period * 2500)
@@ -64,7 +64,11 @@ def test_a_job_that_never_ran_is_in_both_traces(tmp_path: Path) -> None:
     with (tmp_path / "slices.csv").open() as file:
         rows = [row for row in csv.DictReader(file) if row["kind"] == "lr_update"]
     shown = [
-        [row[name] for name in ("piece", "step", "start", "end", "deadline", "finished", "missed")] for row in rows
+        [
+            row[name]
+            for name in ("piece", "step", "start_periods", "end_periods", "deadline_periods", "finished", "missed")
+        ]
+        for row in rows
     ]
     assert shown == [["unfinished", str(k), "30.0", "30.0", f"{k + 8}.0", "0", "1"] for k in (0, 10, 20)]
     traced(tmp_path / "slices.json", speed="0.5")
@@ -82,7 +86,7 @@ def test_corrections_that_go_together_are_all_in_both_traces(tmp_path: Path) -> 
             run_scenario(scenario(30, BY_HAND, *late, steps=4), on_slice=write)
     with (tmp_path / "slices.csv").open() as file:
         (row,) = [row for row in csv.DictReader(file) if row["kind"] == "correct imu"]
-    assert [row[name] for name in ("piece", "step", "start", "end", "release", "finished", "missed")] == [
+    assert [row[name] for name in ("piece", "step", "start_periods", "end_periods", "release_periods", "finished", "missed")] == [
         "together", "1", "2.5", "2.5", "2.0", "1", "0",
     ]  # fmt: skip
     events = json.loads((tmp_path / "slices.json").read_text())["traceEvents"]
