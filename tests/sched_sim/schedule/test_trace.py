@@ -86,7 +86,8 @@ def test_corrections_that_go_together_are_all_in_both_traces(tmp_path: Path) -> 
             run_scenario(scenario(30, BY_HAND, *late, steps=4), on_slice=write)
     with (tmp_path / "slices.csv").open() as file:
         (row,) = [row for row in csv.DictReader(file) if row["kind"] == "correct imu"]
-    assert [row[name] for name in ("piece", "step", "start_periods", "end_periods", "release_periods", "finished", "missed")] == [
+    columns = ("piece", "step", "start_periods", "end_periods", "release_periods", "finished", "missed")
+    assert [row[name] for name in columns] == [
         "together", "1", "2.5", "2.5", "2.0", "1", "0",
     ]  # fmt: skip
     events = json.loads((tmp_path / "slices.json").read_text())["traceEvents"]
