@@ -5,8 +5,9 @@ phase is not known with it, the first time as late as its jitter allows and then
 time-offsets to schedulability analysis, 1994; J. C. Palencia and M. Gonzalez Harbour, Schedulability analysis for tasks
 with static and dynamic offsets, 1998). All such starts are tried, so the answer holds for every phase. It is exact but
 for this: of jobs of equal priority one that is a task counts as more urgent; a correction counts in every step in which
-it may come; each job is charged two context switches; on a second processor LR propagate comes as late as its HR job
-may finish, and the next as early.
+it may come; of Larsen's method with M = N the longer of the first step, which has no measurement yet, and of the others
+at k; each job is charged two context switches; on a second processor LR propagate comes as late as its HR job may
+finish, and the next as early.
 """
 
 from __future__ import annotations

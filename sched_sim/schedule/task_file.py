@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from fractions import Fraction
 from pathlib import Path
-from typing import Annotated, Any, Literal, NamedTuple
+from typing import Annotated, Any, Literal, NamedTuple, Self
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, model_validator
 
 from sched_sim.errors import InputError, option
 from sched_sim.files.toml_numbers import Number, Positive, Whole, number
@@ -58,6 +58,20 @@ class TaskEntry(BaseModel):
     deadline_ms: Positive | None = None
     preemptive: bool = True
     cpu: Whole = 1
+
+    @model_validator(mode="after")
+    def _possible(self) -> Self:
+        """Raises ValueError for what is out of range in HR periods, whatever the units are."""
+        timed = (self.hz, self.period_ms, self.offset_ms, self.jitter_ms, self.deadline_ms)
+        if self.period is None or any(value is not None for value in timed):
+            return self
+        known = {key: getattr(self, key) for key in ("offset", "jitter", "deadline")}
+        known = {key: value for key, value in known.items() if value is not None}
+        try:
+            Task(self.name, self.period, Fraction(1), self.priority, cpu=self.cpu, **known)
+        except InputError as error:
+            raise ValueError(str(error).removeprefix(f"task {self.name!r}: ")) from None
+        return self
 
     def task(self, units: TaskUnits) -> Task:
         """Raises InputError that names the task, and what is missing, contradictory or out of range."""

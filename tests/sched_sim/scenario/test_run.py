@@ -29,7 +29,7 @@ def near(share: float, probability: float, count: int) -> bool:
 
 # ------------------------------------------------------------------------------- one sensor is the single filter
 
-CONTROL = Task("control", period=Fraction(3), cost=Fraction("0.1"), priority=5)
+CONTROL = Task("control", period=Fraction(3), cost=Fraction("0.1"), priority=5, offset=Fraction(0))
 
 
 def assert_same(
