@@ -14,7 +14,7 @@ import pytest
 from sched_sim.text import csv_cell, json_text, visible, visible_lines
 from tests.command_line import Run
 
-TASK = "[[task]]\nname = {}\nperiod = 2\ncost = 0.1\npriority = 5\n"
+TASK = "[[task]]\nname = {}\noffset = 0\nperiod = 2\ncost = 0.1\npriority = 5\n"
 
 
 def write_tasks(folder: Path, *names: str) -> None:
