@@ -232,13 +232,12 @@ def released_together(
     costs: Costs, timing: Timing, speed: Fraction, options: Options, tasks: Sequence[Task]
 ) -> str | None:
     """At which step tasks of any phase are released together in a simulation, in words; None if there are none."""
-    from sched_sim.design.simulate import at_worst_phase
+    from sched_sim.design.simulate import worst_start
 
-    placed = at_worst_phase(costs, timing, speed, options, tasks)
-    starts = [at.start + at.jitter for at, task in zip(placed, tasks, strict=True) if task.offset == "any"]
-    if not starts:
+    start = worst_start(costs, timing, speed, options, tasks)
+    if start is None:
         return None
-    step = f"{float(min(starts)):.6g}"
+    step = f"{float(start):.6g}"
     worst = "" if options.policy == "edf" else ", the worst for them here"
     return f"tasks of any phase are released together at step {step}{worst}"
 

@@ -89,14 +89,29 @@ def simulate(
 def at_worst_phase(
     costs: Costs, timing: Timing, speed: Fraction, options: Options, tasks: Sequence[Task]
 ) -> tuple[Task, ...]:
-    """The tasks, each with an offset; those that may have any are released together."""
+    """The tasks, each with an offset; those that may have any are released together, those without jitter before too
+    where that is not in the first cycle."""
+    start = worst_start(costs, timing, speed, options, tasks)
+
+    def placed(task: Task) -> Task:
+        if start is None or task.offset != "any":
+            return task
+        before = start // task.period * task.period if start >= timing.N and not task.jitter else 0
+        return replace(task, offset=start - task.jitter - before)
+
+    return tuple(map(placed, tasks))
+
+
+def worst_start(
+    costs: Costs, timing: Timing, speed: Fraction, options: Options, tasks: Sequence[Task]
+) -> Fraction | None:
+    """When those of any phase are released together, in HR periods; None if there are none."""
     if all(task.offset != "any" for task in tasks):
-        return tuple(tasks)
+        return None
     design = phased(costs, timing, speed, options, tasks)
     start = Fraction(0) if options.policy == "edf" else Fraction(critical_start(design), design.period)
     longest = max(task.jitter for task in tasks if task.offset == "any")
-    start += ceil(max(longest - start, Fraction(0)) / design.steps) * design.steps  # of all by the same
-    return tuple(replace(task, offset=start - task.jitter) if task.offset == "any" else task for task in tasks)
+    return start + ceil(max(longest - start, Fraction(0)) / design.steps) * design.steps  # of all by the same
 
 
 class Workload(NamedTuple):

@@ -228,7 +228,14 @@ def test_a_simulation_releases_tasks_together_where_it_is_worst() -> None:
         replace(CONTROL, name="telemetry", period=Fraction(20), deadline=Fraction(20), jitter=Fraction(15)),
     ]
     control, telemetry = at_worst_phase(LARSEN, ISSUE, Fraction(3), Options(), late)
-    assert (control.start, telemetry.start) == (53, 53 - 15)
+    assert (control.start, telemetry.start) == (53 % 4, 53 - 15)
+
+
+def test_a_task_of_any_phase_is_simulated_from_the_first_cycle_on_beside_one_of_a_given_phase() -> None:
+    given_one = Task("given", Fraction(7), Fraction("0.1"), 4, offset=Fraction(1))
+    speed = least_speed(LARSEN, ISSUE, tasks=[given_one, CONTROL]).speed
+    schedule = simulate(LARSEN, ISSUE, speed, 3, tasks=[given_one, CONTROL])
+    assert schedule.responses["task:control"].releases == 30
 
 
 @settings(max_examples=30)
