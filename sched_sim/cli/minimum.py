@@ -71,7 +71,7 @@ def minimum(
             continue
         work = select(table, name, options, statistic)
         person: dict[str, Any] = {"method": "standard (no delay)" if name == "standard" else name}
-        unit_and_form = {"cost_unit": table.unit} | update_form(table, name)
+        unit_and_form = {"cost_unit": "second" if timed else table.unit} | update_form(table, name)
         with simulations(name) as on_progress:
             if rate is not None and timed:
                 verdict = fit(
@@ -83,8 +83,10 @@ def minimum(
                     on_progress,
                     times=design.times,
                 )
-                row = least_row(name, timing, verdict.least) | unit_and_form | fit_row(part, rate, verdict)
-                person |= fit_words(part, rate, verdict) | {"fixed by": fixed_by(verdict.least.binding)}
+                row = (
+                    least_row(name, timing, verdict.least) | unit_and_form | fit_row(part, rate, verdict, bool(others))
+                )
+                person |= fit_words(part, rate, verdict, bool(others)) | {"fixed by": fixed_by(verdict.least.binding)}
             else:
                 least = least_speed(work, timing, options, others, on_progress)
                 landed = landing(work, timing, least.speed, options, others)

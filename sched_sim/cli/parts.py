@@ -35,7 +35,7 @@ def fixed_by(binding: str | None) -> str | None:
     return None if binding is None else BINDING_WORDS.get(binding, binding)
 
 
-def fit_row(part: Part | None, hr_hz: Fraction, verdict: Fit | None) -> dict[str, Any]:
+def fit_row(part: Part | None, hr_hz: Fraction, verdict: Fit | None, tasks: bool = False) -> dict[str, Any]:
     """needed_share, load and slack: of the part's speed, its time, its speed; needed_share_least and needed_share_most:
     by the part's calibration, None if it has none. None: not known, or it does not land.
 
@@ -43,11 +43,11 @@ def fit_row(part: Part | None, hr_hz: Fraction, verdict: Fit | None) -> dict[str
     """
     return {
         key: float(figure) if isinstance(figure, Fraction) else figure
-        for key, figure in _figures(part, hr_hz, verdict).items()
+        for key, figure in _figures(part, hr_hz, verdict, tasks).items()
     }
 
 
-def _figures(part: Part | None, hr_hz: Fraction, verdict: Fit | None) -> dict[str, Any]:
+def _figures(part: Part | None, hr_hz: Fraction, verdict: Fit | None, tasks: bool) -> dict[str, Any]:
     """Exactly, by their keys in a row."""
     figures: dict[str, Any] = dict.fromkeys(KEYS) | {"processor": part and part.name, "hr_hz": hr_hz}
     if verdict is None:
@@ -62,7 +62,7 @@ def _figures(part: Part | None, hr_hz: Fraction, verdict: Fit | None) -> dict[st
     if part is not None and part.calibration is not None:
         figures["needed_share_least"] = verdict.needed * part.calibration.least
         figures["needed_share_most"] = verdict.needed * part.calibration.most
-    if part is not None and part.clock_hz is not None:
+    if part is not None and part.clock_hz is not None and not tasks:  # whose seconds do not follow the clock
         figures["needed_mhz"] = verdict.needed * part.clock_hz / 10**6
     if verdict.landed is not None:
         figures |= {"achieved_l": verdict.landed, "correction_ms": 1000 * verdict.landed / hr_hz}
@@ -126,11 +126,11 @@ MEANING = (
 TASKS_ON_PARTS = "the tasks of --tasks take the same seconds on every processor"
 
 
-def fit_words(part: Part | None, hr_hz: Fraction, verdict: Fit | None) -> dict[str, str | None]:
+def fit_words(part: Part | None, hr_hz: Fraction, verdict: Fit | None, tasks: bool = False) -> dict[str, str | None]:
     """A `fit_row` in words."""
-    figures = _figures(part, hr_hz, verdict)
+    figures = _figures(part, hr_hz, verdict, tasks)
     words = {heading: None if figures[key] is None else shown(figures[key]) for heading, (key, shown) in WORDS.items()}
-    if part is None:
+    if part is None or tasks:
         del words["needs, MHz"]
     if figures["fits"] is False:
         words["slack"] = "none"

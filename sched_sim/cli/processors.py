@@ -231,11 +231,15 @@ def _verdicts(
                     verdict = fit(work, timing, rate, options, tasks, on_progress, times=times)
             verdicts.append(verdict)
             least = None if verdict is None else verdict.least
-            row = least_row(method, timing, least) | update_form(counts, method) | fit_row(part, rate, verdict)
+            row = (
+                least_row(method, timing, least)
+                | update_form(counts, method)
+                | fit_row(part, rate, verdict, bool(tasks))
+            )
             rows.append(row | {"reason": reason})
             name = {"method": method} if len(timings) > 1 else {}
             about = {"processor": part.name, "precision": part.precision, **name}
-            shown.append(about | fit_words(part, rate, verdict) | {"fixed by": fixed_by(row["binding"])})
+            shown.append(about | fit_words(part, rate, verdict, bool(tasks)) | {"fixed by": fixed_by(row["binding"])})
     calibrations = {part.name: None if part.calibration is None else part.calibration.text for part in parts}
     in_order = sorted(range(len(shown)), key=lambda index: _by_slack(verdicts[index]))
     return (

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from sched_sim.cli.output import Format, lines, print_csv, print_json, print_table
 from sched_sim.cli.progress import progress_bar
-from sched_sim.cli.scenario import describe
+from sched_sim.cli.scenario import describe, phases_note
 from sched_sim.errors import InputError
 from sched_sim.shares import percent
 
@@ -52,7 +52,7 @@ def verdicts(path: Path, processors: Sequence[str], format: Format) -> None:
     else:
         title = f"{scenario.name}: {scenario.steps} steps at {float(scenario.hr_hz or 0):g} Hz, seed {scenario.seed}"
         note = f"fits: nothing was missed in these {scenario.steps} steps; lands: the latest of each sensor"
-        print_table(title, [_in_words(row, scenario) for row in rows], lines(note, *reasons))
+        print_table(title, [_in_words(row, scenario) for row in rows], lines(note, phases_note(scenario), *reasons))
 
 
 KEYS = ("processor", "fits", "jobs", "misses", "miss_share", "utilization", "latest_l", "reason")

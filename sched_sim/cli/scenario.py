@@ -214,9 +214,15 @@ def _note(scenario: Scenario, outcome: Outcome, busy: Sequence[float]) -> str:
             "Some jobs have not finished: min, mean and max are of those that have; median, p95 and p99 of all, "
             "- where the unfinished decide"
         )
-    if free := [task.name for task in scenario.tasks if task.offset == "any"]:
-        lines.append(f"{', '.join(free)}: of any phase, and here first released with step 0 (offset = ... for another)")
+    if note := phases_note(scenario):
+        lines.append(note)
     return "\n".join([*lines, WITHHELD if scenario.harness else INTERVAL, *causes(scenario, outcome, busy)])
+
+
+def phases_note(scenario: Scenario) -> str:
+    """Of tasks whose phase may be any, of which a simulation shows one; empty if there are none."""
+    free = ", ".join(task.name for task in scenario.tasks if task.offset == "any")
+    return free and f"{free}: of any phase, and here first released with step 0 (offset = ... for another)"
 
 
 def _job_words(kind: str, figures: JobFigures, unit: float, harness: bool) -> dict[str, Any]:

@@ -75,7 +75,7 @@ def highest_rate(
             low = middle
         else:
             high = middle
-    return low * grid if fits(low * grid) else below
+    return max(low * grid if fits(low * grid) else below, below)
 
 
 def _bracket(fits: Callable[[Fraction], bool], start: Fraction, least: Fraction) -> tuple[Fraction | None, Fraction]:

@@ -34,7 +34,10 @@ class TaskUnits(NamedTuple):
 
 
 def _offset(value: Any) -> Any:
-    return value if value == "any" else number(value)
+    try:
+        return value if value == "any" else number(value)
+    except ValueError:
+        raise ValueError('must be a number, or "any"') from None
 
 
 class TaskEntry(BaseModel):
@@ -56,7 +59,7 @@ class TaskEntry(BaseModel):
     jitter_ms: Number | None = None
     deadline: Positive | None = None
     deadline_ms: Positive | None = None
-    preemptive: bool = True
+    preemptive: Annotated[bool, Field(strict=True)] = True
     cpu: Whole = 1
 
     @model_validator(mode="after")

@@ -212,6 +212,7 @@ def test_costs_in_milliseconds_give_a_share_of_the_processor(sched_sim: Run, tmp
     row = json.loads(sched_sim(line).out)[0]
     assert row["needed_share"] == pytest.approx(0.72e-3 * 400)
     assert row["fits"] is True
+    assert (row["min_speed"], row["cost_unit"]) == (0.72e-3, "second")
     assert row["highest_hr_hz"] == 1388  # of 1000 / 0.72 = 1388.9: a limit is rounded down
 
 

@@ -178,3 +178,11 @@ def test_wrong_input_ends_with_code_2_and_one_message(
     (tmp_path / "empty.toml").write_text('name = "e"\nunit = "operation"\n[operations.larsen]\n')
     (tmp_path / "urgent.toml").write_text('[[task]]\nname = "t"\nperiod = 2\ncost = 0.1\npriority = true\ncpu = "1"\n')
     is_refused(sched_sim(line), said)
+
+
+def test_beside_tasks_whose_seconds_are_given_no_clock_is_named(sched_sim: Run, tmp_path: Path) -> None:
+    """A higher clock would make the filter faster, and not them."""
+    (tmp_path / "tasks.toml").write_text('[[task]]\nname = "control"\nperiod_ms = 4\ncost_us = 250\npriority = 5\n')
+    line = "minimum --hr-hz 400 --measurement-hz 5 --delay-ms 110 --processor cortex-m4f --tasks tasks.toml"
+    assert "MHz  " not in sched_sim(line).out
+    assert all(row["needed_mhz"] is None for row in json.loads(sched_sim(f"{line} --format json").out))

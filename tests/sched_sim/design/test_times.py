@@ -117,3 +117,12 @@ def test_a_task_that_takes_longer_than_its_period_is_refused() -> None:
     said = "task 'control' alone needs 1000 % of the processor: its cost is 40 ms and its period 4 ms; mend them"
     with pytest.raises(InputError, match=said):
         fit(on_cortex_m4f("larsen"), Timing(80, 44, 80), 400, tasks=[task])
+
+
+@pytest.mark.parametrize("hr_hz", ["400", "892.9", "871/2"])
+def test_a_rate_that_fits_is_no_higher_than_the_highest(hr_hz: str) -> None:
+    costs = on_cortex_m4f("larsen")
+    found = fit(costs, Timing.at(hr_hz, 5, 100), hr_hz)
+    assert found.fits
+    assert found.highest_hz is not None
+    assert found.highest_hz >= Fraction(hr_hz)
