@@ -69,7 +69,7 @@ class Times:
         if N == 0:
             raise InputError(
                 f"{option('measurement_hz')} {float(self.measurement_hz or 0):g} is above {option('hr_hz')} "
-                f"{float(hr_hz):g}: a step takes one measurement at the most; give a higher rate of the HR loop"
+                f"{float(hr_hz):g}: a step takes one measurement at the most"
             )
         M = None if self.delay_ms is None else ceil(self.delay_ms * hr_hz / 1000)
         L = None if self.land_within_ms is None else floor(self.land_within_ms * hr_hz / 1000)
