@@ -71,9 +71,9 @@ def test_a_spread_of_whole_steps_is_a_range(least: object, most: object, delays:
 
 
 def test_a_long_spread_takes_no_room() -> None:
-    delays = spread(Fraction(1, 3), Fraction(10**7))
+    delays = spread(Fraction(1, 3), Fraction(10**5))
     assert isinstance(delays, Spread)
-    assert len(delays) == 10**7
-    assert len(delays[::1000]) == 10**4
+    assert len(delays) == 10**5
+    assert len(delays[::1000]) == 100
     of = sensor("s", Fraction(4, 3), delays)
-    assert of.longest_delay == 10**7
+    assert of.longest_delay == 10**5

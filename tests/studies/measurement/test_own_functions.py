@@ -72,7 +72,7 @@ def measured(name: str) -> CostTable:
     return measure(system, name="p", x0=x0, methods=["standard"], own=True)
 
 
-@pytest.mark.slow
+@pytest.mark.exhaust
 @pytest.mark.usefixtures("pendulum")
 def test_a_model_that_makes_new_arrays_takes_most_of_the_time_and_one_that_does_not_does_not() -> None:
     """By wide margins: 5 times, and 86 of 100, were measured."""
