@@ -82,7 +82,7 @@ def test_the_list_has_the_calibrations(sched_sim: Run) -> None:
 def test_a_task_takes_its_share_of_every_part(sched_sim: Run, tmp_path: Path) -> None:
     """100 us in every second period of 2.5 ms are 2 %, whatever the part."""
     (tmp_path / "tasks.toml").write_text(TASKS)
-    line = "processors -N 10 -M 4 --hr-hz 400"
+    line = "processors -N 10 -M 4 --hr-hz 400 --processor leon3 --processor cortex-m7"
     alone, beside = (
         {row["processor"]: row["load"] for row in json.loads(sched_sim(f"{line} {tasks} --format json").out)}
         for tasks in ("", "--tasks tasks.toml")

@@ -95,7 +95,7 @@ def test_a_model_that_makes_new_arrays_takes_most_of_the_time_and_one_that_does_
     assert own_note(filling) == MEANING
 
 
-@pytest.mark.slow
+@pytest.mark.exhaust
 @pytest.mark.usefixtures("pendulum")
 def test_the_command_says_it_and_writes_it(sched_sim: Run, tmp_path: Path) -> None:
     line = "measure --system pendulum:system --method standard"
