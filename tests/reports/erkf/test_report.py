@@ -60,6 +60,7 @@ def test_the_committed_file_is_rebuilt_byte_for_byte(name: str) -> None:
     published.is_rebuilt("erkf", name, rebuilt())
 
 
+@pytest.mark.exhaust
 def test_another_machine_changes_only_what_is_marked_as_measured() -> None:
     """Other times, other residues: in tables and text only what has the mark changes, and no figure but those two."""
 

@@ -63,6 +63,7 @@ def test_a_task_that_makes_a_correction_land_later_may_help() -> None:
     )
 
 
+@pytest.mark.exhaust
 def test_a_backlog_that_grows_slowly_takes_no_more_simulations_than_another() -> None:
     """A period that is a tick too short misses its first deadline a little later than one that is two too short."""
     late = Fraction(7, 3)
