@@ -12,10 +12,11 @@ from collections import Counter
 from collections.abc import Hashable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from math import ceil, gcd, lcm
+from math import ceil
 
 from sched_sim.bounds import MOST_JOBS_TO_REPEAT, short
 from sched_sim.design.options import Options
+from sched_sim.design.phased import common_period
 from sched_sim.design.pieces import Costs
 from sched_sim.design.simulate import workload_in_ticks
 from sched_sim.design.timing import Timing
@@ -81,12 +82,7 @@ def run_until_steady(
 
 def hyperperiod_steps(timing: Timing, tasks: Sequence[Task]) -> int:
     """HR periods after which measurements and tasks are released together again as they were."""
-    hyperperiod = Fraction(timing.N)
-    for task in tasks:
-        hyperperiod = Fraction(
-            lcm(hyperperiod.numerator, task.period.numerator), gcd(hyperperiod.denominator, task.period.denominator)
-        )
-    return hyperperiod.numerator
+    return common_period(timing.N, [task.period for task in tasks])
 
 
 def longest_run(timing: Timing, tasks: Sequence[Task]) -> int:

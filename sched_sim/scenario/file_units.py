@@ -15,11 +15,10 @@ from sched_sim.errors import InputError
 from sched_sim.files.toml_numbers import above_zero
 from sched_sim.scenario.composition import ComposedSensor, Composition
 from sched_sim.scenario.instants import Spread, Steps
+from sched_sim.schedule.task_file import COST_UNITS
 
 Read = Callable[[Any], Any]
 """What a key holds, of what stands in the file; raises ValueError."""
-COST_UNITS = ("us", "ms", "s")
-"""Behind `cost_`, or as `unit`."""
 STEPS_KEY = {
     "hz": "every",
     "delay_ms": "delay",
