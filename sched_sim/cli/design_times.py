@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 from typing import NamedTuple
 
@@ -56,12 +57,13 @@ def make_design(
             )
     N, M, L = (step if step is not None else other for step, other in zip((N, M, L), became, strict=True))
     N = _needed(N)
-    period_ms = 1000 / rate
     held = Times(
         times.measurement_hz or rate / N,
-        times.delay_ms if times.delay_ms is not None or M is None else M * period_ms,
-        times.land_within_ms if times.land_within_ms is not None or L is None else L * period_ms,
+        times.delay_ms if times.delay_ms is not None or M is None else M * 1000 / rate,
+        times.land_within_ms,
     )
+    if L is not None and held.land_within_ms is None:
+        held = replace(held, land_within_ms=held.landing_ms(L, rate))
     return Design(N, M, L, "\n".join(times.words(rate)), held)
 
 

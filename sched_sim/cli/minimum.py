@@ -73,7 +73,7 @@ def minimum(
         person: dict[str, Any] = {"method": "standard (no delay)" if name == "standard" else name}
         unit_and_form = {"cost_unit": "second" if timed else table.unit} | update_form(table, name)
         with simulations(name) as on_progress:
-            if rate is not None and timed:
+            if rate is not None and design.times is not None and timed:
                 verdict = fit(
                     converted(work, in_seconds),
                     timing,
@@ -83,20 +83,19 @@ def minimum(
                     on_progress,
                     times=design.times,
                 )
-                row = (
-                    least_row(name, timing, verdict.least) | unit_and_form | fit_row(part, rate, verdict, bool(others))
-                )
-                person |= fit_words(part, rate, verdict, bool(others)) | {"fixed by": fixed_by(verdict.least.binding)}
+                on_it = (part, rate, design.times, verdict, bool(others))
+                row = least_row(name, timing, verdict.least) | unit_and_form | fit_row(*on_it)
+                person |= fit_words(*on_it) | {"fixed by": fixed_by(verdict.least.binding)}
             else:
                 least = least_speed(work, timing, options, others, on_progress)
                 landed = landing(work, timing, least.speed, options, others)
                 assert landed is not None
                 row = least_row(name, timing, least) | unit_and_form | {"achieved_l": landed}
                 person |= _speed(least.speed, table.unit) | {"fixed by": fixed_by(least.binding), "lands at L": landed}
-                if rate is not None:
+                if rate is not None and design.times is not None:
                     row |= {
                         "hr_hz": float(rate),
-                        "correction_ms": float(1000 * landed / rate),
+                        "correction_ms": float(design.times.landing_ms(landed, rate)),
                         "work_per_second": float(least.speed * rate),
                     }
                     person |= {

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 if TYPE_CHECKING:
     from sched_sim.design.fit import Fit
     from sched_sim.design.least_speed import LeastSpeed
+    from sched_sim.design.times import Times
     from sched_sim.design.timing import Timing
     from sched_sim.processors.part import Part
 
@@ -35,19 +36,22 @@ def fixed_by(binding: str | None) -> str | None:
     return None if binding is None else BINDING_WORDS.get(binding, binding)
 
 
-def fit_row(part: Part | None, hr_hz: Fraction, verdict: Fit | None, tasks: bool = False) -> dict[str, Any]:
+def fit_row(
+    part: Part | None, hr_hz: Fraction, times: Times, verdict: Fit | None, tasks: bool = False
+) -> dict[str, Any]:
     """needed_share, load and slack: of the part's speed, its time, its speed; needed_share_least and needed_share_most:
-    by the part's calibration, None if it has none. None: not known, or it does not land.
+    by the part's calibration, None if it has none; correction_ms: from when a measurement is taken, at the latest.
+    None: not known, or it does not land.
 
     verdict: None if the part's time for some operation is not known.
     """
     return {
         key: float(figure) if isinstance(figure, Fraction) else figure
-        for key, figure in _figures(part, hr_hz, verdict, tasks).items()
+        for key, figure in _figures(part, hr_hz, times, verdict, tasks).items()
     }
 
 
-def _figures(part: Part | None, hr_hz: Fraction, verdict: Fit | None, tasks: bool) -> dict[str, Any]:
+def _figures(part: Part | None, hr_hz: Fraction, times: Times, verdict: Fit | None, tasks: bool) -> dict[str, Any]:
     """Exactly, by their keys in a row."""
     figures: dict[str, Any] = dict.fromkeys(KEYS) | {"processor": part and part.name, "hr_hz": hr_hz}
     if verdict is None:
@@ -65,7 +69,7 @@ def _figures(part: Part | None, hr_hz: Fraction, verdict: Fit | None, tasks: boo
     if part is not None and part.clock_hz is not None and not tasks:  # whose seconds do not follow the clock
         figures["needed_mhz"] = verdict.needed * part.clock_hz / 10**6
     if verdict.landed is not None:
-        figures |= {"achieved_l": verdict.landed, "correction_ms": 1000 * verdict.landed / hr_hz}
+        figures |= {"achieved_l": verdict.landed, "correction_ms": times.landing_ms(verdict.landed, hr_hz)}
     return figures
 
 
@@ -126,9 +130,11 @@ MEANING = (
 TASKS_ON_PARTS = "the tasks of --tasks take the same seconds on every processor"
 
 
-def fit_words(part: Part | None, hr_hz: Fraction, verdict: Fit | None, tasks: bool = False) -> dict[str, str | None]:
+def fit_words(
+    part: Part | None, hr_hz: Fraction, times: Times, verdict: Fit | None, tasks: bool = False
+) -> dict[str, str | None]:
     """A `fit_row` in words."""
-    figures = _figures(part, hr_hz, verdict, tasks)
+    figures = _figures(part, hr_hz, times, verdict, tasks)
     words = {heading: None if figures[key] is None else shown(figures[key]) for heading, (key, shown) in WORDS.items()}
     if part is None or tasks:
         del words["needs, MHz"]

@@ -118,6 +118,7 @@ def processors(
         methods = opt.known_methods(method or ["dual-rate"])
         timings = {name: opt.make_timing(design.N, design.M, design.L, name, options) for name in methods}
         others = opt.make_tasks(tasks, "second", rate)
+        assert design.times is not None
         rows, shown, remarks = _verdicts(parts, timings, costs, statistic, rate, options, others, design.times)
         title = f"{', '.join(methods)}, HR loop at {hr_hz} Hz, {design.shown} (operations: {costs or COUNTED})"
         same = TASKS_ON_PARTS if others and len(parts) > 1 else ""
@@ -199,7 +200,7 @@ def _verdicts(
     rate: Fraction,
     options: Options,
     tasks: Sequence[Task],
-    times: Times | None,
+    times: Times,
 ) -> tuple[list[dict[str, Any]], list[dict[str, Any]], list[str]]:
     """A row for each processor and method; the same in words, in the order of `_by_slack`; and remarks: which
     covariance update the operations are of, the ground, and why some processors cannot be told of."""
@@ -234,12 +235,13 @@ def _verdicts(
             row = (
                 least_row(method, timing, least)
                 | update_form(counts, method)
-                | fit_row(part, rate, verdict, bool(tasks))
+                | fit_row(part, rate, times, verdict, bool(tasks))
             )
             rows.append(row | {"reason": reason})
             name = {"method": method} if len(timings) > 1 else {}
             about = {"processor": part.name, "precision": part.precision, **name}
-            shown.append(about | fit_words(part, rate, verdict, bool(tasks)) | {"fixed by": fixed_by(row["binding"])})
+            words = fit_words(part, rate, times, verdict, bool(tasks))
+            shown.append(about | words | {"fixed by": fixed_by(row["binding"])})
     calibrations = {part.name: None if part.calibration is None else part.calibration.text for part in parts}
     in_order = sorted(range(len(shown)), key=lambda index: _by_slack(verdicts[index]))
     return (

@@ -14,7 +14,7 @@ from sched_sim.shares import percent
 
 if TYPE_CHECKING:
     from sched_sim.scenario.run import Outcome
-    from sched_sim.scenario.scenario import Scenario
+    from sched_sim.scenario.scenario import Scenario, Sensor
 
 
 def verdicts(path: Path, processors: Sequence[str], format: Format) -> None:
@@ -48,18 +48,23 @@ def verdicts(path: Path, processors: Sequence[str], format: Format) -> None:
     if format == "json":
         print_json(rows)
     elif format == "csv":
-        print_csv([{key: value for key, value in row.items() if key != "latest_l"} for row in rows])
+        print_csv(
+            [{key: value for key, value in row.items() if key not in ("latest_l", "correction_ms")} for row in rows]
+        )
     else:
         title = f"{scenario.name}: {scenario.steps} steps at {float(scenario.hr_hz or 0):g} Hz, seed {scenario.seed}"
-        note = f"fits: nothing was missed in these {scenario.steps} steps; lands: the latest of each sensor"
+        missed = f"fits: nothing was missed in these {scenario.steps} steps"
+        note = f"{missed}; lands: the latest of each sensor, from when the measurement is taken"
         print_table(title, [_in_words(row, scenario) for row in rows], lines(note, phases_note(scenario), *reasons))
 
 
-KEYS = ("processor", "fits", "jobs", "misses", "miss_share", "utilization", "latest_l", "reason")
+KEYS = ("processor", "fits", "jobs", "misses", "miss_share", "utilization", "latest_l",
+        "correction_ms", "reason")  # fmt: skip
 
 
 def _row(name: str, scenario: Scenario, outcome: Outcome) -> dict[str, Any]:
-    """latest_l: by sensor, in HR steps after k; None if no correction landed."""
+    """latest_l: by sensor, in HR steps after k; correction_ms: the longest, from when the measurement was taken;
+    both None if no correction landed."""
     released = sum(figures.released for figures in outcome.jobs.values())
     latest = {sensor.name: max(outcome.sensors[sensor.name].achieved, default=None) for sensor in scenario.sensors}
     return {
@@ -70,17 +75,21 @@ def _row(name: str, scenario: Scenario, outcome: Outcome) -> dict[str, Any]:
         "miss_share": outcome.misses / released,
         "utilization": float(outcome.schedule.utilization),
         "latest_l": latest,
+        "correction_ms": {sensor.name: _longest_ms(scenario, sensor, outcome) for sensor in scenario.sensors},
         "reason": None,
     }
 
 
+def _longest_ms(scenario: Scenario, sensor: Sensor, outcome: Outcome) -> float | None:
+    longest = outcome.sensors[sensor.name].longest
+    return None if longest is None else float(longest * 1000 / (scenario.hr_hz or 1))
+
+
 def _in_words(row: dict[str, Any], scenario: Scenario) -> dict[str, Any]:
     known = row["fits"] is not None
-    period_ms = 1000 / (scenario.hr_hz or 1)
+    landed = row["correction_ms"] or {}
     lands = {
-        f"{sensor.name} lands, ms": f"{float(row['latest_l'][sensor.name] * period_ms):.4g}"
-        if known and row["latest_l"][sensor.name] is not None
-        else None
+        f"{sensor.name} lands, ms": None if landed.get(sensor.name) is None else f"{landed[sensor.name]:.4g}"
         for sensor in scenario.sensors
     }
     return {

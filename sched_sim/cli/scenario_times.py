@@ -31,7 +31,7 @@ def _words(sensor: Sensor, ms: Fraction, steps: int) -> Iterator[str]:
     yield f"{_decimal(1000 / (ms * sensor.every))} Hz = every {_count(sensor.every)}"
     if sensor.offset:
         yield f"the first at {_decimal(ms * sensor.offset)} ms = {_count(sensor.offset)}"
-    if Fraction(sensor.every).denominator > 1 or Fraction(sensor.offset).denominator > 1:
+    if sensor.between_steps:
         taken = [*map(str, sensor.takes(steps)[: FEW + 1])]
         more = ", ..." if len(taken) > FEW else ""
         yield f"taken in {'step' if len(taken) == 1 else 'steps'} {', '.join(taken[:FEW])}{more}"

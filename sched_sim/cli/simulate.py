@@ -167,9 +167,10 @@ def simulate(
         say(f"Note: {together}")
     if not schedule.misses and (note := unseen(work, timing, pace, cycles, options, others)):
         say(f"Note: {note}")
+    wait = Fraction(0) if rate is None or design.times is None else design.times.wait(rate)
     about = of_run(method, timing, pace, table.unit, rate, part) | update_form(table, method)
     if format == "json":
-        print_json(about | outcome(schedule, achieved, rate))
+        print_json(about | outcome(schedule, achieved, rate, wait))
     elif format == "csv":
         print_csv([about | {"kind": kind} | figures for kind, figures in responses(schedule, rate).items()])
     else:
@@ -179,7 +180,7 @@ def simulate(
             where += f", as fast as it can: HR period {1e6 * float(pace):.6g} us"
         title = f"{method}, N={design.N}{delay} L={timing.L}, {where}"
         note = lines(design.words, update_note(table, [method]))
-        show(title, schedule, achieved, rate, method in MULTIRATE_METHODS, note)
+        show(title, schedule, achieved, rate, wait, method in MULTIRATE_METHODS, note)
 
 
 def unseen(

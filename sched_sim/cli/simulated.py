@@ -35,11 +35,12 @@ def of_run(
     return about | on | ({} if rate is None else {"hr_hz": float(rate)})
 
 
-def outcome(schedule: Schedule, achieved: Achieved, rate: Fraction | None) -> dict[str, Any]:
-    """achieved_l in HR steps, correction_ms the same in ms; utilization: a share of the time."""
+def outcome(schedule: Schedule, achieved: Achieved, rate: Fraction | None, wait: Fraction) -> dict[str, Any]:
+    """achieved_l in HR steps after k, correction_ms in ms from when the measurement is taken, at the latest: wait steps
+    before k; utilization: a share of the time."""
     landed: dict[str, Any] = {"achieved_l": achieved}
     if rate is not None:
-        landed["correction_ms"] = [None if at is None else float(1000 * at / rate) for at in achieved]
+        landed["correction_ms"] = [None if at is None else float(1000 * (at + wait) / rate) for at in achieved]
     return landed | {
         "misses": schedule.misses,
         "utilization": float(schedule.utilization),
@@ -74,8 +75,16 @@ def _in_unit(times: dict[str, Fraction | None], unit: str, scale: Fraction) -> d
     return {f"{name}_{unit}": None if time is None else float(time * scale) for name, time in times.items()}
 
 
-def show(title: str, schedule: Schedule, achieved: Achieved, rate: Fraction | None, multirate: bool, more: str) -> None:
-    """more: another line of the note below the table."""
+def show(
+    title: str,
+    schedule: Schedule,
+    achieved: Achieved,
+    rate: Fraction | None,
+    wait: Fraction,
+    multirate: bool,
+    more: str,
+) -> None:
+    """wait: steps from when a measurement is taken to k, at the most; more: another line below the table."""
     unit, key = ("HR periods", "periods") if rate is None else ("ms", "ms")
     figures_of = responses(schedule, rate)
     rows = [
@@ -91,7 +100,7 @@ def show(title: str, schedule: Schedule, achieved: Achieved, rate: Fraction | No
         for kind, figures in figures_of.items()
     ]
     what = "Gains are in use from" if multirate else "Corrections land at"
-    note = f"{landings(achieved, rate, what)}; processor busy {percent(float(schedule.utilization))} of the time"
+    note = f"{landings(achieved, rate, wait, what)}; processor busy {percent(float(schedule.utilization))} of the time"
     unfinished = (
         "Jobs that have not finished are not in worst and mean; past their deadline they are missed, late by that much "
         "or more"
@@ -104,9 +113,9 @@ def _four_digits(time: float | None) -> str:
     return "-" if time is None else f"{time:.4g}"
 
 
-def landings(achieved: Achieved, rate: Fraction | None = None, what: str = "Corrections land at") -> str:
+def landings(achieved: Achieved, rate: Fraction | None, wait: Fraction, what: str) -> str:
     """Where the corrections of all cycles landed, or from where their gains are in use, in words; with a rate (Hz) in
-    ms too."""
+    ms too, from when the measurement is taken."""
     landed = [at for at in achieved if at is not None]
     lost = len(achieved) - len(landed)
     if not landed:
@@ -116,4 +125,6 @@ def landings(achieved: Achieved, rate: Fraction | None = None, what: str = "Corr
     if rate is not None:
         least, most = (f"{float(1000 * at / rate):.6g}" for at in (first, last))
         where += f", {least if least == most else f'{least} to {most}'} ms after k"
+        if wait:
+            where += f", at most {float(1000 * (last + wait) / rate):.6g} ms after the measurement was taken"
     return f"{what} {where}" + (f", {lost} of {len(achieved)} not within the simulated time" if lost else "")

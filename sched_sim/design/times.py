@@ -1,8 +1,9 @@
 """A design in hertz and milliseconds, and what it is in steps of the HR loop at a rate.
 
-One rule for what does not divide: a measurement is used in the first step at or after its arrival, and nothing is
-promised later than it was asked for. So the interval between measurements is that of the shortest, the delay is rounded
-up, and the time by which the correction must land is rounded down.
+One rule for what does not divide: a measurement is of the first step at or after the instant at which it is taken, is
+used in the first at or after its arrival, and nothing is promised later than it was asked for. So the interval between
+measurements is that of the shortest, the delay is rounded up, and the time by which the correction must land is rounded
+down, for the measurement that waits longest for its step.
 """
 
 from __future__ import annotations
@@ -29,8 +30,8 @@ class Steps(NamedTuple):
 class Times:
     """What holds at any rate of the HR loop; each None if it was not said.
 
-    measurement_hz: rate of the measurements; delay_ms: from when one is taken until it is there; land_within_ms: from
-    when it is taken until its correction must be in the state.
+    measurement_hz: rate of the measurements, the first at the start of a step; delay_ms: from when one is taken until
+    it is there; land_within_ms: from when it is taken until its correction must be in the state.
     Raises InputError for a rate or a time that cannot be.
     """
 
@@ -72,8 +73,20 @@ class Times:
                 f"{float(hr_hz):g}: a step takes one measurement at the most"
             )
         M = None if self.delay_ms is None else ceil(self.delay_ms * hr_hz / 1000)
-        L = None if self.land_within_ms is None else floor(self.land_within_ms * hr_hz / 1000)
+        L = None if self.land_within_ms is None else floor(self.land_within_ms * hr_hz / 1000 - self.wait(hr_hz))
         return Steps(N, M, L)
+
+    def wait(self, hr_hz: Fraction) -> Fraction:
+        """The longest time, in HR steps, from when a measurement is taken to the start of its step k: where two of them
+        are p / q steps apart, (q - 1) / q of one; 0 where the rate of measurements was not said."""
+        if self.measurement_hz is None:
+            return Fraction(0)
+        parts = (hr_hz / self.measurement_hz).denominator
+        return Fraction(parts - 1, parts)
+
+    def landing_ms(self, L: int, hr_hz: Fraction) -> Fraction:
+        """From when a measurement is taken to the start of step k + L, at the latest."""
+        return (L + self.wait(hr_hz)) * 1000 / hr_hz
 
     def words(self, hr_hz: Fraction) -> Iterator[str]:
         """What each became, and how it was rounded."""
@@ -81,13 +94,19 @@ class Times:
         period_ms = 1000 / hr_hz
         if N is not None and self.measurement_hz is not None:
             between = hr_hz / self.measurement_hz
-            rounded = "" if between == N else f", the shorter of the intervals of {N} and {N + 1} between measurements"
+            rounded = ""
+            if between != N:
+                rounded = (
+                    f", the shorter of the intervals of {N} and {N + 1} between measurements; each is taken up to "
+                    f"{_ms(self.landing_ms(0, hr_hz))} before its step k, and landings in ms are from then"
+                )
             yield f"{float(self.measurement_hz):g} Hz: N = {N} steps{rounded}"
         if M is not None and self.delay_ms is not None:
             used = "" if M * period_ms == self.delay_ms else f", used in the first step after: {_ms(M * period_ms)}"
             yield f"{_ms(self.delay_ms)} late: M = {M} steps{used}"
         if L is not None and self.land_within_ms is not None:
-            rounded = "" if L * period_ms == self.land_within_ms else f", the last one by then: {_ms(L * period_ms)}"
+            latest_ms = self.landing_ms(L, hr_hz)
+            rounded = "" if latest_ms == self.land_within_ms else f", the last one by then: {_ms(latest_ms)}"
             yield f"lands within {_ms(self.land_within_ms)}: L = {L} steps{rounded}"
 
 

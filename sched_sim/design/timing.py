@@ -33,8 +33,8 @@ class Timing:
         """Of an HR loop at this rate, of measurements that come so often and so late, and whose corrections must be in
         the state so long after they were taken; by default before the next one is taken, L = N.
 
-        N and L are rounded down and M up: a measurement is used in the first step at or after its arrival. Raises
-        InputError as `Times` does.
+        N and L are rounded down and M up: a measurement is used in the first step at or after its arrival, and L is
+        less by the longest time that one waits for its step k (`Times.wait`). Raises InputError as `Times` does.
         """
         rate = positive(hr_hz, "hr_hz")
         N, M, L = Times.of(measurement_hz, delay_ms, land_within_ms).steps(rate)

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections import Counter, defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from fractions import Fraction
 from typing import NamedTuple
 
 from sched_sim.errors import InputError
 from sched_sim.html_table import html_table
 from sched_sim.scenario.distribution import finished_or_not, wilson
-from sched_sim.scenario.scenario import Scenario, needed_parts
+from sched_sim.scenario.scenario import Scenario, Sensor, needed_parts
 from sched_sim.scenario.source import ComposedFilter, correct_kind
 from sched_sim.schedule.clock import Clock, OnProgress
 from sched_sim.schedule.jobs import Job, Source, step_at
@@ -51,13 +52,15 @@ class SensorFigures:
     """Figures of one sensor's measurements.
 
     taken: in the simulated time; dropped: those of them that never arrive; arrived: by its end;
-    achieved: how many corrections landed at each l - k.
+    achieved: how many corrections landed at each l - k; longest: from when a measurement was taken, between two steps
+    or at the start of one, to the start of the step in which its correction landed, in HR steps; None if none landed.
     """
 
     taken: int
     dropped: int
     arrived: int
     achieved: Counter[int]
+    longest: Fraction | None = None
 
     @property
     def not_landed(self) -> int:
@@ -162,9 +165,12 @@ def run_scenario(
     schedule = processor.schedule()
     sensors = {}
     for number, sensor in enumerate(scenario.sensors):
-        achieved = Counter(step_at(done.end, period) - done.step for done in finishes[correct_kind(sensor)])
+        done = finishes[correct_kind(sensor)]
+        achieved = Counter(step_at(job.end, period) - job.step for job in done)
         arrived = achieved.total() + sum(waiting.sensor == number for waiting in composed.pending)
-        sensors[sensor.name] = SensorFigures(composed.taken[number], composed.dropped[number], arrived, achieved)
+        sensors[sensor.name] = SensorFigures(
+            composed.taken[number], composed.dropped[number], arrived, achieved, _longest(sensor, done, period)
+        )
     kinds = ["predict", *map(correct_kind, scenario.sensors), *(f"task:{task.name}" for task in tasks)]
     jobs = {kind: _figures(finishes[kind], schedule.responses.get(kind), period) for kind in kinds}
     return Outcome(jobs, sensors, schedule, processor.first_miss[0] / period if processor.first_miss else None)
@@ -177,6 +183,11 @@ class Finish(NamedTuple):
     release: int
     deadline: int
     end: int
+
+
+def _longest(sensor: Sensor, done: Sequence[Finish], period: int) -> Fraction | None:
+    waits = {job.step: job.step - sensor.instant(job.step) for job in done} if sensor.between_steps else {}
+    return max((step_at(job.end, period) - job.step + waits.get(job.step, Fraction(0)) for job in done), default=None)
 
 
 def _figures(finishes: Sequence[Finish], response: Response | None, period: int) -> JobFigures:

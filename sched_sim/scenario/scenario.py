@@ -91,6 +91,15 @@ class Sensor:
         """The same at the most."""
         return ceil(ends(self.delays)[1] - roundings(self.every, self.offset)[0])
 
+    @property
+    def between_steps(self) -> bool:
+        """Whether any of its measurements is taken at an instant at which no step starts."""
+        return Fraction(self.every).denominator > 1 or Fraction(self.offset).denominator > 1
+
+    def instant(self, step: int) -> Fraction:
+        """When the measurement of this step is taken, in HR steps: then or less than one before."""
+        return Fraction(self.offset + (step - self.offset) // self.every * self.every)
+
     def takes(self, steps: int) -> Sequence[int]:
         """The steps, of so many, in which its measurements are taken."""
         return taken(self.every, self.offset, steps)

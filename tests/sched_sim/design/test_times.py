@@ -20,6 +20,7 @@ from sched_sim.design.timing import Timing
 from sched_sim.errors import InputError
 from sched_sim.processors.part import on_part
 from sched_sim.processors.part_file import load_part
+from sched_sim.scenario.instants import roundings
 from sched_sim.schedule.tasks import Task
 
 rates = st.fractions(Fraction(1, 10), 1000, max_denominator=50)
@@ -39,9 +40,10 @@ def test_what_does_not_is_rounded_to_the_safe_side_and_said() -> None:
     times = Times.of(30, 12.2, 29.9)
     assert times.steps(Fraction(400)) == (13, 5, 11)
     assert list(times.words(Fraction(400))) == [
-        "30 Hz: N = 13 steps, the shorter of the intervals of 13 and 14 between measurements",
+        "30 Hz: N = 13 steps, the shorter of the intervals of 13 and 14 between measurements; each is taken up to "
+        "1.66667 ms before its step k, and landings in ms are from then",
         "12.2 ms late: M = 5 steps, used in the first step after: 12.5 ms",
-        "lands within 29.9 ms: L = 11 steps, the last one by then: 27.5 ms",
+        "lands within 29.9 ms: L = 11 steps, the last one by then: 29.1667 ms",
     ]
 
 
@@ -50,13 +52,15 @@ def test_nothing_is_earlier_than_it_arrives_nor_later_than_promised(
     hr_hz: Fraction, measurement_hz: Fraction, delay_ms: Fraction, more_ms: Fraction
 ) -> None:
     hr_hz = max(hr_hz, measurement_hz)
-    N, M, L = Times.of(measurement_hz, delay_ms, delay_ms + more_ms).steps(hr_hz)
+    times = Times.of(measurement_hz, delay_ms, delay_ms + more_ms)
+    N, M, L = times.steps(hr_hz)
     assert N is not None
     assert M is not None
     assert L is not None
     assert N / hr_hz <= 1 / measurement_hz < (N + 1) / hr_hz
     assert (M - 1) / hr_hz < delay_ms / 1000 <= M / hr_hz
-    assert L / hr_hz <= (delay_ms + more_ms) / 1000
+    assert times.landing_ms(L, hr_hz) <= delay_ms + more_ms < times.landing_ms(L + 1, hr_hz)
+    assert times.wait(hr_hz) == roundings(hr_hz / measurement_hz, 0)[1]
 
 
 @pytest.mark.parametrize(
