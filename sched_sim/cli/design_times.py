@@ -4,27 +4,49 @@ from __future__ import annotations
 
 from dataclasses import replace
 from fractions import Fraction
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
-from sched_sim.design.times import Times
+from sched_sim.cli import options as opt
+from sched_sim.design.options import Options
+from sched_sim.design.times import Steps, Times
 from sched_sim.errors import InputError
+
+if TYPE_CHECKING:
+    from sched_sim.design.timing import Timing
 
 
 class Design(NamedTuple):
     """What the user said of the steps. words: what times became in steps, as a note; times: what holds at any rate of
-    the HR loop, None where nothing was said in seconds and there is no rate."""
+    the HR loop, None where there is none; said: what of that was given in seconds."""
 
     N: int
     M: int | None
     L: int | None
     words: str
+    rate: Fraction | None
     times: Times | None
+    said: Times
 
     @property
     def shown(self) -> str:
         """As the title of a table has it."""
         delay = "none" if self.M is None else self.M
         return f"N={self.N} M={delay} L={'latest' if self.L is None else self.L}"
+
+    def timing(self, method: str, options: Options, *, asked: bool = True) -> Timing:
+        """With the latest L that the method can have, if none was said. Raises InputError for a delay or a landing that
+        it cannot have; for M = N, where it needs a step more, only if it was asked for."""
+        from sched_sim.design.methods import METHODS
+        from sched_sim.design.time_limits import check_times
+
+        law = METHODS[method].law(options.feedback)
+        delay = None if self.said.delay_ms is None else f"--delay-ms {float(self.said.delay_ms):g}"
+        M = 0 if law.undelayed else self.M
+        if self.rate is not None and M is not None and not (law.undelayed and self.M):
+            skipped = not asked and M <= self.N and law.why_none(self.N, M)
+            needs = (0, 0) if skipped else (law.after, law.before)
+            check_times(self.said, Steps(self.N, M, self.L), self.rate, *needs)
+        return opt.make_timing(self.N, self.M, self.L, method, options, delay)
 
 
 def make_design(
@@ -47,7 +69,7 @@ def make_design(
     if flags and rate is None:
         raise InputError(f"{' and '.join(flags)} without --hr-hz: give the rate of the HR loop, such as --hr-hz 400")
     if rate is None:
-        return Design(_needed(N), M, L, "", None)
+        return Design(_needed(N), M, L, "", None, None, times)
     became = times.steps(rate)
     for (short, (steps, flag, value)), in_steps in zip(said.items(), became, strict=True):
         if steps is not None and in_steps is not None and steps != in_steps:
@@ -64,7 +86,7 @@ def make_design(
     )
     if L is not None and held.land_within_ms is None:
         held = replace(held, land_within_ms=held.landing_ms(L, rate))
-    return Design(N, M, L, "\n".join(times.words(rate)), held)
+    return Design(N, M, L, "\n".join(times.words(rate)), rate, held, times)
 
 
 def _needed(N: int | None) -> int:

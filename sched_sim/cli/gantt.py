@@ -73,7 +73,7 @@ def gantt(
     design = make_design(N, M, L, rate, measurement_hz, delay_ms, land_within_ms)
     panels = []
     for name in opt.wanted_methods(method or _usual(table), table):
-        timing = opt.make_timing(design.N, design.M, design.L, name, options)
+        timing = design.timing(name, options)
         work = select(table, name, options, statistic)
         pace = opt.pace(speed, rate, part, partial(least_speed, work, timing, options, others))
         if together := released_together(work, timing, pace, options, others):

@@ -65,7 +65,7 @@ def minimum(
     rows: list[dict[str, Any]] = []
     shown: list[dict[str, Any]] = []
     for name in opt.wanted_methods(method, table):
-        timing = opt.make_timing(design.N, design.M, design.L, name, options)
+        timing = design.timing(name, options, asked=bool(method))
         if not method and (reason := METHODS[name].law(options.feedback).why_none(timing.N, timing.M)):
             say(f"Note: no {name}: {reason}")
             continue
@@ -104,7 +104,7 @@ def minimum(
                     }
         rows.append(row)
         shown.append(person)
-    timings = {row["method"]: opt.make_timing(design.N, design.M, design.L, row["method"], options) for row in rows}
+    timings = {row["method"]: design.timing(row["method"], options) for row in rows}
     note = lines(design.words, update_note(table, [*timings]), range_note(table, timings, options, others))
     if format == "json":
         print_json(rows)

@@ -178,16 +178,22 @@ def given_options(context: typer.Context, wanted: Callable[[str], bool]) -> list
     ]
 
 
-def make_timing(N: int, M: int | None, L: int | None, method: str, options: Options) -> Timing:
-    """With L the latest that the method can have, if the user did not say. Multirate methods have no delay."""
+def make_timing(
+    N: int, M: int | None, L: int | None, method: str, options: Options, delay: str | None = None
+) -> Timing:
+    """With L the latest that the method can have, if the user did not say. Multirate methods have no delay.
+
+    delay: as the user wrote it, where it was not -M.
+    """
     from sched_sim.design.methods import METHODS
 
     law = METHODS[method].law(options.feedback)
     if law.undelayed:
         if M:
+            said = delay or f"-M {M}"
             raise InputError(
-                f"-M {M}: {method} has no delay, it uses each measurement in its step: for a late one choose "
-                f"--method recalculate, larsen or dual-rate; without delay leave -M out"
+                f"{said}: {method} has no delay, it uses each measurement in its step: for a late one choose --method "
+                f"recalculate, larsen or dual-rate; without delay leave {said.split()[0]} out"
             )
         M = 0
     if M is None:

@@ -116,7 +116,7 @@ def processors(
         rate = positive(hr_hz, "--hr-hz")
         design = make_design(N, M, L, rate, measurement_hz, delay_ms, land_within_ms)
         methods = opt.known_methods(method or ["dual-rate"])
-        timings = {name: opt.make_timing(design.N, design.M, design.L, name, options) for name in methods}
+        timings = {name: design.timing(name, options) for name in methods}
         others = opt.make_tasks(tasks, "second", rate)
         assert design.times is not None
         rows, shown, remarks = _verdicts(parts, timings, costs, statistic, rate, options, others, design.times)

@@ -129,7 +129,7 @@ def simulate(
     part = opt.make_processor(processor)
     table, rate = opt.costs_on(costs, part), opt.hr_rate(hr_hz)
     design = make_design(N, M, L, rate, measurement_hz, delay_ms, land_within_ms)
-    timing = opt.make_timing(design.N, design.M, design.L, method, options)
+    timing = design.timing(method, options)
     others = opt.make_tasks(tasks, table.unit, rate)
     work = select(table, method, options, statistic)
     pace = opt.pace(speed, rate, part, lambda: least_speed(work, timing, options, others))

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from typing import Literal
 
 from sched_sim.bounds import whole
-from sched_sim.design.times import Times
+from sched_sim.design.time_limits import check_times
+from sched_sim.design.times import Steps, Times
 from sched_sim.errors import InputError
 from sched_sim.ticks import Number, positive
 
@@ -36,11 +37,13 @@ class Timing:
         N and L are rounded down and M up: a measurement is used in the first step at or after its arrival, and L is
         less by the longest time that one waits for its step k (`Times.wait`). Raises InputError as `Times` does.
         """
-        rate = positive(hr_hz, "hr_hz")
-        N, M, L = Times.of(measurement_hz, delay_ms, land_within_ms).steps(rate)
+        rate, times = positive(hr_hz, "hr_hz"), Times.of(measurement_hz, delay_ms, land_within_ms)
+        N, M, L = times.steps(rate)
         assert N is not None
         assert M is not None
-        return cls(N, M, N if L is None else min(L, N))
+        L = N if L is None else min(L, N)
+        check_times(times, Steps(N, M, L), rate)
+        return cls(N, M, L)
 
     def __post_init__(self) -> None:
         for name in ("N", "M", "L"):

@@ -70,7 +70,9 @@ def test_nothing_is_earlier_than_it_arrives_nor_later_than_promised(
         ((5, -1, None), "delay_ms is -1: it must be 0 or more"),
         ((5, 20, 10), "land_within_ms is 10: it must not be less than the delay, 20 ms"),
         ((500, 0, None), "measurement_hz 500 is above hr_hz 400: a step takes one measurement at the most"),
-        ((5, 300, None), "M=120 must be <= N=80"),
+        ((5, 300, None), "delay_ms 300 is longer than the 200 ms from one measurement to the next .measurement_hz 5."),
+        ((30, 33.3, None), "at most 32.5 ms there; choose hr_hz 390 or 420, at which 33.3 ms can be, or simulate"),
+        ((30, 20, 21), "land_within_ms 21 is before .* 21.667 ms after the measurement is taken; give 21.667 or more"),
         ((5, "soon", None), "delay_ms is 'soon': give a finite number"),
     ],
 )
