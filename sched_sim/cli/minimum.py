@@ -90,16 +90,16 @@ def minimum(
                 least = least_speed(work, timing, options, others, on_progress)
                 landed = landing(work, timing, least.speed, options, others)
                 assert landed is not None
-                row = least_row(name, timing, least) | unit_and_form | {"achieved_l": landed}
+                row = least_row(name, timing, least) | unit_and_form | {"achieved_l_at_min_speed": landed}
                 person |= _speed(least.speed, table.unit) | {"fixed by": fixed_by(least.binding), "lands at L": landed}
                 if rate is not None and design.times is not None:
                     row |= {
                         "hr_hz": float(rate),
-                        "correction_ms": float(design.times.landing_ms(landed, rate)),
+                        "correction_ms_at_min_speed": float(design.times.landing_ms(landed, rate)),
                         "work_per_second": float(least.speed * rate),
                     }
                     person |= {
-                        "then lands after, ms": f"{row['correction_ms']:.4g}",
+                        "then lands after, ms": f"{row['correction_ms_at_min_speed']:.4g}",
                         f"{units(table.unit)} per s": f"{row['work_per_second']:.4g}",
                     }
         rows.append(row)

@@ -36,7 +36,7 @@ ADVICE = re.compile(r"(larger|smaller|longer|shorter|lower|higher|fewer) (N\b|M\
         (
             "minimum --hr-hz 400 --measurement-hz 30 --delay-ms 33.3",
             [
-                "--delay-ms 33.3 and --measurement-hz 30 are at --hr-hz 400 M = 14 steps, rounded up, of N = 13, rounded",
+                "--delay-ms 33.3 and --measurement-hz 30 are at --hr-hz 400 M = 14 steps, rounded up, of N = 13,",
                 WAITS,
                 "at most 32.5 ms there; choose --hr-hz 390 or 420",
                 "`hz = 30` and `delay_ms = 33.3`",
