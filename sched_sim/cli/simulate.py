@@ -232,15 +232,29 @@ def _at_another_phase(
 def released_together(
     costs: Costs, timing: Timing, speed: Fraction, options: Options, tasks: Sequence[Task]
 ) -> str | None:
-    """At which step tasks of any phase are released together in a simulation, in words; None if there are none."""
+    """At which step tasks of any phase are released together in a simulation, what that is the worst for, and what it
+    does not show, in words; None if there are none."""
     from sched_sim.design.simulate import worst_start
 
     start = worst_start(costs, timing, speed, options, tasks)
     if start is None:
         return None
     step = f"{float(start):.6g}"
-    worst = "" if options.policy == "edf" else ", the worst for them here"
-    return f"tasks of any phase are released together at step {step}{worst}"
+    worst = ", the worst for the job with the least slack, not for the landing" if options.policy == "fixed" else ""
+    names = ", ".join(task.name for task in tasks if _would_block(task, tasks, options))
+    block = f"; {names}: not preemptive, and would block more if released just before" if names else ""
+    return f"tasks of any phase are released together at step {step}{worst}{block}"
+
+
+def _would_block(task: Task, tasks: Sequence[Task], options: Options) -> bool:
+    """Whether a task of any phase delays something more urgent by all of its cost where it comes just before it."""
+    from sched_sim.schedule.jobs import HR, LR
+
+    if task.preemptive or task.offset != "any":
+        return False
+    filter_jobs = [HR] if task.cpu == 1 else [LR]
+    others = [other.priority for other in tasks if other.cpu == task.cpu and other is not task]
+    return options.policy == "edf" or task.priority > min(filter_jobs + others)
 
 
 def _above(share: Fraction) -> str:

@@ -172,10 +172,28 @@ def test_a_simulation_says_where_tasks_of_any_phase_are_released_and_what_may_be
     (tmp_path / "tasks.toml").write_text(task)
     line = "simulate -N 40 -M 13 --method {} --tasks tasks.toml"
     full = sched_sim(line.format("larsen"))
-    assert full.err == "Note: tasks of any phase are released together at step 13, the worst for them here\n"
+    assert full.err == (
+        "Note: tasks of any phase are released together at step 13, the worst for the job with the least slack, not "
+        "for the landing\n"
+    )
     late = sched_sim(line.format("dual-rate --speed 1.25")).err.splitlines()
     assert late[0].startswith("Note: tasks of any phase are released together at step ")
     assert late[1:] == ["Note: at another phase of the tasks one HR job may be late"]
+
+
+@pytest.mark.parametrize(("priority", "blocks"), [(30, True), (10, False), (5, False)])
+def test_a_task_that_nothing_interrupts_would_block_from_just_before(
+    sched_sim: Run, tmp_path: Path, priority: int, blocks: bool
+) -> None:
+    """At one instant the HR job goes first, and a task that is as urgent, or more, delays it as it is."""
+    task = f'[[task]]\nname = "flash"\nperiod = 40\ncost = 0.6\npriority = {priority}\npreemptive = false\n'
+    (tmp_path / "tasks.toml").write_text(task)
+    line = "-N 40 -M 13 --method larsen --speed 2.07 --tasks tasks.toml"
+    said = "; flash: not preemptive, and would block more if released just before\n"
+    assert sched_sim(f"simulate {line}").err.endswith(said) == blocks
+    drawn = sched_sim("gantt -N 40 -M 13 --speed 2.07 --tasks tasks.toml").err
+    assert drawn.count(said) == (2 if blocks else 0)
+    assert drawn.count("the worst for the job with the least slack, not for the landing") == 2
 
 
 def test_where_there_are_no_tasks_none_are_spoken_of(sched_sim: Run) -> None:
