@@ -48,7 +48,8 @@ def _with_flags(
     @wraps(command)
     def flagged(**values: Any) -> None:
         chosen = joined({name: values.pop(name) for name in names})
-        command(**values, options=chosen)
+        with opt.naming_tasks(values.get("tasks")):
+            command(**values, options=chosen)
 
     parameters: list[inspect.Parameter] = []
     for parameter in signature.parameters.values():

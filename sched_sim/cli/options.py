@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
@@ -213,6 +214,17 @@ def make_tasks(path: Path | None, unit: str, rate: Fraction | None) -> Sequence[
     from sched_sim.schedule.task_file import read_tasks
 
     return read_tasks(path, hr_hz=rate, unit_s=SECONDS.get(unit))
+
+
+@contextmanager
+def naming_tasks(path: Path | None) -> Iterator[None]:
+    """Errors of one task or of all name the file that they are from, which what finds them does not know."""
+    try:
+        yield
+    except InputError as error:
+        if path is None or not str(error).startswith(("task ", "the tasks ")):
+            raise
+        raise InputError(f"--tasks {str(path)!r}: {error}") from None
 
 
 def hr_rate(text: str | None) -> Fraction | None:

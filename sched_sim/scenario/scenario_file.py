@@ -143,7 +143,10 @@ class _ScenarioFile(Entry):
             yield f"processor {self.processor!r} makes seconds of operations: give hr_hz instead of speed"
         if self.costs is None and (self.processor or self.times_slower):
             key = "processor" if self.processor else "times_slower"
-            yield f"{key} has no meaning without a costs file: give costs, or delete it"
+            yield (
+                f"{key} is for what a costs file says, and there is none: give costs = ..., or delete {key}: stated "
+                f"costs are taken as they are"
+            )
         elif self.processor and self.times_slower:
             yield "times_slower is for measured costs, processor for counted ones: give one of them"
 
@@ -185,6 +188,13 @@ def read_scenario(path: str | Path, describe: Describe | None = None, *, process
     """
     what, path = f"{option('scenario')} {str(path)!r}", Path(path)
     document = read_toml(path, what, "give the path of a TOML file with [predictor] and [[sensor]] entries")
+    if processor is not None and document.get("costs") is None:
+        raise InputError(
+            f"{what}: it names no costs file, and stated costs take the same time on every processor: to tell "
+            f"processors apart count the operations, `sched-sim measure --filter ... --backend counted --output "
+            f'counts.toml`, and write costs = "counts.toml"; with the costs as they are there is `sched-sim simulate '
+            f"--scenario`"
+        )
     try:
         composition = _composition(document.get("filter"), describe, path.parent)
         if processor is not None:

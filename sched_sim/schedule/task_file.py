@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from fractions import Fraction
 from pathlib import Path
 from typing import Annotated, Any, Literal, NamedTuple, Self
@@ -87,12 +87,13 @@ class TaskEntry(BaseModel):
                 found["hz"] = None if self.hz is None else units.hr_hz and units.hr_hz / self.hz
             given = {name: found[name] for name in found if getattr(self, name) is not None}
             if units.hr_hz is None and given.keys() - {key}:
+                timed = [self._said(name) for name in given if name != key]
                 wrong.append(
-                    f"{' and '.join(sorted(given.keys() - {key}))} needs {option('hr_hz')}, the HR periods in a "
-                    f"second: give it, or {key} = ... in HR periods"
+                    f"{' and '.join(timed)} {'needs' if len(timed) == 1 else 'need'} {option('hr_hz')}, the HR periods "
+                    f"in a second: give it, or {key} = ... in HR periods"
                 )
             elif len({*given.values()}) > 1:
-                said = " and ".join(f"{name} = {_shown(getattr(self, name))}" for name in given)
+                said = " and ".join(map(self._said, given))
                 wrong.append(f"{said} do not agree: leave out the one that is wrong")
             return next(iter(given.values()), None)
 
@@ -100,10 +101,48 @@ class TaskEntry(BaseModel):
         cost = self._cost(units, wrong)
         if figures["period"] is None and not wrong:
             wrong.append("the period is missing: give hz = ..., period_ms = ..., or period = ... in HR periods")
+        if not wrong:
+            wrong += self._out_of_range(figures, units)
         if wrong:
             raise InputError(f"task {self.name!r}: {'; '.join(wrong)}")
         known = {key: value for key, value in figures.items() if value is not None}
         return Task(self.name, cost=cost, priority=self.priority, preemptive=self.preemptive, cpu=self.cpu, **known)
+
+    def _out_of_range(self, figures: Mapping[str, Any], units: TaskUnits) -> Iterator[str]:
+        """What no task can have, as it is written; figures: the same in HR periods."""
+        offset, jitter = figures["offset"], figures["jitter"]
+        late = figures["deadline"] is not None
+        due = figures["deadline"] if late else figures["period"]
+        if offset not in (None, "any") and offset < 0:
+            yield f"{self._written('offset', units)} must be 0 or more"
+        if due > figures["period"]:
+            yield (
+                f"{self._written('deadline', units)} must be at most the period, {self._written('period', units)}: a "
+                f"job is done before the next one comes"
+            )
+        elif jitter is not None and not 0 <= jitter < due:
+            deadline = "the deadline, " if late else "the deadline, by default the period, "
+            yield (
+                f"{self._written('jitter', units)} must be 0 or more and less than {deadline}"
+                f"{self._written('deadline' if late else 'period', units)}"
+            )
+        try:
+            Task(self.name, Fraction(1), Fraction(1), self.priority, cpu=self.cpu, preemptive=self.preemptive)
+        except InputError as error:
+            yield str(error).removeprefix(f"task {self.name!r}: ")
+
+    def _written(self, key: str, units: TaskUnits) -> str:
+        """A time as the file has it; in ms too, where it has it otherwise and there is a rate."""
+        names = [f"{key}_ms", *(["hz"] if key == "period" else []), key]
+        name = next(name for name in names if getattr(self, name) is not None)
+        value = getattr(self, name)
+        if name.endswith("_ms") or units.hr_hz is None:
+            return self._said(name)
+        ms = 1000 / value if name == "hz" else value * 1000 / units.hr_hz
+        return f"{self._said(name)} ({_shown(ms)} ms)"
+
+    def _said(self, key: str) -> str:
+        return f"{key} = {_shown(getattr(self, key))}"
 
     def _cost(self, units: TaskUnits, wrong: list[str]) -> Any:
         given = {key: getattr(self, key) for key in ("cost", *(f"cost_{unit}" for unit in COST_UNITS))}
@@ -115,7 +154,7 @@ class TaskEntry(BaseModel):
         unit = key.removeprefix("cost").removeprefix("_") or units.unit
         if unit is None and units.unit_s is not None:
             wrong.append(
-                f"cost {_shown(value)} has no unit, and costs are times here: write cost_us, cost_ms or cost_s, "
+                f"cost = {_shown(value)} has no unit, and costs are times here: write cost_us, cost_ms or cost_s, "
                 f'or unit = "us", "ms" or "s" at the top of the file for all'
             )
         elif unit is not None and units.unit_s is None:
@@ -157,7 +196,8 @@ def read_tasks(path: str | Path, *, hr_hz: AnyNumber | None = None, unit_s: AnyN
         wrong = problems(error, _TaskFile, document)
         raise InputError(
             f"{what}: {wrong}; each [[task]] has name, period (in HR periods; or period_ms, hz), cost (in the unit of "
-            f"the cost table; or cost_us, cost_ms), and priority (smaller is more urgent; HR jobs 10, LR jobs 20)"
+            f"the cost table; or cost_us, cost_ms, cost_s), and priority (smaller is more urgent; HR jobs 10, LR jobs "
+            f"20)"
         ) from None
     units = TaskUnits(
         None if hr_hz is None else positive(hr_hz, "hr_hz"),

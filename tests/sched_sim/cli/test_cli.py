@@ -196,6 +196,24 @@ def test_a_task_that_nothing_interrupts_would_block_from_just_before(
     assert drawn.count("the worst for the job with the least slack, not for the landing") == 2
 
 
+@pytest.mark.parametrize(
+    ("entry", "line", "said"),
+    [
+        ("cost_us = 1\ncpu = 2", "minimum -N 40 -M 13 --processor leon3 --hr-hz 400", "task 't': cpu 2 is not there"),
+        ("cost_us = 1\ncpu = 2", "simulate -N 40 -M 13 --processor leon3 --hr-hz 400", "task 't': cpu 2 is not there"),
+        ("cost_ms = 40", "processors -N 40 -M 13 --hr-hz 400", "task 't' alone needs 400 % of the processor"),
+        ("cost_ms = 40\noffset_ms = -1", "processors -N 40 -M 13 --hr-hz 400", "task 't': offset_ms = -1 must be 0"),
+    ],
+)
+def test_what_is_wrong_with_a_task_is_said_with_its_file_once(
+    sched_sim: Run, tmp_path: Path, entry: str, line: str, said: str
+) -> None:
+    (tmp_path / "board.toml").write_text(f'[[task]]\nname = "t"\nhz = 100\npriority = 5\n{entry}\n')
+    result = sched_sim(f"{line} --tasks board.toml")
+    is_refused(result, [f"Error: --tasks 'board.toml': {said}"])
+    assert result.err.count("board.toml") == 1
+
+
 def test_where_there_are_no_tasks_none_are_spoken_of(sched_sim: Run) -> None:
     line = "simulate -N 5 -M 3 -L 5 --speed 1.34 --context-switch 0.16 --policy edf --cycles 1"
     assert sched_sim(line).err == "Note: 1 cycle is shown; all is seen after 2: --cycles 2\n"

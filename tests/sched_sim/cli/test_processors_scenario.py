@@ -86,4 +86,9 @@ def test_costs_that_are_times_are_of_one_processor(sched_sim: Run) -> None:
     Path("late.toml").write_text(
         SCENARIO.replace('costs = "counts.toml"', "[predictor]\ncost_us = 5") + "cost_us = 9\n"
     )
-    is_refused(sched_sim("processors --scenario late.toml"), ["processor", "without a costs file"])
+    said = [
+        "--scenario 'late.toml': it names no costs file, and stated costs take the same time on every processor",
+        '`sched-sim measure --filter ... --backend counted --output counts.toml`, and write costs = "counts.toml"',
+        "`sched-sim simulate --scenario`",
+    ]
+    is_refused(sched_sim("processors --scenario late.toml"), said)

@@ -107,7 +107,10 @@ from tests.sched_sim.cli.test_scenario_commands import REST, SHORT, write
         (("speed = 10", 'speed = 10\nprocessor = "cortex-m7"'), ["processor 'cortex-m7'", "hr_hz"]),
         (("speed = 10", 'hr_hz = 9\nprocessor = "z80"'), ["z80", "cortex-m7"]),
         (("speed = 10", 'hr_hz = 9\ntimes_slower = 2\nprocessor = "cortex-m7"'), ["times_slower", "one of them"]),
-        (('costs = "costs.toml"', "times_slower = 2"), ["times_slower", "without a costs file"]),
+        (
+            ('costs = "costs.toml"', "times_slower = 2"),
+            ["times_slower is for what a costs file says, and there is none: give costs = ..., or delete times_slower"],
+        ),
         (('costs = "costs.toml"', 'costs = "none.toml"'), ["none.toml", "not found", "measure --filter"]),
         (('costs = "costs.toml"', ""), ["no costs of predict", "give [predictor] a cost"]),
         (("steps = 40", "steps = 0"), ["steps: must be at least 1 (given: 0)"]),

@@ -69,7 +69,7 @@ def test_cost_units_have_no_other_unit(tmp_path: Path) -> None:
             "cost_us = 2",
             "cost_us = 2",
             TASK,
-            "task 'control': cost 3 has no unit, and costs are times here: write cost_us, cost_ms or cost_s, or unit",
+            "task 'control': cost = 3 has no unit, and costs are times here: write cost_us, cost_ms or cost_s, or unit",
         ),
         (
             PLAIN,

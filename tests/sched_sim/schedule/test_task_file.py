@@ -58,9 +58,9 @@ REFUSED: dict[str, tuple[str, int | None, float | None, str]] = {
     "offsets that differ": (
         "period = 4\noffset = 1\noffset_ms = 1\ncost_us = 1", 400, 1, "offset = 1 and offset_ms = 1 do not agree",
     ),
-    "no hr_hz": ("hz = 100\ncost = 1", None, None, "hz needs hr_hz, the HR periods in a second: give it, or period ="),
-    "no hr_hz for a jitter": ("period = 4\njitter_ms = 1\ncost = 1", None, None, "jitter_ms needs hr_hz"),
-    "no unit": ("period = 4\ncost = 1", 400, 1, "cost 1 has no unit, and costs are times here: write cost_us, cost_ms"),
+    "no hr_hz": ("hz = 100\ncost = 1", None, None, "hz = 100 needs hr_hz, the HR periods in a second: give it, or"),
+    "no hr_hz for a jitter": ("period = 4\njitter_ms = 1\ncost = 1", None, None, "jitter_ms = 1 needs hr_hz"),
+    "no unit": ("period = 4\ncost = 1", 400, 1, "cost = 1 has no unit, and costs are times here: write cost_us,"),
     "a time where none is": ("period = 4\ncost_us = 1", 400, None, "cost_us = 1 is a time, and the unit of the cost"),
     "no cost": ("period = 4", 400, 1, "give one of cost, cost_us, cost_ms and cost_s, not none"),
     "two costs": ("period = 4\ncost_us = 1\ncost_ms = 1", 400, 1, "cost_s, not cost_us and cost_ms"),
@@ -70,8 +70,26 @@ REFUSED: dict[str, tuple[str, int | None, float | None, str]] = {
         "period = 4\ndeadline = 2\njitter = 2\ncost_us = 1", 400, 1, "jitter 2 must be 0 or more and less than the",
     ),
     "a deadline above the period": (
-        "period = 4\ndeadline_ms = 20\ncost_us = 1", 400, 1, "deadline 8 must be greater than 0 and at most its period",
+        "period = 4\ndeadline_ms = 20\ncost_us = 1", 400, 1, "deadline_ms = 20 must be at most the period, period = 4",
     ),
+    "a deadline above the period in hz": (
+        "hz = 50\ndeadline_ms = 25\ncost_us = 1", 400, 1, "25 must be at most the period, hz = 50 (20 ms)",
+    ),
+    "a jitter beyond the period": (
+        "period_ms = 10\njitter_ms = 12\ncost_us = 1", 400, 1,
+        "jitter_ms = 12 must be 0 or more and less than the deadline, by default the period, period_ms = 10",
+    ),
+    "a jitter beyond a deadline in periods": (
+        "hz = 100\ndeadline = 2\njitter_ms = 6\ncost_us = 1", 400, 1, "less than the deadline, deadline = 2 (5 ms)",
+    ),
+    "a negative offset": ("hz = 100\noffset_ms = -1\ncost_us = 1", 400, 1, "offset_ms = -1 must be 0 or more"),
+    "another processor": (
+        "hz = 100\noffset_ms = -1\ncost_us = 1\ncpu = 3", 400, 1, "offset_ms = -1 must be 0 or more; cpu 3 must be 1",
+    ),
+    "two times without a rate": (
+        "hz = 100\nperiod_ms = 10\ncost = 1", None, None, "period_ms = 10 and hz = 100 need hr_hz, the HR periods in a",
+    ),
+    "all that a task has": ("hz = 100\ncost_us = 1\ncolour = 3", 400, 1, "or cost_us, cost_ms, cost_s), and priority"),
     "a phase that is none": ('period = 4\noffset = "some"\ncost_us = 1', 400, 1, "offset"),
 }  # fmt: skip
 
@@ -86,6 +104,6 @@ def test_what_is_not_clear_is_told_once(
 
 
 def test_all_that_is_wrong_is_told(tmp_path: Path) -> None:
-    with pytest.raises(InputError, match=r"deadline_ms needs hr_hz.*; cost_us = 1 is a time") as caught:
+    with pytest.raises(InputError, match=r"deadline_ms = 1 needs hr_hz.*; cost_us = 1 is a time") as caught:
         read(tmp_path, "period = 4\ndeadline_ms = 1\ncost_us = 1\n", hr_hz=None, unit_s=None)
     assert str(caught.value).count("'control'") == 1
