@@ -48,7 +48,7 @@ def _with_flags(
     @wraps(command)
     def flagged(**values: Any) -> None:
         chosen = joined({name: values.pop(name) for name in names})
-        with opt.naming_tasks(values.get("tasks")):
+        with opt.naming_tasks(values.get("tasks"), _one(values.get("hr_hz"))):
             command(**values, options=chosen)
 
     parameters: list[inspect.Parameter] = []
@@ -57,6 +57,11 @@ def _with_flags(
     flagged.__signature__ = signature.replace(parameters=parameters)  # type: ignore[attr-defined]  # typer reads it
     flagged.__annotations__ = {parameter.name: parameter.annotation for parameter in parameters}
     return flagged
+
+
+def _one(value: Any) -> str | None:
+    """Of an option that a sweep has several of: none."""
+    return value if isinstance(value, str) else None
 
 
 def _flag(choice: Field[Any]) -> inspect.Parameter:

@@ -43,7 +43,7 @@ def minimum(
     """
     from sched_sim.cli.design_times import make_design
     from sched_sim.cli.measured_note import range_note
-    from sched_sim.cli.parts import MEANING, fit_row, fit_words, fixed_by, least_row
+    from sched_sim.cli.parts import MEANING, fit_row, fit_words, fixed_by, least_row, no_less
     from sched_sim.cli.update_form import update_form, update_note
     from sched_sim.costs.table import COUNTED
     from sched_sim.design.fit import fit
@@ -93,13 +93,14 @@ def minimum(
                 row = least_row(name, timing, least) | unit_and_form | {"achieved_l_at_min_speed": landed}
                 person |= _speed(least.speed, table.unit) | {"fixed by": fixed_by(least.binding), "lands at L": landed}
                 if rate is not None and design.times is not None:
+                    landing_ms = design.times.landing_ms(landed, rate)
                     row |= {
                         "hr_hz": float(rate),
-                        "correction_ms_at_min_speed": float(design.times.landing_ms(landed, rate)),
+                        "correction_ms_at_min_speed": float(landing_ms),
                         "work_per_second": float(least.speed * rate),
                     }
                     person |= {
-                        "then lands after, ms": f"{row['correction_ms_at_min_speed']:.4g}",
+                        "then lands after, ms": no_less(landing_ms, 4),
                         f"{units(table.unit)} per s": f"{row['work_per_second']:.4g}",
                     }
         rows.append(row)

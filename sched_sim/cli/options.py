@@ -217,14 +217,18 @@ def make_tasks(path: Path | None, unit: str, rate: Fraction | None) -> Sequence[
 
 
 @contextmanager
-def naming_tasks(path: Path | None) -> Iterator[None]:
-    """Errors of one task or of all name the file that they are from, which what finds them does not know."""
+def naming_tasks(path: Path | None, hr_hz: str | None) -> Iterator[None]:
+    """Errors of one task or of all name the file that they are from, and say what an HR period is, neither of which
+    what finds them knows."""
     try:
         yield
     except InputError as error:
-        if path is None or not str(error).startswith(("task ", "the tasks ")):
+        said = str(error)
+        if path is None or "--tasks " in said or not ("task '" in said or "the tasks " in said):
             raise
-        raise InputError(f"--tasks {str(path)!r}: {error}") from None
+        rate = hr_rate(hr_hz)
+        period = "" if rate is None or "period" not in said or " ms" in said else f"{float(1000 / rate):.6g} ms"
+        raise InputError(f"--tasks {str(path)!r}: {said}{period and f' (an HR period is {period})'}") from None
 
 
 def hr_rate(text: str | None) -> Fraction | None:

@@ -7,6 +7,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from sched_sim.cli.output import lines, print_table
+from sched_sim.cli.parts import no_less
 from sched_sim.shares import percent
 
 if TYPE_CHECKING:
@@ -126,5 +127,5 @@ def landings(achieved: Achieved, rate: Fraction | None, wait: Fraction, what: st
         least, most = (f"{float(1000 * at / rate):.6g}" for at in (first, last))
         where += f", {least if least == most else f'{least} to {most}'} ms after k"
         if wait:
-            where += f", at most {float(1000 * (last + wait) / rate):.6g} ms after the measurement was taken"
+            where += f", at most {no_less(1000 * (last + wait) / rate, 6)} ms after the measurement was taken"
     return f"{what} {where}" + (f", {lost} of {len(achieved)} not within the simulated time" if lost else "")

@@ -202,6 +202,12 @@ def test_a_task_that_nothing_interrupts_would_block_from_just_before(
         ("cost_us = 1\ncpu = 2", "minimum -N 40 -M 13 --processor leon3 --hr-hz 400", "task 't': cpu 2 is not there"),
         ("cost_us = 1\ncpu = 2", "simulate -N 40 -M 13 --processor leon3 --hr-hz 400", "task 't': cpu 2 is not there"),
         ("cost_ms = 40", "processors -N 40 -M 13 --hr-hz 400", "task 't' alone needs 400 % of the processor"),
+        (
+            "cost_us = 1\noffset_ms = 1e10",
+            "minimum -N 40 -M 13 --processor leon3 --hr-hz 400",
+            "task 't': offset 4e+09 is more than the 200000 HR periods that are simulated: give one below its period, "
+            "4 (an HR period is 2.5 ms)",
+        ),
         ("cost_ms = 40\noffset_ms = -1", "processors -N 40 -M 13 --hr-hz 400", "task 't': offset_ms = -1 must be 0"),
     ],
 )
