@@ -200,3 +200,20 @@ def test_the_command_line_imports_nothing_slow():
     code = f"import sys, sched_sim.cli; print(*sorted({slow!r} & set(sys.modules)))"
     run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert run.stdout.split() == [], "import it inside the command that needs it"
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "minimum -N 20 -M 4",
+        "minimum -N 20 -M 4 --feedback same-step --cpus 2 --format json",
+        "minimum --hr-hz 400 --measurement-hz 5 --delay-ms 110 --processor cortex-m7",
+        "processors -N 20 -M 4 --hr-hz 400",
+    ],
+)
+def test_a_least_speed_in_closed_form_needs_no_numpy(line):
+    code = f"import sys; sys.argv = ['sched-sim', *{line.split()!r}]; from sched_sim.cli.streams import run; "
+    code += "print(run(), 'numpy' in sys.modules, file=sys.stderr)"
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert run.stdout
+    assert run.stderr.splitlines()[-1] == "0 False"

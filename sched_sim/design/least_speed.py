@@ -6,8 +6,6 @@ from collections.abc import Callable, Sequence
 from fractions import Fraction
 from typing import NamedTuple
 
-import numpy as np
-
 from sched_sim.design import analysis
 from sched_sim.design.arguments import checked
 from sched_sim.design.methods import method_of
@@ -71,10 +69,9 @@ def least_speed(
 
         return LeastSpeed(*least_speed_by_simulation(costs, timing, options, tasks, on_progress))
     resolution, in_ticks = _in_ticks(costs)
-    N, M, L = (np.array([value], dtype=object) for value in (timing.N, timing.M, timing.L))
-    least = analysis.least_period(in_ticks, N, M, L, options)
-    speed = Fraction(least.numerator.item(), least.denominator.item() * resolution)
-    return LeastSpeed(speed, analysis.Binding(least.code.item()).name)
+    least = analysis.least_period(in_ticks, timing.N, timing.M, timing.L, options)
+    speed = Fraction(least.numerator, least.denominator * resolution)
+    return LeastSpeed(speed, analysis.Binding(least.code).name)
 
 
 def achieved_l(costs: Costs, timing: Timing, speed: Number, options: Options = Options()) -> int | None:
@@ -92,8 +89,7 @@ def achieved_l(costs: Costs, timing: Timing, speed: Number, options: Options = O
             f"closed form: `simulate` says where corrections land"
         )
     resolution, in_ticks = _in_ticks(costs, speed)
-    N, M, period = (np.array([value], dtype=object) for value in (timing.N, timing.M, to_ticks(speed, resolution)))
-    landed = analysis.achieved_l(in_ticks, N, M, period, options).item()
+    landed = analysis.achieved_l(in_ticks, timing.N, timing.M, to_ticks(speed, resolution), options)
     return None if landed == analysis.NOT_LANDED else landed
 
 

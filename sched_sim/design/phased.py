@@ -15,10 +15,10 @@ from typing import NamedTuple
 import numpy as np
 
 from sched_sim.design.cycle import Cycle, cycle_of
-from sched_sim.design.demand import Ints
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import Costs, converted, works
 from sched_sim.design.timing import Timing
+from sched_sim.design.whole import Ints
 from sched_sim.schedule.tasks import Task, work_and_times
 from sched_sim.ticks import ticks_per_unit, to_ticks
 

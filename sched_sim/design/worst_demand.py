@@ -13,8 +13,8 @@ from fractions import Fraction
 
 import numpy as np
 
-from sched_sim.design.demand import Ints
 from sched_sim.design.phased import Phased, ceiling
+from sched_sim.design.whole import Ints
 from sched_sim.design.worst_phase import EndlessError, Level, starts
 
 LONGEST_WINDOW = 2**14

@@ -17,8 +17,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sched_sim.design.demand import Flags, Ints
 from sched_sim.design.phased import LONGEST_BUSY, Phased, PhasedTask, ceiling
+from sched_sim.design.whole import Flags, Ints
 from sched_sim.schedule.jobs import HR, LR
 
 MOST_BURSTS = 2_000

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sched_sim.design import analysis
+from sched_sim.design import analysis, whole
 from sched_sim.design.demand import Quotient
 from sched_sim.design.least_speed import least_speed
 from sched_sim.design.options import Options
@@ -102,7 +102,7 @@ def _landing(costs: JobCosts[int], N: Ints, M: Ints, period: Fractions, options:
     return landed
 
 
-def _lowest_terms(periods: Quotient, resolution: int) -> Iterator[Least]:
+def _lowest_terms(periods: Quotient[whole.Ints], resolution: int) -> Iterator[Least]:
     """The speeds of HR periods in ticks, `resolution` ticks being one cost unit."""
     names = {code.value: code.name for code in analysis.Binding}
     for numerator, denominator, code in zip(*(part.tolist() for part in periods), strict=True):

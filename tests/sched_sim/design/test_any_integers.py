@@ -1,4 +1,5 @@
-"""The closed form on any integers: as large as they come, in arrays of any shape, never overflowing silently."""
+"""The closed form on any integers: as large as they come, one design or arrays of any shape, never overflowing
+silently."""
 
 from __future__ import annotations
 
@@ -12,7 +13,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from sched_sim.design.analysis import NOT_LANDED, achieved_l, least_period
+from sched_sim.design.analysis import NOT_LANDED, Binding, achieved_l, least_period
 from sched_sim.design.methods import METHODS
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import DualRateCosts, JobCosts, LarsenCosts, RecalculateCosts, StandardCosts
@@ -42,6 +43,27 @@ def test_costs_times_a_factor_need_that_much_longer_periods_and_land_where_they_
     period = -(-small.numerator // small.denominator)
     landed = achieved_l(design.costs, N, M, period, design.options)
     assert achieved_l(times(design.costs, factor), N, M, factor * period.astype(object), design.options) == landed
+
+
+@given(designs, factors, st.just(1) | factors, st.fractions(0, 3))
+def test_one_design_in_plain_integers_is_what_it_is_in_arrays(
+    design: Design, factor: int, longer: int, share: Fraction
+) -> None:
+    costs, timing, options = times(design.costs, factor), design.timing, design.options
+    walks = options.feedback == "same-step"  # over all steps, from L down
+    N, M, L = ((1 if walks else longer) * step for step in (timing.N, timing.M, timing.L))
+    one, several = least_period(costs, N, M, L, options), least_period(costs, *map(arrays, (N, M, L)), options)
+    assert [{part} for part in one] == [{*whole.tolist()} for whole in several]
+    assert {*map(type, one)} <= {int, Binding}
+    least = -(-one.numerator // one.denominator)
+    for period in (least - 1, least, int(share * least)):
+        landed = achieved_l(costs, N, M, period, options)
+        assert type(landed) is int
+        assert {landed} == {*achieved_l(costs, *map(arrays, (N, M, period)), options).tolist()}
+
+
+def arrays(number: int) -> Any:
+    return np.array([number, number], dtype=object)
 
 
 @pytest.mark.parametrize("largest", [2**31 - 1, 2**62, 2**63 - 1, 10**30])
@@ -92,11 +114,18 @@ def test_no_point_is_no_point() -> None:
         (COSTS, np.array([10.0])),
         (COSTS, np.array([Fraction(21, 2)], dtype=object)),
         (StandardCosts(Fraction(1, 2), 1), np.array([10])),
+        (StandardCosts(Fraction(1, 2), 1), 10),
     ],
 )
 def test_what_is_no_whole_number_is_refused(costs: JobCosts, N: Any) -> None:
     with pytest.raises(TypeError, match="integer"):
         least_period(costs, N, np.array([4]), np.array([8]), Options())
+
+
+@pytest.mark.parametrize("steps", [(10.0, 4, 8), (10, 4.0, 8), (10, 4, Fraction(17, 2))])
+def test_steps_of_one_design_that_are_no_whole_numbers_are_refused(steps: Any) -> None:
+    with pytest.raises(TypeError, match="integer"):
+        least_period(COSTS, *steps, Options())
 
 
 @pytest.mark.parametrize(
