@@ -217,3 +217,15 @@ def test_a_least_speed_in_closed_form_needs_no_numpy(line):
     run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert run.stdout
     assert run.stderr.splitlines()[-1] == "0 False"
+
+
+def test_the_command_line_loads_no_plugins_of_pydantic(tmp_path):
+    installed = tmp_path / "noisy-1.0.dist-info"
+    installed.mkdir()
+    (installed / "METADATA").write_text("Metadata-Version: 2.1\nName: noisy\nVersion: 1.0\n")
+    (installed / "entry_points.txt").write_text("[pydantic]\nnoisy = noisy:plugin\n")
+    (tmp_path / "noisy.py").write_text("raise SystemExit('loaded')")
+    environment = os.environ | {"PYTHONPATH": str(tmp_path)}
+    line = [sys.executable, "-m", "sched_sim", "minimum", "-N", "20", "-M", "4"]
+    run = subprocess.run(line, env=environment, capture_output=True, text=True)
+    assert (run.returncode, run.stderr) == (0, "")

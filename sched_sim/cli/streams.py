@@ -60,6 +60,7 @@ def run() -> int:
 
 
 def _command() -> int:
+    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "1")  # it would search all that is installed for some
     from sched_sim.cli.app import app
 
     try:
