@@ -140,7 +140,7 @@ def measure(
     sched-sim measure --filter mymodule:my_filter -o samples.toml
     """
     from filters.systems.example import example_system
-    from sched_sim.cli.measured_note import busy_note, say_busy
+    from sched_sim.cli.measured_note import busy_note, busy_row, say_busy
     from sched_sim.cli.own_note import own_note, own_share
     from sched_sim.cli.progress import progress_bar
     from sched_sim.cli.update_form import update_form
@@ -203,6 +203,7 @@ def measure(
             **own_share(table, method, kind),
             "standard_steps": None if unit is None else float(unit.entry(method, kind).minimum),
             "standard_steps_p95": None if unit is None else float(unit.entry(method, kind).p95),
+            **busy_row(table.provenance),
         }
         for method, kinds in table.costs.items()
         for kind, cost in kinds.items()

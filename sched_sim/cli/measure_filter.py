@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
 import typer
 
-from sched_sim.cli.measured_note import busy_note, say_busy
+from sched_sim.cli.measured_note import busy_note, busy_row, say_busy
 from sched_sim.cli.options import given_options
 from sched_sim.cli.output import Format, lines, print_csv, print_json, print_table, say
 from sched_sim.cli.outputs import module_files, refuse_one_file_for_two
@@ -55,7 +55,7 @@ def measure_own_filter(
         table = f"{backend}-{name.replace(':', '.')}"
         with explained(f"--filter {name!r}: its parts cannot be measured by --backend {backend}"):
             costs = measure_filter(user, backend, name=table, thorough=thorough, progress=progress)
-    rows = [_row(costs, part) for part in costs.samples]
+    rows = [_row(costs, part) | busy_row(costs.provenance) for part in costs.samples]
     if format == "json":
         print_json(rows)
     elif format == "csv":

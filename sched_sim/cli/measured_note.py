@@ -1,4 +1,5 @@
-"""What is said below every table that measured costs are in: that the machine was busy, and how far they reach."""
+"""What is said of measured costs, below every table and in every row: that the machine was busy, and how far they
+reach."""
 
 from __future__ import annotations
 
@@ -7,7 +8,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from sched_sim.cli.output import say
-from sched_sim.costs.table import SECONDS, CostTable
+from sched_sim.costs.table import SECONDS, CostTable, measured_on_busy_machine
 
 if TYPE_CHECKING:
     from sched_sim.design.options import Options
@@ -28,26 +29,66 @@ def say_busy(name: str, provenance: Mapping[str, Any]) -> None:
         say(f"Note: {name} was {note}")
 
 
+BUSY = "measured_on_busy_machine"
+"""The key of a row that says so: true or false; null where `measure` did not time the costs."""
+
+
+def busy_row(provenance: Mapping[str, Any]) -> dict[str, bool | None]:
+    """The same in a row for scripts."""
+    return {BUSY: measured_on_busy_machine(provenance)}
+
+
 def range_note(table: CostTable, designs: Mapping[str, Timing], options: Options, tasks: Sequence[Task] = ()) -> str:
     """A line with the least speed of each method by the least costs and by the 95th percentile: what a run of measured
     costs leaves open, to which another machine adds. Empty where no cost has a range, and where it takes a simulation.
 
     designs: by the method.
     """
-    from sched_sim.design.least_speed import has_closed_form, least_speed
-    from sched_sim.design.methods import select
-
-    if not _spread(table, designs) or not has_closed_form(options, tasks):
+    if not any(_has_range(table, method, options, tasks) for method in designs):
         return ""
     scale, unit = (SECONDS[table.unit] * 10**6, ", us an HR period") if table.unit in SECONDS else (Fraction(1), "")
-
-    def speed(method: str, statistic: Statistic) -> str:
-        least = least_speed(select(table, method, options, statistic), designs[method], options)
-        return f"{float(scale * least.speed):.3g}"
-
-    shown = ", ".join(f"{method} {speed(method, 'minimum')} to {speed(method, 'p95')}" for method in designs)
+    ends = {method: _ends(table, method, timing, options) for method, timing in designs.items()}
+    shown = ", ".join(
+        f"{method} {' to '.join(f'{float(scale * end):.3g}' for end in speeds)}" for method, speeds in ends.items()
+    )
     return f"least speed from minimum to p95 costs{unit}: {shown}; another machine may lie outside"
 
 
-def _spread(table: CostTable, methods: Mapping[str, Any]) -> bool:
-    return any(cost.minimum != cost.p95 for method in methods for cost in table.costs[method].values())
+def measured_row(
+    table: CostTable,
+    method: str,
+    timing: Timing,
+    options: Options,
+    tasks: Sequence[Task] = (),
+    scale: Fraction = Fraction(1),
+) -> dict[str, Any]:
+    """The same in a row for scripts, beside `min_speed`, of which the table's unit is `scale`; whether the machine was
+    busy. Null where the note says nothing."""
+    least, most = (
+        (float(scale * speed) for speed in _ends(table, method, timing, options))
+        if _has_range(table, method, options, tasks)
+        else (None, None)
+    )
+    return {"min_speed_least": least, "min_speed_most": most} | busy_row(table.provenance)
+
+
+def _has_range(table: CostTable, method: str, options: Options, tasks: Sequence[Task]) -> bool:
+    """Whether one can be told, of the least speed."""
+    from sched_sim.design.least_speed import has_closed_form
+
+    spread = any(cost.minimum != cost.p95 for cost in table.costs.get(method, {}).values())
+    return spread and has_closed_form(options, tasks)
+
+
+def _ends(table: CostTable, method: str, timing: Timing, options: Options) -> tuple[Fraction, Fraction]:
+    """The least speed by the least costs, and by their 95th percentile, in the unit of the table."""
+    from sched_sim.design.least_speed import least_speed
+    from sched_sim.design.methods import select
+
+    least, most = (
+        least_speed(select(table, method, options, statistic), timing, options).speed for statistic in BOTH_ENDS
+    )
+    return least, most
+
+
+BOTH_ENDS: tuple[Statistic, Statistic] = ("minimum", "p95")

@@ -42,7 +42,7 @@ def minimum(
     sched-sim minimum -N 40 -M 4 --hr-hz 400 --costs my-costs.toml --method dual-rate
     """
     from sched_sim.cli.design_times import make_design
-    from sched_sim.cli.measured_note import range_note
+    from sched_sim.cli.measured_note import measured_row, range_note
     from sched_sim.cli.parts import MEANING, fit_row, fit_words, fixed_by, least_row, no_less
     from sched_sim.cli.update_form import update_form, update_note
     from sched_sim.costs.table import COUNTED
@@ -103,7 +103,8 @@ def minimum(
                         "then lands after, ms": no_less(landing_ms, 4),
                         f"{units(table.unit)} per s": f"{row['work_per_second']:.4g}",
                     }
-        rows.append(row)
+        scale = second if timed else Fraction(1)
+        rows.append(row | measured_row(table, name, timing, options, others, scale))
         shown.append(person)
     timings = {row["method"]: design.timing(row["method"], options) for row in rows}
     note = lines(design.words, update_note(table, [*timings]), range_note(table, timings, options, others))

@@ -204,6 +204,7 @@ def _verdicts(
 ) -> tuple[list[dict[str, Any]], list[dict[str, Any]], list[str]]:
     """A row for each processor and method; the same in words, in the order of `_by_slack`; and remarks: which
     covariance update the operations are of, the ground, and why some processors cannot be told of."""
+    from sched_sim.cli.measured_note import measured_row
     from sched_sim.cli.parts import fit_row, fit_words, fixed_by, least_row
     from sched_sim.cli.progress import simulations
     from sched_sim.cli.update_form import form_note, ground_note, update_form
@@ -237,7 +238,7 @@ def _verdicts(
                 | update_form(counts, method)
                 | fit_row(part, rate, times, verdict, bool(tasks))
             )
-            rows.append(row | {"reason": reason})
+            rows.append(row | measured_row(table, method, timing, options, tasks) | {"reason": reason})
             name = {"method": method} if len(timings) > 1 else {}
             about = {"processor": part.name, "precision": part.precision, **name}
             words = fit_words(part, rate, times, verdict, bool(tasks))

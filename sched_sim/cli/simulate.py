@@ -112,6 +112,7 @@ def simulate(
     from contextlib import ExitStack
 
     from sched_sim.cli.design_times import make_design
+    from sched_sim.cli.measured_note import busy_row
     from sched_sim.cli.simulated import of_run, outcome, responses, show
     from sched_sim.cli.update_form import update_form, update_note
     from sched_sim.costs.methods import MULTIRATE_METHODS
@@ -168,7 +169,9 @@ def simulate(
     if not schedule.misses and (note := unseen(work, timing, pace, cycles, options, others)):
         say(f"Note: {note}")
     wait = Fraction(0) if rate is None or design.times is None else design.times.wait(rate)
-    about = of_run(method, timing, pace, table.unit, rate, part) | update_form(table, method)
+    about = (
+        of_run(method, timing, pace, table.unit, rate, part) | update_form(table, method) | busy_row(table.provenance)
+    )
     if format == "json":
         print_json(about | outcome(schedule, achieved, rate, wait))
     elif format == "csv":

@@ -236,16 +236,18 @@ def _progress(total: int) -> Iterator[Callable[[int], None]]:
 
 
 def _report(asked: Sweep, store: Store, outcome: Outcome, exports: Sequence[Path], format: opt.Format) -> None:
-    from sched_sim.cli.measured_note import busy_note
+    from sched_sim.cli.measured_note import busy_note, busy_row
     from sched_sim.cli.update_form import form_note
     from studies.sweep.summary import best, by_method
 
     tables = asked.grid.tables
-    designs = best(store)
+    designs, methods = best(store), by_method(store)
+    if format != "table":
+        busy = {table.name: busy_row(table.provenance) for table in tables}
+        designs, methods = ([row | busy[row["costs"]] for row in rows] for rows in (designs, methods))
     if format == "csv":
         print_csv(designs)
         return
-    methods = by_method(store)
     if format == "json":
         print_json(
             {

@@ -24,6 +24,14 @@ SECONDS: Mapping[str, Fraction] = {
 """The units of costs that are times."""
 
 
+def measured_on_busy_machine(provenance: Mapping[str, Any]) -> bool | None:
+    """Whether something else had the machine while costs of this provenance were timed; None if `sched-sim measure`
+    did not time them."""
+    if provenance.get("busy"):
+        return True
+    return False if "protocol" in provenance else None
+
+
 @dataclass(frozen=True, slots=True)
 class Cost:
     """The work of one job, in the unit of its table. A cost written as one number has all three alike."""
@@ -95,6 +103,11 @@ class CostTable:
         """The form of the covariance update that was costed, such as "textbook"; None if the file does not say."""
         form = self.provenance.get("update_form")
         return None if form is None else str(form)
+
+    @property
+    def measured_on_busy_machine(self) -> bool | None:
+        """See the function of this name."""
+        return measured_on_busy_machine(self.provenance)
 
     @property
     def processor(self) -> str | None:

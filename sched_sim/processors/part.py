@@ -23,6 +23,9 @@ FUNCTION = {"multiply": 13, "add": 17}
 """What a function (sin, cos, exp, ...) is charged as on a processor whose file does not time it: the cosine of fdlibm,
 its polynomial (k_cos.c) and the first step of the reduction of its argument (e_rem_pio2.c)."""
 
+OF_TIMES = ("busy", "protocol")
+"""What a cost table says of times that were measured, and that is not true of those of a part."""
+
 
 @dataclass(frozen=True)
 class Calibration:
@@ -90,7 +93,11 @@ def on_part(table: CostTable, processor: Part) -> CostTable:
         name=f"{table.name} on {processor.name}",
         unit="second",
         costs=costs,
-        provenance={**table.provenance, "machine": processor.title, "processor": _about(processor)},
+        provenance={
+            **{key: value for key, value in table.provenance.items() if key not in OF_TIMES},
+            "machine": processor.title,
+            "processor": _about(processor),
+        },
         lacking=lacking,
     )
 

@@ -27,4 +27,6 @@ def tables(store: Store, at_a_time: int) -> Iterator[pa.Table]:
 
 
 def _array(cells: Sequence[Any], column: Column) -> pa.Array:
-    return pa.array(map(bool, cells) if column.kind == "bool" else cells, TYPES[column.kind])
+    if column.kind == "bool":
+        cells = [None if cell is None else bool(cell) for cell in cells]
+    return pa.array(cells, TYPES[column.kind])

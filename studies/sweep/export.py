@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import csv
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import IO, Any
 
@@ -46,8 +46,11 @@ def write_csv(store: Store, file: IO[bytes]) -> None:
 def _spelled(row: Row, flags: Sequence[int]) -> list[Any]:
     cells: list[Any] = [csv_cell(cell) for cell in row]
     for number in flags:
-        cells[number] = "true" if row[number] else "false"
+        cells[number] = SPELLED[row[number]]
     return cells
+
+
+SPELLED: Mapping[Any, str] = {True: "true", False: "false", None: ""}
 
 
 def write_parquet(store: Store, file: IO[bytes]) -> None:

@@ -28,7 +28,8 @@ class Block:
     """The part of a grid with one cost table, one method and one set of options.
 
     number: its position among the blocks; table: the table's name; processor: the name of the one that its times are
-    for; unit: that of `costs`, what the method's pieces cost; tasks: the user's other ones, the same for all blocks.
+    for; unit: that of `costs`, what the method's pieces cost; tasks: the user's other ones, the same for all blocks;
+    busy: whether the machine was while the costs were timed, None if `measure` did not time them.
     """
 
     number: int
@@ -39,6 +40,7 @@ class Block:
     options: Options
     costs: Costs
     tasks: tuple[Task, ...]
+    busy: bool | None = None
 
     @property
     def has_closed_form(self) -> bool:
@@ -151,6 +153,7 @@ class Grid:
                 options=options,
                 costs=select(table, method, options, self.statistic),
                 tasks=self.tasks,
+                busy=table.measured_on_busy_machine,
             )
             for number, (table, method, options) in enumerate(keys)
         )

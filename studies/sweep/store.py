@@ -43,7 +43,7 @@ class Store:
         """Open the file of a sweep, or make it. A file that is no results file, or another sweep's, is not touched."""
         self.path = path
         self.layout = layout
-        self.columns = layout.result_columns
+        self.columns = layout.given_columns
         where = _file_meant(path)
         if os.path.exists(where):
             check_owner(path, layout)
@@ -95,13 +95,15 @@ class Store:
             return self._connection.execute(sql, parameters).fetchall()
 
     def results(self, at_a_time: int) -> Iterator[list[Row]]:
-        """The rows of the view `results` in order of their design index, in portions.
+        """The rows of the view `results` in order of their design index, in portions; with whether their costs were
+        measured on a busy machine.
 
         Raises InputError, at the end, for rows that are damaged: what has been given out is not.
         """
         spelled = {block[0]: block[1:] for block in self.layout.block_rows}
+        busy = {block.number: block.busy for block in self.layout.blocks}
         for rows in self._checked(at_a_time):
-            yield [(row[0], *spelled[row[1]], *row[2:]) for row in rows]
+            yield [(row[0], *spelled[row[1]], *row[2:], busy[row[1]]) for row in rows]
 
     def _checked(self, at_a_time: int) -> Iterator[list[tuple[Any, ...]]]:
         """Rows in the order of their points, those left out that are not what was written: they are in the error."""

@@ -31,6 +31,9 @@ BLOCK_COLUMNS = (
     *(Column(choice.name, KINDS[type(choice.default)]) for choice in fields(Options)),
 )
 
+MEASURED = Column("measured_on_busy_machine", "bool")
+"""Of the costs of a row; no figure depends on it, so that it is not in the file."""
+
 SQL_TYPES = {"int": "INTEGER", "bool": "INTEGER", "float": "REAL", "text": "TEXT"}
 
 CHECKSUM = Column("checksum", "int")
@@ -48,6 +51,11 @@ class Layout:
     description: Mapping[str, Any]
     blocks: Sequence[Block]
     columns: Sequence[Column]
+
+    @property
+    def given_columns(self) -> tuple[Column, ...]:
+        """Those of a row as it is given out: of the view, and what the file does not hold."""
+        return (*self.result_columns, MEASURED)
 
     @property
     def result_columns(self) -> tuple[Column, ...]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import pytest
@@ -88,7 +89,9 @@ def test_where_there_is_no_table_standard_error_says_so(sched_sim: Run, monkeypa
     result = sched_sim(f"{line} --format json")
     assert "Note: numpy-1-0-1 was measured on a busy machine: " in result.err
     assert "load average 9.0 on 2 processors before it" in result.err
-    assert "busy" not in result.out
+    assert {row["measured_on_busy_machine"] for row in json.loads(result.out)} == {True}
     assert "measured on a busy machine: " in sched_sim(line).out
     counted = line.replace("numpy", "counted")
-    assert "busy" not in sched_sim(f"{counted} --format json").err
+    result = sched_sim(f"{counted} --format json")
+    assert "busy" not in result.err
+    assert {row["measured_on_busy_machine"] for row in json.loads(result.out)} == {None}

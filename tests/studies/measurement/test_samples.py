@@ -126,7 +126,7 @@ def test_counts_of_each_part_are_printed_and_written(sched_sim: Run, tmp_path: P
     }
     assert costs.provenance["sensors"] == {"gps": "linear", "radar": "unscented"}
     assert list(csv.DictReader(io.StringIO(sched_sim(f"{line} --format csv").out))) == [
-        {key: str(value) for key, value in row.items()} for row in rows
+        {key: "" if value is None else str(value) for key, value in row.items()} for row in rows
     ]
     assert "operations" in sched_sim(line).out
 

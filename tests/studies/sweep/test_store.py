@@ -27,7 +27,7 @@ def test_rows_come_back_with_their_block_spelled_out(tmp_path):
         store.add(rows(0, 60))
         assert store.count() == 60
         (found,) = store.query("SELECT * FROM results WHERE method = 'dual-rate' AND N = 5 AND M = 1 AND L = 2")
-        names = [column.name for column in store.columns]
+        names = [column.name for column in store.layout.result_columns]
     row = dict(zip(names, found, strict=True))
     assert (row["costs"], row["feedback"], row["cpus"], row["context_switch"]) == ("steffes2014", "next-step", 1, 0.0)
     assert (row["min_speed_exact"], row["binding"], row["feasible"]) == ("26/25", "lr_propagate", 1)
