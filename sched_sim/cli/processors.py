@@ -205,6 +205,7 @@ def _verdicts(
     """A row for each processor and method; the same in words, in the order of `_by_slack`; and remarks: which
     covariance update the operations are of, the ground, and why some processors cannot be told of."""
     from sched_sim.cli.measured_note import measured_row
+    from sched_sim.cli.no_time import no_time_note
     from sched_sim.cli.parts import fit_row, fit_words, fixed_by, least_row
     from sched_sim.cli.progress import simulations
     from sched_sim.cli.update_form import form_note, ground_note, update_form
@@ -212,9 +213,10 @@ def _verdicts(
     from sched_sim.design.fit import fit
     from sched_sim.design.methods import select
     from sched_sim.errors import InputError
-    from sched_sim.processors.part import on_part
+    from sched_sim.processors.part import on_part, without_time
 
-    rows, shown, reasons = [], [], []
+    rows, shown = [], []
+    lacking: dict[str, list[str]] = {}
     verdicts: list[Fit | None] = []
     counts = load_costs(COUNTED if costs is None else costs)
     for part in parts:
@@ -227,7 +229,10 @@ def _verdicts(
                 if method not in table.lacking:
                     raise
                 reason = str(error)
-                reasons.append(f"{part.name}: {reason}")
+                missing = [
+                    operation for job in counts.operations[method].values() for operation in without_time(job, part)
+                ]
+                lacking[part.name] = list(dict.fromkeys([*lacking.get(part.name, ()), *missing]))
             else:
                 with simulations(f"{method} on {part.name}") as on_progress:
                     verdict = fit(work, timing, rate, options, tasks, on_progress, times=times)
@@ -248,7 +253,7 @@ def _verdicts(
     return (
         rows,
         [shown[index] for index in in_order],
-        [form_note(counts, timings), ground_note(counts, timings, calibrations), *reasons],
+        [form_note(counts, timings), ground_note(counts, timings, calibrations), no_time_note(lacking)],
     )
 
 

@@ -23,6 +23,15 @@ FUNCTION = {"multiply": 13, "add": 17}
 """What a function (sin, cos, exp, ...) is charged as on a processor whose file does not time it: the cosine of fdlibm,
 its polynomial (k_cos.c) and the first step of the reduction of its argument (e_rem_pio2.c)."""
 
+
+class NoTimeError(InputError):
+    """A processor's file does not time some operations. operations: which."""
+
+    def __init__(self, message: str, operations: Sequence[str] = ()) -> None:
+        super().__init__(message)
+        self.operations = tuple(operations)
+
+
 OF_TIMES = ("busy", "protocol")
 """What a cost table says of times that were measured, and that is not true of those of a part."""
 
@@ -105,13 +114,17 @@ def on_part(table: CostTable, processor: Part) -> CostTable:
 def seconds_for(counts: Counts, processor: Part, job: str) -> Fraction:
     """What `processor` takes for one job's operations, one after another. job: how messages name it.
 
-    Raises InputError for a kind of operation that it does not give a time for.
+    Raises NoTimeError for a kind of operation that it does not give a time for.
     """
     needed = _needed(counts, processor)
-    missing = [operation for operation in needed if operation not in processor.seconds]
-    if missing:
-        raise InputError(_no_time(processor, missing, job))
+    if missing := without_time(counts, processor):
+        raise NoTimeError(_no_time(processor, missing, job), missing)
     return sum((number * processor.seconds[operation] for operation, number in needed.items()), Fraction(0))
+
+
+def without_time(counts: Counts, processor: Part) -> list[str]:
+    """The operations of a job for which the processor's file has no time."""
+    return [operation for operation in _needed(counts, processor) if operation not in processor.seconds]
 
 
 def at_clock(processor: Part, clock_hz: Fraction) -> Part:

@@ -155,6 +155,11 @@ def test_parts_that_can_do_no_job_of_a_table_are_listed_with_the_reason(sched_si
     assert rows["leon3"]["fits"] is True
     assert rows["patent"]["fits"] is None
     assert "no time for sqrt" in rows["patent"]["reason"]
+    (note,) = (text for text in sched_sim(line.removesuffix("--format json")).out.splitlines() if "no time" in text)
+    lacking = [part for part, row in rows.items() if row["fits"] is None]
+    assert (
+        note == f"no time for sqrt on {', '.join(lacking)}: add it to a copy of the file, see `reason` in --format json"
+    )
 
 
 @pytest.mark.parametrize(
