@@ -6,7 +6,9 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from sched_sim.cli.no_time import no_time_note
 from sched_sim.cli.output import Format, lines, print_csv, print_json, print_table
+from sched_sim.cli.parts import WORDS
 from sched_sim.cli.progress import progress_bar
 from sched_sim.cli.scenario import describe, phases_note
 from sched_sim.errors import InputError
@@ -18,8 +20,9 @@ if TYPE_CHECKING:
 
 
 def verdicts(path: Path, processors: Sequence[str], format: Format) -> None:
-    """Prints a row for each: what misses nothing first, with the busiest of them at the top. Raises InputError if the
-    scenario cannot be read for any of them."""
+    """Prints a row for each: what misses nothing first, with the least slack of them at the top. Raises InputError if
+    the scenario cannot be read for any of them."""
+    from sched_sim.processors.part import NoTimeError
     from sched_sim.processors.part_file import load_part
     from sched_sim.scenario.run import run_scenario
     from sched_sim.scenario.scenario_file import read_scenario
@@ -27,24 +30,24 @@ def verdicts(path: Path, processors: Sequence[str], format: Format) -> None:
     for name in processors:
         load_part(name)
     rows: list[dict[str, Any]] = []
-    reasons: list[str] = []
+    lacking: dict[str, Sequence[str]] = {}
     scenario: Scenario | None = None
+    read: list[Scenario] = []
     for name in processors:
         try:
             scenario = read_scenario(path, describe, processor=name)
-        except InputError as error:
+        except NoTimeError as error:
             if len(processors) == 1:
                 raise
             rows.append(dict.fromkeys(KEYS) | {"processor": name, "reason": str(error)})
-            reasons.append(f"{name}: {error}")
+            lacking[name] = error.operations
             continue
+        read.append(scenario)
         with progress_bar(f"On {name}") as progress:
             rows.append(_row(name, scenario, run_scenario(scenario, on_progress=progress)))
     if scenario is None:
-        raise InputError(reasons[0].partition(": ")[2])
-    rows.sort(
-        key=lambda row: (row["fits"] is None, row["fits"] is False, row["miss_share"], -(row["utilization"] or 0))
-    )
+        raise InputError(f"--scenario {str(path)!r}: {no_time_note(lacking)}")
+    rows.sort(key=_by_slack)
     if format == "json":
         print_json(rows)
     elif format == "csv":
@@ -53,26 +56,53 @@ def verdicts(path: Path, processors: Sequence[str], format: Format) -> None:
         )
     else:
         title = f"{scenario.name}: {scenario.steps} steps at {float(scenario.hr_hz or 0):g} Hz, seed {scenario.seed}"
-        missed = f"fits: nothing was missed in these {scenario.steps} steps"
-        note = f"{missed}; lands: the latest of each sensor, from when the measurement is taken"
-        print_table(title, [_in_words(row, scenario) for row in rows], lines(note, phases_note(scenario), *reasons))
+        note = (
+            f"fits: nothing was missed in these {scenario.steps} steps; slack: what the tightest job had left of the "
+            f"time from its release to its deadline; lands: the latest of each sensor, from when the measurement is "
+            f"taken"
+        )
+        shown = [_in_words(row, scenario) for row in rows]
+        print_table(title, shown, lines(note, _same(read), phases_note(scenario), no_time_note(lacking)))
 
 
-KEYS = ("processor", "fits", "jobs", "misses", "miss_share", "utilization", "latest_l",
+KEYS = ("processor", "fits", "jobs", "misses", "miss_share", "slack", "slack_of", "utilization", "latest_l",
         "correction_ms", "reason")  # fmt: skip
 
 
+def _same(scenarios: Sequence[Scenario]) -> str:
+    """A line with what takes as long on every processor, for the file states it in seconds; empty where nothing does.
+
+    scenarios: the one of the file, on each.
+    """
+    first, *others = scenarios
+    parts = [part for part, costs in first.costs.items() if all(other.costs[part] == costs for other in others)]
+    named = [*(part.replace(".", " ") for part in parts), *(task.name for task in first.tasks)]
+    return f"as long on every processor, as the file states: {', '.join(named)}" if others and named else ""
+
+
+def _by_slack(row: dict[str, Any]) -> tuple[int, float]:
+    """What fits, the least slack first; what does not, the fewest misses first; what is not known."""
+    if row["fits"] is None:
+        return 2, 0.0
+    return (0, row["slack"] or 0.0) if row["fits"] else (1, row["miss_share"])
+
+
 def _row(name: str, scenario: Scenario, outcome: Outcome) -> dict[str, Any]:
-    """latest_l: by sensor, in HR steps after k; correction_ms: the longest, from when the measurement was taken;
-    both None if no correction landed."""
+    """slack: the least margin of all jobs, of the kind `slack_of`; None where something was missed. latest_l: by
+    sensor, in HR steps after k; correction_ms: the longest, from when the measurement
+    was taken; both None if no correction landed."""
     released = sum(figures.released for figures in outcome.jobs.values())
     latest = {sensor.name: max(outcome.sensors[sensor.name].achieved, default=None) for sensor in scenario.sensors}
+    margins = [(jobs.least_margin, kind) for kind, jobs in outcome.jobs.items() if jobs.least_margin is not None]
+    slack, tightest = (None, None) if outcome.misses else min(margins, default=(None, None))
     return {
         "processor": name,
         "fits": outcome.misses == 0,
         "jobs": released,
         "misses": outcome.misses,
         "miss_share": outcome.misses / released,
+        "slack": slack,
+        "slack_of": tightest,
         "utilization": float(outcome.schedule.utilization),
         "latest_l": latest,
         "correction_ms": {sensor.name: _longest_ms(scenario, sensor, outcome) for sensor in scenario.sensors},
@@ -86,7 +116,7 @@ def _longest_ms(scenario: Scenario, sensor: Sensor, outcome: Outcome) -> float |
 
 
 def _in_words(row: dict[str, Any], scenario: Scenario) -> dict[str, Any]:
-    known = row["fits"] is not None
+    known, slack = row["fits"] is not None, row["slack"]
     landed = row["correction_ms"] or {}
     lands = {
         f"{sensor.name} lands, ms": None if landed.get(sensor.name) is None else f"{landed[sensor.name]:.4g}"
@@ -96,6 +126,8 @@ def _in_words(row: dict[str, Any], scenario: Scenario) -> dict[str, Any]:
         "processor": row["processor"],
         "fits": {True: "yes", False: "no", None: None}[row["fits"]],
         "missed": f"{row['misses']} of {row['jobs']}" if known else None,
+        "slack": "none" if row["fits"] is False else None if slack is None else WORDS["slack"][1](slack),
+        "tightest job": row["slack_of"],
         "busy": percent(row["utilization"]) if known else None,
         **lands,
     }

@@ -28,13 +28,16 @@ class JobFigures:
 
     released: those whose release came; responses: of those that finished, in HR periods, in order of finishing;
     misses: finished after the deadline, or unfinished although it had passed;
-    decided: finished, or unfinished although the deadline had passed: of the others it is not known.
+    decided: finished, or unfinished although the deadline had passed: of the others it is not known;
+    least_margin: of those that finished, the least share of the time from release to deadline that was left; below 0
+    where one was late, None if none finished.
     """
 
     released: int
     responses: Sequence[float] = field(repr=False)
     misses: int
     decided: int
+    least_margin: float | None = None
 
     @property
     def miss_probability(self) -> float | None:
@@ -184,6 +187,11 @@ class Finish(NamedTuple):
     deadline: int
     end: int
 
+    @property
+    def has_time(self) -> bool:
+        """Whether its deadline was not yet there when it was released."""
+        return self.deadline > self.release
+
 
 def _longest(sensor: Sensor, done: Sequence[Finish], period: int) -> Fraction | None:
     waits = {job.step: job.step - sensor.instant(job.step) for job in done} if sensor.between_steps else {}
@@ -196,4 +204,7 @@ def _figures(finishes: Sequence[Finish], response: Response | None, period: int)
         return JobFigures(0, [], 0, 0)
     unfinished_misses = response.misses - sum(done.end > done.deadline for done in finishes)
     responses = [(done.end - done.release) / period for done in finishes]
-    return JobFigures(response.releases, responses, response.misses, len(finishes) + unfinished_misses)
+    margins = ((done.deadline - done.end) / (done.deadline - done.release) for done in finishes if done.has_time)
+    return JobFigures(
+        response.releases, responses, response.misses, len(finishes) + unfinished_misses, min(margins, default=None)
+    )

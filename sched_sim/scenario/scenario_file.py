@@ -3,7 +3,7 @@ decimals, or as quotients in quotes."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from math import ceil, isclose
 from pathlib import Path
@@ -18,7 +18,7 @@ from sched_sim.errors import InputError, option
 from sched_sim.files.toml_numbers import Positive, Whole, above_zero, whole
 from sched_sim.files.toml_problems import problems
 from sched_sim.files.toml_reader import read_toml
-from sched_sim.processors.part import seconds_for
+from sched_sim.processors.part import NoTimeError, seconds_for
 from sched_sim.processors.part_file import load_part, shipped_parts
 from sched_sim.scenario.composition import Composition, Describe, with_its_sensors
 from sched_sim.scenario.fields import ends
@@ -184,7 +184,8 @@ def read_scenario(path: str | Path, describe: Describe | None = None, *, process
 
     What it says itself of costs is taken as it stands, before what the costs file says, which is made slower by
     `times_slower` or turned into seconds on `processor`.
-    Raises InputError that lists every wrong entry of the file with its value.
+    Raises InputError that lists every wrong entry of the file with its value, and for a processor where no cost is one
+    of counted operations.
     """
     what, path = f"{option('scenario')} {str(path)!r}", Path(path)
     document = read_toml(path, what, "give the path of a TOML file with [predictor] and [[sensor]] entries")
@@ -202,12 +203,43 @@ def read_scenario(path: str | Path, describe: Describe | None = None, *, process
             document = {**document, "processor": processor if shipped else str(Path(processor).resolve())}
         if composition is not None:
             document = with_its_sensors(document, composition)
+        if processor is not None:
+            _check_it_depends_on_one(document)
         units = Units.of(document, composition)
         return _scenario(_ScenarioFile.model_validate(document, context=units), units, path.parent)
     except ValidationError as error:
         raise InputError(f"{what}: {problems(error, _ScenarioFile, document)}") from None
+    except NoTimeError as error:
+        raise NoTimeError(f"{what}: {error}", error.operations) from None
     except InputError as error:
         raise InputError(f"{what}: {error}") from None
+
+
+def _check_it_depends_on_one(document: Mapping[str, Any]) -> None:
+    """Raises InputError for a scenario of which all processors would make the same, or none anything."""
+    sensors = document.get("sensor")
+    entries = [document.get("predictor", {}), *(sensors if isinstance(sensors, list) else [])]
+    tables = [entry for entry in entries if isinstance(entry, Mapping)]
+    stated = all(any(str(key).startswith("cost") for key in entry) for entry in tables)
+    if "costs" in document and not stated:
+        return
+    if not stated:
+        why = "a processor needs counted operations, and there are none"
+    elif "hr_hz" in document:
+        why = (
+            "all costs are stated, as times, and what comes out is the same on every processor: "
+            "`sched-sim simulate --scenario FILE` says it"
+        )
+    else:
+        why = (
+            "all costs are stated, in units of which `speed` says how fast they are done, and no processor's file says "
+            "that: `sched-sim simulate --scenario FILE` runs it as it is"
+        )
+    raise InputError(
+        f"{why}; to compare processors {'' if 'hr_hz' in document else 'give hr_hz, not speed, '}"
+        f"{'leave out these costs and ' if stated else ''}name a file of counts: costs = ..., from `sched-sim measure "
+        f"--filter ... --backend counted -o FILE`"
+    )
 
 
 def _composition(name: Any, describe: Describe | None, folder: Path) -> Composition | None:
@@ -267,8 +299,8 @@ def _from_file(sampled: SampledCosts, checked: _ScenarioFile, folder: Path) -> S
     if checked.processor is not None:
         if not sampled.operations:
             raise InputError(
-                f"costs {sampled.shown} has no [operations] to run on processor {checked.processor!r}: count them with "
-                f"`sched-sim measure --filter ... --backend counted`, or delete processor"
+                f"costs {sampled.shown} has no [operations], which a processor's file turns into time: count them with "
+                f"`sched-sim measure --filter ... --backend counted`, or leave the processor out"
             )
         shipped = checked.processor in shipped_parts()
         part = load_part(checked.processor if shipped else folder / checked.processor)

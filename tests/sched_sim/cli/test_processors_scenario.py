@@ -5,6 +5,8 @@ from __future__ import annotations
 import csv
 import io
 import json
+import re
+from fractions import Fraction
 from pathlib import Path
 
 import pytest
@@ -12,6 +14,7 @@ import pytest
 from sched_sim.processors.part_file import shipped_parts
 from sched_sim.scenario.run import run_scenario
 from sched_sim.scenario.scenario_file import read_scenario
+from sched_sim.schedule.outcome import Slice
 from tests.command_line import Run, is_refused
 
 SCENARIO = """\
@@ -32,6 +35,7 @@ predict = { multiply = 900, add = 800 }
 [operations.correct]
 gps = { multiply = 2500, add = 2300, divide = 9 }
 """
+TASK = '[[task]]\nname = "control"\nhz = 200\ncost_us = 100\npriority = 15\n'
 
 
 @pytest.fixture(autouse=True)
@@ -54,13 +58,73 @@ def test_each_part_has_the_verdict_of_its_own_simulation(sched_sim: Run) -> None
         assert row["latest_l"] == {"gps": max(outcome.sensors["gps"].achieved, default=None)}
 
 
-def test_what_fits_comes_first_and_of_these_the_busiest(sched_sim: Run) -> None:
+def test_what_fits_comes_first_and_of_these_what_just_does(sched_sim: Run) -> None:
     rows = list(csv.DictReader(io.StringIO(sched_sim("processors --scenario late.toml --format csv").out)))
     fitting = [row for row in rows if row["fits"] == "True"]
     assert 0 < len(fitting) < len(rows)
     assert rows[: len(fitting)] == fitting
-    busy = [float(row["utilization"]) for row in fitting]
-    assert busy == sorted(busy, reverse=True)
+    slack = [float(row["slack"]) for row in fitting]
+    assert slack == sorted(slack)
+    assert {row["slack"] for row in rows[len(fitting) :]} == {""}
+
+
+def test_slack_is_the_least_share_of_the_time_to_a_deadline_that_is_left(sched_sim: Run) -> None:
+    """Of a slice that ends its job, it is what is behind it, up to the deadline."""
+    (row,) = json.loads(sched_sim("processors --scenario late.toml --processor cortex-m7 --format json").out)
+    margins: dict[str, Fraction] = {}
+
+    def least(piece: Slice) -> None:
+        if piece.finished:
+            left = Fraction(piece.deadline - piece.end, piece.deadline - piece.release)
+            margins[piece.kind] = min(left, margins.get(piece.kind, left))
+
+    outcome = run_scenario(read_scenario("late.toml", processor="cortex-m7"), on_slice=least)
+    assert {kind: figures.least_margin for kind, figures in outcome.jobs.items()} == {
+        kind: float(margin) for kind, margin in margins.items()
+    }
+    tightest = min(margins, key=margins.__getitem__)
+    assert (row["slack"], row["slack_of"]) == (float(margins[tightest]), tightest)
+    out = sched_sim("processors --scenario late.toml --processor cortex-m7").out
+    shown = [float(cell) for cell in re.findall(r" ([\d.]+) % ", out)]
+    assert any(0 <= 100 * row["slack"] - slack < 0.1 for slack in shown)
+    assert tightest in out
+
+
+def test_of_a_part_that_misses_something_there_is_no_slack(sched_sim: Run) -> None:
+    line = "processors --scenario late.toml --processor rp2040"
+    (row,) = json.loads(sched_sim(f"{line} --format json").out)
+    assert row["misses"] > 0
+    assert row["slack"] is row["slack_of"] is None
+    assert " none " in sched_sim(line).out
+    jobs = run_scenario(read_scenario("late.toml", processor="rp2040")).jobs
+    margins = [figures.least_margin for figures in jobs.values() if figures.misses and figures.responses]
+    assert all(margin is not None and margin < 0 for margin in margins)
+
+
+def test_parts_without_a_time_stand_in_one_line(sched_sim: Run) -> None:
+    counts = Path("counts.toml")
+    counts.write_text(counts.read_text().replace("divide = 9", "divide = 9, sqrt = 2"))
+    for other in ("mine", "other"):
+        Path(f"{other}.toml").write_text(
+            f'name = "{other}"\ntitle = "t"\nprecision = "double"\nlogic_per_arithmetic = 0\nclock_mhz = 100\n'
+            f"[cycles]\nmultiply = 2\nadd = 1\n"
+        )
+    line = "processors --scenario late.toml --processor leon3 --processor mine.toml --processor other.toml"
+    out = sched_sim(line).out
+    said = (
+        "no time for divide and sqrt on mine.toml, other.toml: add it to a copy of the file, see `reason` in --format"
+    )
+    assert said in out
+    assert sum("no time" in text for text in out.splitlines()) == 1
+    rows = json.loads(sched_sim(f"{line} --format json").out)
+    assert ["gives no time for divide and sqrt" in (row["reason"] or "") for row in rows] == [False, True, True]
+
+
+def test_what_the_file_states_is_the_same_on_every_part_and_is_named(sched_sim: Run) -> None:
+    Path("late.toml").write_text(SCENARIO + "[predictor]\ncost_us = 5\n" + TASK)
+    out = sched_sim("processors --scenario late.toml --processor leon3 --processor cortex-m7").out
+    assert "as long on every processor, as the file states: predict, control" in out
+    assert "as the file states" not in sched_sim("processors --scenario late.toml --processor leon3").out
 
 
 def test_a_person_is_told_when_the_corrections_land(sched_sim: Run) -> None:
@@ -83,12 +147,40 @@ def test_what_does_not_go_together_is_refused(sched_sim: Run, line: str, said: l
 
 
 def test_costs_that_are_times_are_of_one_processor(sched_sim: Run) -> None:
-    Path("late.toml").write_text(
-        SCENARIO.replace('costs = "counts.toml"', "[predictor]\ncost_us = 5") + "cost_us = 9\n"
-    )
-    said = [
-        "--scenario 'late.toml': it names no costs file, and stated costs take the same time on every processor",
-        '`sched-sim measure --filter ... --backend counted --output counts.toml`, and write costs = "counts.toml"',
-        "`sched-sim simulate --scenario`",
-    ]
-    is_refused(sched_sim("processors --scenario late.toml"), said)
+    stated = SCENARIO + "cost_us = 9\n[predictor]\ncost_us = 5\n"
+    for text in (stated, stated.replace('costs = "counts.toml"', "")):
+        Path("late.toml").write_text(text)
+        said = ["all costs are stated, as times", "the same on every processor", "`sched-sim simulate --scenario FILE`"]
+        is_refused(sched_sim("processors --scenario late.toml"), [*said, "leave out these costs", "--backend counted"])
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ([('costs = "counts.toml"', "")], ["needs counted operations, and there are none", "costs = ..."]),
+        (
+            [
+                ("hr_hz = 400\nduration_s = 1", "speed = 1\nsteps = 400"),
+                ('costs = "counts.toml"', "[predictor]\ncost = 0.1"),
+                ("hz = 5", "every = 80\ncost = 0.2"),
+                ("delay_ms = { least = 80, most = 120 }", ""),
+            ],
+            ["all costs are stated, in units", "`speed`", "give hr_hz"],
+        ),
+    ],
+)
+def test_a_scenario_that_no_part_can_run_is_refused_once(
+    sched_sim: Run, changes: list[tuple[str, str]], said: list[str]
+) -> None:
+    text = SCENARIO
+    for old, new in changes:
+        text = text.replace(old, new)
+    Path("late.toml").write_text(text)
+    result = sched_sim("processors --scenario late.toml")
+    is_refused(result, said)
+    assert not any(part in result.err for part in shipped_parts())
+
+
+def test_measured_times_are_of_no_part(sched_sim: Run) -> None:
+    Path("counts.toml").write_text('name = "t"\nunit = "us"\n[samples]\npredict = [5]\n[samples.correct]\ngps = [9]\n')
+    is_refused(sched_sim("processors --scenario late.toml"), ["no [operations]", "leave the processor out"])
