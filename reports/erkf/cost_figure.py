@@ -30,11 +30,12 @@ COUNTS_SHARE = 0.6
 
 
 class Way(NamedTuple):
-    """One way to compute the step. operations, seconds: by system; a way that is not timed has no seconds."""
+    """One way to compute the step. operations, seconds: by system; seconds: from, to; a way that is not timed has
+    none."""
 
     name: str
     operations: Mapping[str, int]
-    seconds: Mapping[str, float] = {}
+    seconds: Mapping[str, tuple[float, float]] = {}
 
 
 def cost_figure(ways: Sequence[Way], step_s: float) -> Figure:
@@ -54,15 +55,16 @@ def cost_figure(ways: Sequence[Way], step_s: float) -> Figure:
         counts = axes_at(figure, left, EDGE_MM + TITLE_MM, widths[0], height)
         times = axes_at(figure, left + widths[0] + GAP_MM, EDGE_MM + TITLE_MM, widths[1], height)
         for y, way in enumerate(ways, start=1):
-            _row(counts, y, way.operations, systems, way.name)
-            _row(times, y, {system: 1e6 * time for system, time in way.seconds.items()}, systems)
+            _row(counts, y, {system: (number, number) for system, number in way.operations.items()}, systems, way.name)
+            micros_of = {system: (1e6 * low, 1e6 * high) for system, (low, high) in way.seconds.items()}
+            _row(times, y, micros_of, systems)
         for axes in (counts, times):
             axes.set(ylim=(len(ways) + 0.6, -0.4), yticks=[])
             axes.spines["left"].set_visible(False)
             plain(axes)
         numbers = [number for way in ways for number in way.operations.values()]
         decades(counts, "x", min(numbers) / 2, 2 * max(numbers))
-        micros = [1e6 * time for way in ways for time in way.seconds.values()]
+        micros = [1e6 * time for way in ways for ends in way.seconds.values() for time in ends]
         decades(times, "x", min(micros) / 2, 3e6 * step_s)
         times.axvline(1e6 * step_s, color=INK, lw=0.7, ls=(0, (2, 1.5)), zorder=1)
         times.annotate(
@@ -72,12 +74,13 @@ def cost_figure(ways: Sequence[Way], step_s: float) -> Figure:
         counts.set_title("Operations in a step", loc="left", size=TITLE_PT)
         times.set_title(marked("Compiled code"), loc="left", size=TITLE_PT)
         counts.set_xlabel("floating-point operations", labelpad=2)
-        times.set_xlabel("time of a step (µs)", labelpad=2)
+        times.set_xlabel("time (µs), minimum to p95", labelpad=2)
         draw_legend(figure, legend, left, legend_top, across)
         return figure
 
 
-def _row(axes: Axes, y: int, values: Mapping[str, float], systems: Sequence[str], name: str = "") -> None:
+def _row(axes: Axes, y: int, values: Mapping[str, tuple[float, float]], systems: Sequence[str], name: str = "") -> None:
+    """A sign at the lower end of each range, and a line to the other."""
     axes.axhline(y, color=PALE, lw=0.5, zorder=0.5)
     if name:
         axes.annotate(
@@ -86,4 +89,7 @@ def _row(axes: Axes, y: int, values: Mapping[str, float], systems: Sequence[str]
         )  # fmt: skip
     for system, line in zip(systems, SOURCE_LINES[1:], strict=False):
         if system in values:
-            axes.plot([values[system]], [y], line.marker, color=line.colour, ms=line.size + 0.6, mew=0, zorder=3)
+            low, high = values[system]
+            if high > low:
+                axes.hlines(y, low, high, color=line.colour, lw=0.8, zorder=2)
+            axes.plot([low], [y], line.marker, color=line.colour, ms=line.size + 0.6, mew=0, zorder=3)

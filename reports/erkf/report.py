@@ -20,7 +20,7 @@ from reports.erkf.results import Results
 from reports.erkf.schedule import millions, one_period, speed_figure, two_rates
 from reports.erkf.singular import singular_figure
 from reports.pages.machine import legend, residue, timed_on
-from reports.pages.numbers import percent
+from reports.pages.numbers import percent, span
 from reports.pages.render import csv_bytes, render
 from sched_sim.costs.methods import ROBUST_METHODS, RobustMethod
 from sched_sim.costs.table import CostTable
@@ -169,7 +169,7 @@ def _cost(results: Results) -> dict[str, Any]:
     def both(way: str, reference: str, digits: int = 1) -> list[str]:
         return [f"{counts.ratio(way, reference, system):.{digits}f}" for system in SYSTEMS]
 
-    def span(way: str, reference: str) -> str:
+    def by_system_and_penalty(way: str, reference: str) -> str:
         ratios = [counts.ratio(way, reference, s, penalty) for s in SYSTEMS for penalty in ("infinite", "finite")]
         return f"{min(ratios):.2f} to {max(ratios):.2f}"
 
@@ -186,26 +186,29 @@ def _cost(results: Results) -> dict[str, Any]:
         "paper": both(ways.REPEATED, ways.PER_COLUMN, 2),
         "against_one": both(ways.GIVENS, ways.INVERSE, 2),
         "columns_against_one": both(ways.PER_COLUMN, ways.INVERSE),
-        "natural": span(ways.GIVENS_NATURAL, ways.INVERSE_SKIPPING),
+        "natural": by_system_and_penalty(ways.GIVENS_NATURAL, ways.INVERSE_SKIPPING),
         "order": both(ways.GIVENS_NATURAL, ways.GIVENS_ORDERED),
         "over_lu": both(ways.GIVENS_ORDERED, ways.LU_ORDERED),
         "over_closed": both(ways.GIVENS_ORDERED, ways.CLOSED),
         "over_kalman": both(ways.CLOSED, ways.KALMAN, 2),
         "inverse_over_givens": both(ways.INVERSE, ways.GIVENS_ORDERED),
-        "micros": {method: [f"{1e6 * time:.1f}" for time in times] for method, times in timed.items()},
+        "slowest": tables.micros(results.measured["position"], "robust-inverse"),
+        "slowest_share": span(*(f"{100 * time * HR_HZ:.1f}" for time in timed["robust-inverse"][-1])),
         "time_ratio": {
-            "inverse": [f"{i / g:.1f}" for i, g in _pairs(timed, "robust-inverse", "robust-givens")],
-            "lu": [f"{g / u:.1f}" for g, u in _pairs(timed, "robust-givens", "robust-lu")],
-            "closed": [f"{g / c:.1f}" for g, c in _pairs(timed, "robust-givens", "robust-closed")],
+            "inverse": _ratios(timed, "robust-inverse", "robust-givens"),
+            "lu": _ratios(timed, "robust-givens", "robust-lu"),
+            "closed": _ratios(timed, "robust-givens", "robust-closed"),
         },
-        "longest_share": f"{100 * max(timed['robust-inverse']) * HR_HZ:.1f}",
     }
 
 
-def _pairs(
-    timed: Mapping[RobustMethod, list[float]], first: RobustMethod, second: RobustMethod
-) -> list[tuple[float, float]]:
-    return list(zip(timed[first], timed[second], strict=True))
+def _ratios(
+    timed: Mapping[RobustMethod, list[tuple[float, float]]], first: RobustMethod, second: RobustMethod
+) -> list[str]:
+    """For each system how many times as long `first` takes: by the least times, and by the 95th percentiles."""
+    both = zip(timed[first], timed[second], strict=True)
+    ratios = [sorted(long / short for long, short in zip(*ends, strict=True)) for ends in both]
+    return [span(f"{least:.1f}", f"{most:.1f}") for least, most in ratios]
 
 
 def _parallel(devices: Mapping[SystemName, Parallel]) -> dict[str, Any]:

@@ -10,14 +10,14 @@ from reports.erkf.counts import ALL_WAYS, PROCESSORS, TIMED, Counts, Parallel
 from reports.erkf.results import Results
 from reports.erkf.schedule import millions
 from reports.pages.machine import marked, residue
-from reports.pages.numbers import percent, plus_minus, significant
+from reports.pages.numbers import percent, plus_minus, significant, span
 from sched_sim.costs.methods import ROBUST_METHODS
 from sched_sim.costs.table import CostTable
 from sched_sim.design.fit import fit
 from sched_sim.design.least_speed import achieved_l, least_speed
 from sched_sim.design.methods import select
 from sched_sim.design.options import Options
-from sched_sim.design.pieces import RobustCosts, StandardCosts
+from sched_sim.design.pieces import RobustCosts, StandardCosts, Statistic
 from sched_sim.design.timing import Timing
 from sched_sim.processors.part import Part, on_part
 from studies.robust.costs import HR_HZ, SYSTEMS, N, SystemName, parallel_costs
@@ -39,8 +39,12 @@ OF_POSITION = ("between_north_m", "between_east_m", "between_down_m", "outage_en
 SHOWN = tuple(P for P in PROCESSORS if P not in (4, 256))
 
 
-def robust_costs_of(table: CostTable, method: str) -> RobustCosts[Fraction]:
-    costs = select(table, method, Options())
+ENDS: tuple[Statistic, Statistic] = ("minimum", "p95")
+"""Of the ranges that measured figures are shown as."""
+
+
+def robust_costs_of(table: CostTable, method: str, statistic: Statistic = "minimum") -> RobustCosts[Fraction]:
+    costs = select(table, method, Options(), statistic)
     assert isinstance(costs, RobustCosts)
     return costs
 
@@ -54,15 +58,22 @@ def cost_rows(counts: Counts, measured: Mapping[SystemName, CostTable]) -> Rows:
         row: list[Any] = [way]
         for system in SYSTEMS:
             operations = counts.operations[way]
-            time = f"{1e6 * seconds(measured[system], TIMED[way]):.1f}" if way in TIMED else "-"
+            time = micros(measured[system], TIMED[way]) if way in TIMED else "-"
             row += [f"{operations[system, 'infinite']:,}", f"{operations[system, 'finite']:,}", time]
         rows.append(row)
     return rows
 
 
-def seconds(measured: CostTable, method: str) -> float:
-    """The robust step's minimum."""
-    return float(measured.entry(method, "robust_step").minimum)
+def seconds(measured: CostTable, method: str) -> tuple[float, float]:
+    """The robust step's minimum and 95th percentile."""
+    step = measured.entry(method, "robust_step")
+    return float(step.minimum), float(step.p95)
+
+
+def micros(measured: CostTable, method: str) -> str:
+    """The same in words, in microseconds."""
+    low, high = (f"{1e6 * time:.1f}" for time in seconds(measured, method))
+    return span(low, high)
 
 
 def parallel_rows(devices: Mapping[SystemName, Parallel]) -> Rows:
@@ -118,18 +129,20 @@ def with_error(record: Mapping[str, str], name: str) -> str:
 
 def speed_rows(tables: Mapping[SystemName, CostTable], measured: Mapping[SystemName, CostTable]) -> Rows:
     """The least speed by L in millions of operations a second, the L achieved with that for L = N, and what the whole
-    step in one HR period needs; measured: the least share of this machine for L = N."""
+    step in one HR period needs; measured: the share of this machine for L = N, from least costs to their 95th
+    percentile."""
     heads = [f"L = {L}" for L in ASKED]
     rows: Rows = [["System", "Way", "in one period", *heads, "lands at", marked("load, %")]]
     for system, table in tables.items():
         for method in ROBUST_METHODS:
-            costs, timed = robust_costs_of(table, method), robust_costs_of(measured[system], method)
+            costs = robust_costs_of(table, method)
             serial = least_speed(StandardCosts(costs.inertial, costs.robust_step), Timing(N, 0, N)).speed
             speeds = [least_speed(costs, Timing(N, 0, L)).speed for L in ASKED]
             landed = achieved_l(costs, Timing(N, 0, N), speeds[-1])
-            here = fit(timed, Timing(N, 0, N), Fraction(HR_HZ)).load
+            timed = (robust_costs_of(measured[system], method, statistic) for statistic in ENDS)
+            low, high = (percent(fit(costs_here, Timing(N, 0, N), Fraction(HR_HZ)).load) for costs_here in timed)
             numbers = [f"{millions(speed, HR_HZ):#.3g}".rstrip(".") for speed in (serial, *speeds)]
-            rows.append([system, WAYS[method], *numbers, landed, percent(here)])
+            rows.append([system, WAYS[method], *numbers, landed, span(low, high)])
     return rows
 
 

@@ -17,12 +17,13 @@ from reports.pages.machine import marked
 Record: TypeAlias = Mapping[str, str]
 
 LINES = dict(zip(("linear", "extended", "unscented"), SOURCE_LINES[1:], strict=False))
-OPERATIONS, SECONDS = "operations", marked("minimum, µs")
+OPERATIONS, SECONDS, MEDIAN = "operations", marked("minimum, µs"), marked("median, µs")
 """Names of the columns."""
 
 
 def cost_figure(rows: Sequence[Record]) -> Figure:
-    """Above, operations; below, times: of predict at the left, of correct at the right."""
+    """Above, operations; below, times, with a line up to their median: of predict at the left, of correct at the
+    right."""
     shown = {OPERATIONS: ("operations", 60, 40_000), SECONDS: (f"time, {marked('compiled')} (µs)", 0.015, 5)}
     states = sorted({int(row["states"]) for row in rows})
     with drawing():
@@ -31,6 +32,9 @@ def cost_figure(rows: Sequence[Record]) -> Figure:
             for axes, part in zip(of_row, ("predict", "correct"), strict=True):
                 for kind, line in LINES.items():
                     of_kind = [row for row in rows if (row["kind"], row["part"]) == (kind, part)]
+                    for row in of_kind if column == SECONDS else ():
+                        least, median = (float(row[end]) for end in (SECONDS, MEDIAN))
+                        axes.vlines(int(row["states"]), least, median, color=line.colour, lw=0.8, zorder=2)
                     axes.plot(
                         [int(row["states"]) for row in of_kind], [float(row[column]) for row in of_kind], line.marker,
                         color=line.colour, ms=line.size, mew=0, ls=line.dashes, lw=1.0,

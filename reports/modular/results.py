@@ -15,7 +15,7 @@ import numpy as np
 
 from filters.arrays import FloatArray
 from filters.systems.spring_mass import period_s
-from reports.modular.costs import OPERATIONS, SECONDS
+from reports.modular.costs import MEDIAN, OPERATIONS, SECONDS
 from reports.modular.oscillator import QUANTITIES, SENSORS, UNITS
 from reports.modular.rocket_rows import rocket_tables
 from reports.modular.schedule import TABLES as SCHEDULE_TABLES
@@ -193,7 +193,7 @@ def late_rows(figures: Iterable[late_measurements.Row]) -> Rows:
 
 def part_tables(operations: Mapping[modular_costs.Key, int], timed: modular_costs.Times) -> dict[str, Rows]:
     """Operations and times of each part, and where they were taken."""
-    rows: Rows = [["kind", "states", "part", OPERATIONS, SECONDS, marked("median, µs")]]
+    rows: Rows = [["kind", "states", "part", OPERATIONS, SECONDS, MEDIAN]]
     for key, number in operations.items():
         micros = [1e6 * each for each in timed.seconds[key]]
         rows.append([*key, number, *map(digits, (min(micros), median(micros)))])

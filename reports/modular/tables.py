@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from reports.modular.costs import OPERATIONS, SECONDS
+from reports.modular.costs import MEDIAN, OPERATIONS, SECONDS
 from reports.modular.oscillator import OSCILLATOR_AMPLITUDES, QUANTITIES, SENSORS, UNITS, Record
 from reports.modular.results import OWN_MODEL, Results
 from reports.modular.rocket import QUANTITIES as OF_ROCKET
 from reports.modular.rocket_rows import CASES
 from reports.modular.schedule import miss_rows_of, verdict_rows
 from reports.pages.machine import marked
-from reports.pages.numbers import between, plus_minus, significant
+from reports.pages.numbers import between, plus_minus, significant, span
 from reports.pages.stored import Rows
 from sched_sim.scenario.distribution import wilson
 from studies.modular import costs as modular_costs
@@ -191,14 +191,16 @@ def late_error(row: Record) -> str:
 
 
 def part_rows(results: Results) -> Rows:
-    """Operations and times by kind, part and states."""
+    """Operations and times, from minimum to median, by kind, part and states."""
     rows: Rows = [["Filter", "Part"]]
     for states in modular_costs.STATES:
         rows[0] = [*rows[0], f"n = {states}", marked(f"{states}: µs")]
     for part in modular_costs.PARTS:
         for kind in modular_costs.KINDS:
             records = [results.records("parts", kind=kind, part=part, states=str(n))[0] for n in modular_costs.STATES]
-            numbers = [cell for row in records for cell in (f"{int(row[OPERATIONS]):,}", row[SECONDS])]
+            numbers = [
+                cell for row in records for cell in (f"{int(row[OPERATIONS]):,}", span(row[SECONDS], row[MEDIAN]))
+            ]
             rows.append([kind, part, *numbers])
     return rows
 

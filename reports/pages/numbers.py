@@ -31,3 +31,8 @@ def plus_minus(value: float, standard_error: float) -> str:
 def between(value: float, low: float, high: float) -> str:
     """Three digits, and the interval in as many."""
     return f"{significant(value)} ({significant(low)} to {significant(high)})"
+
+
+def span(low: str, high: str) -> str:
+    """From one figure to another; one where they are the same, to the digits that are shown."""
+    return low if low == high else f"{low} to {high}"

@@ -6,6 +6,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 
 from filters.arrays import FloatArray
@@ -45,7 +46,7 @@ def test_costs() -> None:
         Way(
             "inverse: N eliminations, as in the paper",
             {"attitude": 200_000, "position": 600_000},
-            {"attitude": 2e-5, "position": 5e-5},
+            {"attitude": (2e-5, 2e-5), "position": (5e-5, 7e-5)},
         ),
         Way("closed form", {"attitude": 1_900, "position": 3_500}),
     ]
@@ -53,6 +54,8 @@ def test_costs() -> None:
     assert flaws(figure) == []
     assert [(x[0], y[0]) for x, y in curves(figure, 0, 1)] == [(2e5, 1), (6e5, 1), (1900, 2), (3500, 2)]
     assert [x[0] for x, _ in curves(figure, 1, 1)] == pytest.approx([20, 50])
+    (until,) = (lines for lines in figure.axes[1].collections if isinstance(lines, LineCollection))
+    np.testing.assert_allclose(until.get_segments(), [[(50, 1), (70, 1)]])
     assert {"closed form", "Compiled code †", "one step at 400 Hz"} <= {text.get_text() for text, _ in texts(figure)}
 
 

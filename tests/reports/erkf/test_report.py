@@ -200,6 +200,26 @@ def test_lu_without_pivoting_fails_where_mu_is_infinite_and_the_page_counts_them
     assert f"fails in step 1 in {len(failing)} of {len(unpivoted)} filters, those with μ = ∞" in text()
 
 
+def test_measured_figures_are_ranges_from_minimum_to_p95() -> None:
+    step = stored().measured["position"].entry("robust-inverse", "robust_step")
+    low, high = (f"{1e6 * float(time):.1f}" for time in (step.minimum, step.p95))
+    assert f"{low} to {high}" in rebuilt()["costs.csv"].decode()
+    assert f"even the slowest, {low} to {high} µs, takes" in text()
+    for row in rows("speeds.csv"):
+        least, most = map(float, row["load, % †"].split(" to "))
+        assert least < most
+    alone = {name: one_number(table) for name, table in stored().measured.items()}
+    assert " to " not in str(tables.cost_rows(all_counts(), alone))
+
+
+def one_number(table: CostTable) -> CostTable:
+    """The table by its least costs alone."""
+    costs = {
+        method: {kind: Cost.of(cost.minimum) for kind, cost in kinds.items()} for method, kinds in table.costs.items()
+    }
+    return replace(table, costs=costs)
+
+
 def test_what_is_only_rounding_has_one_digit() -> None:
     (heading, *body) = (line for line in rebuilt()["agreements.csv"].decode().splitlines())
     assert heading.count("†") == 4

@@ -8,7 +8,7 @@ from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 
 from filters.arrays import FloatArray
-from reports.modular.costs import OPERATIONS, SECONDS, cost_figure
+from reports.modular.costs import MEDIAN, OPERATIONS, SECONDS, cost_figure
 from reports.modular.late import late_figure
 from reports.modular.oscillator import (
     NOISES,
@@ -166,7 +166,14 @@ def test_late_measurements() -> None:
 
 def test_costs_of_parts() -> None:
     rows = [
-        {"kind": kind, "part": part, "states": str(n), OPERATIONS: str(10 * n**3 * factor), SECONDS: str(0.02 * factor)}
+        {
+            "kind": kind,
+            "part": part,
+            "states": str(n),
+            OPERATIONS: str(10 * n**3 * factor),
+            SECONDS: str(0.02 * factor),
+            MEDIAN: str(0.03 * factor),
+        }
         for factor, kind in enumerate(("linear", "extended", "unscented"), start=1)
         for part in ("predict", "correct")
         for n in (3, 9)
@@ -177,3 +184,7 @@ def test_costs_of_parts() -> None:
         assert [curve[1][0] for curve in curves(figure, axes, 2)] == [270, 540, 810]
     for axes in (2, 3):
         assert [curve[1][0] for curve in curves(figure, axes, 2)] == pytest.approx([0.02, 0.04, 0.06])
+        ranges = [lines for lines in figure.axes[axes].collections if isinstance(lines, LineCollection)]
+        (segments,) = (np.array(lines.get_segments()) for lines in ranges[:1])
+        np.testing.assert_allclose(segments, [[(3, 0.02), (3, 0.03)]])
+        assert len(ranges) == 6

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from reports.modular.costs import OPERATIONS
+from reports.modular.costs import MEDIAN, OPERATIONS, SECONDS
 from reports.modular.report import build
 from reports.modular.results import TABLES, Results, read
 from reports.modular.schedule import miss_rows_of
@@ -193,6 +193,15 @@ def test_another_machine_changes_only_what_is_marked_as_measured() -> None:
     tables["machine"] = [tables["machine"][0], ["another"]]
     other = build(Results(tables))
     published.differs_only_where_marked(rebuilt(), other, ["parts.svg"])
+
+
+def test_measured_figures_are_ranges_from_minimum_to_median() -> None:
+    (slowest,) = stored().records("parts", kind="unscented", part="predict", states="15")
+    assert f"takes {slowest[SECONDS]} to {slowest[MEDIAN]} µs" in text()
+    for row in rows("parts.csv"):
+        for n in (3, 6, 9, 15):
+            least, most = map(float, row[f"{n}: µs †"].split(" to "))
+            assert least < most
 
 
 def test_a_processor_holds_only_where_the_interval_and_the_landings_say_so() -> None:
