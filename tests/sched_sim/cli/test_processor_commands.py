@@ -5,12 +5,13 @@ from __future__ import annotations
 import csv
 import io
 import json
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
 import pytest
 
-from sched_sim.costs.table_file import load_costs
+from sched_sim.costs.table_file import costs_text, load_costs
 from sched_sim.design.least_speed import least_speed
 from sched_sim.design.methods import select
 from sched_sim.design.options import Options
@@ -117,9 +118,11 @@ def test_the_printed_limits_hold(sched_sim: Run) -> None:
     assert "101 %" in sched_sim(f"{line} --hr-hz 5240").out
 
 
-def test_a_note_keeps_what_stands_in_brackets(sched_sim: Run) -> None:
-    line = "processors -N 5 --hr-hz 100 --method multirate-square-root --processor rad750"
-    assert "[operations.multirate-square-root]" in sched_sim(line).out
+def test_a_note_keeps_what_stands_in_brackets(sched_sim: Run, tmp_path: Path) -> None:
+    text = costs_text(replace(load_costs("counted-9-3-3"), name="mine", provenance={"update_form": "of [ours]"}))
+    (tmp_path / "mine.toml").write_text(text)
+    line = "processors -N 10 -M 4 --hr-hz 100 --costs mine.toml --processor leon3"
+    assert "covariance update: of [ours]" in sched_sim(line).out
 
 
 def test_the_load_with_context_switches_is_the_simulated_one(sched_sim: Run) -> None:
