@@ -189,13 +189,6 @@ def read_scenario(path: str | Path, describe: Describe | None = None, *, process
     """
     what, path = f"{option('scenario')} {str(path)!r}", Path(path)
     document = read_toml(path, what, "give the path of a TOML file with [predictor] and [[sensor]] entries")
-    if processor is not None and document.get("costs") is None:
-        raise InputError(
-            f"{what}: it names no costs file, and stated costs take the same time on every processor: to tell "
-            f"processors apart count the operations, `sched-sim measure --filter ... --backend counted --output "
-            f'counts.toml`, and write costs = "counts.toml"; with the costs as they are there is `sched-sim simulate '
-            f"--scenario`"
-        )
     try:
         composition = _composition(document.get("filter"), describe, path.parent)
         if processor is not None:
