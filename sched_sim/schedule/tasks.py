@@ -43,19 +43,20 @@ class Task:
     preemptive: bool = True
 
     def __post_init__(self) -> None:
+        left_out = {"offset"} if self.offset == "any" else set()
         if self.deadline is None:
-            object.__setattr__(self, "deadline", self.period)
-        for figure in ("period", "cost", "jitter", "deadline", *(() if self.offset == "any" else ("offset",))):
-            object.__setattr__(self, figure, exact(getattr(self, figure), f"task {self.name!r}: {figure}"))
+            left_out.add("deadline")
+        for figure in ("period", "cost", "jitter", "deadline", "offset"):
+            if figure not in left_out:
+                object.__setattr__(self, figure, exact(getattr(self, figure), f"task {self.name!r}: {figure}"))
         object.__setattr__(self, "priority", whole(self.priority, f"task {self.name!r}: priority"))
         if wrong := list(_wrong(self)):
             raise InputError(f"task {self.name!r}: {'; '.join(wrong)}")
 
     @property
     def due(self) -> Fraction:
-        """The deadline."""
-        assert self.deadline is not None
-        return self.deadline
+        """The deadline, the period for one that has none of its own."""
+        return self.period if self.deadline is None else self.deadline
 
     @property
     def start(self) -> Fraction:
