@@ -23,7 +23,7 @@ def progress_bar(title: str) -> Iterator[Callable[[int, int | None, str], None]]
 
     columns = (TextColumn("{task.description}", markup=False), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
     with Progress(*columns, console=Console(stderr=True), transient=True, auto_refresh=False) as bar:
-        task = bar.add_task(title)
+        task = bar.add_task(title, total=None)  # by default it is 100
 
         def show(done: int, total: int | None, what: str) -> None:
             bar.update(task, completed=done, total=total, description=visible(f"{title}: {what}"), refresh=True)
