@@ -6,9 +6,8 @@ released, with every task whose phase is not known. Arrays throughout.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from fractions import Fraction
-from itertools import chain
 from math import gcd, lcm
 from typing import NamedTuple
 
@@ -19,11 +18,17 @@ from sched_sim.design.options import Options
 from sched_sim.design.pieces import Costs, converted, works
 from sched_sim.design.timing import Timing
 from sched_sim.design.whole import Ints
-from sched_sim.schedule.tasks import Task, work_and_times
+from sched_sim.schedule.tasks import Task
 from sched_sim.ticks import ticks_per_unit, to_ticks
 
 LONGEST_BUSY = 2**16
 """HR periods; a busy period that is longer is taken for one without end."""
+
+MOST_AT_ONCE = 2**16
+"""Numbers of an array; larger ones are slower than several."""
+
+Work = Callable[[Ints, Ints], Ints]
+"""Work released in windows [start, start + length), from start and length."""
 
 
 def ceiling(a: Ints, b: int) -> Ints:
@@ -32,8 +37,25 @@ def ceiling(a: Ints, b: int) -> Ints:
     return up
 
 
+class Rhythm(NamedTuple):
+    """When tasks are released; as in `PhasedTask`."""
+
+    period: int
+    jitter: int
+    first: int | None
+
+    def released(self, start: Ints, length: Ints) -> Ints:
+        """How often in [start, start + length), at the most."""
+        if self.first is None:
+            return ceiling(length + self.jitter, self.period)
+        return ceiling(start + length - self.first, self.period) - ceiling(
+            start - self.jitter - self.first, self.period
+        )
+
+
 class PhasedTask(NamedTuple):
-    """A task. work: with its context switches; first: its first release in a period, None if it may be any."""
+    """A task. work: with its context switches; first: its first release in a period, None if it may be any; rhythm: of
+    the same."""
 
     name: str
     priority: int
@@ -44,14 +66,7 @@ class PhasedTask(NamedTuple):
     jitter: int
     deadline: int
     preemptive: bool
-
-    def released(self, start: Ints, length: Ints) -> Ints:
-        """How often in [start, start + length), at the most."""
-        if self.first is None:
-            return ceiling(length + self.jitter, self.period)
-        return ceiling(start + length - self.first, self.period) - ceiling(
-            start - self.jitter - self.first, self.period
-        )
+    rhythm: Rhythm
 
     def due(self, start: Ints, length: Ints) -> Ints:
         """How often released and due in [start, start + length], at the most."""
@@ -90,6 +105,32 @@ class Phased(NamedTuple):
         """The first that begins then or later."""
         return ceiling(instant, self.period)
 
+    def of_tasks(self, tasks: Sequence[PhasedTask]) -> Work:
+        """Work of these tasks: those of one rhythm come together, and the rhythms of any phase are taken at once where
+        that is few numbers."""
+        works: dict[Rhythm, int] = {}
+        for task in tasks:
+            works[task.rhythm] = works.get(task.rhythm, 0) + task.work
+        of_any = [rhythm for rhythm in works if rhythm.first is None]
+        period, more, work = (
+            np.array(column, dtype=self.before.dtype)[:, np.newaxis]
+            for column in (
+                [rhythm.period for rhythm in of_any],
+                [rhythm.jitter + rhythm.period - 1 for rhythm in of_any],
+                [works[rhythm] for rhythm in of_any],
+            )
+        )
+
+        def released(start: Ints, length: Ints) -> Ints:
+            at_once = len(start) * len(of_any) <= MOST_AT_ONCE
+            total: Ints = ((length + more) // period * work).sum(axis=0) if at_once and of_any else 0 * start
+            for rhythm, each in works.items():
+                if not at_once or rhythm.first is not None:
+                    total = total + rhythm.released(start, length) * each
+            return total
+
+        return released
+
     def high(self, first: Ints, end: Ints) -> Ints:
         """Work of the HR jobs of steps [first, end), without corrections."""
         return self._high_up_to(end) - self._high_up_to(first)
@@ -125,17 +166,17 @@ class Phased(NamedTuple):
 def phased(costs: Costs, timing: Timing, speed: Fraction, options: Options, tasks: Sequence[Task]) -> Phased:
     """In the fewest ticks per cost unit in which all is whole; in int64 where nothing can overflow."""
     costs = converted(costs, Fraction)
-    of_tasks = [work_and_times(task, speed) for task in tasks]
-    resolution = ticks_per_unit([speed, options.context_switch, *works(costs), *chain.from_iterable(of_tasks)])
+    others = [speed, options.context_switch, *works(costs)]
+    resolution = lcm(ticks_per_unit(others), *(_denominator(*part) for task in tasks for part in _parts(task, speed)))
     period, switches = to_ticks(speed, resolution), 2 * to_ticks(options.context_switch, resolution)
     cycle = cycle_of(converted(costs, lambda work: to_ticks(work, resolution)), timing, options)
     in_ticks = []
-    for task, times in zip(tasks, of_tasks, strict=True):
-        work, every, first, jitter, deadline = (to_ticks(time, resolution) for time in times)
+    for task in tasks:
+        work, every, first, jitter, deadline = (above * resolution // below for above, below in _parts(task, speed))
         at = None if task.offset == "any" else first % every
-        kind, work = f"task:{task.name}", work + switches
+        kind, work, rhythm = f"task:{task.name}", work + switches, Rhythm(every, jitter, at)
         in_ticks.append(
-            PhasedTask(kind, task.priority, task.cpu - 1, work, every, at, jitter, deadline, task.preemptive)
+            PhasedTask(kind, task.priority, task.cpu - 1, work, every, at, jitter, deadline, task.preemptive, rhythm)
         )
     steps = common_period(timing.N, [task.period for task in tasks if task.offset != "any"])
     largest = max(
@@ -144,6 +185,21 @@ def phased(costs: Costs, timing: Timing, speed: Fraction, options: Options, task
     whole = np.int64 if largest * (steps + LONGEST_BUSY) < 2**56 else object
     before = np.concatenate([[0], np.cumsum(np.array(cycle.high, dtype=whole) + switches)]).astype(whole)
     return Phased(timing.N, steps, period, switches, cycle, before, tuple(in_ticks), options)
+
+
+def _parts(task: Task, speed: Fraction) -> list[tuple[int, int]]:
+    """Cost, period, offset, jitter and deadline in cost units, each as a quotient that need not be in lowest terms:
+    fractions take most of the time where there are many tasks."""
+    cost, above, below = task.cost, speed.numerator, speed.denominator
+    times = (task.period, task.start, task.jitter, task.due)
+    return [
+        (cost.numerator, cost.denominator),
+        *((time.numerator * above, time.denominator * below) for time in times),
+    ]
+
+
+def _denominator(above: int, below: int) -> int:
+    return below // gcd(above, below)
 
 
 def common_period(N: int, periods: Sequence[Fraction]) -> int:

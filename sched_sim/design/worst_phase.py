@@ -17,14 +17,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sched_sim.design.phased import LONGEST_BUSY, Phased, PhasedTask, ceiling
+from sched_sim.design.phased import LONGEST_BUSY, Phased, PhasedTask, Work, ceiling
 from sched_sim.design.whole import Flags, Ints
 from sched_sim.schedule.jobs import HR, LR
 
 MOST_BURSTS = 2_000
 """So often more may come while what has come is done; then a busy period is taken for one without end."""
 
-Work = Callable[[Ints], Ints]
+Come = Callable[[Ints], Ints]
 """The work that comes in windows of these lengths, from the start of each on."""
 
 
@@ -88,13 +88,14 @@ def critical_start(design: Phased) -> int:
 def _high_jobs(design: Phased) -> Finishes:
     """One after another, each in its step."""
     level = _level(design, 0, HR)
+    others = _others(design, level)
     step = design.counted(design.steps)
     release, due = step * design.period, (step + 1) * design.period
 
     def found(start: Ints, job: Ints) -> Finishes:
         first = design.first_step(start)
         fixed = design.high(first, step[job] + 1) + design.corrections(first, step[job] + (not design.cycle.apart))
-        return _finishes("hr", lambda length: fixed + _of_tasks(level, start, length), start, job, release, due)
+        return _finishes("hr", lambda length: fixed + others(start, length), start, job, release, due)
 
     at_once = found(release, np.arange(design.steps))
     if (at_once.at > due).any():  # a processor that is much too slow has long busy periods, which need not be tried
@@ -105,6 +106,7 @@ def _high_jobs(design: Phased) -> Finishes:
 def _low_jobs(design: Phased, late: int) -> Iterator[Finishes]:
     """One after another; where the correction is a job of its own, that too."""
     level = _level(design, design.low_cpu, LR)
+    others = _others(design, level)
     cycle = design.counted(design.steps // design.N)
     k, span = cycle * design.N * design.period, design.N * design.period
     for number, low in enumerate(design.cycle.low):
@@ -117,7 +119,7 @@ def _low_jobs(design: Phased, late: int) -> Iterator[Finishes]:
             ahead = ahead + np.maximum(count, 0) * (work.work + design.switches)
 
         def come(length: Ints, start: Ints = start, job: Ints = job, ahead: Ints = ahead) -> Ints:
-            work = ahead + _of_tasks(level, start, length)
+            work = ahead + others(start, length)
             if level.high:
                 first, end = design.first_step(start), design.first_step(start + length)
                 work = work + design.high_and_corrections(first, end, cycle[job] - 1)
@@ -129,15 +131,15 @@ def _low_jobs(design: Phased, late: int) -> Iterator[Finishes]:
             yield _feedback(design, come, start, job, release, found)
 
 
-def _feedback(design: Phased, come: Work, start: Ints, job: Ints, release: Ints, update: Finishes) -> Finishes:
+def _feedback(design: Phased, come: Come, start: Ints, job: Ints, release: Ints, update: Finishes) -> Finishes:
     """The correction as a job of its own, behind the LR update."""
     work = design.cycle.correction + design.switches
     if design.options.cpus == 1:
         return _finishes("hr_update", lambda length: come(length) + work, start, job, release, update.due)
     level = _level(design, 0, HR)
-    at_once = starts(design, level, 0)
+    at_once, others = starts(design, level, 0), _others(design, level)
     ahead = int(np.diff(design.before).max()) + work
-    length = _first_idle(lambda length: ahead + _of_tasks(level, at_once, length), 0 * at_once + 1, update.due.max())
+    length = _first_idle(lambda length: ahead + others(at_once, length), 0 * at_once + 1, update.due.max())
     return update._replace(kind="hr_update", at=update.at + length.max())
 
 
@@ -163,8 +165,10 @@ def _task_jobs(design: Phased, task: PhasedTask, late: int) -> Finishes:
     else:
         own, least, after = before * task.work, 0, task.work
 
+    demand = _demand(design, level, late)
+
     def come(length: Ints) -> Ints:
-        return own + _demand(design, level, start, length + 1 - least, late)
+        return own + demand(start, length + 1 - least)
 
     return _finishes(task.name, come, start, job, release, nominal + task.deadline, least, after)
 
@@ -184,21 +188,24 @@ def _with(level: Level, task: PhasedTask) -> Level:
     return level._replace(tasks=(*level.tasks, task))
 
 
-def _of_tasks(level: Level, start: Ints, length: Ints) -> Ints:
+def _others(design: Phased, level: Level) -> Work:
     """Work of the tasks of a level, and what is not preempted."""
-    work = level.block + 0 * start
-    for task in level.tasks:
-        work = work + task.released(start, length) * task.work
-    return work
+    of_tasks = design.of_tasks(level.tasks)
+    return lambda start, length: level.block + of_tasks(start, length)
 
 
-def _demand(design: Phased, level: Level, start: Ints, length: Ints, late: int) -> Ints:
+def _demand(design: Phased, level: Level, late: int) -> Work:
     """All the work of a level."""
-    work = _of_tasks(level, start, length)
-    if level.high:
-        first, end = design.first_step(start), design.first_step(start + length)
-        work = work + design.high_and_corrections(first, end)
-    return work + design.low(start, start + length, late) if level.low else work
+    others = _others(design, level)
+
+    def demand(start: Ints, length: Ints) -> Ints:
+        work = others(start, length)
+        if level.high:
+            first, end = design.first_step(start), design.first_step(start + length)
+            work = work + design.high_and_corrections(first, end)
+        return work + design.low(start, start + length, late) if level.low else work
+
+    return demand
 
 
 def starts(design: Phased, level: Level, late: int) -> Ints:
@@ -230,11 +237,11 @@ def _busy_before(design: Phased, level: Level, release: Ints, late: int) -> tupl
 
 
 def longest_busy(design: Phased, level: Level, late: int) -> int:
-    opened = starts(design, level, late)
+    opened, demand = starts(design, level, late), _demand(design, level, late)
     length = 0 * opened + 1
     limit = LONGEST_BUSY * design.period
     for _ in range(MOST_BURSTS):
-        needed = _demand(design, level, opened, length, late)
+        needed = demand(opened, length)
         if (needed <= length).all():
             return int(length.max())
         if needed.max() > limit:
@@ -244,7 +251,7 @@ def longest_busy(design: Phased, level: Level, late: int) -> int:
 
 
 def _finishes(
-    kind: str, come: Work, start: Ints, job: Ints, release: Ints, due: Ints, least: int = 1, after: int = 0
+    kind: str, come: Come, start: Ints, job: Ints, release: Ints, due: Ints, least: int = 1, after: int = 0
 ) -> Finishes:
     """least: ticks after its release that a job is under way at the least; after: work that nothing delays any more."""
     length = _first_idle(come, release[job] - start + least, due[job] - start - after)
@@ -256,7 +263,7 @@ def _finishes(
     return Finishes(kind, at, due, opened, opened < release)
 
 
-def _first_idle(come: Work, length: Ints, limit: Ints) -> Ints:
+def _first_idle(come: Come, length: Ints, limit: Ints) -> Ints:
     """The least lengths, not below those given, in which all that came is done; where that is beyond the limit, one
     more than the limit."""
     while True:
