@@ -78,6 +78,8 @@ def fit(
     period_ms = 1000 / rate
     held = times or Times(rate / timing.N, timing.M * period_ms, timing.L * period_ms)
     highest = highest_rate(costs, held, rate, options, tasks)
+    if landed is not None:  # it may have more digits, and the phases of tasks are those that are given
+        highest = rate if highest is None else max(highest, rate)
     return Fit(least, least.speed * rate, busy, landed is not None, landed, highest)
 
 

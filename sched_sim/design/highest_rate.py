@@ -1,23 +1,47 @@
-"""The highest rate of the HR loop at which a design still meets every deadline, with all else held in seconds."""
+"""The highest rate of the HR loop at which a design still meets every deadline, with all else held in seconds.
+
+N, M and L are steps of the rate, so whether a design fits goes up and down with it: just below a rate at which the delay
+is a whole number of steps it fits, and just above it not. Between two rates at which one of them changes, all three are
+what they are, and so is the least speed, in work per HR period: there the best rate is known exactly. Such pieces are
+taken from the top; whole ranges of them are left out together where they need more than there is (`necessary`).
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
+from itertools import islice, pairwise
+from typing import NamedTuple
+
+import numpy as np
 
 from sched_sim.bounds import MOST_STEPS
+from sched_sim.design.demand import DualRateDemand
 from sched_sim.design.least_speed import achieved_l, has_closed_form, least_speed
+from sched_sim.design.load import loads
+from sched_sim.design.method import Law
 from sched_sim.design.methods import method_of
+from sched_sim.design.necessary import Range, demands
 from sched_sim.design.options import Options
-from sched_sim.design.pieces import Costs
+from sched_sim.design.pieces import Costs, DualRateCosts, JobCosts, converted, works
 from sched_sim.design.times import Times
 from sched_sim.design.timing import Timing
 from sched_sim.errors import InputError
 from sched_sim.schedule.tasks import Task, phases_matter
+from sched_sim.ticks import ticks_per_unit, to_ticks
 
 DIGITS = 4
-"""To so many the rate is found."""
+"""To so many the rate is rounded down, where that fits as well; else to the next number of digits that does."""
+
+MOST_DIGITS = 12
+"""A rate that fits alone, such as 1000/7 Hz, is not rounded."""
+
+LOOKS = 24
+"""So many rates, spread over those between, are looked at beside what bisection finds."""
+
+STEPS_LOOKED_AT = 50_000
+"""Of all looks together, at the most, but for four of them."""
 
 
 def landing(costs: Costs, timing: Timing, pace: Fraction, options: Options, tasks: Sequence[Task]) -> int | None:
@@ -43,71 +67,299 @@ def landing(costs: Costs, timing: Timing, pace: Fraction, options: Options, task
 def highest_rate(
     costs: Costs, times: Times, hr_hz: Fraction, options: Options = Options(), tasks: Sequence[Task] = ()
 ) -> Fraction | None:
-    """The highest rate, in Hz, to four digits, at which every deadline holds; None if there is none.
+    """The highest rate, in Hz, at which every deadline holds, rounded down to four digits, or to as many as it takes to
+    fit; None if there is none.
 
     The rate of measurements, the delay, the time by which corrections land and the periods of the tasks stay what they
-    are in seconds. costs: in seconds. hr_hz: the rate of which the tasks are in HR periods; at others the phases of
-    tasks with a given offset may be any. Between two rates that are looked at, rounding to steps may let one more fit.
-    """
-    law = method_of(costs).law(options.feedback)
+    are in seconds. costs: in seconds. hr_hz: the rate of which the tasks are in HR periods; what is found does not hang
+    on it. The tasks' phases may be any, for a given offset would be another part of the HR period at each rate.
 
-    def fits(rate: Fraction) -> bool:
+    It is exact where there is a closed form (`has_closed_form`). With tasks, context switches or earliest deadline first
+    it is found by bisection from above, which takes for granted that a lower rate fits where a higher one does; then
+    `LOOKS` of the rates above at which N, M or L is another, spread over all where there are more, are looked at from
+    the top. A rate that is higher still may fit.
+    """
+    pieces = _Pieces.of(costs, times, options)
+    if has_closed_form(options, tasks):
+        return pieces.highest()
+    return _Search(pieces, tuple(tasks), hr_hz).highest()
+
+
+class _Pieces(NamedTuple):
+    """Rates in whole units, of which `per_hz` make a hertz; between two at which a step changes lies one more.
+
+    by_N, by_M, by_L: N, M and L change at the multiples of these; 0: never. L_bound: whether corrections must land by a
+    time of their own. costs_in_ticks: at `per_cost` ticks per unit of the costs.
+    """
+
+    costs: Costs
+    options: Options
+    law: Law
+    per_hz: int
+    by_N: int
+    by_M: int
+    by_L: int
+    L_bound: bool
+    per_cost: int
+    costs_in_ticks: JobCosts[int]
+
+    @classmethod
+    def of(cls, costs: Costs, times: Times, options: Options) -> _Pieces:
+        law = method_of(costs).law(options.feedback)
+        assert times.measurement_hz is not None
+        delay_ms = 0 if law.undelayed else times.delay_ms
+        changes = [times.measurement_hz, *(1000 / ms if ms else Fraction(0) for ms in (delay_ms, times.land_within_ms))]
+        per_hz = 2 * ticks_per_unit(changes)
+        by_N, by_M, by_L = (to_ticks(change, per_hz) for change in changes)
+        costs = converted(costs, Fraction)
+        per_cost = ticks_per_unit(works(costs))
+        in_ticks = converted(costs, lambda work: to_ticks(work, per_cost))
+        return cls(
+            costs, options, law, per_hz, by_N, by_M, by_L, times.land_within_ms is not None, per_cost, in_ticks
+        )
+
+    def hz(self, units: int) -> Fraction:
+        return Fraction(units, self.per_hz)
+
+    def steps(self, rate: int | Fraction) -> tuple[int, int, int]:
+        """N, M and L at a rate in units, as `Times.steps` has them."""
+        N = int(rate // self.by_N)
+        M = int(-(-rate // self.by_M)) if self.by_M else 0
+        latest = self.law.latest(N, M)
+        return N, M, min(latest, int(rate // self.by_L) if self.by_L else 0) if self.L_bound else latest
+
+    def timing(self, rate: int | Fraction) -> Timing | None:
+        """None where the method can have none."""
+        N, M, L = self.steps(rate)
+        if not 1 <= N <= MOST_STEPS or M > N:
+            return None
         try:
-            N, M, L = times.steps(rate)
-            assert N is not None
-            M = M or 0
-            if N > MOST_STEPS or M > N:
-                return False
-            timing = Timing(N, M, law.latest(N, M) if L is None else min(L, law.latest(N, M)))
-            method_of(costs).check(timing, options.feedback)
-            return landing(costs, timing, 1 / rate, options, _at(tasks, rate, hr_hz)) is not None
+            timing = Timing(N, M, L)
+            method_of(self.costs).check(timing, self.options.feedback)
+        except InputError:
+            return None
+        return timing
+
+    def fits(self, rate: Fraction) -> bool:
+        """In hertz; in closed form."""
+        timing = self.timing(rate * self.per_hz)
+        return timing is not None and landing(self.costs, timing, 1 / rate, self.options, ()) is not None
+
+    def possible(self, low: int, high: int, rate: int | None = None) -> bool:
+        """Whether a rate with the steps of one from low to high may fit, which is at least `rate`, by default low."""
+        least_N, least_M, _ = self.steps(low)
+        most_N, most_M, most_L = self.steps(high)
+        if least_N > MOST_STEPS or least_M > most_N or most_L < least_M:
+            return False
+        timings = Range(least_N, most_N, least_M, most_M, most_L)
+        period, rate = self.per_hz * self.per_cost, low if rate is None else rate  # in ticks of work, at a rate of 1
+        return all(
+            work * rate <= periods * period for work, periods in demands(self.costs_in_ticks, timings, self.options)
+        )
+
+    def change_between(self, low: int, high: int) -> int | None:
+        """A rate at which a step changes, near the middle of those between; None if there is none."""
+        for by in (self.by_N, self.by_M, self.by_L):
+            if by:
+                first, last = low // by + 1, -(-high // by) - 1
+                if first <= last:
+                    return (first + last) // 2 * by
+        return None
+
+    def pieces(self, low: int, high: int) -> Iterator[tuple[int, int]]:
+        """Of the rates from low to high, not low itself, those between two changes and the upper of them: from the top,
+        without those that cannot fit."""
+        ranges = [(low, high)]
+        while ranges:
+            low, high = ranges.pop()
+            if not self.possible(low, high):
+                continue
+            middle = self.change_between(low, high)
+            if middle is None:
+                yield low, high
+            else:
+                ranges += [(low, middle), (middle, high)]
+
+    @property
+    def range(self) -> tuple[int, int]:
+        """Of all rates: that of the measurements is just above the lower end."""
+        return self.by_N - 1, (MOST_STEPS + 1) * self.by_N
+
+    def highest(self) -> Fraction | None:
+        for low, high in self.pieces(*self.range):
+            if self.possible(high, high) and self.fits(self.hz(high)):
+                return rounded_down(self.hz(high), self.fits)
+            if (found := self._highest_between(low, high)) is not None:
+                return found
+        return None
+
+    def _highest_between(self, low: int, high: int) -> Fraction | None:
+        """Where N, M and L do not change: the least speed there, or all but the upper end."""
+        middle = (low + high) // 2
+        timing = self.timing(middle) if low < middle < high else None
+        if timing is None or not self.possible(middle, middle, low):
+            return None
+        below, above = self.hz(low), self.hz(high)
+        best = 1 / least_speed(self.costs, timing, self.options).speed
+        if best <= below:
+            return None
+        if best < above:
+            return rounded_down(best, self.fits)
+        found = rounded_down(above, lambda rate: below < rate < above and self.fits(rate))
+        if found is not None:
+            return found
+        return next(
+            (
+                rounded_down(1 / pace, self.fits)
+                for pace in sorted(_paces(self.costs_in_ticks, self.per_cost, timing, self.options))
+                if below < 1 / pace < above and self.fits(1 / pace)
+            ),
+            None,
+        )
+
+
+def _paces(costs: JobCosts[int], per_cost: int, timing: Timing, options: Options) -> Iterator[Fraction]:
+    """Speeds at which the dual-rate filter may begin to fit: where one that is a little slower lands later and fits,
+    and one a little faster lands earlier, in a step that has more to do (`least_speed`), it takes one of these."""
+    if not isinstance(costs, DualRateCosts):
+        return
+    jobs = [costs.hr, costs.hr_restart]
+    for job in jobs:
+        yield Fraction(job + costs.hr_update, per_cost)
+    if options.feedback == "next-step":
+        return
+    separate = options.cpus == 2
+    end = np.arange(timing.M + 1, min(timing.L + 2, timing.N) + 1, dtype=object)
+    demand = DualRateDemand(costs, 0 * end + timing.N, 0 * end + timing.M, separate)
+    for following in (0, *(jobs if separate else ())):
+        for job in jobs:
+            yield Fraction(job + costs.hr_update + following, 2 * per_cost)
+        for more in (0, costs.hr_update + following):
+            for window in (demand.update_window(end, 0, more), demand.total_window(end, 0, more)):
+                for work, periods in zip(window.numerator, window.denominator, strict=True):
+                    yield Fraction(work, periods * per_cost)
+
+
+def rounded_down(rate: Fraction, fits: Callable[[Fraction], bool]) -> Fraction | None:
+    """To the fewest digits, at least `DIGITS`, at which it fits; where no more than `MOST_DIGITS` do, the rate itself,
+    or None if that does not either."""
+    for digits in range(DIGITS, MOST_DIGITS + 1):
+        unit = last_digit(rate, digits)
+        for number in (rate // unit, -(-rate // unit) - 1):
+            if number and fits(number * unit):
+                return number * unit
+    return rate if fits(rate) else None
+
+
+def last_digit(rate: Fraction, digits: int = DIGITS) -> Fraction:
+    """What the last of so many digits of a rate counts."""
+    exponent = len(str(rate.numerator)) - len(str(rate.denominator))
+    if rate < Fraction(10) ** exponent:
+        exponent -= 1
+    return Fraction(10) ** (exponent + 1 - digits)
+
+
+class _Search(NamedTuple):
+    """With other work on the processor. tasks: in HR periods of hr_hz."""
+
+    pieces: _Pieces
+    tasks: tuple[Task, ...]
+    hr_hz: Fraction
+
+    def fits(self, rate: Fraction) -> bool:
+        timing = self.pieces.timing(rate * self.pieces.per_hz)
+        if timing is None:
+            return False
+        costs, options, tasks = self.pieces.costs, self.pieces.options, _at(self.tasks, rate / self.hr_hz)
+        try:
+            if not tasks:
+                return landing(costs, timing, 1 / rate, options, ()) is not None
+            from sched_sim.design.any_phase import late_job
+
+            return late_job(costs, timing, 1 / rate, options, tasks) is None
         except InputError:
             return False
 
-    below, above = _bracket(fits, hr_hz, times.measurement_hz or Fraction(0))
-    if below is None:
-        return None
-    grid = _grid(above)
-    low, high = below // grid, -(-above // grid)
-    while high - low > 1:
-        middle = (low + high) // 2
-        if fits(middle * grid):
-            low = middle
-        else:
-            high = middle
-    return max(low * grid if fits(low * grid) else below, below)
+    def highest(self) -> Fraction | None:
+        least, most = self.pieces.range
+        top = next(self.pieces.pieces(least, most), None)
+        if top is None:
+            return None
+        above = self._not_too_much(self.pieces.hz(top[1]))
+        found = self._bisected(above)
+        between = int((found or self.pieces.hz(least)) * self.pieces.per_hz), int(above * self.pieces.per_hz)
+        for change in self._changes(*between):
+            rate = self.pieces.hz(change)
+            if self.fits(rate):
+                following = self._next_change(change)
+                return rounded_down(self._between(rate, self.pieces.hz(following)), self.fits)
+        return None if found is None else rounded_down(found, self.fits)
+
+    def _not_too_much(self, rate: Fraction) -> Fraction:
+        """One above which there is more to do than time."""
+
+        def too_much(rate: Fraction) -> bool:
+            timing = self.pieces.timing(rate * self.pieces.per_hz)
+            tasks = _at(self.tasks, rate / self.hr_hz)
+            return timing is not None and max(loads(self.pieces.costs, timing, 1 / rate, self.pieces.options, tasks)) > 1
+
+        low, high = Fraction(0), rate
+        while high - low > high / 100:
+            if too_much(middle := (low + high) / 2):
+                high = middle
+            else:
+                low = middle
+        return high if too_much(high) else rate
+
+    def _bisected(self, above: Fraction) -> Fraction | None:
+        rate = above
+        while not self.fits(rate):
+            rate /= 2
+            if rate * self.pieces.per_hz < self.pieces.by_N:
+                return None
+        return self._between(rate, min(2 * rate, above))
+
+    def _between(self, fitting: Fraction, above: Fraction) -> Fraction:
+        """Near the last rate that fits, where a higher one is not looked at, or does not."""
+        unit = last_digit(above) / 2
+        low, high = fitting // unit, -(-above // unit)
+        while high - low > 1:
+            middle = (low + high) // 2
+            if self.fits(middle * unit):
+                low = middle
+            else:
+                high = middle
+        return max(low * unit, fitting)
+
+    def _next_change(self, change: int) -> int:
+        """Of N, M or L."""
+        return min((change // by + 1) * by for by in (self.pieces.by_N, self.pieces.by_M, self.pieces.by_L) if by)
+
+    def _changes(self, low: int, high: int) -> Sequence[int]:
+        """From the top, at most `LOOKS`, or what `STEPS_LOOKED_AT` allows."""
+        looks = max(min(LOOKS, STEPS_LOOKED_AT // (high // self.pieces.by_N + 1)), 4)
+        all_of_them = list(islice(self._points(low, high), looks + 1))
+        if len(all_of_them) <= looks:
+            return all_of_them
+        ends = [low + (high - low) * share // looks for share in range(looks + 1)]
+        spread = [next(self._points(start, end), None) for start, end in pairwise(ends)]
+        return [point for point in reversed(spread) if point is not None]
+
+    def _points(self, low: int, high: int) -> Iterator[int]:
+        """Rates at which a step changes and which may fit."""
+        for _, upper in self.pieces.pieces(low, high):
+            if self.pieces.timing(upper) and self.pieces.possible(upper, upper):
+                yield upper
 
 
-def _bracket(fits: Callable[[Fraction], bool], start: Fraction, least: Fraction) -> tuple[Fraction | None, Fraction]:
-    """A rate that fits, and one twice as high that does not."""
-    rate = start
-    if fits(rate):
-        while fits(2 * rate):
-            rate *= 2
-        return rate, 2 * rate
-    while rate >= least:
-        rate /= 2
-        if fits(rate):
-            return rate, 2 * rate
-    return None, start
-
-
-def _grid(rate: Fraction) -> Fraction:
-    """What the last of the digits of a rate counts."""
-    return Fraction(10) ** (len(str(int(rate))) - DIGITS) if rate >= 1 else Fraction(1, 10**DIGITS)
-
-
-def _at(tasks: Sequence[Task], rate: Fraction, hr_hz: Fraction) -> list[Task]:
-    """The same tasks in the HR periods of another rate."""
-    if rate == hr_hz:
-        return list(tasks)
-    scale = rate / hr_hz
+def _at(tasks: Sequence[Task], scale: Fraction) -> list[Task]:
+    """The same tasks in HR periods that are so many times as short."""
     return [
         replace(
             task,
             period=scale * task.period,
             jitter=scale * task.jitter,
-            deadline=scale * task.due,
+            deadline=None if task.deadline is None else scale * task.deadline,
             offset="any",
         )
         for task in tasks
