@@ -106,11 +106,25 @@ def _rounded(value: Figure, digits: int, way: str) -> str:
     return f"{number.quantize(Decimal(1).scaleb(-places), context=context):f}"
 
 
+def _limit(value: Figure) -> str:
+    """A rate that may be as long as it takes to fit, and is then shown so; others are rounded down to four digits."""
+    exact = Fraction(repr(value)) if isinstance(value, float) else value
+    number = Decimal(exact.numerator) / Decimal(exact.denominator)
+    if Fraction(number) == exact and len(number.as_tuple().digits) <= MOST_SHOWN_DIGITS:
+        return f"{number.normalize():f}"
+    if exact.denominator <= MOST_SHOWN_DENOMINATOR:
+        return str(exact)
+    return _down(4)(exact)
+
+
 def _percent(rounded: Callable[[Figure], str]) -> Callable[[Figure], str]:
     return lambda value: f"{rounded(100 * value)} %"
 
 
 HIGHEST_HR_HZ = "highest HR Hz"
+
+MOST_SHOWN_DIGITS, MOST_SHOWN_DENOMINATOR = 12, 1000
+"""Of the highest rate."""
 
 WORDS: dict[str, tuple[str, Callable[[Any], str]]] = {
     "needs, MHz": ("needed_mhz", _up(4)),
@@ -118,7 +132,7 @@ WORDS: dict[str, tuple[str, Callable[[Any], str]]] = {
     "slack": ("slack", _percent(_down(3))),
     "load": ("load", _percent(_up(3))),
     "lands after, ms": ("correction_ms", lambda value: f"{float(value):.6g}"),
-    HIGHEST_HR_HZ: ("highest_hr_hz", _down(4)),
+    HIGHEST_HR_HZ: ("highest_hr_hz", _limit),
 }
 """Headings, keys of a row, and how their figures are written."""
 

@@ -74,9 +74,9 @@ def highest_rate(
     are in seconds. costs: in seconds. hr_hz: the rate of which the tasks are in HR periods; what is found does not hang
     on it. The tasks' phases may be any, for a given offset would be another part of the HR period at each rate.
 
-    It is exact where there is a closed form (`has_closed_form`). With tasks, context switches or earliest deadline first
-    it is found by bisection from above, which takes for granted that a lower rate fits where a higher one does; then
-    `LOOKS` of the rates above at which N, M or L is another, spread over all where there are more, are looked at from
+    It is exact where there is a closed form (`has_closed_form`). With tasks, context switches or earliest deadline
+    first it is found by bisection from above, which takes for granted that a lower rate fits where a higher one does;
+    then `LOOKS` of the rates above at which N, M or L is another, spread over all where there are more, are looked at from
     the top. A rate that is higher still may fit.
     """
     pieces = _Pieces.of(costs, times, options)
@@ -107,16 +107,15 @@ class _Pieces(NamedTuple):
     def of(cls, costs: Costs, times: Times, options: Options) -> _Pieces:
         law = method_of(costs).law(options.feedback)
         assert times.measurement_hz is not None
-        delay_ms = 0 if law.undelayed else times.delay_ms
-        changes = [times.measurement_hz, *(1000 / ms if ms else Fraction(0) for ms in (delay_ms, times.land_within_ms))]
+        delay_ms = None if law.undelayed else times.delay_ms
+        changes = [times.measurement_hz]
+        changes += [Fraction(1000) / ms if ms else Fraction(0) for ms in (delay_ms, times.land_within_ms)]
         per_hz = 2 * ticks_per_unit(changes)
         by_N, by_M, by_L = (to_ticks(change, per_hz) for change in changes)
         costs = converted(costs, Fraction)
         per_cost = ticks_per_unit(works(costs))
         in_ticks = converted(costs, lambda work: to_ticks(work, per_cost))
-        return cls(
-            costs, options, law, per_hz, by_N, by_M, by_L, times.land_within_ms is not None, per_cost, in_ticks
-        )
+        return cls(costs, options, law, per_hz, by_N, by_M, by_L, times.land_within_ms is not None, per_cost, in_ticks)
 
     def hz(self, units: int) -> Fraction:
         return Fraction(units, self.per_hz)
@@ -301,7 +300,9 @@ class _Search(NamedTuple):
         def too_much(rate: Fraction) -> bool:
             timing = self.pieces.timing(rate * self.pieces.per_hz)
             tasks = _at(self.tasks, rate / self.hr_hz)
-            return timing is not None and max(loads(self.pieces.costs, timing, 1 / rate, self.pieces.options, tasks)) > 1
+            return (
+                timing is not None and max(loads(self.pieces.costs, timing, 1 / rate, self.pieces.options, tasks)) > 1
+            )
 
         low, high = Fraction(0), rate
         while high - low > high / 100:

@@ -1,8 +1,8 @@
 """What every timing of a range needs at the least, whatever else the processor does: to leave out at once what cannot
 fit.
 
-Beside `analysis`, which is exact for one timing: here are only demands that hold for a whole range, with any policy, any
-context switches, and any tasks beside the filter.
+Beside `analysis`, which is exact for one timing: here are only demands that hold for a whole range, with any policy,
+any context switches, and any tasks beside the filter.
 """
 
 from __future__ import annotations

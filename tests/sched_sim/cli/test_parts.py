@@ -47,7 +47,22 @@ def test_what_three_digits_say_exactly_is_not_rounded(tenths: int) -> None:
 
 @given(st.integers(1000, 9999))
 def test_a_float_stands_for_its_decimal(tenths: int) -> None:
-    assert WORDS[HIGHEST_HR_HZ][1](tenths / 10) == f"{tenths / 10}"
+    assert WORDS[HIGHEST_HR_HZ][1](tenths / 10) == f"{tenths / 10:g}"
+
+
+@pytest.mark.parametrize(
+    ("rate", "shown"),
+    [
+        (Fraction(892), "892"),
+        (Fraction(27_860), "27860"),
+        (Fraction("892.5"), "892.5"),
+        (Fraction("12.14956"), "12.14956"),
+        (Fraction(400, 7), "400/7"),
+        (Fraction(10**9, 1_234_567), "810.0"),
+    ],
+)
+def test_the_highest_rate_is_shown_as_it_fits(rate: Fraction, shown: str) -> None:
+    assert WORDS[HIGHEST_HR_HZ][1](rate) == shown
 
 
 def test_the_patents_load_is_shown_as_it_is(sched_sim: Run) -> None:
