@@ -1,7 +1,7 @@
 """The highest rate of the HR loop at which a design still meets every deadline, with all else held in seconds.
 
-N, M and L are steps of the rate, so whether a design fits goes up and down with it: just below a rate at which the delay
-is a whole number of steps it fits, and just above it not. Between two rates at which one of them changes, all three are
+N, M and L are steps of the rate, so whether a design fits goes up and down with it: at a rate at which the delay is a
+whole number of steps it fits, and just above it not. Between two rates at which one of them changes, all three are
 what they are, and so is the least speed, in work per HR period: there the best rate is known exactly. Such pieces are
 taken from the top; whole ranges of them are left out together where they need more than there is (`necessary`).
 """
@@ -76,8 +76,8 @@ def highest_rate(
 
     It is exact where there is a closed form (`has_closed_form`). With tasks, context switches or earliest deadline
     first it is found by bisection from above, which takes for granted that a lower rate fits where a higher one does;
-    then `LOOKS` of the rates above at which N, M or L is another, spread over all where there are more, are looked at from
-    the top. A rate that is higher still may fit.
+    then `LOOKS` of the rates above at which N, M or L is another, spread over all where there are more, are looked at
+    from the top. A rate that is higher still may fit.
     """
     pieces = _Pieces.of(costs, times, options)
     if has_closed_form(options, tasks):
