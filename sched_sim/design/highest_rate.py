@@ -121,11 +121,17 @@ class _Pieces(NamedTuple):
         return Fraction(units, self.per_hz)
 
     def steps(self, rate: int | Fraction) -> tuple[int, int, int]:
-        """N, M and L at a rate in units, as `Times.steps` has them."""
+        """N, M and L at a rate in units, as `Times.steps` has them; where measurements are not whole steps apart they
+        may wait for a step up to nearly one, which is taken for one."""
         N = int(rate // self.by_N)
         M = int(-(-rate // self.by_M)) if self.by_M else 0
+        wait = 1 if rate % self.by_N else 0
         latest = self.law.latest(N, M)
-        return N, M, min(latest, int(rate // self.by_L) if self.by_L else 0) if self.L_bound else latest
+        return N, M, min(latest, self.landing(rate) - wait) if self.L_bound else latest
+
+    def landing(self, rate: int | Fraction) -> int:
+        """The last step that starts by the time by which corrections must land."""
+        return int(rate // self.by_L) if self.by_L else 0
 
     def timing(self, rate: int | Fraction) -> Timing | None:
         """None where the method can have none."""
@@ -147,7 +153,10 @@ class _Pieces(NamedTuple):
     def possible(self, low: int, high: int, rate: int | None = None) -> bool:
         """Whether a rate with the steps of one from low to high may fit, which is at least `rate`, by default low."""
         least_N, least_M, _ = self.steps(low)
-        most_N, most_M, most_L = self.steps(high)
+        most_N, most_M, _ = self.steps(high)
+        most_L = self.law.latest(most_N, most_M)
+        if self.L_bound:
+            most_L = min(most_L, self.landing(high))
         if least_N > MOST_STEPS or least_M > most_N or most_L < least_M:
             return False
         timings = Range(least_N, most_N, least_M, most_M, most_L)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from fractions import Fraction
+from math import floor
 
 import pytest
 from hypothesis import given, settings
@@ -31,10 +32,12 @@ def on(part: str, method: str) -> Costs:
 
 
 def fits(costs: Costs, times: Times, rate: Fraction, options: Options) -> bool:
-    """From the words of `Times`, without the pieces."""
+    """From the words of `Times`, without the pieces; a wait of a part of a step counts as one."""
     law = method_of(costs).law(options.feedback)
     N, M, L = (replace(times, delay_ms=Fraction(0)) if law.undelayed else times).steps(rate)
     assert N is not None
+    if L is not None and times.land_within_ms is not None and times.wait(rate):
+        L = floor(times.land_within_ms * rate / 1000) - 1
     latest = law.latest(N, M or 0)
     try:
         timing = Timing(N, M or 0, latest if L is None else min(L, latest))
@@ -116,9 +119,9 @@ def test_thousands_of_pieces_are_quick() -> None:
 
 
 def test_a_rate_that_fits_alone_is_not_rounded() -> None:
-    """Lands when it arrives, after 7/100 of a second, which is whole steps only at n / 0.07."""
+    """Lands when it arrives, after 7/100 of a second, which is whole steps only at n / 0.07, as the interval is."""
     costs = RecalculateCosts(Fraction(1, 200), Fraction(1, 200), Fraction(1, 1000))
-    times = Times.of(1, 70, 70)
+    times = Times.of(Fraction(8, 7), 70, 70)
     assert highest_rate(costs, times, Fraction(100)) == Fraction(400, 7)
 
 
