@@ -60,6 +60,9 @@ BINDING_WORDS = {
 NOT_LANDED = -1
 """Instead of an achieved L where an HR job overruns its step, or nothing lands before the next measurement."""
 
+STEPS_ALONE = 32
+"""So many steps are looked at one by one, without numpy, before all the others at once."""
+
 
 def least_period(costs: JobCosts[int], N: Whole, M: Whole, L: Whole, options: Options) -> Quotient[Whole]:
     """The least HR period, in ticks, at which every deadline holds; its code is a `Binding`.
@@ -236,11 +239,11 @@ def _same_step(demand: DualRateDemand[Whole], L: Whole, by_m: bool) -> Quotient[
         loop = largest(loop, demand.propagate_window(Binding.lr_propagate))
     step = larger(lesser(demand.first_end(loop.numerator, loop.denominator) - 1, L), demand.M)
     if isinstance(step, int):
-        while True:
-            least = _finished_in(demand, step, L, loop)
-            if _consistent(demand, step, least):
+        for near in range(step, max(step - STEPS_ALONE, demand.M - 1), -1):
+            least = _finished_in(demand, near, L, loop)
+            if _consistent(demand, near, least):
                 return least
-            step -= 1
+        return _first_consistent(demand, step - STEPS_ALONE, L, loop)
     import numpy as np
 
     result = Quotient(*(part.copy() for part in loop))
@@ -256,6 +259,19 @@ def _same_step(demand: DualRateDemand[Whole], L: Whole, by_m: bool) -> Quotient[
         open_points = open_points[~consistent]
         step[open_points] -= 1
     return result
+
+
+def _first_consistent(demand: DualRateDemand[int], step: int, L: int, loop: Quotient[int]) -> Quotient[int]:
+    """`_same_step` of one design, the steps from `step` down to M at once."""
+    import numpy as np
+
+    at = np.arange(step, demand.M - 1, -1)
+    same = np.ones_like(at)
+    N, M, at = _arrays(demand.costs, demand.N * same, demand.M * same, at)
+    every = DualRateDemand(demand.costs, N, M, demand.separate)
+    least = _finished_in(every, at, L + 0 * at, Quotient(*(part + 0 * at for part in loop)))
+    first = int(np.argmax(_consistent(every, at, least)))
+    return Quotient(*(part[first].item() if hasattr(part[first], "item") else part[first] for part in least))
 
 
 def _finished_in(demand: DualRateDemand[Whole], step: Whole, L: Whole, loop: Quotient[Whole]) -> Quotient[Whole]:

@@ -171,3 +171,13 @@ def test_its_least_speed_is_exact_to_the_last_digit(sched_sim: Run, tmp_path: Pa
     shown = sched_sim("minimum -N 10 -M 4 -L 8 --method dual-rate --costs mine.toml --format json").out
     one_hr_job = Fraction("45.123456789012345") + Fraction("12.397596782782849")
     assert f'"{one_hr_job}"' in shown
+
+
+def test_one_long_design_with_same_step_feedback_is_what_it_is_in_arrays() -> None:
+    """The step in which the LR update finishes is hundreds before the last that is allowed."""
+    costs = DualRateCosts(hr=60, hr_restart=10, hr_update=5, lr_propagate=4000, lr_gain=0, lr_update=700)
+    for factor in (1, 2**70):
+        for M, L in ((3, 990), (200, 201), (0, 999)):
+            one = least_period(times(costs, factor), 1000, M, L, Options(feedback="same-step"))
+            several = least_period(times(costs, factor), *map(arrays, (1000, M, L)), Options(feedback="same-step"))
+            assert [{part} for part in one] == [{*whole.tolist()} for whole in several]
