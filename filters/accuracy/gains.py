@@ -1,0 +1,78 @@
+"""The accuracy of a filter whose gain is not the best one: it assumes a noise that is not the true one.
+
+The gain settles by the Riccati equation that the filter believes; the error by the one that holds for any gain,
+X = A X A^T + Phi_N K R K^T Phi_N^T + Q_N with A = Phi_N (I - K H).
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from filters.accuracy.model import LinearModel
+from filters.accuracy.periodic import by_age, noise_by_age
+from filters.accuracy.prefix import prefix
+from filters.accuracy.riccati import gain, steady_prior, steady_state, updated
+from filters.accuracy.visible import visible
+from filters.arrays import FloatArray
+
+
+class Assumed(NamedTuple):
+    """A filter with such a gain in its periodic regime.
+
+    K (n, p); radius: spectral radius of the error from cycle to cycle, unstable from 1 on; variances, believed (ages,):
+    tr V_N(a) as it is, and as the filter's own P says; jumps (ages,): as in `Steady`. Without `believed`, all nan where
+    it is unstable.
+    """
+
+    K: FloatArray
+    radius: float
+    variances: FloatArray
+    believed: FloatArray
+    jumps: FloatArray
+
+
+def summed_noise(model: LinearModel, N: int) -> FloatArray:
+    """Q' over N steps: only summed (Steffes 2014, Eq. 23)."""
+    return N * model.Q
+
+
+def halved_noise(model: LinearModel, N: int) -> FloatArray:
+    """Q'' over N steps: the first half of the sum goes through the transition (Steffes 2014, Eq. 24)."""
+    Phi, first = np.linalg.matrix_power(model.Phi, N), N // 2
+    return np.asarray(first * Phi @ model.Q @ Phi.T + (N - first) * model.Q)
+
+
+def with_assumed(
+    model: LinearModel,
+    outputs: FloatArray,
+    N: int,
+    oldest: int,
+    cycle_noise: FloatArray | None = None,
+    R: FloatArray | None = None,
+) -> Assumed:
+    """cycle_noise (n, n): what the filter takes for the noise of N steps; R (p, p): what it takes for that of a
+    measurement; the true ones if not given. Raises ValueError as `steady` does."""
+    reduced, C = visible(model, outputs)
+    over = prefix(reduced, max(N, oldest))
+    Phi, H = over.Phi[N], reduced.H
+    assumed_Q = over.Q[N] if cycle_noise is None else cycle_noise
+    if cycle_noise is not None and reduced.states != model.states:
+        raise ValueError("an assumed noise, and a mode of the model that no measurement sees: leave that mode out")
+    assumed_R = reduced.R if R is None else R
+    prior = steady_prior(Phi, assumed_Q, H, assumed_R)
+    if not np.isfinite(prior).all():
+        raise ValueError(f"the gain does not settle with a measurement every N={N} steps: take another N")
+    K = gain(prior, H, assumed_R)
+    A = Phi @ (np.eye(reduced.states) - K @ H)
+    true_prior = steady_state(A, Phi @ K @ reduced.R @ K.T @ Phi.T + over.Q[N])
+    after = updated(true_prior, K, H, reduced.R)
+    noise = noise_by_age(over, C, oldest)
+    return Assumed(
+        K,
+        float(np.abs(np.linalg.eigvals(A)).max()),
+        by_age(over, C, after[None], oldest)[0] + noise,
+        by_age(over, C, updated(prior, K, H, assumed_R)[None], oldest)[0] + noise,
+        by_age(over, C, (K @ (H @ true_prior @ H.T + reduced.R) @ K.T)[None], oldest)[0],
+    )

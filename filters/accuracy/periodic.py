@@ -1,0 +1,92 @@
+"""The accuracy of a constant model's output by the age of what is in it: of many N at once, and of every L.
+
+After a measurement every N steps for a long time, an output whose newest measurement was taken a steps ago has the
+covariance V_N(a) = C (Phi_a P^+_N Phi_a^T + Q_a) C^T, whatever lossless method brought it there: a filter's accuracy
+depends on N and on the age alone. Corrections that land L steps after their measurement was taken make outputs of the
+ages L .. N + L - 1.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from filters.accuracy.model import LinearModel
+from filters.accuracy.prefix import Prefix, prefix
+from filters.accuracy.riccati import posterior, steady_prior
+from filters.accuracy.visible import visible
+from filters.arrays import FloatArray
+
+
+class Steady(NamedTuple):
+    """A filter in its periodic regime, for each of several N.
+
+    N (designs,); before, after (designs, n, n): P^-_N, P^+_N; variances (designs, ages): tr V_N(a) for a = 0, 1, ...;
+    jumps (designs, ages): variance of how far the output moves when a correction of that age lands.
+    """
+
+    N: np.ndarray[tuple[int], np.dtype[np.int64]]
+    before: FloatArray
+    after: FloatArray
+    variances: FloatArray
+    jumps: FloatArray
+
+
+def steady(model: LinearModel, outputs: FloatArray, N: ArrayLike, oldest: int) -> Steady:
+    """outputs (o, n): C, the rows whose accuracy is asked for; oldest: the greatest age.
+
+    Raises ValueError where the outputs depend on what no measurement ever says (`visible`), or do not settle for some
+    N: measured so seldom, a mode goes unseen.
+    """
+    model, C = visible(model, outputs)
+    several = np.atleast_1d(np.asarray(N, dtype=np.int64))
+    over = prefix(model, max(int(several.max()), oldest))
+    before = steady_prior(over.Phi[several], over.Q[several], model.H, model.R)
+    if not np.isfinite(before).all():
+        unsettled = several[~np.isfinite(before).all(axis=(1, 2))][0]
+        raise ValueError(
+            f"the covariance does not settle with a measurement every N={unsettled} steps: at that interval a mode of "
+            f"the model goes unseen; take another N"
+        )
+    _, after = posterior(before, model.H, model.R)
+    return Steady(
+        several,
+        before,
+        after,
+        by_age(over, C, after, oldest) + noise_by_age(over, C, oldest),
+        by_age(over, C, before - after, oldest),
+    )
+
+
+def by_age(over: Prefix, C: FloatArray, P: FloatArray, oldest: int) -> FloatArray:
+    """tr C Phi_a P Phi_a^T C^T (designs, oldest + 1), one product for all: the sum of (Phi_a^T C^T C Phi_a) * P."""
+    rows = C @ over.Phi[: oldest + 1]
+    weights = np.swapaxes(rows, -1, -2) @ rows
+    return np.asarray(P.reshape(len(P), -1) @ weights.reshape(oldest + 1, -1).T)
+
+
+def noise_by_age(over: Prefix, C: FloatArray, oldest: int) -> FloatArray:
+    """tr C Q_a C^T (oldest + 1,)."""
+    return np.asarray(np.einsum("oi,aij,oj->a", C, over.Q[: oldest + 1], C))
+
+
+def worst(variances: FloatArray, N: int, L: ArrayLike) -> FloatArray:
+    """The greatest of the ages L .. N + L - 1, for each L; variances (ages,) of one N. They need not grow with age."""
+    first = np.asarray(L)
+    longest = int(first.max()) + N
+    blocks = -(-longest // N)
+    padded = np.full(blocks * N, -np.inf)
+    padded[:longest] = variances[:longest]
+    by_block = padded.reshape(blocks, N)
+    so_far = np.maximum.accumulate(by_block, axis=1).ravel()
+    to_come = np.maximum.accumulate(by_block[:, ::-1], axis=1)[:, ::-1].ravel()
+    return np.asarray(np.maximum(to_come[first], so_far[first + N - 1]))
+
+
+def mean(variances: FloatArray, N: int, L: ArrayLike) -> FloatArray:
+    """The mean over the ages L .. N + L - 1, for each L."""
+    first = np.asarray(L)
+    sums = np.concatenate([[0.0], np.cumsum(variances)])
+    return np.asarray((sums[first + N] - sums[first]) / N)

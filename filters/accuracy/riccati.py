@@ -1,0 +1,92 @@
+"""What the covariance of a periodic filter settles to, by doubling: 2^i cycles in i iterations, for many N at once."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from filters.arrays import Flags, FloatArray
+
+MOST_DOUBLINGS = 64
+SETTLED = 1e-13
+"""So little, of itself, a variance changes by in as many cycles as went before."""
+
+
+def steady_prior(Phi: FloatArray, Q: FloatArray, H: FloatArray, R: FloatArray) -> FloatArray:
+    """P^- (..., n, n) just before a measurement, once it no longer changes: the filter's own, with the best gain.
+
+    Phi, Q (..., n, n): over a cycle; H (p, n), R (p, p): of the measurement that ends it. nan where it does not settle.
+
+    The structure-preserving doubling algorithm of E. K.-W. Chu, H.-Y. Fan, W.-W. Lin and C.-S. Wang,
+    Structure-preserving algorithms for periodic discrete-time algebraic Riccati equations, International Journal of
+    Control 77, 2004.
+    States are scaled by their noise, for units may span twenty decades.
+    """
+    n = Phi.shape[-1]
+    scale = _scale(Q)
+    A = np.swapaxes(Phi * scale / scale[:, None], -1, -2)
+    P = Q / np.outer(scale, scale)
+    Hs = H * scale
+    G = np.broadcast_to(Hs.T @ np.linalg.solve(R, Hs), P.shape)
+    identity = np.eye(n)
+    settled: Flags = np.zeros(P.shape[:-2], dtype=bool)
+    with np.errstate(all="ignore"):
+        for _ in range(MOST_DOUBLINGS):
+            inverse = np.linalg.inv(identity + G @ P)
+            left = A @ inverse
+            At = np.swapaxes(A, -1, -2)
+            step = At @ P @ inverse @ A
+            G = _symmetric(G + left @ G @ At)
+            A = left @ A
+            P = _symmetric(P + step)
+            variances, change = _diagonal(P), _diagonal(step)
+            settled = np.asarray((np.abs(change) <= SETTLED * np.abs(variances)).all(axis=-1))
+            if (settled | ~np.isfinite(variances).all(axis=-1)).all():
+                break
+    P = np.where(settled[..., None, None], P, np.nan)
+    return np.asarray(P * np.outer(scale, scale))
+
+
+def posterior(P: FloatArray, H: FloatArray, R: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """The best gain (..., n, p) and P^+ (..., n, n) after a measurement, Eq. (9) and Joseph's form of Eq. (11)."""
+    K = gain(P, H, R)
+    return K, updated(P, K, H, R)
+
+
+def gain(P: FloatArray, H: FloatArray, R: FloatArray) -> FloatArray:
+    """Eq. (9)."""
+    PHt = P @ H.T
+    return np.swapaxes(np.linalg.solve(H @ PHt + R, np.swapaxes(PHt, -1, -2)), -1, -2)
+
+
+def updated(P: FloatArray, K: FloatArray, H: FloatArray, R: FloatArray) -> FloatArray:
+    """What any gain makes of P: (I - K H) P (I - K H)^T + K R K^T."""
+    A = np.eye(P.shape[-1]) - K @ H
+    return _symmetric(A @ P @ np.swapaxes(A, -1, -2) + K @ R @ np.swapaxes(K, -1, -2))
+
+
+def steady_state(A: FloatArray, W: FloatArray) -> FloatArray:
+    """X (n, n) of X = A X A^T + W, by doubling. nan where rho(A) >= 1."""
+    if not np.abs(np.linalg.eigvals(A)).max(initial=0.0) < 1.0:
+        return np.full_like(W, np.nan)
+    X = W
+    for _ in range(MOST_DOUBLINGS):
+        step = A @ X @ A.T
+        X = _symmetric(X + step)
+        A = A @ A
+        if (np.abs(np.diag(step)) <= 1e-17 * np.abs(np.diag(X))).all():
+            break
+    return X
+
+
+def _scale(Q: FloatArray) -> FloatArray:
+    """One of each state (n,): the largest deviation that noise gives it in a cycle, 1 where there is none."""
+    variances = _diagonal(Q).reshape(-1, Q.shape[-1]).max(axis=0)
+    return np.asarray(np.where(variances > 0.0, np.sqrt(variances), 1.0))
+
+
+def _diagonal(matrices: FloatArray) -> FloatArray:
+    return np.diagonal(matrices, axis1=-2, axis2=-1)
+
+
+def _symmetric(matrices: FloatArray) -> FloatArray:
+    return np.asarray(0.5 * (matrices + np.swapaxes(matrices, -1, -2)))

@@ -1,0 +1,78 @@
+"""What no measurement ever says: it is left out where the outputs do not depend on it, and refused where they do.
+
+Hovering, an attitude filter's yaw is never seen: its variance grows without bound while the position is right.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from filters.accuracy.model import LinearModel
+from filters.accuracy.prefix import prefix
+from filters.arrays import FloatArray
+
+NOTHING = 1e-12
+"""A singular value of scaled matrices that is zero but for rounding."""
+
+
+def visible(model: LinearModel, outputs: FloatArray) -> tuple[LinearModel, FloatArray]:
+    """The model and its outputs C without the modes that no measurement says anything of and that do not decay.
+
+    What is left is a model of its own, for those modes act on nothing else that is measured: exact.
+    Raises ValueError where the outputs depend on such a mode (test of Popov, Belevitch and Hautus): their variance has
+    no bound.
+    """
+    scale = _scale(model)
+    Phi, H, C = model.Phi * scale / scale[:, None], model.H * scale, outputs * scale
+    hidden = _undecaying(Phi, _unobservable(Phi, H))
+    if not hidden.shape[1]:
+        return model, outputs
+    if np.linalg.norm(C @ hidden) > 1e-9 * np.linalg.norm(C):
+        mode = hidden[:, np.linalg.norm(C @ hidden, axis=0).argmax()]
+        states = [f"state {i}" for i in np.argsort(-np.abs(mode)) if abs(mode[i]) > 0.1 * np.abs(mode).max()]
+        raise ValueError(
+            f"no measurement ever says anything of a mode of {', '.join(states)} that does not decay, and the outputs "
+            f"depend on it: their variance grows without bound; measure it, or ask for other outputs"
+        )
+    kept = np.linalg.svd(hidden)[0][:, hidden.shape[1] :]  # orthonormal, across what is hidden
+    down, up = kept.T / scale, scale[:, None] * kept
+    left = LinearModel(down @ model.Phi @ up, down @ model.Q @ down.T, model.H @ up, model.R)
+    return left, outputs @ up
+
+
+def _unobservable(Phi: FloatArray, H: FloatArray) -> FloatArray:
+    """An orthonormal basis (n, hidden) of the largest subspace that H does not see and Phi does not leave."""
+    basis = _null(H / np.linalg.norm(H, axis=1, keepdims=True).clip(np.finfo(float).tiny))
+    moved = Phi - np.eye(len(Phi))  # leaves the same subspaces
+    moved /= max(np.abs(moved).max(), np.finfo(float).tiny)
+    while basis.shape[1]:
+        beyond = moved @ basis
+        beyond -= basis @ (basis.T @ beyond)
+        kept = _null(beyond)
+        if kept.shape[1] == basis.shape[1]:
+            return basis
+        basis = basis @ kept
+    return basis
+
+
+def _undecaying(Phi: FloatArray, hidden: FloatArray) -> FloatArray:
+    if not hidden.shape[1]:
+        return hidden
+    from scipy.linalg import schur
+
+    _, vectors, lasting = schur(
+        hidden.T @ Phi @ hidden, output="real", sort=lambda re, im: bool(np.hypot(re, im) >= 1 - 1e-9)
+    )
+    return np.asarray(hidden @ vectors[:, :lasting])
+
+
+def _null(matrix: FloatArray) -> FloatArray:
+    """An orthonormal basis of what the matrix makes zero."""
+    _, values, rows = np.linalg.svd(matrix)
+    return np.asarray(rows[np.count_nonzero(values > NOTHING) :].T)
+
+
+def _scale(model: LinearModel) -> FloatArray:
+    """One of each state: the deviation that noise gives it in some steps, 1 where there is none."""
+    variances = np.diag(prefix(model, 2 * model.states).Q[-1])
+    return np.asarray(np.where(variances > 0.0, np.sqrt(variances), 1.0))
