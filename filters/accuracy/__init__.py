@@ -1,1 +1,49 @@
 """What a delayed measurement is worth at the output: exact covariances, by age. No schedule, only where it lands."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from filters.lazy import lazily
+
+if TYPE_CHECKING:
+    from filters.accuracy.approximate import discarded, with_divided_gain, with_low_rate_noise, with_wrong_noise
+    from filters.accuracy.fresh import fused_as_fresh
+    from filters.accuracy.landing import Latest, landing_within, latest_landing
+    from filters.accuracy.lossless import lossless, lossless_each
+    from filters.accuracy.model import LinearModel, linear_model, linearised
+    from filters.accuracy.outcome import Accuracy
+    from filters.accuracy.shipped import SHIPPED_MODELS, ShippedModel, shipped_model
+
+__all__ = [
+    "SHIPPED_MODELS",
+    "Accuracy",
+    "Latest",
+    "LinearModel",
+    "ShippedModel",
+    "discarded",
+    "fused_as_fresh",
+    "landing_within",
+    "latest_landing",
+    "linear_model",
+    "linearised",
+    "lossless",
+    "lossless_each",
+    "shipped_model",
+    "with_divided_gain",
+    "with_low_rate_noise",
+    "with_wrong_noise",
+]
+
+__getattr__, __dir__ = lazily(
+    __name__,
+    {
+        "filters.accuracy.approximate": "discarded with_divided_gain with_low_rate_noise with_wrong_noise",
+        "filters.accuracy.fresh": "fused_as_fresh",
+        "filters.accuracy.landing": "Latest landing_within latest_landing",
+        "filters.accuracy.lossless": "lossless lossless_each",
+        "filters.accuracy.model": "LinearModel linear_model linearised",
+        "filters.accuracy.outcome": "Accuracy",
+        "filters.accuracy.shipped": "SHIPPED_MODELS ShippedModel shipped_model",
+    },
+)

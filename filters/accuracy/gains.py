@@ -6,7 +6,8 @@ X = A X A^T + Phi_N K R K^T Phi_N^T + Q_N with A = Phi_N (I - K H).
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from collections.abc import Callable
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -17,17 +18,23 @@ from filters.accuracy.riccati import gain, steady_prior, steady_state, updated
 from filters.accuracy.visible import visible
 from filters.arrays import FloatArray
 
+CycleNoise: TypeAlias = Callable[[LinearModel, int], FloatArray]
+"""What a filter takes for the noise of N steps, (n, n)."""
+
 
 class Assumed(NamedTuple):
     """A filter with such a gain in its periodic regime.
 
-    K (n, p); radius: spectral radius of the error from cycle to cycle, unstable from 1 on; variances, believed (ages,):
-    tr V_N(a) as it is, and as the filter's own P says; jumps (ages,): as in `Steady`. Without `believed`, all nan where
-    it is unstable.
+    K (n, p); radius: spectral radius of the error from cycle to cycle, unstable from 1 on; before, believed_before
+    (outputs, outputs): C P^-_N C^T as it is, and as the filter's own P says; variances, believed (ages,): tr V_N(a) so,
+    with the true noise since the measurement; jumps (ages,): as in `Steady`. All that is true is nan where the radius
+    is 1 or more.
     """
 
     K: FloatArray
     radius: float
+    before: FloatArray
+    believed_before: FloatArray
     variances: FloatArray
     believed: FloatArray
     jumps: FloatArray
@@ -49,22 +56,28 @@ def with_assumed(
     outputs: FloatArray,
     N: int,
     oldest: int,
-    cycle_noise: FloatArray | None = None,
+    cycle_noise: CycleNoise | None = None,
     R: FloatArray | None = None,
+    divided: int = 1,
 ) -> Assumed:
-    """cycle_noise (n, n): what the filter takes for the noise of N steps; R (p, p): what it takes for that of a
-    measurement; the true ones if not given. Raises ValueError as `steady` does."""
+    """cycle_noise: of the model that is left of it (`visible`); R (p, p): what the filter takes for the noise of a
+    measurement; the true ones if not given. divided: by how much the gain is divided.
+
+    With divided = n the cycle is one step of the n that the gain is computed over (K / n, the multirate gain).
+    Raises ValueError as `steady` does.
+    """
     reduced, C = visible(model, outputs)
-    over = prefix(reduced, max(N, oldest))
+    over = prefix(reduced, max(N * divided, oldest))
     Phi, H = over.Phi[N], reduced.H
-    assumed_Q = over.Q[N] if cycle_noise is None else cycle_noise
-    if cycle_noise is not None and reduced.states != model.states:
-        raise ValueError("an assumed noise, and a mode of the model that no measurement sees: leave that mode out")
+    assumed_Q = over.Q[N * divided] if cycle_noise is None else cycle_noise(reduced, N)
     assumed_R = reduced.R if R is None else R
-    prior = steady_prior(Phi, assumed_Q, H, assumed_R)
+    prior = steady_prior(over.Phi[N * divided], assumed_Q, H, assumed_R)
     if not np.isfinite(prior).all():
-        raise ValueError(f"the gain does not settle with a measurement every N={N} steps: take another N")
-    K = gain(prior, H, assumed_R)
+        raise ValueError(
+            f"the gain does not settle with a measurement every N={N} steps: at that interval, or with that noise, a "
+            f"mode of the model goes unseen; take another N"
+        )
+    K = gain(prior, H, assumed_R) / divided
     A = Phi @ (np.eye(reduced.states) - K @ H)
     true_prior = steady_state(A, Phi @ K @ reduced.R @ K.T @ Phi.T + over.Q[N])
     after = updated(true_prior, K, H, reduced.R)
@@ -72,6 +85,8 @@ def with_assumed(
     return Assumed(
         K,
         float(np.abs(np.linalg.eigvals(A)).max()),
+        C @ true_prior @ C.T,
+        C @ prior @ C.T,
         by_age(over, C, after[None], oldest)[0] + noise,
         by_age(over, C, updated(prior, K, H, assumed_R)[None], oldest)[0] + noise,
         by_age(over, C, (K @ (H @ true_prior @ H.T + reduced.R) @ K.T)[None], oldest)[0],

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -16,32 +17,35 @@ from filters.system import System
 class LinearModel(NamedTuple):
     """x_{j+1} = Phi x_j + w_j, y_k = H x_k + nu_k, w ~ N(0, Q), nu ~ N(0, R) (Steffes 2014, Eqs. 1, 2).
 
-    Phi, Q (n, n); H (p, n); R (p, p).
+    Phi, Q (n, n); H (p, n); R (p, p). names: of the states, for messages; none if they have none.
     """
 
     Phi: FloatArray
     Q: FloatArray
     H: FloatArray
     R: FloatArray
+    names: tuple[str, ...] = ()
 
     @property
     def states(self) -> int:
         return len(self.Phi)
 
 
-def linear_model(Phi: ArrayLike, Q: ArrayLike, H: ArrayLike, R: ArrayLike) -> LinearModel:
+def linear_model(Phi: ArrayLike, Q: ArrayLike, H: ArrayLike, R: ArrayLike, names: Sequence[str] = ()) -> LinearModel:
     """Raises ValueError, naming the matrix, for a wrong shape, what is not finite, and a noise that is no covariance; R
     must be positive definite."""
-    model = LinearModel(as_array("Phi", Phi), as_array("Q", Q), as_array("H", H), as_array("R", R))
+    model = LinearModel(as_array("Phi", Phi), as_array("Q", Q), as_array("H", H), as_array("R", R), tuple(names))
     n = len(model.Phi) if model.Phi.ndim == 2 else 0
     p = len(model.H) if model.H.ndim == 2 else 0
     needed = {"Phi": (n, n), "Q": (n, n), "H": (p, n), "R": (p, p)}
-    for name, matrix in model._asdict().items():
+    for name, matrix in zip(needed, model[:4], strict=True):
         if 0 in matrix.shape or matrix.shape != needed[name]:
             raise ValueError(f"{name} has shape {matrix.shape}, needed is {needed[name]}: Phi (n, n), H (p, n)")
         if not np.isfinite(matrix).all():
             at = ", ".join(map(str, np.argwhere(~np.isfinite(matrix))[0]))
             raise ValueError(f"{name} holds a value that is not finite, at [{at}]; give numbers")
+    if names and len(names) != n:
+        raise ValueError(f"names={tuple(names)!r} are {len(names)}, the model has {n} states; give one for each")
     check_covariance("Q", model.Q)
     check_measurement_noise(model.R, 0)
     return model

@@ -29,7 +29,8 @@ def visible(model: LinearModel, outputs: FloatArray) -> tuple[LinearModel, Float
         return model, outputs
     if np.linalg.norm(C @ hidden) > 1e-9 * np.linalg.norm(C):
         mode = hidden[:, np.linalg.norm(C @ hidden, axis=0).argmax()]
-        states = [f"state {i}" for i in np.argsort(-np.abs(mode)) if abs(mode[i]) > 0.1 * np.abs(mode).max()]
+        names = model.names or tuple(f"state {i}" for i in range(model.states))
+        states = [names[i] for i in np.argsort(-np.abs(mode)) if abs(mode[i]) > 0.1 * np.abs(mode).max()]
         raise ValueError(
             f"no measurement ever says anything of a mode of {', '.join(states)} that does not decay, and the outputs "
             f"depend on it: their variance grows without bound; measure it, or ask for other outputs"
@@ -38,6 +39,20 @@ def visible(model: LinearModel, outputs: FloatArray) -> tuple[LinearModel, Float
     down, up = kept.T / scale, scale[:, None] * kept
     left = LinearModel(down @ model.Phi @ up, down @ model.Q @ down.T, model.H @ up, model.R)
     return left, outputs @ up
+
+
+def seen(model: LinearModel, outputs: FloatArray) -> tuple[LinearModel, FloatArray]:
+    """The model and its outputs C without what the outputs do not depend on; without measurements, (0, n) and (0, 0).
+
+    What is left is a model of its own, for it is acted on by nothing else.
+    """
+    scale = _scale(model)
+    Phi, C = model.Phi * scale / scale[:, None], outputs * scale
+    hidden = _unobservable(Phi, C)
+    kept = np.linalg.svd(hidden)[0][:, hidden.shape[1] :] if hidden.shape[1] else np.eye(model.states)
+    down, up = kept.T / scale, scale[:, None] * kept
+    part = LinearModel(down @ model.Phi @ up, down @ model.Q @ down.T, np.empty((0, kept.shape[1])), np.empty((0, 0)))
+    return part, outputs @ up
 
 
 def _unobservable(Phi: FloatArray, H: FloatArray) -> FloatArray:

@@ -1,0 +1,121 @@
+"""What a filter with late measurements is worth at the output: one record, whatever the method."""
+
+from __future__ import annotations
+
+from math import sqrt
+from typing import Literal, NamedTuple, TypeAlias
+
+import numpy as np
+
+from filters.arrays import FloatArray
+
+Verdict: TypeAlias = Literal["exact", "approximate", "unstable", "diverges"]
+
+
+class Accuracy(NamedTuple):
+    """The periodic regime. All of an output are standard deviations in its unit, of several rows together: the square
+    root of the trace.
+
+    N: steps between measurements. L: steps from a measurement to the output in which it is first (the reaction time);
+        None where none ever is.
+    oldest, mean_age: steps since the newest measurement in an output was taken (the data age); its least is L.
+    worst, rms: of the worst step of a cycle, and the root of the mean over its steps.
+    no_delay: worst of the same model with the best gain and L = 0.
+    jump: how far the output moves when a correction lands; where it moves in every step, the largest.
+    believed: worst that the filter's own covariance says; None where that is the truth.
+    bias: the largest norm of the mean error. total: the worst root of variance and squared bias.
+    radius: spectral radius of the error from cycle to cycle where it may be unstable, else None.
+    verdict: "exact": as good as the age of its measurements allows; "approximate"; "unstable": the error grows because
+        of the filter, "diverges": because nothing corrects it. In the last two the figures are infinite.
+    """
+
+    N: int
+    L: int | None
+    oldest: int | None
+    mean_age: float | None
+    worst: float
+    rms: float
+    no_delay: float
+    jump: float
+    believed: float | None
+    bias: float
+    total: float
+    radius: float | None
+    verdict: Verdict
+
+    @property
+    def over_no_delay(self) -> float:
+        """By how much the worst is above that without delay: 0.04 is 4 %."""
+        return self.total / self.no_delay - 1.0 if self.no_delay > 0.0 else 0.0
+
+
+def of_cycle(
+    N: int,
+    L: int,
+    variances: FloatArray,
+    no_delay: float,
+    jump: float,
+    *,
+    believed: float | None = None,
+    means: FloatArray | None = None,
+    radius: float | None = None,
+    verdict: Verdict = "exact",
+) -> Accuracy:
+    """The record, from the variance of the output in each step of a cycle (N,).
+
+    no_delay, jump, believed: variances too. means (N, outputs): the mean error in each step.
+    """
+    if radius is not None and not radius < 1.0:
+        return _without_bound(N, L, no_delay, believed, radius, "unstable")
+    squared = np.zeros(len(variances)) if means is None else np.square(means).sum(axis=-1)
+    return Accuracy(
+        N=N,
+        L=L,
+        oldest=N + L - 1,
+        mean_age=L + (N - 1) / 2,
+        worst=_deviation(variances.max()),
+        rms=_deviation(variances.mean()),
+        no_delay=_deviation(no_delay),
+        jump=_deviation(jump),
+        believed=None if believed is None else _deviation(believed),
+        bias=_deviation(squared.max()),
+        total=_deviation((variances + squared).max()),
+        radius=radius,
+        verdict=verdict,
+    )
+
+
+def diverging(N: int, no_delay: float, radius: float) -> Accuracy:
+    """The record of a filter that nothing corrects. no_delay: a variance."""
+    return _without_bound(N, None, no_delay, None, radius, "diverges")
+
+
+def check_steps(name: str, value: int, least: int) -> None:
+    """Raises ValueError, naming it, unless it is a whole number of steps and at least so many."""
+    if isinstance(value, bool) or not isinstance(value, int | np.integer) or value < least:
+        raise ValueError(f"{name}={value!r} must be a whole number of steps, at least {least}")
+
+
+def _without_bound(
+    N: int, L: int | None, no_delay: float, believed: float | None, radius: float, verdict: Verdict
+) -> Accuracy:
+    infinite = float("inf")
+    return Accuracy(
+        N=N,
+        L=L,
+        oldest=None if L is None else N + L - 1,
+        mean_age=None if L is None else L + (N - 1) / 2,
+        worst=infinite,
+        rms=infinite,
+        no_delay=_deviation(no_delay),
+        jump=infinite if L is not None else 0.0,
+        believed=None if believed is None else _deviation(believed),
+        bias=0.0,
+        total=infinite,
+        radius=radius,
+        verdict=verdict,
+    )
+
+
+def _deviation(variance: float) -> float:
+    return sqrt(max(float(variance), 0.0))
