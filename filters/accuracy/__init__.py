@@ -8,11 +8,13 @@ from filters.lazy import lazily
 
 if TYPE_CHECKING:
     from filters.accuracy.approximate import discarded, with_divided_gain, with_low_rate_noise, with_wrong_noise
+    from filters.accuracy.exact import lossless, lossless_each
     from filters.accuracy.fresh import fused_as_fresh
+    from filters.accuracy.in_flight import uncompensated
     from filters.accuracy.landing import Latest, landing_within, latest_landing
-    from filters.accuracy.lossless import lossless, lossless_each
     from filters.accuracy.model import LinearModel, linear_model, linearised
     from filters.accuracy.outcome import Accuracy
+    from filters.accuracy.predictor import px4_predictor
     from filters.accuracy.shipped import SHIPPED_MODELS, ShippedModel, shipped_model
 
 __all__ = [
@@ -29,7 +31,9 @@ __all__ = [
     "linearised",
     "lossless",
     "lossless_each",
+    "px4_predictor",
     "shipped_model",
+    "uncompensated",
     "with_divided_gain",
     "with_low_rate_noise",
     "with_wrong_noise",
@@ -41,9 +45,11 @@ __getattr__, __dir__ = lazily(
         "filters.accuracy.approximate": "discarded with_divided_gain with_low_rate_noise with_wrong_noise",
         "filters.accuracy.fresh": "fused_as_fresh",
         "filters.accuracy.landing": "Latest landing_within latest_landing",
-        "filters.accuracy.lossless": "lossless lossless_each",
+        "filters.accuracy.exact": "lossless lossless_each",
         "filters.accuracy.model": "LinearModel linear_model linearised",
         "filters.accuracy.outcome": "Accuracy",
+        "filters.accuracy.predictor": "px4_predictor",
         "filters.accuracy.shipped": "SHIPPED_MODELS ShippedModel shipped_model",
+        "filters.accuracy.in_flight": "uncompensated",
     },
 )

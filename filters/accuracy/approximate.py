@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from filters.accuracy.exact import lossless
 from filters.accuracy.gains import Assumed, halved_noise, summed_noise, with_assumed
-from filters.accuracy.lossless import lossless
 from filters.accuracy.model import LinearModel, output_rows
 from filters.accuracy.outcome import Accuracy, check_steps, diverging, of_cycle
 from filters.accuracy.riccati import steady_state

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from filters.accuracy.lossless import lossless
+from filters.accuracy.exact import lossless
 from filters.accuracy.model import LinearModel, output_rows
 from filters.accuracy.outcome import Accuracy, check_steps, of_cycle
 from filters.accuracy.periodic import steady
