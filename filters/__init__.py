@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from filters.lazy import lazily
 
 if TYPE_CHECKING:
-    from filters import modular, multirate_gain
+    from filters import accuracy, modular, multirate_gain
     from filters.backends.counted import Operations, count
     from filters.delayed import dual_rate, larsen, recalculate, standard
     from filters.error_covariance import true_covariance
@@ -20,6 +20,7 @@ __all__ = [
     "History",
     "Operations",
     "System",
+    "accuracy",
     "count",
     "dual_rate",
     "example_system",
@@ -35,7 +36,7 @@ __all__ = [
 __getattr__, __dir__ = lazily(
     __name__,
     {
-        "filters": "modular multirate_gain",
+        "filters": "accuracy modular multirate_gain",
         "filters.backends.counted": "Operations count",
         "filters.delayed": "dual_rate larsen recalculate standard",
         "filters.error_covariance": "true_covariance",

@@ -15,7 +15,7 @@ PUBLIC = {
     "on_part select least_speed achieved_l staircase simulate Schedule Slice fit Fit Sensor Scenario read_scenario "
     "run_scenario Outcome open_trace InputError",
     "filters": "System linear_system example_system standard recalculate larsen dual_rate multirate_gain History "
-    "true_covariance modular count Operations",
+    "true_covariance modular count Operations accuracy",
     "studies": "describe_filter measure measure_filter run_sweep",
     "reports": "gantt method_panel scenario_panel save",
 }

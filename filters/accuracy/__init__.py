@@ -8,21 +8,32 @@ from filters.lazy import lazily
 
 if TYPE_CHECKING:
     from filters.accuracy.approximate import discarded, with_divided_gain, with_low_rate_noise, with_wrong_noise
+    from filters.accuracy.compose import Cycles, applied, composed, one_cycle, repeated
+    from filters.accuracy.designs import Deviations, lossless_designs
     from filters.accuracy.exact import lossless, lossless_each
     from filters.accuracy.fresh import fused_as_fresh
     from filters.accuracy.in_flight import uncompensated
     from filters.accuracy.landing import Latest, landing_within, latest_landing
-    from filters.accuracy.model import LinearModel, linear_model, linearised
+    from filters.accuracy.model import LinearModel, linear_model, linearised, output_rows
     from filters.accuracy.outcome import Accuracy
     from filters.accuracy.predictor import px4_predictor
     from filters.accuracy.shipped import SHIPPED_MODELS, ShippedModel, shipped_model
+    from filters.accuracy.trace import Along, Landing, Spread, along, spread
 
 __all__ = [
     "SHIPPED_MODELS",
     "Accuracy",
+    "Along",
+    "Cycles",
+    "Deviations",
+    "Landing",
     "Latest",
     "LinearModel",
     "ShippedModel",
+    "Spread",
+    "along",
+    "applied",
+    "composed",
     "discarded",
     "fused_as_fresh",
     "landing_within",
@@ -30,9 +41,14 @@ __all__ = [
     "linear_model",
     "linearised",
     "lossless",
+    "lossless_designs",
     "lossless_each",
+    "one_cycle",
+    "output_rows",
     "px4_predictor",
+    "repeated",
     "shipped_model",
+    "spread",
     "uncompensated",
     "with_divided_gain",
     "with_low_rate_noise",
@@ -43,13 +59,16 @@ __getattr__, __dir__ = lazily(
     __name__,
     {
         "filters.accuracy.approximate": "discarded with_divided_gain with_low_rate_noise with_wrong_noise",
-        "filters.accuracy.fresh": "fused_as_fresh",
-        "filters.accuracy.landing": "Latest landing_within latest_landing",
+        "filters.accuracy.compose": "Cycles applied composed one_cycle repeated",
+        "filters.accuracy.designs": "Deviations lossless_designs",
         "filters.accuracy.exact": "lossless lossless_each",
-        "filters.accuracy.model": "LinearModel linear_model linearised",
+        "filters.accuracy.fresh": "fused_as_fresh",
+        "filters.accuracy.in_flight": "uncompensated",
+        "filters.accuracy.landing": "Latest landing_within latest_landing",
+        "filters.accuracy.model": "LinearModel linear_model linearised output_rows",
         "filters.accuracy.outcome": "Accuracy",
         "filters.accuracy.predictor": "px4_predictor",
         "filters.accuracy.shipped": "SHIPPED_MODELS ShippedModel shipped_model",
-        "filters.accuracy.in_flight": "uncompensated",
+        "filters.accuracy.trace": "Along Landing Spread along spread",
     },
 )
