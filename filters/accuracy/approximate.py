@@ -9,7 +9,7 @@ from filters.accuracy.exact import lossless
 from filters.accuracy.gains import Assumed, halved_noise, summed_noise, with_assumed
 from filters.accuracy.model import LinearModel, output_rows
 from filters.accuracy.outcome import Accuracy, check_steps, diverging, of_cycle
-from filters.accuracy.riccati import steady_state
+from filters.accuracy.riccati import below_one, steady_state
 from filters.accuracy.visible import seen
 from filters.arrays import FloatArray, as_array
 from filters.choice import check_choice
@@ -62,7 +62,7 @@ def discarded(model: LinearModel, outputs: ArrayLike, N: int) -> Accuracy:
     no_delay = lossless(model, C, N, 0).no_delay
     part, rows = seen(model, C)
     radius = float(np.abs(np.linalg.eigvals(part.Phi)).max())
-    if not radius < 1.0:
+    if not below_one(radius):
         return diverging(N, no_delay**2, radius)
     variances = np.array([np.trace(rows @ steady_state(part.Phi, part.Q) @ rows.T)])
     settled = of_cycle(1, 0, variances, no_delay**2, 0.0, radius=radius, verdict="approximate")

@@ -7,6 +7,7 @@ from typing import Literal, NamedTuple, TypeAlias
 
 import numpy as np
 
+from filters.accuracy.riccati import below_one
 from filters.arrays import FloatArray
 
 Verdict: TypeAlias = Literal["exact", "approximate", "unstable", "diverges"]
@@ -65,7 +66,7 @@ def of_cycle(
 
     no_delay, jump, believed: variances too. means (N, outputs): the mean error in each step.
     """
-    if radius is not None and not radius < 1.0:
+    if radius is not None and not below_one(radius):
         return _without_bound(N, L, no_delay, believed, radius, "unstable")
     squared = np.zeros(len(variances)) if means is None else np.square(means).sum(axis=-1)
     return Accuracy(

@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike
 from filters.accuracy.model import LinearModel, output_rows
 from filters.accuracy.outcome import Accuracy, check_steps, of_cycle
 from filters.accuracy.periodic import steady
-from filters.accuracy.riccati import gain
+from filters.accuracy.riccati import below_one, gain
 from filters.accuracy.visible import visible
 from filters.arrays import FloatArray
 
@@ -46,7 +46,7 @@ def px4_predictor(model: LinearModel, outputs: ArrayLike, N: int, D: int, g: flo
         float(np.abs(np.linalg.eigvals(over_N @ (np.eye(left.states) - K @ left.H))).max()),
     )
     added, moved = np.full(N, np.nan), 0.0
-    if radius < 1.0:
+    if below_one(radius):
         added, moves = np.zeros(N), np.zeros(N)
         for output, move in _cycles(left.Phi, C, N, D, g, kept):
             added += output

@@ -64,9 +64,14 @@ def updated(P: FloatArray, K: FloatArray, H: FloatArray, R: FloatArray) -> Float
     return _symmetric(A @ P @ np.swapaxes(A, -1, -2) + K @ R @ np.swapaxes(K, -1, -2))
 
 
+def below_one(radius: float) -> bool:
+    """Whether a spectral radius is, beyond rounding, so that something settles."""
+    return radius < 1.0 - 1e-9
+
+
 def steady_state(A: FloatArray, W: FloatArray) -> FloatArray:
-    """X (n, n) of X = A X A^T + W, by doubling. nan where rho(A) >= 1."""
-    if not np.abs(np.linalg.eigvals(A)).max(initial=0.0) < 1.0:
+    """X (n, n) of X = A X A^T + W, by doubling. nan where rho(A) is not `below_one`."""
+    if not below_one(float(np.abs(np.linalg.eigvals(A)).max(initial=0.0))):
         return np.full_like(W, np.nan)
     X = W
     for _ in range(MOST_DOUBLINGS):

@@ -38,7 +38,7 @@ class Regime(NamedTuple):
 
     radius: spectral radius of a cycle. variances (steps,): trace of the output's covariance. means (steps, outputs).
     moves (steps,): variance by which the corrections of that step move the output, the largest of them. All but the
-    radius nan where it is 1 or more.
+    radius nan where it is 1 or more, up to rounding.
     """
 
     radius: float
@@ -57,7 +57,7 @@ def regime(cycle: Cycle) -> Regime:
         A = operation.A @ A
         X, mean = _applied(operation, X, mean)
     radius = float(np.abs(np.linalg.eigvals(A)).max())
-    if not radius < 1.0:
+    if not radius < 1.0 - 1e-9:
         nothing = np.full(steps, np.nan)
         return Regime(radius, nothing, np.full((steps, len(cycle.C)), np.nan), nothing)
     mean = np.asarray(np.linalg.solve(np.eye(d) - A, mean), dtype=np.float64)

@@ -1,0 +1,52 @@
+"""PX4's output predictor: the closed form is what the engine finds on the stacked buffer."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+
+from filters.accuracy import LinearModel, lossless, px4_predictor, shipped_model
+from filters.accuracy.cyclic.engine import regime
+from filters.accuracy.cyclic.gain import settled_gain
+from filters.accuracy.cyclic.output_predictor import predicted_output
+from tests.filters.accuracy.cases import CV, all_outputs, models
+
+
+@given(models(), st.integers(1, 6), st.integers(0, 9), st.sampled_from([0.05, 0.2, 0.5, 1.0]))
+def test_it_is_what_the_engine_finds(model: LinearModel, N: int, D: int, g: float) -> None:
+    engine = regime(predicted_output(model, all_outputs(model), N, D, g, settled_gain(model, N)))
+    assume(not 0.995 < engine.radius < 1.01)
+    found = px4_predictor(model, all_outputs(model), N, D, g)
+    if engine.radius > 1:
+        assert found.verdict == "unstable"
+        return
+    assert found.verdict == "approximate"
+    np.testing.assert_allclose(found.worst**2, engine.variances.max(), rtol=1e-9)
+    np.testing.assert_allclose(found.rms**2, engine.variances.mean(), rtol=1e-9)
+    np.testing.assert_allclose(found.jump**2, engine.moves.max(), rtol=1e-9)
+
+
+def test_the_less_it_smooths_the_nearer_it_is_to_an_exact_replay() -> None:
+    exact = lossless(CV, [0], 10, 4)
+    costs = [px4_predictor(CV, [0], 10, 4, g).rms / exact.rms - 1 for g in (0.05, 0.1, 0.2, 0.4, 0.8)]
+    assert costs == sorted(costs, reverse=True)
+    assert all(cost > 0 for cost in costs)
+
+
+@pytest.mark.parametrize(("name", "worst", "rms"), [("ins-gps", "2.5", "5.7"), ("ins-rtk", "13.2", "27.7")])
+def test_what_it_costs_inertial_navigation_at_a_quarter_of_a_second(name: str, worst: str, rms: str) -> None:
+    """In per cent, of an exact replay from the same horizon; a Monte Carlo of 800 flights agrees."""
+    shipped = shipped_model(name)
+    model, states = shipped.model(400.0), shipped.outputs["position"].states
+    found = px4_predictor(model, states, shipped.N, shipped.M, 1 / (400 * 0.25))
+    exact = lossless(model, states, shipped.N, shipped.M)
+    assert f"{100 * (found.worst / exact.worst - 1):.1f}" == worst
+    assert f"{100 * (found.rms / exact.rms - 1):.1f}" == rms
+
+
+@pytest.mark.parametrize("g", [0.0, -1.0, np.nan, np.inf, "0.1"])
+def test_a_gain_that_is_none_is_refused(g: float) -> None:
+    with pytest.raises(ValueError, match=r"g=.* must be positive: it is the period of a step over the time constant"):
+        px4_predictor(CV, [0], 10, 4, g)
