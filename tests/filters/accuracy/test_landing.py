@@ -46,9 +46,7 @@ def test_an_accuracy_that_no_landing_reaches_is_refused_with_the_best_there_is()
 
 @pytest.mark.parametrize("within", [0.0, -1.0, np.nan, np.inf, True, "0.38"])
 def test_an_accuracy_that_is_none_is_refused(within: float) -> None:
-    with pytest.raises(
-        ValueError, match=r"within=.* must be a positive standard deviation, in the unit of"
-    ):
+    with pytest.raises(ValueError, match=r"within=.* must be a positive standard deviation, in the unit of"):
         latest_landing(CV, [0], 10, within, M=4)
 
 
