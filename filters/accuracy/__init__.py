@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from filters.accuracy.model import LinearModel, linear_model, linearised, output_rows
     from filters.accuracy.outcome import Accuracy
     from filters.accuracy.predictor import px4_predictor
-    from filters.accuracy.shipped import SHIPPED_MODELS, ShippedModel, shipped_model
+    from filters.accuracy.shipped import SHIPPED_MODELS, Output, ShippedModel, shipped_model
     from filters.accuracy.trace import Along, Landing, Spread, along, spread
 
 __all__ = [
@@ -29,6 +29,7 @@ __all__ = [
     "Landing",
     "Latest",
     "LinearModel",
+    "Output",
     "ShippedModel",
     "Spread",
     "along",
@@ -68,7 +69,7 @@ __getattr__, __dir__ = lazily(
         "filters.accuracy.model": "LinearModel linear_model linearised output_rows",
         "filters.accuracy.outcome": "Accuracy",
         "filters.accuracy.predictor": "px4_predictor",
-        "filters.accuracy.shipped": "SHIPPED_MODELS ShippedModel shipped_model",
+        "filters.accuracy.shipped": "SHIPPED_MODELS Output ShippedModel shipped_model",
         "filters.accuracy.trace": "Along Landing Spread along spread",
     },
 )

@@ -42,8 +42,16 @@ def steady_prior(Phi: FloatArray, Q: FloatArray, H: FloatArray, R: FloatArray) -
             settled = np.asarray((np.abs(change) <= SETTLED * np.abs(variances)).all(axis=-1))
             if (settled | ~np.isfinite(variances).all(axis=-1)).all():
                 break
+        P = _refined(P, Phi * scale / scale[:, None], Q / np.outer(scale, scale), Hs, R)
     P = np.where(settled[..., None, None], P, np.nan)
     return np.asarray(P * np.outer(scale, scale))
+
+
+def _refined(P: FloatArray, Phi: FloatArray, Q: FloatArray, H: FloatArray, R: FloatArray) -> FloatArray:
+    """One step of Newton's method (G. Hewer, 1971): what doubling has lost in rounding, near rho = 1, comes back."""
+    K = gain(P, H, R)
+    A, driven = Phi - Phi @ K @ H, Phi @ K
+    return _summed(A, driven @ R @ np.swapaxes(driven, -1, -2) + Q)
 
 
 def posterior(P: FloatArray, H: FloatArray, R: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -73,12 +81,17 @@ def steady_state(A: FloatArray, W: FloatArray) -> FloatArray:
     """X (n, n) of X = A X A^T + W, by doubling. nan where rho(A) is not `below_one`."""
     if not below_one(float(np.abs(np.linalg.eigvals(A)).max(initial=0.0))):
         return np.full_like(W, np.nan)
+    return _summed(A, W)
+
+
+def _summed(A: FloatArray, W: FloatArray) -> FloatArray:
+    """The sum of A^i W (A^i)^T over all i (..., n, n)."""
     X = W
     for _ in range(MOST_DOUBLINGS):
-        step = A @ X @ A.T
+        step = A @ X @ np.swapaxes(A, -1, -2)
         X = _symmetric(X + step)
         A = A @ A
-        if (np.abs(np.diag(step)) <= 1e-17 * np.abs(np.diag(X))).all():
+        if not (np.abs(_diagonal(step)) > 1e-17 * np.abs(_diagonal(X))).any():  # nor where it is nan
             break
     return X
 
