@@ -18,12 +18,14 @@ if TYPE_CHECKING:
     from filters.accuracy.outcome import Accuracy
     from filters.accuracy.predictor import px4_predictor
     from filters.accuracy.shipped import SHIPPED_MODELS, Output, ShippedModel, shipped_model
+    from filters.accuracy.stated_time import AtTime, after_cycles
     from filters.accuracy.trace import Along, Landing, Spread, along, spread
 
 __all__ = [
     "SHIPPED_MODELS",
     "Accuracy",
     "Along",
+    "AtTime",
     "Cycles",
     "Deviations",
     "Landing",
@@ -32,6 +34,7 @@ __all__ = [
     "Output",
     "ShippedModel",
     "Spread",
+    "after_cycles",
     "along",
     "applied",
     "composed",
@@ -70,6 +73,7 @@ __getattr__, __dir__ = lazily(
         "filters.accuracy.outcome": "Accuracy",
         "filters.accuracy.predictor": "px4_predictor",
         "filters.accuracy.shipped": "SHIPPED_MODELS Output ShippedModel shipped_model",
+        "filters.accuracy.stated_time": "AtTime after_cycles",
         "filters.accuracy.trace": "Along Landing Spread along spread",
     },
 )
