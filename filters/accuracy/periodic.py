@@ -42,22 +42,28 @@ def steady(model: LinearModel, outputs: FloatArray, N: ArrayLike, oldest: int) -
     """
     model, C = visible(model, outputs)
     several = np.atleast_1d(np.asarray(N, dtype=np.int64))
-    over = prefix(model, max(int(several.max()), oldest))
-    before = steady_prior(over.Phi[several], over.Q[several], model.H, model.R)
-    if not np.isfinite(before).all():
-        unsettled = several[~np.isfinite(before).all(axis=(1, 2))][0]
-        raise ValueError(
-            f"the covariance does not settle with a measurement every N={unsettled} steps: at that interval a mode of "
-            f"the model goes unseen; take another N"
+    with np.errstate(over="ignore", invalid="ignore"):
+        over = prefix(model, max(int(several.max()), oldest))
+        before = steady_prior(over.Phi[several], over.Q[several], model.H, model.R)
+        if not np.isfinite(before).all():
+            unsettled = several[~np.isfinite(before).all(axis=(1, 2))][0]
+            raise ValueError(
+                f"the covariance does not settle with a measurement every N={unsettled} steps: at that interval a mode "
+                f"of the model goes unseen; take another N"
+            )
+        _, after = posterior(before, model.H, model.R)
+        return Steady(
+            several,
+            before,
+            after,
+            _or_infinite(by_age(over, C, after, oldest) + noise_by_age(over, C, oldest)),
+            _or_infinite(by_age(over, C, before - after, oldest)),
         )
-    _, after = posterior(before, model.H, model.R)
-    return Steady(
-        several,
-        before,
-        after,
-        by_age(over, C, after, oldest) + noise_by_age(over, C, oldest),
-        by_age(over, C, before - after, oldest),
-    )
+
+
+def _or_infinite(variances: FloatArray) -> FloatArray:
+    """What is too large for a number is infinite, not undefined."""
+    return np.where(np.isnan(variances), np.inf, variances)
 
 
 def by_age(over: Prefix, C: FloatArray, P: FloatArray, oldest: int) -> FloatArray:

@@ -7,7 +7,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from scipy.linalg import solve_discrete_are
 
-from filters.accuracy import LinearModel, linear_model, lossless, lossless_each
+from filters.accuracy import LinearModel, latest_landing, linear_model, lossless, lossless_each
 from filters.accuracy.cyclic.engine import regime
 from filters.accuracy.cyclic.gain import over_cycle, settled_gain
 from filters.accuracy.cyclic.methods import carried, replayed, undelayed
@@ -95,3 +95,11 @@ def test_several_landings_at_once_are_those_one_by_one() -> None:
         alone = lossless(CV, [0, 1], 10, L)
         np.testing.assert_allclose(found[4:8], alone[4:8], rtol=1e-13)
         assert (found.N, found.L, found.oldest, found.mean_age) == (10, L, L + 9, L + 4.5)
+
+
+def test_what_is_too_large_for_a_number_is_infinite() -> None:
+    """A mode that doubles in a step, thousands of steps after the last measurement."""
+    model = linear_model([[2]], [[1]], [[1]], [[1]])
+    assert lossless(model, [0], 1, 2000).worst == np.inf
+    found = latest_landing(model, [0], 1, 1e9, 0, most=3000)
+    assert (found.L, found.bounded) == (29, True)
