@@ -48,10 +48,10 @@ def px4_predictor(model: LinearModel, outputs: ArrayLike, N: int, D: int, g: flo
     added, moved = np.full(N, np.nan), 0.0
     if below_one(radius):
         added, moves = np.zeros(N), np.zeros(N)
-        for output, move in _cycles(left.Phi, C, N, D, g, kept):
+        for output, move, still in _cycles(left.Phi, C, N, D, g, kept):
             added += output
             moves += move
-            if output.max() <= SETTLED * added.max():
+            if still <= SETTLED * added.max():
                 break
         moved = float(moves.max())
     return of_cycle(
@@ -68,9 +68,9 @@ def px4_predictor(model: LinearModel, outputs: ArrayLike, N: int, D: int, g: flo
 
 def _cycles(
     Phi: FloatArray, C: FloatArray, N: int, D: int, g: float, innovation: FloatArray
-) -> Iterator[tuple[FloatArray, FloatArray]]:
+) -> Iterator[tuple[FloatArray, FloatArray, float]]:
     """Of each cycle after an innovation (n, p), in each step (N,): variances of o less the exact replay, and of its
-    moves.
+    moves; and what is still to come, as the largest variance of all that is kept, for o itself may pass through zero.
 
     What is kept of o is moved as a whole, so each entry is kept less all moves until then.
     """
@@ -89,7 +89,8 @@ def _cycles(
             move = g * err + 0.1 * g**2 * total
             moved = moved + move
             outputs[step], moves[step] = np.square(C @ (kept[-1] + moved)).sum(), np.square(C @ move).sum()
-        yield outputs, moves
+        still = max(float(np.square(C @ part).sum()) for part in (*(each + moved for each in kept), g * total))
+        yield outputs, moves, still
 
 
 def _step(Phi: FloatArray, D: int, g: float) -> FloatArray:

@@ -6,6 +6,8 @@ import numpy as np
 from hypothesis import strategies as st
 
 from filters.accuracy import LinearModel, linear_model, shipped_model
+from filters.accuracy.periodic import steady
+from filters.accuracy.prefix import prefix
 from filters.arrays import FloatArray
 
 SCALAR = linear_model([[1]], [[0.01]], [[1]], [[1]])
@@ -37,6 +39,13 @@ def models(draw: st.DrawFn) -> LinearModel:
 
 def all_outputs(model: LinearModel) -> FloatArray:
     return np.eye(model.states)
+
+
+def seen_well(model: LinearModel, N: int) -> bool:
+    """Whether no mode is nearly unseen with a measurement every N steps: then its variance is large, and as many digits
+    of it are lost in rounding."""
+    before = steady(model, all_outputs(model), N, 0).before[0]
+    return bool(np.trace(before) < 100 * np.trace(prefix(model, N).Q[N]))
 
 
 def conditioned(model: LinearModel, before: FloatArray, N: int, age: int, cycles: int) -> FloatArray:

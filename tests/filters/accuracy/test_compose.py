@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from filters.accuracy import Cycles, LinearModel, applied, composed, linear_model, one_cycle, repeated
 from filters.accuracy.periodic import steady
 from filters.arrays import FloatArray
-from tests.filters.accuracy.cases import all_outputs, models, random_model
+from tests.filters.accuracy.cases import all_outputs, models, random_model, seen_well
 
 counts = st.integers(0, 12)
 
@@ -57,6 +57,7 @@ def test_repeated_by_doubling_is_one_after_the_other(model: LinearModel, N: int,
 
 @given(models(), st.integers(1, 6))
 def test_many_cycles_lead_to_the_periodic_regime(model: LinearModel, N: int) -> None:
+    assume(seen_well(model, N))
     found = applied(repeated(one_cycle(model, N), 2**20), np.eye(model.states))
     assert_equal(found, steady(model, all_outputs(model), N, 0).before[0], 1e-9)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from filters.accuracy import LinearModel, fused_as_fresh, lossless
@@ -12,11 +12,12 @@ from filters.accuracy.cyclic.engine import regime
 from filters.accuracy.cyclic.gain import settled_gain
 from filters.accuracy.cyclic.methods import undelayed
 from filters.accuracy.fresh import mean_error
-from tests.filters.accuracy.cases import CV, INS, POSITION, all_outputs, models
+from tests.filters.accuracy.cases import CV, INS, POSITION, all_outputs, models, seen_well
 
 
 @given(models(), st.integers(1, 8), st.integers(0, 12), st.floats(-10, 10))
 def test_it_is_what_the_engine_finds(model: LinearModel, N: int, M: int, moved: float) -> None:
+    assume(seen_well(model, N))
     displacement = np.linspace(moved, 1.0, len(model.H))
     engine = regime(undelayed(model, all_outputs(model), N, settled_gain(model, N), displacement))
     found = fused_as_fresh(model, all_outputs(model), N, M, displacement)

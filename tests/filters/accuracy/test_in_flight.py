@@ -11,11 +11,12 @@ from filters.accuracy import LinearModel, lossless, uncompensated
 from filters.accuracy.cyclic.engine import regime
 from filters.accuracy.cyclic.gain import settled_gain
 from filters.accuracy.cyclic.methods import carried
-from tests.filters.accuracy.cases import CV, all_outputs, models
+from tests.filters.accuracy.cases import CV, all_outputs, models, seen_well
 
 
 @given(models(), st.integers(1, 6), st.integers(0, 18))
 def test_what_is_not_compensated(model: LinearModel, N: int, L: int) -> None:
+    assume(seen_well(model, N))
     found = uncompensated(model, all_outputs(model), N, L)
     best = lossless(model, all_outputs(model), N, L)
     if L <= N:

@@ -11,11 +11,12 @@ from filters.accuracy import LinearModel, lossless, px4_predictor, shipped_model
 from filters.accuracy.cyclic.engine import regime
 from filters.accuracy.cyclic.gain import settled_gain
 from filters.accuracy.cyclic.output_predictor import predicted_output
-from tests.filters.accuracy.cases import CV, all_outputs, models
+from tests.filters.accuracy.cases import CV, all_outputs, models, seen_well
 
 
 @given(models(), st.integers(1, 6), st.integers(0, 9), st.sampled_from([0.05, 0.2, 0.5, 1.0]))
 def test_it_is_what_the_engine_finds(model: LinearModel, N: int, D: int, g: float) -> None:
+    assume(seen_well(model, N))
     engine = regime(predicted_output(model, all_outputs(model), N, D, g, settled_gain(model, N)))
     assume(not 0.995 < engine.radius < 1.01)
     found = px4_predictor(model, all_outputs(model), N, D, g)
