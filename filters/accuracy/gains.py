@@ -12,7 +12,7 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 
 from filters.accuracy.model import LinearModel
-from filters.accuracy.periodic import by_age, noise_by_age
+from filters.accuracy.periodic import by_age, noise_by_age, or_infinite
 from filters.accuracy.prefix import prefix
 from filters.accuracy.riccati import gain, steady_prior, steady_state, updated
 from filters.accuracy.visible import visible
@@ -27,8 +27,8 @@ class Assumed(NamedTuple):
 
     K (n, p); radius: spectral radius of the error from cycle to cycle, unstable from 1 on; before, believed_before
     (outputs, outputs): C P^-_N C^T as it is, and as the filter's own P says; variances, believed (ages,): tr V_N(a) so,
-    with the true noise since the measurement; jumps (ages,): as in `Steady`. All that is true is nan where the radius
-    is 1 or more.
+    with the true noise since the measurement; jumps (ages,): as in `Steady`. Nothing that is true is finite where the
+    radius is 1 or more.
     """
 
     K: FloatArray
@@ -67,27 +67,29 @@ def with_assumed(
     Raises ValueError as `steady` does.
     """
     reduced, C = visible(model, outputs)
-    over = prefix(reduced, max(N * divided, oldest))
-    Phi, H = over.Phi[N], reduced.H
-    assumed_Q = over.Q[N * divided] if cycle_noise is None else cycle_noise(reduced, N)
-    assumed_R = reduced.R if R is None else R
-    prior = steady_prior(over.Phi[N * divided], assumed_Q, H, assumed_R)
-    if not np.isfinite(prior).all():
-        raise ValueError(
-            f"the gain does not settle with a measurement every N={N} steps: at that interval, or with that noise, a "
-            f"mode of the model goes unseen; take another N"
+    with np.errstate(over="ignore", invalid="ignore"):
+        over = prefix(reduced, max(N * divided, oldest))
+        Phi, H = over.Phi[N], reduced.H
+        assumed_Q = over.Q[N * divided] if cycle_noise is None else cycle_noise(reduced, N)
+        assumed_R = reduced.R if R is None else R
+        prior = steady_prior(over.Phi[N * divided], assumed_Q, H, assumed_R)
+        if not np.isfinite(prior).all():
+            raise ValueError(
+                f"the gain does not settle with a measurement every N={N} steps: at that interval, or with that noise, "
+                f"a mode of the model goes unseen; take another N"
+            )
+        K = gain(prior, H, assumed_R) / divided
+        A = Phi @ (np.eye(reduced.states) - K @ H)
+        true_prior = steady_state(A, Phi @ K @ reduced.R @ K.T @ Phi.T + over.Q[N])
+        after, believed = updated(true_prior, K, H, reduced.R), updated(prior, K, H, assumed_R)
+        moved = K @ (H @ true_prior @ H.T + reduced.R) @ K.T
+        noise = noise_by_age(over, C, oldest)
+        return Assumed(
+            K,
+            float(np.abs(np.linalg.eigvals(A)).max()),
+            C @ true_prior @ C.T,
+            C @ prior @ C.T,
+            or_infinite(by_age(over, C, after[None], oldest)[0] + noise),
+            or_infinite(by_age(over, C, believed[None], oldest)[0] + noise),
+            or_infinite(by_age(over, C, moved[None], oldest)[0]),
         )
-    K = gain(prior, H, assumed_R) / divided
-    A = Phi @ (np.eye(reduced.states) - K @ H)
-    true_prior = steady_state(A, Phi @ K @ reduced.R @ K.T @ Phi.T + over.Q[N])
-    after = updated(true_prior, K, H, reduced.R)
-    noise = noise_by_age(over, C, oldest)
-    return Assumed(
-        K,
-        float(np.abs(np.linalg.eigvals(A)).max()),
-        C @ true_prior @ C.T,
-        C @ prior @ C.T,
-        by_age(over, C, after[None], oldest)[0] + noise,
-        by_age(over, C, updated(prior, K, H, assumed_R)[None], oldest)[0] + noise,
-        by_age(over, C, (K @ (H @ true_prior @ H.T + reduced.R) @ K.T)[None], oldest)[0],
-    )

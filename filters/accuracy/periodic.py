@@ -56,12 +56,12 @@ def steady(model: LinearModel, outputs: FloatArray, N: ArrayLike, oldest: int) -
             several,
             before,
             after,
-            _or_infinite(by_age(over, C, after, oldest) + noise_by_age(over, C, oldest)),
-            _or_infinite(by_age(over, C, before - after, oldest)),
+            or_infinite(by_age(over, C, after, oldest) + noise_by_age(over, C, oldest)),
+            or_infinite(by_age(over, C, before - after, oldest)),
         )
 
 
-def _or_infinite(variances: FloatArray) -> FloatArray:
+def or_infinite(variances: FloatArray) -> FloatArray:
     """What is too large for a number is infinite, not undefined."""
     return np.where(np.isnan(variances), np.inf, variances)
 

@@ -161,3 +161,9 @@ def test_the_believed_covariance_is_the_filters_own() -> None:
         P = (np.eye(2) - K @ CV.H) @ P
         P = over_cycle(CV, 10)[0] @ P @ over_cycle(CV, 10)[0].T + 10 * CV.Q
     np.testing.assert_allclose(regime_.believed_before, P, rtol=1e-9)
+
+
+def test_what_is_too_large_for_a_number_is_infinite() -> None:
+    model = linear_model([[2]], [[1]], [[1]], [[1]])
+    found = with_wrong_noise(model, [0], 1, 2000, [[2]])
+    assert (found.verdict, found.worst, found.believed) == ("approximate", np.inf, np.inf)
