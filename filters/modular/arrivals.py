@@ -55,11 +55,15 @@ def arrivals(
     steps: int,
     history: int,
     too_old: TooOld = "refuse",
+    *,
+    awaited: bool = False,
 ) -> tuple[Arrivals, tuple[Measurement, ...]]:
-    """The measurements as arrays, and those that are dropped; those that arrive after `steps` are left out.
+    """The measurements as arrays, and those that are dropped; those that arrive after `steps`, or are lost, are left
+    out.
 
     Those of one sensor and one step come in the order in which they arrive, and then in that in which they are listed.
     history: the steps that a filter can go back. too_old: what is done with measurements from before that.
+    awaited: left out is instead what is taken after `steps`, or is lost and does not come late.
 
     Raises:
         ValueError: a measurement is of no sensor of the filter, has a wrong shape, a number that is not finite, an
@@ -79,12 +83,12 @@ def arrivals(
     spaces = [each.corrector.observed for each in composed.sensors]
     y = np.zeros((len(queue), max((observed.numbers for observed in spaces), default=0)))
     lost = np.zeros((len(queue), max((observed.errors for observed in spaces), default=0)), dtype=np.bool_)
-    here = arrives <= steps
+    here = (taken if awaited else arrives) <= steps
     for number, each in enumerate(composed.sensors):
         rows, observed = np.flatnonzero(sensor == number), each.corrector.observed
         y[rows, : observed.numbers], gone = _read([queue[row] for row in rows], each)
         lost[rows, : observed.errors] = gone
-        here[rows] &= ~gone.all(axis=1)
+        here[rows] &= ~gone.all(axis=1) | (awaited & (taken[rows] < arrives[rows]))
     old = arrives - taken > history
     _refuse(queue, (taken < 0) | (taken > arrives), "it must be taken in step 0 or later, and before it arrives")
     if too_old == "refuse":

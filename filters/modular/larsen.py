@@ -14,13 +14,17 @@ about e_k is not used.
 In one step: first the late measurement that arrives, then those of the step itself, in the sensors' order, then one
 that will come late is taken. So a delay as long as the time between the measurements is allowed. Several of
 one sensor and one step may be in flight together: when one has arrived, what was known in k is corrected by it as well.
+
+Where others are taken before one has arrived, in whatever order they do, the gain K_k has to be that of a filter which
+knows them all: then, in the whole record, P counts each from the step in which it is taken, as in `carried_gain`, and
+of each in flight a product M of its own is carried, with its gain K_k. Once nothing is in flight the estimate is that
+of the filter which got each undelayed, whatever other sensors measured in between.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from functools import cache, partial
-from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -43,6 +47,7 @@ from filters.kernels.dense import (
 from filters.kernels.place import IntArray
 from filters.modular.arrivals import Arrivals, arrivals, chosen
 from filters.modular.breakdown import PREDICTOR, SOUND, Failure, failed
+from filters.modular.carried_gain import run_in_flight
 from filters.modular.composition import ModularFilter
 from filters.modular.correction import Correction, correction
 from filters.modular.correctors import Corrector, estimate_error
@@ -224,15 +229,15 @@ def run(
     Arguments and results as in `late.run`.
 
     Raises:
-        ValueError: a part is unscented, which leaves no F or H; a measurement that will come late is taken after
-            another late one, which has not arrived yet; and as `late.run`.
+        ValueError: a part is unscented, which leaves no F or H; and as `late.run`.
     """
     check_linearised(composed, "larsen")
     x, P, moves = check_problem(composed, x0, P0, inputs)
     steps = len(moves)
     arrived = _in_order_of_use(arrivals(composed, measurements, steps, steps)[0])
     late = arrived.taken < arrived.arrives
-    _check_one_in_flight(composed, arrived, late)
+    if _several_in_flight(arrived, late):
+        return run_in_flight(composed, Estimate(x, P), moves, arrived, backend, products=True)
     taken_late = np.bincount(arrived.taken[late], minlength=steps + 1)
     own = late, taken_late, Estimate(x, P), empty(composed.of), Flight(empty(composed.of), np.empty_like(P))
     job_of = partial(larsen_correction, composed)
@@ -245,18 +250,10 @@ def _in_order_of_use(arrived: Arrivals) -> Arrivals:
     return chosen(arrived, order)
 
 
-def _check_one_in_flight(composed: ModularFilter, arrived: Arrivals, late: Flags) -> None:
+def _several_in_flight(arrived: Arrivals, late: Flags) -> bool:
+    """Whether one is taken, not together with the other, before another late one has arrived."""
     rows = np.flatnonzero(late)
     rows = rows[np.lexsort((arrived.arrives[rows], arrived.taken[rows]))]
-    for first, second in pairwise(rows):  # of those that go together the last to arrive comes last
-        together = arrived.taken[first] == arrived.taken[second] and arrived.sensor[first] == arrived.sensor[second]
-        if arrived.taken[second] < arrived.arrives[first] and not together:
-            flights = " and ".join(
-                f"sensor {composed.sensors[arrived.sensor[row]].name!r}, steps {arrived.taken[row]} to "
-                f"{arrived.arrives[row]}"
-                for row in (first, second)
-            )
-            raise ValueError(
-                f"{flights}: but for those of one sensor and step, late='larsen' can wait for one measurement at a "
-                f"time; use late='recalculate', or take the second when the first has arrived"
-            )
+    first, second = rows[:-1], rows[1:]  # of those that go together the last to arrive comes last
+    together = (arrived.taken[first] == arrived.taken[second]) & (arrived.sensor[first] == arrived.sensor[second])
+    return bool(((arrived.taken[second] < arrived.arrives[first]) & ~together).any())

@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Literal, TypeAlias
+from typing import Literal, TypeAlias, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from filters.backends.choose import BackendName
 from filters.choice import check_choice
-from filters.modular import dual_rate, larsen, recalculate
+from filters.modular import carried_gain, dual_rate, larsen, recalculate
 from filters.modular.arrivals import TooOld, in_order, last_arrival
 from filters.modular.composition import ModularFilter, check_composed
 from filters.modular.history import ModularHistory
 from filters.modular.measurements import Measurement
 
-Late: TypeAlias = Literal["recalculate", "larsen", "dual-rate"]
+Late: TypeAlias = Literal["recalculate", "larsen", "carried-gain", "dual-rate"]
 
 
 def run(
@@ -38,9 +38,10 @@ def run(
     inputs (steps, any): row j takes the state from j to j + 1. None: there are none, and as many steps as it takes for
         all measurements to arrive; for another number of steps give np.zeros((steps, 0)).
     measurements: None in place of a number that is lost, see `Measurement`. Several of one sensor and one step are all
-        used. Those that arrive after the last step are left out.
+        used. Those that arrive after the last step are left out; "carried-gain" takes them into account when they are
+        taken, and of those that are lost altogether when that is known, see `carried_gain`.
     late: what is done with a late measurement: "recalculate" goes back, with any parts, any delays and in any order;
-        "larsen" carries its correction forward, with linear and extended parts, one at a time; "dual-rate" corrects
+        "larsen" and "carried-gain" carry its correction forward, with linear and extended parts; "dual-rate" corrects
         in a later step, with one sensor, linear or extended.
     history: of "recalculate", see there. L: of "dual-rate", see there.
     too_old: what is done with a measurement from before the history, or one that arrives too late for L: "refuse", or
@@ -53,20 +54,22 @@ def run(
             measurement, or an estimate breaks down; the predictor or sensor is named.
     """
     check_composed(composed)
-    check_choice("late", late, ("recalculate", "larsen", "dual-rate"))
+    check_choice("late", late, get_args(Late))
     if history is not None and late != "recalculate":
         raise ValueError(
             f"history={history} goes with late='recalculate'; late={late!r} goes back no step, leave it out"
         )
     if L is not None and late != "dual-rate":
         raise ValueError(f"L={L} goes with late='dual-rate'; late={late!r} corrects on arrival, leave it out")
-    if too_old != "refuse" and late == "larsen":
-        raise ValueError(f"too_old={too_old!r}: for late='larsen' no measurement is too old, leave it out")
+    if too_old != "refuse" and late in ("larsen", "carried-gain"):
+        raise ValueError(f"too_old={too_old!r}: for late={late!r} no measurement is too old, leave it out")
     measurements = in_order(measurements)
     if inputs is None:
         inputs = np.zeros((last_arrival(measurements), 0))
     if late == "larsen":
         return larsen.run(composed, x0, P0, inputs, measurements, backend=backend)
+    if late == "carried-gain":
+        return carried_gain.run(composed, x0, P0, inputs, measurements, backend=backend)
     if late == "dual-rate":
         return dual_rate.run(composed, x0, P0, inputs, measurements, L=L, too_old=too_old, backend=backend)
     return recalculate.run(composed, x0, P0, inputs, measurements, history=history, too_old=too_old, backend=backend)
