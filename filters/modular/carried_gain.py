@@ -44,8 +44,10 @@ from filters.modular.in_flight import (
     add_what_is_in_flight,
     carry_all,
     correct_all,
+    innovate,
     land,
     new_in_flight,
+    note,
     take_in,
 )
 from filters.modular.measurements import Measurement
@@ -86,7 +88,7 @@ class Given(NamedTuple):
 
 
 def carried_correction(composed: ModularFilter, corrector: Corrector) -> Callable[..., None]:
-    """The job of this corrector of the filter: `after` is `before` after one event."""
+    """The job of this corrector of the filter: its part of one event."""
     covariance = covariance_of(composed.update, corrector.kind)
     return _correction_by(correction(composed, corrector), taking_by(corrector.expect, covariance))
 
@@ -96,14 +98,15 @@ def _correction_by(correct: Correction, take: Callable[..., None]) -> Callable[.
     """Same functions in, same function out, so that it is compiled once."""
 
     def use(view: Any, observed: Space, work: Workspace, case: Given) -> None:
+        scratch = case.flights.scratch
         if case.what == LANDS:
-            land(case.place, case.flights, observed, case.of, case.before, case.y, case.lost, case.after, work)
+            innovate(observed, case.y, case.flights.expected[case.place], work, scratch.zeta)
         elif case.what == TAKEN:
             take(view, observed, case.of, case.before, case.after, work)
-            take_in(case.place, case.flights, work)
+            note(work, scratch)
         else:
             correct(view, observed, case.of, case.before, case.y, case.lost, case.after, work)
-            correct_all(case.flights, work)
+            note(work, scratch)
 
     return use
 
@@ -112,9 +115,7 @@ def _correction_by(correct: Correction, take: Callable[..., None]) -> Callable[.
 def taking_by(expect: Callable[..., None], covariance: Covariance) -> Callable[..., None]:
     """The correction of P by a measurement that is not there yet. Same functions in, same function out."""
 
-    def take(
-        view: Any, observed: Space, space: Space, before: Estimate, after: Estimate, work: Workspace
-    ) -> None:
+    def take(view: Any, observed: Space, space: Space, before: Estimate, after: Estimate, work: Workspace) -> None:
         expect(view, observed, space, before, work)
         cholesky(work.S, work.pp1)
         solve_cholesky(work.pp1, work.cross, work.gain)
@@ -160,6 +161,12 @@ def filter_all(
             s, place, what = arrived.sensor[number], events.place[number], events.what[following]
             case = Given(space, flights, place, what, current, arrived.y[number], arrived.lost[number], scratch)
             use(places[s, 0], places[s, 1], parts, case)
+            if what == LANDS:
+                land(place, flights, arrived.lost[number], space, current, scratch)
+            elif what == TAKEN:
+                take_in(place, flights)
+            else:
+                correct_all(flights)
             if not is_sound(space, scratch, work.nn1):
                 return failed(s, j, current, scratch, failure)
             copy_estimate(scratch, current)

@@ -30,7 +30,7 @@ from typing import NamedTuple
 import numpy as np
 
 from filters.arrays import Flags, FloatArray
-from filters.kernels.dense import add_matmul_blocked, copy, copy_vector, matmul_blocked, matvec, mirror, transpose
+from filters.kernels.dense import copy, copy_vector, matmul_blocked, matvec, mirror, transpose
 from filters.kernels.place import IntArray, clear
 from filters.kernels.solve import cholesky, solve_cholesky
 from filters.modular.space import Space, minus, plus
@@ -39,16 +39,25 @@ from filters.records import Estimate
 
 
 class Scratch(NamedTuple):
-    """n: length of the state's error; p: of the longest measurement's; w: p, or n where products are carried."""
+    """n: length of the state's error; p: of the longest measurement's; w: p, or n where products are carried.
 
+    H, gain, S, expected: of the last corrector, as in `workspace`, filled up like those in flight.
+    """
+
+    H: FloatArray  # (p, n)
+    gain: FloatArray
+    S: FloatArray  # (p, p)
+    expected: FloatArray  # (numbers,)
     zeta: FloatArray  # (p,)
     v: FloatArray  # (w,)
+    error: FloatArray  # (n,)
     pw: FloatArray  # (p, w)
     pp1: FloatArray
     pp2: FloatArray
     pp3: FloatArray
-    pp4: FloatArray
+    E: FloatArray  # (p, p), of a loss
     ww: FloatArray  # (w, w)
+    nw: FloatArray  # (n, w)
     np1: FloatArray  # (n, p)
     np2: FloatArray
     pn: FloatArray  # (p, n)
@@ -57,7 +66,7 @@ class Scratch(NamedTuple):
 class InFlight(NamedTuple):
     """A place for each measurement that may be in flight; what belongs to shorter ones is filled up with zeros.
 
-    line (places,): the places in use, in the order in which their measurements were taken; count (1,): how many.
+    line (places,): the places in use, in the order in which their measurements were taken; waiting (1,): how many.
     A (places, n, w): what is carried. K (places or 0, n, p): the gains, where products are carried.
     S (places, p, p): of the innovations, filled up with ones on the diagonal.
     expected (places, numbers): h(x_k). known (places, p): what is known to be in y - h(x_k) besides zeta.
@@ -66,7 +75,7 @@ class InFlight(NamedTuple):
     """
 
     line: IntArray
-    count: IntArray
+    waiting: IntArray
     A: FloatArray
     K: FloatArray
     S: FloatArray
@@ -84,21 +93,27 @@ def new_in_flight(places: int, of: Space, observed: list[Space], *, products: bo
     numbers = max((each.numbers for each in observed), default=1)
     w = n if products else p
     scratch = Scratch(
+        H=np.zeros((p, n)),
+        gain=np.zeros((p, n)),
+        S=np.zeros((p, p)),
+        expected=np.zeros(numbers),
         zeta=np.zeros(p),
         v=np.zeros(w),
+        error=np.zeros(n),
         pw=np.zeros((p, w)),
         pp1=np.zeros((p, p)),
         pp2=np.zeros((p, p)),
         pp3=np.zeros((p, p)),
-        pp4=np.zeros((p, p)),
+        E=np.zeros((p, p)),
         ww=np.zeros((w, w)),
+        nw=np.zeros((n, w)),
         np1=np.zeros((n, p)),
         np2=np.zeros((n, p)),
         pn=np.zeros((p, n)),
     )
     return InFlight(
         line=np.zeros(places, np.int64),
-        count=np.zeros(1, np.int64),
+        waiting=np.zeros(1, np.int64),
         A=np.zeros((places, n, w)),
         K=np.zeros((places if products else 0, n, p)),
         S=np.zeros((places, p, p)),
@@ -118,111 +133,108 @@ def carry(A: FloatArray, work: Workspace, scratch: FloatArray) -> None:
 
 def carry_all(flights: InFlight, work: Workspace) -> None:
     """What is carried, a step on."""
-    scratch = flights.scratch
-    for i in range(flights.count[0]):
-        A = flights.A[flights.line[i]]
-        if len(flights.K):
-            carry(A, work, work.nn1)
-        else:
-            carry(A, work, scratch.np1)
+    for i in range(flights.waiting[0]):
+        carry(flights.A[flights.line[i]], work, flights.scratch.nw)
 
 
-def take_in(place: int, flights: InFlight, work: Workspace) -> None:
-    """A measurement is in flight from now on, once its corrector has left H, S, K^T and what it expects in work."""
-    p, n = work.gain.shape
-    A, S, T = flights.A[place], flights.S[place], flights.T[place]
-    clear(A)
-    clear(S)
-    for r in range(S.shape[0]):
-        S[r, r] = 1.0
-        flights.known[place, r] = 0.0
-    copy(work.S, S)
-    for r in range(work.expected.shape[0]):
-        flights.expected[place, r] = work.expected[r]
-    for i in range(flights.count[0]):
+def note(work: Workspace, scratch: Scratch) -> None:
+    """What a corrector has left in work."""
+    clear(scratch.H)
+    clear(scratch.gain)
+    clear(scratch.S)
+    for r in range(scratch.S.shape[0]):
+        scratch.S[r, r] = 1.0
+    copy(work.H, scratch.H)
+    copy(work.gain, scratch.gain)
+    copy(work.S, scratch.S)
+    copy_vector(work.expected, scratch.expected)
+
+
+def innovate(observed: Space, y: FloatArray, expected: FloatArray, work: Workspace, zeta: FloatArray) -> None:
+    """zeta = y - what was expected, filled up with zeros."""
+    minus(observed, y, expected, work.z)
+    for r in range(zeta.shape[0]):
+        zeta[r] = work.z[r] if r < work.z.shape[0] else 0.0
+
+
+def take_in(place: int, flights: InFlight) -> None:
+    """A measurement is in flight from now on, once what its corrector has left is noted."""
+    scratch, A = flights.scratch, flights.A[place]
+    for i in range(flights.waiting[0]):
         g = flights.line[i]
-        clear(T[g])
-        matmul_blocked(work.H, flights.A[g], T[g])
+        product(scratch.H, flights.A[g], flights.T[place, g])
+    copy(scratch.S, flights.S[place])
+    copy_vector(scratch.expected, flights.expected[place])
+    for r in range(flights.known.shape[1]):
+        flights.known[place, r] = 0.0
     if len(flights.K):
-        clear(flights.K[place])
-        for e in range(n):
+        transpose(scratch.gain, flights.K[place])
+        clear(A)
+        for e in range(A.shape[0]):
             A[e, e] = 1.0
-            for r in range(p):
-                flights.K[place, e, r] = work.gain[r, e]
     else:
-        for e in range(n):
-            for r in range(p):
-                A[e, r] = work.gain[r, e]
-    flights.line[flights.count[0]] = place
-    flights.count[0] += 1
+        transpose(scratch.gain, A)
+    flights.line[flights.waiting[0]] = place
+    flights.waiting[0] += 1
 
 
-def correct_carried(A: FloatArray, work: Workspace, scratch: FloatArray) -> None:
-    """A <- A - K (H A), once a correction has left H and K^T in work; scratch (p or more, w)."""
-    matmul_blocked(work.H, A, scratch)
-    for r in range(work.gain.shape[0]):
+def correct_carried(A: FloatArray, H: FloatArray, gain: FloatArray, scratch: FloatArray) -> None:
+    """A <- A - K (H A), for gain = K^T and H (p, n); scratch (p, w)."""
+    product(H, A, scratch)
+    for r in range(gain.shape[0]):
         for i in range(A.shape[0]):
-            factor = work.gain[r, i]
+            factor = gain[r, i]
             for j in range(A.shape[1]):
                 A[i, j] -= factor * scratch[r, j]
 
 
-def correct_all(flights: InFlight, work: Workspace) -> None:
-    """What is carried, corrected by a measurement that does not wait."""
-    for i in range(flights.count[0]):
-        correct_carried(flights.A[flights.line[i]], work, flights.scratch.pw)
-
-
-def land(
-    place: int,
-    flights: InFlight,
-    observed: Space,
-    of: Space,
-    before: Estimate,
-    y: FloatArray,
-    lost: Flags,
-    after: Estimate,
-    work: Workspace,
-) -> None:
-    """`after` is `before`, corrected by the measurement y of this place, which is free then. lost, y: as elsewhere."""
+def correct_all(flights: InFlight) -> None:
+    """What is carried, corrected by a measurement that did not wait, once what its corrector has left is noted."""
     scratch = flights.scratch
-    minus(observed, y, flights.expected[place], work.z)
+    for i in range(flights.waiting[0]):
+        correct_carried(flights.A[flights.line[i]], scratch.H, scratch.gain, scratch.pw)
+
+
+def land(place: int, flights: InFlight, lost: Flags, of: Space, before: Estimate, after: Estimate) -> None:
+    """`after` is `before`, corrected by the measurement of this place, which is free then.
+
+    scratch.zeta holds the measurement less what was expected. lost (p,): what it has no number of.
+    """
+    zeta = flights.scratch.zeta
+    at = 0
+    while flights.line[at] != place:
+        at += 1
     gone = False
-    for r in range(observed.errors):
-        work.z[r] -= flights.known[place, r]
+    for r in range(zeta.shape[0]):
+        zeta[r] -= flights.known[place, r]
         gone = gone or lost[r]
-    for r in range(scratch.zeta.shape[0]):
-        scratch.zeta[r] = work.z[r] if r < observed.errors else 0.0
-    at = position(place, flights)
     if gone:
-        give_up(place, at, observed.errors, lost, flights)
-    if len(flights.K):
-        matvec(flights.K[place], scratch.zeta, scratch.v)
-    else:
-        copy_vector(scratch.zeta, scratch.v)
-    matvec(flights.A[place], scratch.v, work.n1)
-    plus(of, before.x, work.n1, after.x)
+        give_up(place, at, lost, flights)
+    move(flights.A[place], flights, place, of, before.x, after.x)
     compensate(place, at, flights)
     copy(before.P, after.P)
     if gone:
         lose(place, at, flights, after.P)
-    for i in range(at, flights.count[0] - 1):
+    for i in range(at, flights.waiting[0] - 1):
         flights.line[i] = flights.line[i + 1]
-    flights.count[0] -= 1
+    flights.waiting[0] -= 1
 
 
-def position(place: int, flights: InFlight) -> int:
-    """Of a place in the line."""
-    for i in range(flights.count[0]):
-        if flights.line[i] == place:
-            return i
-    return -1
+def move(A: FloatArray, flights: InFlight, place: int, of: Space, x: FloatArray, out: FloatArray) -> None:
+    """out = x + A v."""
+    scratch = flights.scratch
+    if len(flights.K):
+        matvec(flights.K[place], scratch.zeta, scratch.v)
+    else:
+        copy_vector(scratch.zeta, scratch.v)
+    matvec(A, scratch.v, scratch.error)
+    plus(of, x, scratch.error, out)
 
 
 def compensate(place: int, at: int, flights: InFlight) -> None:
     """The measurement of this place, the at-th in line, has landed with v: it goes from the tables of the others."""
     scratch, T = flights.scratch, flights.T
-    for j in range(at + 1, flights.count[0]):
+    for j in range(at + 1, flights.waiting[0]):
         g = flights.line[j]
         for r in range(T.shape[2]):
             for c in range(T.shape[3]):
@@ -230,69 +242,59 @@ def compensate(place: int, at: int, flights: InFlight) -> None:
     for i in range(at):
         u = flights.line[i]
         if len(flights.K):
-            matmul_blocked(flights.K[place], T[place, u], scratch.ww)
+            product(flights.K[place], T[place, u], scratch.ww)
         else:
             copy(T[place, u], scratch.ww)
         subtract_product(flights.A[place], scratch.ww, flights.A[u])
-        for j in range(at + 1, flights.count[0]):
+        for j in range(at + 1, flights.waiting[0]):
             g = flights.line[j]
             subtract_product(T[g, place], scratch.ww, T[g, u])
 
 
-def subtract_product(A: FloatArray, B: FloatArray, out: FloatArray) -> None:
-    """out -= A B."""
-    for i in range(A.shape[0]):
-        for k in range(A.shape[1]):
-            factor = A[i, k]
-            for j in range(B.shape[1]):
-                out[i, j] -= factor * B[k, j]
-
-
-def give_up(place: int, at: int, p: int, lost: Flags, flights: InFlight) -> None:
-    """zeta and the table become what is expected, given the rows that are not lost; scratch.pp4: its error's E."""
+def give_up(place: int, at: int, lost: Flags, flights: InFlight) -> None:
+    """zeta and the table become what is expected, given the rows that are not lost; scratch.E: of its error."""
     scratch, S = flights.scratch, flights.S[place]
+    p = S.shape[0]
     copy(S, scratch.pp1)
-    transpose(S, scratch.pp2)
+    copy(S, scratch.pp2)
     for r in range(p):
         if lost[r]:
-            for column in range(S.shape[0]):
-                scratch.pp1[r, column] = scratch.pp1[column, r] = 0.0
-                scratch.pp2[r, column] = 0.0
+            scratch.zeta[r] = 0.0
+            for column in range(p):
+                scratch.pp1[r, column] = scratch.pp1[column, r] = scratch.pp2[r, column] = 0.0
             scratch.pp1[r, r] = 1.0
     cholesky(scratch.pp1, scratch.pp3)
     solve_cholesky(scratch.pp3, scratch.pp2, scratch.pp2)
     transpose(scratch.pp2, scratch.pp1)  # the share of each row in what is expected of each; none of those lost
-    copy(S, scratch.pp4)
-    subtract_product(scratch.pp1, S, scratch.pp4)
-    mirror(scratch.pp4)
+    copy(S, scratch.E)
+    subtract_product(scratch.pp1, S, scratch.E)
     for r in range(p):
         if not lost[r]:
-            for column in range(S.shape[0]):
-                scratch.pp4[r, column] = scratch.pp4[column, r] = 0.0
-    for r in range(S.shape[0]):
+            for column in range(p):
+                scratch.E[r, column] = scratch.E[column, r] = 0.0
+    mirror(scratch.E)
+    for r in range(p):
         total = 0.0
         for column in range(p):
-            if not lost[column]:
-                total += scratch.pp1[r, column] * scratch.zeta[column]
+            total += scratch.pp1[r, column] * scratch.zeta[column]
         scratch.pp2[0, r] = total
-    for r in range(S.shape[0]):
-        scratch.zeta[r] = scratch.pp2[0, r]
+    copy_vector(scratch.pp2[0], scratch.zeta)
     for i in range(at):
         T = flights.T[place, flights.line[i]]
-        matmul_blocked(scratch.pp1, T, scratch.pw)
+        product(scratch.pp1, T, scratch.pw)
         copy(scratch.pw, T)
 
 
 def lose(place: int, at: int, flights: InFlight, P: FloatArray) -> None:
-    """P and what was taken later and is in flight, once an error of covariance scratch.pp4 in zeta cannot be known."""
-    scratch, E = flights.scratch, flights.scratch.pp4
+    """P and what was taken later and is in flight, once an error of covariance scratch.E in zeta cannot be known."""
+    scratch = flights.scratch
     gain_of(place, flights, scratch.np1)
     if not len(flights.K):
-        for j in range(at + 1, flights.count[0]):
+        for j in range(at + 1, flights.waiting[0]):
             copy(flights.T[flights.line[j], place], flights.rest[flights.line[j]])
-        for j in range(at + 1, flights.count[0]):
+        for j in range(at + 1, flights.waiting[0]):
             _tell_of_loss(j, flights)
-    add_spread(scratch.np1, E, P, scratch)
+    add_spread(scratch.np1, scratch.E, P, scratch)
 
 
 def _tell_of_loss(j: int, flights: InFlight) -> None:
@@ -300,48 +302,69 @@ def _tell_of_loss(j: int, flights: InFlight) -> None:
 
     What has it is scratch.np1, of the state, and `rest`, of those that follow: less what this one has of it.
     """
-    scratch, E = flights.scratch, flights.scratch.pp4
+    scratch, E = flights.scratch, flights.scratch.E
     h = flights.line[j]
     c, B, S = flights.rest[h], flights.A[h], flights.S[h]
     subtract_product(B, c, scratch.np1)
-    for i in range(j + 1, flights.count[0]):
+    for i in range(j + 1, flights.waiting[0]):
         g = flights.line[i]
         subtract_product(flights.T[g, h], c, flights.rest[g])
-    matmul_blocked(c, E, scratch.pp1)
+    product(c, E, scratch.pp1)
     transpose(c, scratch.pp2)
-    add_matmul_blocked(S, scratch.pp1, scratch.pp2, S)
+    add_product(scratch.pp1, scratch.pp2, S)
     mirror(S)
     cholesky(S, scratch.pp3)
     solve_cholesky(scratch.pp3, scratch.pp1, scratch.pp2)
     transpose(scratch.pp2, scratch.pp3)  # E c^T S^-1
     subtract_product(scratch.pp3, scratch.pp1, E)
     mirror(E)
-    add_matmul_blocked(B, scratch.np1, scratch.pp3, B)
-    for i in range(j + 1, flights.count[0]):
+    add_product(scratch.np1, scratch.pp3, B)
+    for i in range(j + 1, flights.waiting[0]):
         g = flights.line[i]
-        T = flights.T[g, h]
-        add_matmul_blocked(T, flights.rest[g], scratch.pp3, T)
+        add_product(flights.rest[g], scratch.pp3, flights.T[g, h])
 
 
 def gain_of(place: int, flights: InFlight, out: FloatArray) -> None:
     """out (n, p) = B."""
     if len(flights.K):
-        matmul_blocked(flights.A[place], flights.K[place], out)
+        product(flights.A[place], flights.K[place], out)
     else:
         copy(flights.A[place], out)
 
 
 def add_spread(B: FloatArray, S: FloatArray, P: FloatArray, scratch: Scratch) -> None:
     """P += B S B^T."""
-    matmul_blocked(B, S, scratch.np2)
+    product(B, S, scratch.np2)
     transpose(B, scratch.pn)
-    add_matmul_blocked(P, scratch.np2, scratch.pn, P)
+    add_product(scratch.np2, scratch.pn, P)
     mirror(P)
 
 
 def add_what_is_in_flight(flights: InFlight, P: FloatArray) -> None:
     """P + sum of B S B^T, the covariance of the error of the estimate, in place of P."""
-    for i in range(flights.count[0]):
+    for i in range(flights.waiting[0]):
         place = flights.line[i]
         gain_of(place, flights, flights.scratch.np1)
         add_spread(flights.scratch.np1, flights.S[place], P, flights.scratch)
+
+
+def product(A: FloatArray, B: FloatArray, out: FloatArray) -> None:
+    """out = A B. A few rows or columns: a short loop, which is soon compiled."""
+    clear(out)
+    add_product(A, B, out)
+
+
+def add_product(A: FloatArray, B: FloatArray, out: FloatArray) -> None:
+    """out += A B."""
+    for i in range(A.shape[0]):
+        for k in range(A.shape[1]):
+            for j in range(B.shape[1]):
+                out[i, j] += A[i, k] * B[k, j]
+
+
+def subtract_product(A: FloatArray, B: FloatArray, out: FloatArray) -> None:
+    """out -= A B."""
+    for i in range(A.shape[0]):
+        for k in range(A.shape[1]):
+            for j in range(B.shape[1]):
+                out[i, j] -= A[i, k] * B[k, j]

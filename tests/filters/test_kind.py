@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
 import pytest
@@ -25,7 +25,7 @@ from tests.filters.modular.cases import linear_case
 
 GOOD = linear_case()
 SYSTEM, START = example_system(2, 1, 1), (np.zeros(2), np.eye(2), np.zeros((3, 1)))
-LATE: tuple[Late, ...] = ("recalculate", "larsen", "dual-rate")
+LATE: tuple[Late, ...] = get_args(Late)
 
 TAKE_A_SYSTEM: dict[str, Callable[[Any], Any]] = {
     **{name: lambda it, name=name: DELAYED_METHODS[name].run(it, 1, 0, 1, *START, []) for name in DELAYED_METHODS},

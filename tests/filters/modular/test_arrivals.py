@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pickle
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 import pytest
@@ -26,10 +26,12 @@ from filters.modular import (
     unscented_corrector,
 )
 from filters.modular.correctors import Corrector
+from filters.modular.late import Late
 from tests.filters.modular import cases
 
-Late = Literal["recalculate", "larsen", "dual-rate"]
-WAYS: tuple[Late, ...] = ("recalculate", "larsen", "dual-rate")
+LEFT_OUT: tuple[Late, ...] = ("recalculate", "larsen", "dual-rate")
+"""What is lost, or never arrives, is as if it had not been taken: but to "carried-gain", see its own tests."""
+WAYS: tuple[Late, ...] = (*LEFT_OUT, "carried-gain")
 H, R = np.array([[1.0, 0.5], [0.3, -1.0], [0.0, 1.0]]), np.array([[0.5, 0.1, 0.0], [0.1, 0.3, -0.1], [0.0, -0.1, 0.4]])
 X0, P0 = np.array([0.5, -0.3]), np.array([[1.0, 0.2], [0.2, 0.8]])
 STEPS, EVERY, DELAY = 11, 4, 2
@@ -93,7 +95,7 @@ def test_a_masked_number_is_lost(late: Late) -> None:
         np.testing.assert_array_equal(history([sensor], taken(*ys), late).x, expected.x)
 
 
-@pytest.mark.parametrize("late", WAYS)
+@pytest.mark.parametrize("late", LEFT_OUT)
 def test_a_measurement_that_has_lost_all_is_none(late: Late) -> None:
     sensor = sensor_of("linear", [0, 1, 2])
     found = history([sensor], taken([None, None, None], [0.1, 0.3, 0.5]), late)
@@ -178,7 +180,7 @@ def test_lost_numbers_in_compiled_code() -> None:
 @given(
     ages=st.lists(st.integers(0, DELAY), min_size=1, max_size=4),
     lost=st.lists(st.sets(st.integers(0, 2), max_size=3), min_size=4, max_size=4),
-    late=st.sampled_from(WAYS),
+    late=st.sampled_from(LEFT_OUT),
 )
 def test_several_of_one_sensor_in_one_step_are_all_used(ages: list[int], lost: list[set[int]], late: Late) -> None:
     """Taken in step 4, they arrive in it or later, with numbers lost: the information of those that are there adds up.
@@ -250,7 +252,7 @@ def test_dual_rate_drops_what_comes_when_the_correction_has_landed() -> None:
     np.testing.assert_array_equal(found.x, history([sensor], good, "dual-rate", L=3).x)
 
 
-@pytest.mark.parametrize("late", WAYS)
+@pytest.mark.parametrize("late", LEFT_OUT)
 @pytest.mark.parametrize("arrives", [STEPS + 1, 99])
 def test_what_arrives_after_the_last_step_is_left_out_however_old_it_is(late: Late, arrives: int) -> None:
     sensor = sensor_of("linear", [0, 1, 2])

@@ -163,9 +163,13 @@ def test_measurements(measurements: list[Measurement], message: str) -> None:
         ({"inputs": np.full((6, 1), np.inf)}, "inputs holds a value that is not finite"),
         ({"history": -1}, "history=-1 must be a whole number, at least 0"),
         ({"history": 5.5}, "history=5.5 must be a whole number, at least 0"),
-        ({"late": "never"}, "late='never' is unknown; give one of recalculate, larsen, dual-rate"),
+        ({"late": "never"}, "late='never' is unknown; give one of recalculate, larsen, carried-gain, dual-rate"),
         ({"late": "larsen", "history": 3}, "history=3 goes with late='recalculate'; late='larsen' goes back no step"),
         ({"too_old": "keep"}, "too_old='keep' is unknown; give one of refuse, drop"),
+        (
+            {"late": "carried-gain", "too_old": "drop"},
+            "too_old='drop': for late='carried-gain' no measurement is too old, leave it",
+        ),
         (
             {"late": "larsen", "too_old": "drop"},
             "too_old='drop': for late='larsen' no measurement is too old, leave it",

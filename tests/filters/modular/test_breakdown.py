@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal
+from typing import Any, get_args
 
 import numpy as np
 import pytest
@@ -24,12 +24,12 @@ from filters.modular import (
     unscented_predictor,
 )
 from filters.modular.correctors import Corrector
+from filters.modular.late import Late
 from filters.modular.predictors import Predictor
 from filters.modular.sigma_points import SigmaPoints
 from tests.filters.modular import cases
 
-Late = Literal["recalculate", "larsen", "dual-rate"]
-WAYS: tuple[Late, ...] = ("recalculate", "larsen", "dual-rate")
+WAYS: tuple[Late, ...] = get_args(Late)
 POSITION = linear_corrector([[1.0, 0.0]], [[1.0]])
 STILL = linear_predictor(np.eye(2), 0.01 * np.eye(2))
 

@@ -92,7 +92,7 @@ class Batch(NamedTuple):
 
 
 def batch(steps: int, measurements: Sequence[Measurement]) -> Batch:
-    """With the gains of the filter that gets all undelayed, of what has arrived by each step; by stacking all noises."""
+    """With the gains of the filter that gets all undelayed, of what has arrived by each step; all noises stacked."""
     matrices, drives = inputs(steps)[:, :9].reshape(-1, N, N), inputs(steps)[:, 9:]
     queue = sorted(enumerate(measurements), key=lambda one: _order(one[1]))
     sizes = [N, *[N] * steps, *(len(R[one.sensor]) for one in measurements)]
@@ -156,10 +156,10 @@ def test_three_sensors_out_of_order_are_the_batch_of_what_has_landed(late: Late)
 def test_without_what_compensates_for_others_in_flight_it_is_wrong(monkeypatch: pytest.MonkeyPatch) -> None:
     steps = 45
     measurements = record(20, 25, seed=1)
-    x, _ = filtered(steps, measurements, "carried-gain")
+    expected = run(FILTER, X0, P0, inputs(steps), undelayed(measurements)).x[-1]
     monkeypatch.setattr(in_flight, "compensate", lambda *_: None)
-    uncompensated, _ = filtered(steps, measurements, "carried-gain")
-    assert 1e-3 < np.abs(uncompensated[-1] - x[-1]).max() < 1
+    x, _ = filtered(steps, measurements, "carried-gain")
+    assert np.abs(x[-1] - expected).max() > 1e-3
 
 
 @st.composite
@@ -230,7 +230,7 @@ def own_covariances(steps: int, measurements: Sequence[Measurement], late: Late)
     return np.asarray(maps @ stacked @ maps.transpose(0, 2, 1))
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=15, deadline=None)
 @given(
     measurements=arriving(4, 5),
     lost=st.lists(st.sets(st.integers(0, 1), max_size=2), min_size=15, max_size=15),
@@ -239,7 +239,7 @@ def test_its_covariance_is_that_of_its_error_whatever_is_lost(
     measurements: list[Measurement], lost: list[set[int]]
 ) -> None:
     """Whole measurements or numbers of them, while others are in flight or not."""
-    steps = 8
+    steps = 7
     with_gaps = [
         one._replace(y=[None if r in gone else float(value) for r, value in enumerate(one.y)])
         for one, gone in zip(measurements, lost, strict=False)
@@ -310,7 +310,7 @@ def test_joseph_s_form_is_the_same_filter(update: str) -> None:
         np.testing.assert_allclose(each, expected, rtol=0, atol=1e-12)
 
 
-@pytest.mark.slow
+@pytest.mark.exhaust
 @pytest.mark.parametrize("late", BOTH_WAYS)
 def test_compiled_equals_reference(late: Late) -> None:
     """A linear and an extended sensor, numbers lost."""

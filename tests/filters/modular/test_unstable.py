@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from itertools import product
-from typing import Literal
+from typing import get_args
 
 import numpy as np
 import pytest
@@ -24,9 +24,9 @@ from filters.modular import (
     unscented_corrector,
     unscented_predictor,
 )
+from filters.modular.late import Late
 
 EVERY, DELAY, L = 4, 2, 3
-Late = Literal["recalculate", "larsen", "dual-rate"]
 
 
 class Plant:
@@ -88,7 +88,7 @@ def history(plant: Plant, predictor: str, corrector: str, late: Late, backend: B
 def kinds() -> list[tuple[str, str, Late]]:
     """All that go together: predictor, corrector, and what is done with late measurements."""
     pairs = list(product(("linear", "extended", "unscented"), repeat=2))
-    ways: tuple[Late, ...] = ("larsen", "dual-rate")
+    ways: tuple[Late, ...] = ("larsen", "carried-gain", "dual-rate")
     linearised = [pair for pair in pairs if "unscented" not in pair]
     return [(*pair, "recalculate") for pair in pairs] + [(*pair, way) for pair in linearised for way in ways]
 
@@ -101,7 +101,7 @@ def check_is_steady(plant: Plant, found: ModularHistory) -> None:
     np.testing.assert_array_equal(found.P, found.P.transpose(0, 2, 1))
 
 
-@pytest.mark.parametrize("late", ["recalculate", "larsen", "dual-rate"])
+@pytest.mark.parametrize("late", get_args(Late))
 @pytest.mark.parametrize("seed", [1, 4, 5])
 def test_the_covariance_is_that_of_the_riccati_equation(seed: int, late: Late) -> None:
     check_is_steady(Plant(seed), history(Plant(seed), "linear", "linear", late, "reference"))
@@ -129,7 +129,7 @@ def test_of_all_kinds_compiled(kind: str, late: Late) -> None:
     check_is_steady(Plant(5), history(Plant(5), kind, kind, late, "compiled"))
 
 
-@pytest.mark.parametrize("late", ["recalculate", "larsen", "dual-rate"])
+@pytest.mark.parametrize("late", get_args(Late))
 def test_an_inverted_pendulum_with_a_torque_that_is_not_known(late: Late) -> None:
     """At 200 Hz, its angle measured in every tenth step, four steps late. The deviation of the angle stays where it is
     from the hundredth measurement on: it is the same after each of the others."""

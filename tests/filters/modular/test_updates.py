@@ -109,7 +109,7 @@ def test_lost_numbers(update: Update, gone: list[set[int]]) -> None:
     np.testing.assert_allclose(found.P, expected.P, rtol=0, atol=1e-12)
 
 
-@pytest.mark.parametrize("late", ["larsen", "dual-rate"])
+@pytest.mark.parametrize("late", ["larsen", "carried-gain", "dual-rate"])
 @pytest.mark.parametrize("name", ONE_SENSOR)
 def test_late_measurements_in_josephs_form(name: str, late: Any) -> None:
     case, system = with_timing(ONE_SENSOR[name], 4, 2)
@@ -216,7 +216,7 @@ def test_what_does_not_go_together_is_refused() -> None:
     for name, part in (("unscented", "predictor"), ("attitude", "predictor")):
         with pytest.raises(ValueError, match=f"{part}: update='u-d' .*unscented; give update='joseph'"):
             with_update(CASES[name], "u-d")
-    for late in ("larsen", "dual-rate"):
+    for late in ("larsen", "carried-gain", "dual-rate"):
         with pytest.raises(ValueError, match=f"update='u-d' keeps factors .* late='{late}' .*; use late='recalculate'"):
             history(cases.POSITION, "u-d", [], 3, late=late)
 
