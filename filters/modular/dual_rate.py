@@ -4,12 +4,20 @@ The tasks are those of `filters.delayed.dual_rate`: the high-rate one carries st
 covariance at the steps k in which the sensor measures, and its correction is added L steps later. In the steps between
 the estimate is that of a filter which has not got the measurement yet. One that is missing leaves its cycle without
 correction.
+
+Several of the sensor may be in flight, L more than the steps between them. The low-rate task takes them first in, first
+out: the covariance of a step k waits for the correction of the k before, in whatever order the measurements arrive. A
+correction lands by the products of the cycles that it spans, one after the other, and on its way corrects what was
+known in each k in between, from which those that follow are formed.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections import deque
+from collections.abc import Iterable, Iterator
 from fractions import Fraction
+from itertools import islice
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -54,8 +62,9 @@ def run(
 ) -> ModularHistory:
     """Filter a record of data; the measurement of step k corrects the estimate at the start of step k + L.
 
-    Other arguments and results as in `late.run`. L: more than the delay, and at most the sensor's `every`, which it is
-    if not given. too_old: what is done with a measurement that arrives in step k + L or later: "refuse", or "drop" it.
+    Other arguments and results as in `late.run`. L: more than the delay; if not given, the sensor's `every`, or the
+    first multiple of it that is. too_old: what is done with a measurement that arrives in step k + L or later:
+    "refuse", or "drop" it.
 
     Raises:
         ValueError: there is not exactly one sensor, a part is unscented, or not all quantities are plain; L does not
@@ -65,7 +74,7 @@ def run(
     check_linearised(composed, "dual-rate")
     sensor = _only_sensor(composed)
     N = _whole_rate(sensor)
-    lands = N if L is None else L
+    lands = N * (sensor.longest_delay // N + 1) if L is None else L
     _check_landing(sensor, lands)
     x, P, moves = check_problem(composed, x0, P0, inputs)
     oldest = lands - 1 if too_old == "drop" else len(moves)
@@ -80,25 +89,40 @@ def run(
         for j in range(len(moves) + 1):
             if j > 0:
                 high_rate.step(j - 1, moves[j - 1])
-            if j % N == lands % N and low_rate.has_correction:
-                high_rate.correct(lands, low_rate.hand_over())
-            P = low_rate.covariance(high_rate.message(j).transition)
+            if low_rate.lands(j, lands):
+                delta_x = low_rate.hand_over()
+                if delta_x is not None:
+                    high_rate.correct(lands, delta_x)
+            transition = high_rate.message(j).transition
             if j % N == 0:
-                low_rate.restart(Estimate(high_rate.x, P))
-            estimates.x[j], estimates.P[j] = high_rate.x, P
+                low_rate.begin(Cycle(j, high_rate.x, transition, []))
+            estimates.x[j] = high_rate.x
+            estimates.P[j] = P = low_rate.covariance(None if j % N == 0 else transition)
             if not is_sound(composed.of, Estimate(high_rate.x, P), scratch):
                 before = Failure(Estimate(estimates.x[j - 1], estimates.P[j - 1]), Estimate(high_rate.x, P))
                 raise breakdown(composed, PREDICTOR, j, before, moves[j - 1])
             while following < len(arrived.arrives) and arrived.arrives[following] == j:
-                correction = low_rate.correct(arrived.y[following], arrived.lost[following])
+                low_rate.await_turn(arrived.taken[following], (arrived.y[following], arrived.lost[following]))
+                following += 1
+            for correction in low_rate.correct():
                 if not is_sound(composed.of, correction.after, scratch):
                     raise breakdown(composed, 0, j, correction, np.empty(0))
-                following += 1
     return ModularHistory(*estimates, dropped)
 
 
+class Cycle(NamedTuple):
+    """A step k and the one before. x (n,): of k, without its measurements, with the corrections of those before that
+    have landed; transition: to k; arrived: its measurements that have and are not used yet, y and lost."""
+
+    k: int
+    x: FloatArray
+    transition: Transition | None
+    arrived: list[tuple[FloatArray, Flags]]
+
+
 class LowRateTask:
-    """The estimate of the last k: `before` its measurements, and `after` those that have arrived since."""
+    """The cycles whose corrections have not landed; of the first the estimate `before` its measurements, and `after`
+    those that have arrived. If there is none, `after` is of the last."""
 
     def __init__(self, composed: ModularFilter, sensor: Sensor, start: Estimate, backend: BackendName) -> None:
         corrector = sensor.corrector
@@ -107,35 +131,63 @@ class LowRateTask:
         self._view = arguments_for(backend, corrector.view(composed.of.errors))
         self._propagate = function_for(backend, lr_propagate)
         self._correct = function_for(backend, correction(composed, corrector))
-        self.restart(start)
+        self._cycles: deque[Cycle] = deque()
+        self._before = self._after = start
 
-    def restart(self, before: Estimate) -> None:
+    def begin(self, cycle: Cycle) -> None:
         """A new k."""
-        self._before = self._after = before
+        self._cycles.append(cycle)
+        if len(self._cycles) == 1:
+            self._start()
+
+    def _start(self) -> None:
+        """The first cycle's turn has come."""
+        first = self._cycles[0]
+        self._before = self._after = Estimate(first.x, self._carried(self._after.P, first.transition))
 
     def covariance(self, transition: Transition | None) -> FloatArray:
-        """That of k with what has landed, carried over the transition from k; for the history, save at the next k."""
+        """With what has landed, carried over the transition from the last k; for the history, save at each k."""
+        P = self._before.P if self._cycles else self._after.P
+        for cycle in islice(self._cycles, 1, None):
+            P = self._carried(P, cycle.transition)
+        return self._carried(P, transition)
+
+    def _carried(self, P: FloatArray, transition: Transition | None) -> FloatArray:
         if transition is None:
-            return self._before.P
-        P = np.empty_like(self._before.P)
-        self._propagate(self._before.P, transition, P, self._work)
-        return P
+            return P
+        P_next = np.empty_like(P)
+        self._propagate(P, transition, P_next, self._work)
+        return P_next
 
-    def correct(self, y: FloatArray, lost: Flags) -> Failure:
-        """Use a measurement of k."""
-        before, self._after = self._after, empty(self._of)
-        self._correct(self._view, self._observed, self._of, before, y, lost, self._after, self._work)
-        return Failure(before, self._after)
+    def await_turn(self, k: int, measurement: tuple[FloatArray, Flags]) -> None:
+        """A measurement of k has arrived."""
+        next(cycle for cycle in self._cycles if cycle.k == k).arrived.append(measurement)
 
-    @property
-    def has_correction(self) -> bool:
-        """Whether one has arrived and not landed."""
-        return self._after is not self._before
+    def correct(self) -> Iterator[Failure]:
+        """Use those of the first cycle; each with what was before and after it."""
+        waiting = self._cycles[0].arrived if self._cycles else []
+        for y, lost in waiting:
+            before, self._after = self._after, empty(self._of)
+            self._correct(self._view, self._observed, self._of, before, y, lost, self._after, self._work)
+            yield Failure(before, self._after)
+        waiting.clear()
 
-    def hand_over(self) -> FloatArray:
-        """The error estimate (n,) of k, which lands now."""
-        delta_x = self._after.x - self._before.x
-        self._before = self._after
+    def lands(self, j: int, L: int) -> bool:
+        """Whether the correction of the first cycle does in step j, if it has one."""
+        return bool(self._cycles) and self._cycles[0].k + L == j
+
+    def hand_over(self) -> FloatArray | None:
+        """What it lands, the error estimate (n,) of the last k; None if there was no measurement. It is the next's
+        turn."""
+        delta_x = None if self._after is self._before else self._after.x - self._before.x
+        self._cycles.popleft()
+        if delta_x is not None:
+            for number, cycle in enumerate(self._cycles):
+                assert cycle.transition is not None  # only the first of all has none
+                delta_x = cycle.transition.Phi @ delta_x
+                self._cycles[number] = cycle._replace(x=cycle.x + delta_x)
+        if self._cycles:
+            self._start()
         return delta_x
 
 
@@ -170,11 +222,10 @@ def _whole_rate(sensor: Sensor) -> int:
 
 
 def _check_landing(sensor: Sensor, L: int) -> None:
-    if not (isinstance(L, int | np.integer) and sensor.longest_delay < L <= sensor.every):
+    if not (isinstance(L, int | np.integer) and sensor.longest_delay < L):
         raise ValueError(
-            f"sensor {sensor.name!r}: L={L!r} must be a whole number, more than delay={sensor.longest_delay} and at "
-            f"most every={sensor.every}: the correction lands after the measurement has arrived and no later than the "
-            f"next is taken; give such an L, or use late='recalculate'"
+            f"sensor {sensor.name!r}: L={L!r} must be a whole number, more than delay={sensor.longest_delay}: the "
+            f"correction lands after the measurement has arrived; give such an L, or use late='recalculate'"
         )
 
 

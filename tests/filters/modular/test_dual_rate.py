@@ -28,9 +28,10 @@ def test_it_is_the_dual_rate_filter_of_the_system(name: str, every: int, delay: 
 @settings(max_examples=60)
 @given(data=st.data())
 def test_it_is_the_filter_to_which_each_measurement_came_L_steps_late(data: st.DataObject) -> None:
-    """With any dropouts, and any delays of those that come; outside [k, l - 1] that is the filter without delay."""
+    """With any dropouts, and any delays of those that come, in whatever order, several in flight; outside [k, l - 1] of
+    all that is the filter without delay."""
     every = data.draw(st.integers(1, 5))
-    L = data.draw(st.integers(1, every))
+    L = data.draw(st.integers(1, 3 * every))
     case, _ = with_timing(ONE_SENSOR["linear"], every, 0)
     steps = 14
     delays = {k: data.draw(st.none() | st.integers(0, L - 1)) for k in range(0, steps + 1, every)}
@@ -48,6 +49,29 @@ def test_it_is_the_filter_to_which_each_measurement_came_L_steps_late(data: st.D
     for each, late, undelayed in zip(found, expected, in_time, strict=True):
         np.testing.assert_allclose(each, late, rtol=0, atol=1e-10)
         np.testing.assert_allclose(each[outside], undelayed[outside], rtol=0, atol=1e-10)
+
+
+def test_several_of_one_step_and_others_are_in_flight() -> None:
+    case, _ = with_timing(ONE_SENSOR["linear"], 3, 0)
+    first = measured(case, 14)
+    both = [
+        *(one._replace(arrives=one.taken + 6) for one in first),
+        *(one._replace(arrives=one.taken) for one in first),
+    ]
+    given_to_both = case.composed, case.x0, case.P0, case.inputs(20)
+    found = run(*given_to_both, both, late="dual-rate", L=8)
+    expected = run(*given_to_both, [one._replace(arrives=one.taken + 8) for one in both], history=8)
+    for each, late in zip(found, expected, strict=True):
+        np.testing.assert_allclose(each, late, rtol=0, atol=1e-10)
+
+
+def test_by_default_it_lands_in_the_first_step_of_a_cycle_after_the_delay() -> None:
+    case, _ = with_timing(ONE_SENSOR["linear"], 3, 7)
+    given_to_both = case.composed, case.x0, case.P0, case.inputs(20), measured(case, 14)
+    for found, expected in zip(
+        run(*given_to_both, late="dual-rate"), run(*given_to_both, late="dual-rate", L=9), strict=True
+    ):
+        np.testing.assert_array_equal(found, expected)
 
 
 def test_jacobians_by_differences_are_as_good_as_given_ones() -> None:
