@@ -13,6 +13,14 @@ from filters.modular.arrivals import whole
 from filters.modular.composition import ModularFilter, unscented_parts
 from filters.modular.correction import correction
 from filters.modular.estimate import empty
+from filters.modular.in_flight_jobs import (
+    arguments_beside,
+    arguments_of_carrying,
+    arguments_of_landing,
+    carry_from,
+    correct_beside,
+    land_from,
+)
 from filters.modular.kept import keep
 from filters.modular.larsen import larsen_correction
 from filters.modular.larsen_jobs import (
@@ -37,7 +45,10 @@ def modular_jobs(
     """The jobs by part of the filter: "predict", and "correct.NAME" for each sensor. See `registry.Job`.
 
     Where no part is unscented and the covariance is not kept as factors, also those of Larsen's way with late
-    measurements: "predict_accumulate", and for each sensor "correct_accumulate.NAME" and "correct_late.NAME".
+    measurements: "predict_accumulate", and for each sensor "correct_accumulate.NAME" and "correct_late.NAME"; and those
+    of several in flight. Of carried gains for each sensor "carry.NAME", a step of one that it measured, "beside.NAME",
+    what each in flight adds to a correction by it, and "land.NAME". Of products of transitions "carry_product", and
+    "beside_product.NAME" and "land_product.NAME".
 
     x0, P0, u: a typical state and covariance to start from, and a typical input, see `typical.typical_moment`.
 
@@ -62,7 +73,27 @@ def modular_jobs(
             for kind, late in (("correct_accumulate", False), ("correct_late", True)):
                 arguments = partial(arguments_of_correction, composed, number, late)
                 jobs.append(job(f"{kind}.{sensor.name}", correct, arguments))
+        for products in (False, True):
+            jobs += _in_flight_jobs(composed, job, products)
     return {job.kind: job for job in jobs}
+
+
+def _in_flight_jobs(composed: ModularFilter, job: Callable[..., Job], products: bool) -> list[Job]:
+    """products: of transitions are carried, not gains."""
+    kind = "_product" if products else ""
+    jobs = []
+    for number, sensor in enumerate(composed.sensors):
+        carry, beside, lands = (
+            partial(arguments, composed, number, products)
+            for arguments in (arguments_of_carrying, arguments_beside, arguments_of_landing)
+        )
+        if not products:
+            jobs.append(job(f"carry.{sensor.name}", carry_from, carry))
+        elif number == 0:  # whatever the sensor
+            jobs.append(job("carry_product", carry_from, carry))
+        jobs += [job(f"beside{kind}.{sensor.name}", correct_beside, beside)]
+        jobs += [job(f"land{kind}.{sensor.name}", land_from, lands)]
+    return jobs
 
 
 def _predict(composed: ModularFilter, at: Moment) -> tuple[Any, ...]:

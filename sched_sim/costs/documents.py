@@ -8,8 +8,17 @@ from typing import Any
 from sched_sim.costs.methods import METHODS
 from sched_sim.errors import InputError, option
 
-PREDICT = ("predict", "predict_accumulate")
-CORRECT = ("correct", "correct_accumulate", "correct_late")
+PREDICT = ("predict", "predict_accumulate", "carry_product")
+CORRECT = (
+    "correct",
+    "correct_accumulate",
+    "correct_late",
+    "carry",
+    "beside",
+    "land",
+    "beside_product",
+    "land_product",
+)
 """Parts of a filter. The first is there once; each of the second once for each sensor."""
 
 

@@ -29,7 +29,9 @@ class SampledCosts:
     samples: by part, each one execution, at least one: "predict" (one step), "predict_accumulate" (one that also
     multiplies the transition, for Larsen's method), and with the sensor's name behind a dot "correct.gps" (one
     measurement), "correct_accumulate.gps" (one while another measurement is on its way, Larsen) and
-    "correct_late.gps" (the late one itself, Larsen).
+    "correct_late.gps" (the late one itself, Larsen). With several late measurements in flight also what each costs in a
+    step, "carry.gps", what it adds to a correction by the gps, "beside.gps", and its landing, "land.gps"; where
+    products of transitions are carried (Larsen), "carry_product", "beside_product.gps" and "land_product.gps".
     operations: counts by the same parts, where they are known; with the unit "operation" the samples may be left out,
     and each part has one: its arithmetic.
     provenance: whatever else the file says; path: where it was read from, for messages.
@@ -73,18 +75,30 @@ class _SampleTables(BaseModel):
     model_config = ConfigDict(extra="forbid", arbitrary_types_allowed=True)
     predict: _Samples | None = None
     predict_accumulate: _Samples | None = None
+    carry_product: _Samples | None = None
     correct: dict[str, _Samples] = {}
     correct_accumulate: dict[str, _Samples] = {}
     correct_late: dict[str, _Samples] = {}
+    carry: dict[str, _Samples] = {}
+    beside: dict[str, _Samples] = {}
+    land: dict[str, _Samples] = {}
+    beside_product: dict[str, _Samples] = {}
+    land_product: dict[str, _Samples] = {}
 
 
 class _OperationTables(BaseModel):
     model_config = ConfigDict(extra="forbid")
     predict: CountsOfJob | None = None
     predict_accumulate: CountsOfJob | None = None
+    carry_product: CountsOfJob | None = None
     correct: dict[str, CountsOfJob] = {}
     correct_accumulate: dict[str, CountsOfJob] = {}
     correct_late: dict[str, CountsOfJob] = {}
+    carry: dict[str, CountsOfJob] = {}
+    beside: dict[str, CountsOfJob] = {}
+    land: dict[str, CountsOfJob] = {}
+    beside_product: dict[str, CountsOfJob] = {}
+    land_product: dict[str, CountsOfJob] = {}
 
 
 class _SampleFile(BaseModel):

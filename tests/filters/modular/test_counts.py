@@ -161,6 +161,19 @@ def test_larsens_way_costs_products_with_the_accumulated_matrix(n: int, p: int) 
     assert found["correct_accumulate.s"] == found["correct.s"] + conditioned
 
 
+@pytest.mark.parametrize(("n", "p"), SIZES)
+def test_what_is_in_flight_costs_products_with_what_is_carried(n: int, p: int) -> None:
+    """Of gains, (n, p), and of transitions, (n, n); a landing with another taken before it and one after it."""
+    found = linear(n, p)
+    for kind, carry, w in (("", "carry.s", p), ("_product", "carry_product", n)):
+        assert found[carry] == product(n, n, w)
+        assert found[f"beside{kind}.s"].total == 4 * p * n * w
+        moved = 2 * p + 2 * n * w  # zeta, A v and its sum with x
+        eliminated = 2 * p * w + 2 * n * w * w + 2 * p * w * w  # of the later's known part, the earlier's A and its T
+        of_products = (2 * n * p - n) + 2 * n * p * w if kind else 0
+        assert found[f"land{kind}.s"].total == moved + eliminated + of_products
+
+
 def test_the_users_function_counts_as_often_as_it_is_called() -> None:
     """Linearised: once, and twice for each error if there is no Jacobian; unscented: once for each sigma point."""
     n, sensor = 3, linear_corrector(np.eye(1, 3), [[1.0]])

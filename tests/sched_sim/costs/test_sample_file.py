@@ -37,7 +37,15 @@ def test_samples_are_exact_decimals_by_part(tmp_path: Path) -> None:
 
 def test_what_is_written_is_read_back(tmp_path: Path) -> None:
     path = tmp_path / "costs.toml"
-    parts = ("predict", "predict_accumulate", "correct.a b", "correct_accumulate.a b", "correct_late.a b")
+    parts = (
+        "predict",
+        "predict_accumulate",
+        "correct.a b",
+        "correct_accumulate.a b",
+        "correct_late.a b",
+        "carry_product",
+        "land.a b",
+    )
     costs = SampledCosts(
         name="mine",
         unit="second",

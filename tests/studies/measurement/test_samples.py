@@ -138,6 +138,12 @@ def test_a_filter_of_linear_parts_has_the_jobs_of_larsens_way_too() -> None:
         "predict_accumulate",
         "correct_accumulate.gps",
         "correct_late.gps",
+        "carry.gps",
+        "beside.gps",
+        "land.gps",
+        "carry_product",
+        "beside_product.gps",
+        "land_product.gps",
     ]
 
 
