@@ -1,4 +1,4 @@
-"""Late measurements on their way: Larsen's method can wait for one at a time."""
+"""Late measurements on their way, and whether two of them are at once."""
 
 from __future__ import annotations
 
@@ -13,9 +13,6 @@ class Flight(NamedTuple):
     sensor: str
     taken: int
     arrives: int
-
-    def __str__(self) -> str:
-        return f"sensor {self.sensor!r}, steps {self.taken} to {self.arrives}"
 
 
 def first_overlap(flights: Iterable[Flight]) -> tuple[Flight, Flight] | None:

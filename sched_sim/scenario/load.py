@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from sched_sim.scenario.pattern import going_back, in_flight
+from sched_sim.scenario.pattern import going_back, in_flight, numbers_in_flight, share_at_once
 from sched_sim.scenario.scenario import Scenario, Sensor
 from sched_sim.schedule.tasks import Task
 
@@ -36,7 +36,7 @@ class CatchingUp(NamedTuple):
 def loads(scenario: Scenario) -> list[Load]:
     """Mean work over time, without context switches and without what corrections do again to catch up."""
     speed, last = float(scenario.speed), scenario.cpus - 1
-    mean_loads = [Load("predict", 0, _mixed(scenario, "predict") / speed)]
+    mean_loads = [Load("predict", 0, _predict(scenario) / speed)]
     for sensor, again in zip(scenario.sensors, _replays(scenario), strict=True):
         mean_loads.append(Load(f"correct {sensor.name}", last, _correct(scenario, sensor) / speed))
         if again:
@@ -58,10 +58,10 @@ def catching_up(scenario: Scenario) -> dict[str, CatchingUp]:
     needed: at the least; of the corrections made in that step, only more urgent ones have been.
     """
     replays = dict(zip(scenario.sensors, _replays(scenario), strict=True))
-    predict = _mixed(scenario, "predict") if scenario.cpus == 1 else 0.0
+    predict = _predict(scenario) if scenario.cpus == 1 else 0.0
     figures = {}
     for sensor in scenario.sensors:
-        if not scenario.preempted(sensor) or _is_larsens(scenario, sensor):
+        if not scenario.preempted(sensor) or _is_carried(scenario, sensor):
             continue
         urgent = [rival for rival in scenario.sensors if rival.priority < sensor.priority]
         tasks = [task for task in scenario.tasks if task.cpu == scenario.cpus and task.priority <= sensor.priority]
@@ -74,8 +74,8 @@ def catching_up(scenario: Scenario) -> dict[str, CatchingUp]:
 
 
 def _replays(scenario: Scenario) -> list[float]:
-    """Work in a step, of each sensor, that its late corrections do again; those of Larsen's method do nothing again."""
-    if scenario.late == "larsen":
+    """Work in a step, of each sensor, that its late corrections do again; those that are carried do nothing again."""
+    if scenario.late != "recalculate":
         return [0.0] * len(scenario.sensors)
     corrections = [_correction(scenario, sensor) for sensor in scenario.sensors]
     return going_back(scenario.sensors, _mean(scenario, "predict"), corrections)
@@ -83,14 +83,49 @@ def _replays(scenario: Scenario) -> list[float]:
 
 def _correct(scenario: Scenario, sensor: Sensor) -> float:
     """Work in a step, without what is done again."""
-    if _is_larsens(scenario, sensor):
+    if scenario.carries is not None:
+        at_once = _share_at_once(sensor)
+        return _rate(sensor) * (
+            (1 - at_once) * (_mean(scenario, f"{scenario.carries.land}.{sensor.name}") if at_once < 1 else 0.0)
+            + at_once * (_with_those_in_flight(scenario, sensor, at_once=True) if at_once else 0.0)
+        )
+    if _is_carried(scenario, sensor):
         return _rate(sensor) * _correction(scenario, sensor)
     return _rate(sensor) * _mixed(scenario, "correct", sensor)
 
 
+def _predict(scenario: Scenario) -> float:
+    """Work of the predict job, with what it does for measurements in flight."""
+    carries = scenario.carries
+    if carries is None:
+        return _mixed(scenario, "predict")
+    work = _mean(scenario, "predict")
+    for sensor, number in zip(scenario.sensors, numbers_in_flight(scenario.sensors), strict=True):
+        if sensor.delayed:
+            late = sensor.dropout + (1 - sensor.dropout) * (1 - _share_at_once(sensor))
+            work += number * _mean(scenario, carries.of(sensor.name))
+            work += late / sensor.every * _with_those_in_flight(scenario, sensor, at_once=False)
+    return float(work)
+
+
+def _with_those_in_flight(scenario: Scenario, sensor: Sensor, *, at_once: bool) -> float:
+    """A correction of the state, or of the covariance alone, and its part with each that is in flight."""
+    assert scenario.carries is not None
+    number = sum(numbers_in_flight(scenario.sensors, sensor, at_once=at_once))
+    beside = _mean(scenario, f"{scenario.carries.beside}.{sensor.name}")
+    return _mean(scenario, f"correct.{sensor.name}") + number * beside
+
+
+def _share_at_once(sensor: Sensor) -> float:
+    """Of those that arrive, in their own step."""
+    return share_at_once(sensor) if sensor.delayed else 1.0
+
+
 def _correction(scenario: Scenario, sensor: Sensor) -> float:
     """One, made again."""
-    return _mean(scenario, f"{'correct_late' if _is_larsens(scenario, sensor) else 'correct'}.{sensor.name}")
+    if scenario.carries is not None:
+        return _mean(scenario, f"{scenario.carries.land if _is_carried(scenario, sensor) else 'correct'}.{sensor.name}")
+    return _mean(scenario, f"{'correct_late' if _is_carried(scenario, sensor) else 'correct'}.{sensor.name}")
 
 
 def _mixed(scenario: Scenario, part: str, sensor: Sensor | None = None) -> float:
@@ -101,8 +136,10 @@ def _mixed(scenario: Scenario, part: str, sensor: Sensor | None = None) -> float
     return accumulating + (1 - share) * _mean(scenario, f"{part}{name}")
 
 
-def _is_larsens(scenario: Scenario, sensor: Sensor) -> bool:
-    """Whether its late measurements are carried to the step in which they land."""
+def _is_carried(scenario: Scenario, sensor: Sensor) -> bool:
+    """Whether all its measurements are carried to the step in which they land."""
+    if scenario.carries is not None:
+        return sensor.least_delay > 0
     return scenario.late == "larsen" and sensor.delayed
 
 

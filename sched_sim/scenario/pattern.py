@@ -137,6 +137,42 @@ def _going_back(number: int, arrivals: Sequence[Arrivals], predict: float, corre
     return float((first * late * work).sum()) / taken.size / own.every
 
 
+def share_at_once(sensor: Sensor) -> float:
+    """Of its measurements that arrive, those that do so in the step in which they are taken."""
+    if sensor.dropout == 1:
+        return 0.0
+    parts = _arrivals([sensor])
+    return float(np.mean([part.at[0] for part in parts])) / (1 - sensor.dropout)
+
+
+def numbers_in_flight(sensors: Sequence[Sensor], sensor: Sensor | None = None, *, at_once: bool = False) -> list[float]:
+    """How many late measurements of each sensor are in flight at the start of a step, on average, if every correction
+    lands in the step in which it arrives; a lost one is as long as its sensor's longest delay.
+
+    sensor: of the steps in which it takes a measurement, where those count that the sensors before it take in the step.
+    at_once: when its correction of such a step is made; then those of all sensors do, and none that has landed before.
+    """
+    parts = _arrivals(sensors)
+    late = [arrivals for arrivals in parts if arrivals.sensor.delayed]
+    if sensor is None:
+        steps = _steps(1, 0, late, MOST_CASES)
+    else:
+        own = [arrivals for arrivals in parts if arrivals.sensor is sensor]
+        steps = np.concatenate([part.steps(late, MOST_CASES // len(own)) for part in own])
+    numbers = [0.0] * len(sensors)
+    for arrivals in late:
+        lags, longest = np.arange(arrivals.at.size), arrivals.sensor.longest_delay
+        lost = arrivals.sensor.dropout * (lags < longest if at_once else lags <= longest)
+        there = 1 - arrivals.sensor.dropout - arrivals.before + lost
+        if sensor is not None and at_once and arrivals.priority <= sensor.priority:
+            there -= arrivals.at
+        taken_now = sensor is not None and (at_once or arrivals.owner < sensors.index(sensor))
+        taken_now = taken_now and arrivals.sensor is not sensor
+        there[0] = 1 - arrivals.at[0] if taken_now else 0
+        numbers[arrivals.owner] += float(arrivals.sums(there, steps, np.full(steps.size, there.size - 1)).mean())
+    return numbers
+
+
 def in_flight(sensors: Sequence[Sensor], sensor: Sensor | None = None) -> float:
     """The share of steps at whose start Larsen's method has a measurement in flight; or, of the steps in which `sensor`
     takes its undelayed measurements, that in which one still is when their corrections have landed.

@@ -141,7 +141,7 @@ def run_scenario(
     if not isinstance(scenario, Scenario):
         raise InputError(f"scenario is a {type(scenario).__name__}: give read_scenario(...), or a Scenario")
     check_simulation(scenario.steps, scenario.tasks, f"scenario {scenario.name!r}: steps")
-    parts = needed_parts(scenario.sensors, scenario.late)
+    parts = needed_parts(scenario.sensors, scenario.late, scenario.carries)
     speed, tasks = scenario.speed, scenario.tasks
     resolution = ticks_per_unit(
         [

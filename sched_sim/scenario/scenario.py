@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 from math import ceil
 from pathlib import Path
-from typing import Any, Literal, get_args
+from typing import Any, Literal, NamedTuple, get_args
 
 from sched_sim.bounds import MOST_STEPS, check_sensors, short
 from sched_sim.errors import InputError
@@ -35,14 +36,35 @@ from sched_sim.schedule.jobs import HR, LR
 from sched_sim.schedule.tasks import Task, wrong_together
 from sched_sim.ticks import exact
 
-Late = Literal["recalculate", "larsen"]
-"""What a late measurement does: the filter rolls back to it and replays, or Larsen's method carries it forward."""
+Late = Literal["recalculate", "larsen", "carried-gain"]
+"""What a late measurement does: the filter rolls back to it and replays, or its correction is carried forward, by
+Larsen's method or as a gain."""
 
 Samples = Mapping[str, Sequence[Fraction]]
 """Execution times by part of the filter, as in `sample_file.SampledCosts`."""
 
-LARSENS = ("predict_accumulate", "correct_accumulate", "correct_late")
-"""Parts of a filter that run for Larsen's method only."""
+ONE_IN_FLIGHT = ("predict_accumulate", "correct_accumulate", "correct_late")
+"""Parts of a filter that run only where Larsen's method waits for one measurement at a time."""
+
+
+class Carried(NamedTuple):
+    """Parts of a filter that carries several: of each in flight, in each step; beside each correction; at the landing.
+
+    each: whether `carry` is another part for each sensor.
+    """
+
+    carry: str
+    beside: str
+    land: str
+    each: bool
+
+    def of(self, sensor: str) -> str:
+        """What it costs to carry a measurement of the sensor of this name."""
+        return f"{self.carry}.{sensor}" if self.each else self.carry
+
+
+GAINS = Carried("carry", "beside", "land", each=True)
+PRODUCTS = Carried("carry_product", "beside_product", "land_product", each=False)
 
 
 @dataclass(frozen=True)
@@ -161,8 +183,6 @@ class Scenario:
     def __post_init__(self) -> None:
         bad = settle(self, SCENARIO_FIELDS)
         wrong = [*bad.values(), *self._at_odds({*bad})]
-        if not wrong and self.late == "larsen":
-            wrong = self._in_flight_at_once()
         if wrong:
             raise InputError(f"scenario {self.name!r}: {'; '.join(wrong)}")
 
@@ -180,27 +200,14 @@ class Scenario:
             for task in self.tasks:
                 if task.cpu > self.cpus:
                     yield f"task {task.name!r}: cpu {task.cpu} is not there; give cpus = {task.cpu}, or cpu = 1"
-        if not bad & {"costs", "late"}:
+        known = {"costs", "late"} if self.late == "recalculate" else {"costs", "late", "steps", "seed"}
+        if not bad & known:
             yield from _lacking(self)
 
-    def _in_flight_at_once(self) -> list[str]:
-        """What to say of late measurements that Larsen's method cannot wait for."""
-        delayed = [sensor for sensor in self.sensors if sensor.delayed]
-        if len(delayed) == 1 and ends(delayed[0].delays)[1] <= delayed[0].every:
-            return []
-        overlap = first_overlap(flight for sensor in delayed for flight in sensor.flights(self.steps, self.seed))
-        if overlap is None:
-            return []
-        first, second = overlap
-        offsets = (
-            ""
-            if first.sensor == second.sensor
-            else "; or give offsets with which the second is taken when the first has arrived"
-        )
-        return [
-            f'{first} and {second}: late = "larsen" can wait for one measurement at a time; choose late = '
-            f'"recalculate", which takes any number{offsets}'
-        ]
+    @cached_property
+    def carries(self) -> Carried | None:
+        """What the filter carries of each measurement in flight, see `carried`."""
+        return carried(self.sensors, self.late, self.steps, self.seed)
 
     def preempted(self, sensor: Sensor) -> bool:
         """Whether predict jobs go on while a correction of `sensor` is under way."""
@@ -243,10 +250,35 @@ SCENARIO_FIELDS = {
 }
 
 
-def needed_parts(sensors: Sequence[Sensor], late: Late) -> list[str]:
-    """The parts of the filter that run in such a scenario."""
+def carried(sensors: Sequence[Sensor], late: Late, steps: int, seed: int) -> Carried | None:
+    """What a filter carries of each measurement in flight; None if it goes back, or Larsen's method has one at most."""
+    if late == "recalculate" or not any(sensor.delayed for sensor in sensors):
+        return None
+    if late == "carried-gain":
+        return GAINS
+    return PRODUCTS if _several_in_flight(sensors, steps, seed) else None
+
+
+def _several_in_flight(sensors: Sequence[Sensor], steps: int, seed: int) -> bool:
+    """Whether one that will arrive late is taken before another has."""
+    delayed = [sensor for sensor in sensors if sensor.delayed]
+    if len(delayed) == 1 and ends(delayed[0].delays)[1] <= delayed[0].every:
+        return False
+    return first_overlap(flight for sensor in delayed for flight in sensor.flights(steps, seed)) is not None
+
+
+def needed_parts(sensors: Sequence[Sensor], late: Late, carries: Carried | None) -> list[str]:
+    """The parts of the filter that run in such a scenario. carries: see `carried`."""
     if late == "recalculate" or not any(sensor.delayed for sensor in sensors):
         return ["predict", *(f"correct.{sensor.name}" for sensor in sensors)]
+    if carries is not None:
+        late_ones = [sensor.name for sensor in sensors if sensor.delayed]
+        return [
+            "predict",
+            *dict.fromkeys(carries.of(name) for name in late_ones),
+            *(f"{kind}.{sensor.name}" for sensor in sensors for kind in ("correct", carries.beside)),
+            *(f"{carries.land}.{name}" for name in late_ones),
+        ]
     kinds = {True: ("correct_late",), False: ("correct", "correct_accumulate")}
     of_sensors = [f"{kind}.{sensor.name}" for sensor in sensors for kind in kinds[sensor.delayed]]
     return ["predict", "predict_accumulate", *of_sensors]
@@ -254,7 +286,8 @@ def needed_parts(sensors: Sequence[Sensor], late: Late) -> list[str]:
 
 def _lacking(scenario: Scenario) -> list[str]:
     """What to say of the costs that are not there."""
-    parts = [part for part in needed_parts(scenario.sensors, scenario.late) if not scenario.costs.get(part)]
+    needed = needed_parts(scenario.sensors, scenario.late, scenario.carries)
+    parts = [part for part in needed if not scenario.costs.get(part)]
     said = []
     if "predict" in parts:
         said.append("no costs of predict: give [predictor] a cost, or the scenario a costs file with it")
@@ -262,11 +295,13 @@ def _lacking(scenario: Scenario) -> list[str]:
         kind, _, sensor = part.partition(".")
         if kind == "correct":
             said.append(f"no costs of {part}: give sensor {sensor!r} a cost, or the scenario a costs file with it")
-    larsens = [part for part in parts if part.startswith(LARSENS)]
-    if larsens:
+    others = [part for part in parts if part.partition(".")[0] not in ("predict", "correct")]
+    if others:
+        several = " with several measurements in flight" if scenario.carries == PRODUCTS else ""
         said.append(
-            f'no costs of {", ".join(larsens)}: late = "larsen" takes them from a costs file, not from `cost`: write '
-            f'there {_entries(larsens)}, beside its name and unit, and costs = "FILE.toml" in the scenario; '
+            f'no costs of {", ".join(others)}: late = "{scenario.late}"{several} takes them from a costs file, not '
+            f'from `cost`: write there {_entries(others)}, beside its name and unit, and costs = "FILE.toml" in the '
+            f"scenario; "
             f"`sched-sim measure --filter` writes them for a filter of linear and extended parts, not of unscented "
             f'ones; or choose late = "recalculate"'
         )

@@ -24,7 +24,7 @@ from sched_sim.scenario.composition import Composition, Describe, with_its_senso
 from sched_sim.scenario.fields import ends
 from sched_sim.scenario.file_entries import Entry, PredictorEntry, SensorEntry, not_negative
 from sched_sim.scenario.file_units import Said, Units, agreed, costs_said, plain_cost, shown, time, timed_cost, units_of
-from sched_sim.scenario.scenario import Late, Samples, Scenario, needed_parts
+from sched_sim.scenario.scenario import Late, Samples, Scenario, carried, needed_parts
 from sched_sim.schedule.length import check_simulation
 from sched_sim.schedule.task_file import TaskEntry, TaskUnits, tasks_of
 from sched_sim.schedule.tasks import Task
@@ -255,7 +255,7 @@ def _scenario(checked: _ScenarioFile, units: Units, folder: Path) -> Scenario:
     stated = {part: cost for part, cost in found.items() if cost is not None}
     costs: dict[str, Sequence[Fraction]] = {}
     sensors, harness = [sensor.sensor(units) for sensor in checked.sensor], False
-    needed = needed_parts(sensors, checked.late)
+    needed = needed_parts(sensors, checked.late, carried(sensors, checked.late, steps, checked.seed))
     if unused := [part.partition(".")[2] for part in stated if part not in needed]:
         raise InputError(
             f'the cost of sensor {", ".join(unused)} has no meaning with late = "larsen": its late corrections are '

@@ -23,12 +23,24 @@ A preempted correction that finishes in a later step has to catch up: it goes on
 and the corrections made meanwhile, from the step of the earliest of those measurements if that is before the one it had
 reached, until it finishes in the step it aims at. On a processor without that much time left this never ends.
 
-larsen. One late measurement is in flight at a time (`Scenario` sees to it), from when it is taken until it lands; if it
-never arrives, until the next late one is taken, for the filter cannot know. Meanwhile each predict job also multiplies
-what has become of an error of step k by the transition, and so do the corrections of undelayed sensors with their own
-part. On a slow processor one may land after the next has been taken, and then both are in flight: each needs a product
-of its own, and what is charged is one. The late correction itself needs no replay, and lands in the step in which it
-finishes. A preempted correction of an undelayed sensor that finishes in a later step catches up as above.
+larsen, where none is taken before the late one before has arrived: one late measurement is in flight at a time, from
+when it is taken until it lands; if it never arrives, until the next late one is taken, for the filter cannot know.
+Meanwhile each predict job also multiplies what has become of an error of step k by the transition, and so do the
+corrections of undelayed sensors with their own part. On a slow processor one may land after the next has been taken,
+and then both are in flight: each needs a product of its own, and what is charged is one. The late correction itself
+needs no replay, and lands in the step in which it finishes. A preempted correction of an undelayed sensor that finishes
+in a later step catches up as above.
+
+carried-gain, and larsen in any other scenario: any number may be in flight (`filters.modular.carried_gain`). That one
+is being taken is known in its step k, and the covariance is corrected there: the predict job of k does that too, with
+the work of the sensor's correction. It also takes each measurement that is in flight at its start a step further,
+`carry`, and a correction made at once, or at k, does its part with each in flight, `beside`: those of its own step
+have been taken before it. When a late one has arrived its correction is the work of its landing, `land`, which needs no
+replay and lands in the step in which it finishes; it is in flight until then. A measurement that never arrives is
+in flight as long as its sensor's longest delay, for then the filter knows; to add what it would have told to the
+covariance is not charged. A measurement that for once arrives in its own step is corrected at once. A preempted
+correction that is made at once and finishes in a later step catches up as above, by predicts, and the corrections of
+the covariance and the landings in the steps that passed.
 
 In one step and of one priority, late corrections come first, then those of the sensors in their order.
 
@@ -77,6 +89,13 @@ class Branch(NamedTuple):
     ahead: frozenset[Measurement]
 
 
+class Taken(NamedTuple):
+    """A late measurement whose covariance was corrected in this step. sensor: its number."""
+
+    step: int
+    sensor: int
+
+
 class Awaited(NamedTuple):
     """A late measurement, not there yet. step: in which it was taken; arrives: None if it never does."""
 
@@ -84,10 +103,15 @@ class Awaited(NamedTuple):
     arrives: int | None
 
 
+Applied = tuple[int, Measurement | Taken]
+
+
 class ComposedFilter(Source):
     """Releases the jobs; `period` (the HR period) and `costs`, by part, in ticks.
 
-    following: each sensor's next measurement; taken, dropped: measurements so far, by the number of the sensor;
+    flying: where several may be in flight, those that are, with the step in which one that never arrives is known to be
+    lost, else None. following: each sensor's next measurement; taken, dropped: measurements so far, by the number of
+    the sensor;
     pending: arrived and not landed, sorted.
     """
 
@@ -102,30 +126,36 @@ class ComposedFilter(Source):
         self.dropped = [0] * len(self.sensors)
         self.pending: list[Measurement] = []
         self.corrector_cpu = scenario.cpus - 1
-        self.larsen = scenario.late == "larsen"
+        self.carries = scenario.carries
+        self.one_in_flight = scenario.late == "larsen" and self.carries is None
+        self.flying: dict[Taken, int | None] = {}
         self.measurements = [sensor.measurements(scenario.steps, scenario.seed) for sensor in self.sensors]
         self.following = [next(measurements, None) for measurements in self.measurements]
         self.predict_stream = stream(scenario.seed, "predictor cost")
         self.streams = [stream(scenario.seed, f"{sensor.name} cost") for sensor in self.sensors]
         self.arrivals: defaultdict[int, list[Measurement]] = defaultdict(list)  # by step
         self.waiting: dict[int, list[Measurement]] = {}  # by priority, while one of that priority is under way
-        self.landed: list[tuple[int, Measurement]] = []  # the step of the state it was applied to, in order of landing
-        self.applied: list[tuple[int, Measurement]] = []  # the same, in order of that step
+        self.landed: list[Applied] = []  # the step of the state it was applied to, in order of landing
+        self.applied: list[Applied] = []  # the same, in order of that step
         self.awaited: Awaited | None = None  # by Larsen's method, not arrived yet
-        self.carried: dict[Measurement, None] = {}  # by Larsen's method, arrived and not landed
+        self.carried: dict[Measurement, None] = {}  # of those that are carried, arrived and not landed
 
     def release(self) -> tuple[Job, ...]:
         step, start = self.step, self.next_release
         self.step, self.next_release = step + 1, start + self.period
-        jobs = [self._predict(step, start)]
+        predict = self._predict()
+        corrected = 0
         for number, following in enumerate(self.following):
             if following is not None and following[0] == step:
-                self._take(number, *following)
+                corrected += self._take(number, *following)
                 self.following[number] = next(self.measurements[number], None)
+        for taken in [taken for taken, lost in self.flying.items() if lost == step]:
+            del self.flying[taken]
+        jobs = [self._predict_job(step, start, predict, corrected)]
         if self.awaited is not None and self.awaited.arrives == step:
             self.awaited = None
         arrived = sorted(self.arrivals.pop(step, []), key=self._order)
-        self.carried |= dict.fromkeys(measurement for measurement in arrived if self._is_larsens(measurement))
+        self.carried |= dict.fromkeys(measurement for measurement in arrived if self._is_carried(measurement))
         for _, together in groupby(arrived, self._group):
             jobs += self._arrive(tuple(together), start)
         return tuple(jobs)
@@ -142,30 +172,66 @@ class ComposedFilter(Source):
 
     def _group(self, measurement: Measurement) -> tuple[int, Measurement | None]:
         """The same for corrections that arrive in one step and go back together."""
-        goes_back = self._is_late(measurement) and not self._is_larsens(measurement)
+        goes_back = self._is_late(measurement) and not self._is_carried(measurement)
         return self.sensors[measurement.sensor].priority, None if goes_back else measurement
 
     def _is_late(self, measurement: Measurement) -> bool:
         """Whether it arrived in a later step than that in which it was taken."""
         return measurement.step * self.period < measurement.arrival
 
-    def _predict(self, step: int, start: int) -> Job:
-        part = "predict_accumulate" if self.awaited or self.carried else "predict"
+    def _predict(self) -> int:
+        """The work of the prediction, with what is in flight."""
+        waits = self.one_in_flight and (self.awaited or self.carried)
+        part = "predict_accumulate" if waits else "predict"
         work = total(self.costs[part], self.predict_stream)
-        priority = self.scenario.priority
-        return Job("predict", step, priority, start, start + self.period, work, (("PR", work),))
+        if self.carries is not None:
+            for taken in self.flying:
+                work += total(self.costs[self.carries.of(self.sensors[taken.sensor].name)], self.predict_stream)
+        return work
 
-    def _take(self, number: int, step: int, delay: int | None) -> None:
+    def _predict_job(self, step: int, start: int, predict: int, corrected: int) -> Job:
+        """corrected: the work of the corrections of the covariance in its step."""
+        parts = (("PR", predict), ("CO", corrected)) if corrected else (("PR", predict),)
+        return Job("predict", step, self.scenario.priority, start, start + self.period, predict + corrected, parts)
+
+    def _take(self, number: int, step: int, delay: int | None) -> int:
+        """What is done in its step with one that will come late."""
         sensor = self.sensors[number]
         arrives = None if delay is None else step + delay
         self.taken[number] += 1
-        if self.larsen and sensor.delayed and arrives != step:
-            self._await(Awaited(step, arrives))
+        work = 0
+        if sensor.delayed and arrives != step:
+            if self.one_in_flight:
+                self._await(Awaited(step, arrives))
+            elif self.carries is not None:
+                work = self._correct_covariance(Taken(step, number), arrives)
         if arrives is None:
             self.dropped[number] += 1
-            return
+            return work
         due = (step + sensor.land_by + 1) * self.period
         self.arrivals[arrives].append(Measurement(step, number, arrives * self.period, due))
+        return work
+
+    def _correct_covariance(self, taken: Taken, arrives: int | None) -> int:
+        """The work of it, by one that comes late; from now on it is in flight."""
+        sensor = self.sensors[taken.sensor]
+        work = total(self.costs[f"correct.{sensor.name}"], self.streams[taken.sensor])
+        work += self._beside(taken.sensor, len(self.flying))
+        self.flying[taken] = taken.step + sensor.longest_delay if arrives is None else None
+        self._apply(taken.step, taken)
+        return work
+
+    def _beside(self, number: int, in_flight: int) -> int:
+        """The work of a correction by the sensor of this number with so many in flight."""
+        if self.carries is None or not in_flight:
+            return 0
+        costs = self.costs[f"{self.carries.beside}.{self.sensors[number].name}"]
+        return total(costs, self.streams[number], in_flight)
+
+    def _apply(self, step: int, applied: Measurement | Taken) -> None:
+        """In the history of this step."""
+        self.landed.append((step, applied))
+        insort(self.applied, (step, applied), key=itemgetter(0))
 
     def _await(self, taken: Awaited) -> None:
         """One that will never arrive is not waited for while another is in flight."""
@@ -191,8 +257,8 @@ class ComposedFilter(Source):
             del self.waiting[priority]
             return ()
         first = waiting[0]
-        rest = [] if self._is_larsens(first) else waiting[1:]
-        together = (first, *(measurement for measurement in rest if not self._is_larsens(measurement)))
+        rest = [] if self._is_carried(first) else waiting[1:]
+        together = (first, *(measurement for measurement in rest if not self._is_carried(measurement)))
         self.waiting[priority] = [measurement for measurement in waiting if measurement not in together]
         return (self._correct(together, now),)
 
@@ -200,20 +266,23 @@ class ComposedFilter(Source):
         """Settles the work of corrections that can start now."""
         first = together[0]
         sensor, draws = self.sensors[first.sensor], self.streams[first.sensor]
-        if self._is_larsens(first):
-            late = total(self.costs[f"correct_late.{sensor.name}"], draws)
+        if self._is_carried(first):
+            late = total(self.costs[self._part(first)], draws)
             return self._job(together, (("CO", late),), partial(self._land, together))
         aim = now // self.period
-        kind = "correct_accumulate" if self._waits(aim, together) else "correct"
+        kind = "correct_accumulate" if self.one_in_flight and self._waits(aim, together) else "correct"
         names = [self.sensors[measurement.sensor].name for measurement in together]
         work = sum(total(self.costs[f"{kind}.{name}"], draws) for name in names)
+        if self.carries is not None:
+            flying = self._in_flight(aim, together)
+            work += sum(self._beside(measurement.sensor, flying) for measurement in together)
         back = min(measurement.step for measurement in together)
         after = back - 1 if back < aim else back  # from the prediction of step `back`, or from the state as it is
         later = self.pending[bisect_right(self.pending, after, key=itemgetter(0)) :]
         again = [
             measurement
             for measurement in later
-            if self._is_ahead(measurement, together) and not self._is_larsens(measurement)
+            if self._is_ahead(measurement, together) and not self._is_carried(measurement)
         ]
         replay = self._replay(first, aim - back, [*again, *self._applied_after(after)])
         parts = (("CO", work), ("RP", replay)) if replay else (("CO", work),)
@@ -235,22 +304,34 @@ class ComposedFilter(Source):
             measurement.step < step and not self._is_ahead(measurement, together) for measurement in self.carried
         )
 
-    def _is_larsens(self, measurement: Measurement) -> bool:
+    def _in_flight(self, step: int, together: Together) -> int:
+        """How many taken by `step` will still be in flight when these have landed."""
+        ahead = sum(measurement.step <= step and self._is_ahead(measurement, together) for measurement in self.carried)
+        return sum(taken.step <= step for taken in self.flying) - ahead
+
+    def _is_carried(self, measurement: Measurement) -> bool:
         """Whether it is carried to the step in which it lands, instead of being replayed from its own."""
-        return self.larsen and self.sensors[measurement.sensor].delayed
+        if self.carries is not None:
+            return self._is_late(measurement)
+        return self.one_in_flight and self.sensors[measurement.sensor].delayed
 
-    def _applied_after(self, step: int) -> list[Measurement]:
+    def _part(self, applied: Measurement | Taken) -> str:
+        """That of which it costs the work to apply it once more."""
+        name = self.sensors[applied.sensor].name
+        if isinstance(applied, Taken) or not self._is_carried(applied):
+            return f"correct.{name}"
+        return f"{'correct_late' if self.carries is None else self.carries.land}.{name}"
+
+    def _applied_after(self, step: int) -> list[Measurement | Taken]:
         """Corrections in the history of the steps after this one."""
-        return [measurement for _, measurement in self.applied[bisect_right(self.applied, step, key=itemgetter(0)) :]]
+        return [applied for _, applied in self.applied[bisect_right(self.applied, step, key=itemgetter(0)) :]]
 
-    def _replay(self, measurement: Measurement, steps: int, again: Iterable[Measurement]) -> int:
+    def _replay(self, measurement: Measurement, steps: int, again: Iterable[Measurement | Taken]) -> int:
         """The work of so many predicts and these corrections, drawn for the correction of `measurement`."""
         draws = self.streams[measurement.sensor]
         work = total(self.costs["predict"], draws, steps)
         for repeated in again:
-            sensor = self.sensors[repeated.sensor]
-            part = "correct_late" if self._is_larsens(repeated) else "correct"
-            work += total(self.costs[f"{part}.{sensor.name}"], draws)
+            work += total(self.costs[self._part(repeated)], draws)
         return work
 
     def _finish(self, branch: Branch, job: Job, now: int) -> tuple[Job, ...]:
@@ -258,9 +339,7 @@ class ComposedFilter(Source):
         if step_at(now, self.period) <= branch.aim:
             return self._land(branch.together, job, now)
         first = branch.together[0]
-        news = [
-            (step, measurement) for step, measurement in self.landed[branch.seen :] if measurement not in branch.ahead
-        ]
+        news = [(step, applied) for step, applied in self.landed[branch.seen :] if applied not in branch.ahead]
         back = min([branch.aim, *(step for step, _ in news)])
         if back < branch.aim:  # from the prediction of that step
             again = [
@@ -268,7 +347,7 @@ class ComposedFilter(Source):
                 *(measurement for measurement in branch.together if measurement.step >= back),
             ]
         else:
-            again = [*self._applied_after(back), *(measurement for step, measurement in news if step == back)]
+            again = [*self._applied_after(back), *(applied for step, applied in news if step == back)]
         aim = now // self.period
         work = self._replay(first, aim - back, again)
         further = branch._replace(aim=aim, seen=len(self.landed))
@@ -278,9 +357,8 @@ class ComposedFilter(Source):
         for measurement in together:
             del self.pending[bisect_left(self.pending, measurement)]
             self.carried.pop(measurement, None)
-            applied_to = step_at(now, self.period) if self._is_larsens(measurement) else measurement.step
-            self.landed.append((applied_to, measurement))
-            insort(self.applied, (applied_to, measurement), key=itemgetter(0))
+            self.flying.pop(Taken(measurement.step, measurement.sensor), None)
+            self._apply(step_at(now, self.period) if self._is_carried(measurement) else measurement.step, measurement)
         return self._next(job.priority, now) if job.priority in self.waiting else ()
 
     def _job(self, together: Together, parts: Parts, then: Then | None) -> Job:

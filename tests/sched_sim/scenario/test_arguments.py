@@ -84,7 +84,7 @@ BAD: dict[str, tuple[Callable[[], Any], str]] = {
     "all at once": (
         lambda: built(steps=0, cpus=3, late="never", sensors=None),
         "steps 0 must be at least 1: it is how many HR steps are simulated; sensors holds None: give a list of Sensor; "
-        "late is 'never': choose from 'recalculate', 'larsen'; cpus is 3: choose from 1, 2",
+        "late is 'never': choose from 'recalculate', 'larsen', 'carried-gain'; cpus is 3: choose from 1, 2",
     ),
     "a path": (lambda: run_scenario("late.toml"), "scenario is a str: give read_scenario(...)"),  # type: ignore[arg-type]
     "a Path": (lambda: run_scenario(Path("late.toml")), "Path: give read_scenario(...)"),  # type: ignore[arg-type]

@@ -67,3 +67,13 @@ def test_larsen_needs_costs_of_its_own() -> None:
     )
     with pytest.raises(InputError, match=re.escape(said)):
         scenario(10, BY_HAND, sensor("gps", 20, 2), steps=8, late="larsen")
+
+
+@pytest.mark.parametrize(
+    ("late", "way", "kind"), [("carried-gain", "", ""), ("larsen", " with several measurements in flight", "_product")]
+)
+def test_so_does_what_carries_several(late: str, way: str, kind: str) -> None:
+    carry = "carry_product" if kind else "carry.gps"
+    parts = f"{carry}, beside{kind}.gps, beside{kind}.imu, land{kind}.gps"
+    with pytest.raises(InputError, match=re.escape(f'no costs of {parts}: late = "{late}"{way} takes them')):
+        scenario(10, BY_HAND, sensor("gps", 2, 5), sensor("imu", 1), steps=8, late=late)

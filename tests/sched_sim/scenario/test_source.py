@@ -9,6 +9,7 @@ from itertools import count
 import pytest
 
 from sched_sim.scenario.run import run_scenario
+from sched_sim.scenario.scenario import Late, Scenario
 from sched_sim.scenario.source import ComposedFilter, Measurement
 from tests.scenarios import BY_HAND, HR, LR, scenario, sensor, slices_of
 
@@ -252,6 +253,89 @@ def test_larsen_does_not_wait_for_a_lost_measurement_while_another_is_in_flight(
     gps, camera = sensor("gps", 100, 4), sensor("camera", 100, 2, offset=1, dropout=1.0)
     of = scenario(10, entries, gps, camera, late="larsen", steps=8)
     assert [end - start for start, end in slices_of(of, "predict")] == [3, 4, 4, 4, 4, 3, 3, 3]
+
+
+CARRIED = {"predict": 3, "correct.gps": 2, "carry.gps": 1, "beside.gps": 1, "land.gps": 2}
+CARRIED |= {"correct.imu": 1, "beside.imu": 2}
+PRODUCTS = {"carry_product": 1} | {
+    part.replace(".", "_product."): work for part, work in CARRIED.items() if "." in part
+}
+
+
+def works_of(of: Scenario, kind: str) -> list[int]:
+    """Of what ran in one piece each."""
+    return [end - start for start, end in slices_of(of, kind)]
+
+
+def test_carried_gain_the_covariance_is_corrected_in_its_step_and_the_estimate_on_arrival() -> None:
+    """The predict job of step 0 corrects, those of steps 1 and 2 carry, and behind the latter it lands."""
+    of = scenario(10, CARRIED, sensor("gps", 20, 2), late="carried-gain", steps=5)
+    assert slices_of(of, "predict") == [(0, 5), (10, 14), (20, 24), (30, 33), (40, 43)]
+    assert slices_of(of, "correct gps") == [(24, 26)]
+    assert run_scenario(of).sensors["gps"].achieved == {2: 1}
+
+
+@pytest.mark.parametrize(("late", "costs"), [("carried-gain", CARRIED), ("larsen", CARRIED | PRODUCTS)])
+def test_several_in_flight_are_each_carried_and_each_beside_a_correction(late: Late, costs: dict[str, int]) -> None:
+    """Taken in every second step and 5 late: at the starts of the steps 0, 1, 1, 2, 2, 3, 2, 3, 2 are in flight."""
+    of = scenario(20, costs, sensor("gps", 2, 5), late=late, steps=9)
+    jobs = run_scenario(of).schedule
+    pieces = slices_of(of, "predict")
+    busy = [sum(end - start for start, end in pieces if start // 20 == step) for step in range(9)]
+    flying = [0, 1, 1, 2, 2, 3, 2, 3, 2]
+    assert busy == [3 + n + (2 + n if step % 2 == 0 else 0) for step, n in enumerate(flying)]
+    assert works_of(of, "correct gps") == [2, 2]
+    assert jobs.misses == 0
+
+
+def test_carried_gain_what_never_arrives_is_in_flight_as_long_as_the_longest_delay() -> None:
+    of = scenario(10, CARRIED, sensor("gps", 20, [2, 4], dropout=1.0), late="carried-gain", steps=7)
+    assert [end - start for start, end in slices_of(of, "predict")] == [5, 4, 4, 4, 4, 3, 3]
+
+
+@pytest.mark.parametrize(("priority", "imu_works"), [(HR, [3, 3, 1, 1]), (LR, [3, 3, 3, 1])])
+def test_carried_gain_others_do_their_part_with_what_is_in_flight(priority: int, imu_works: list[int]) -> None:
+    """The gps of step 0 is taken before the imu's correction; in step 2, if as urgent, it lands before it."""
+    imu, gps = sensor("imu", 1, priority=HR), sensor("gps", 4, 2, priority=priority)
+    of = scenario(10, CARRIED, imu, gps, late="carried-gain", steps=4)
+    assert works_of(of, "correct imu") == imu_works
+
+
+def test_carried_gain_one_that_is_not_late_for_once_is_corrected_at_once() -> None:
+    gps = sensor("gps", 4, [0, 2])
+    seed = next(seed for seed in count() if [*gps.measurements(1, seed)] == [(0, 0)])
+    of = scenario(10, CARRIED, gps, late="carried-gain", steps=1, seed=seed)
+    assert (works_of(of, "predict"), works_of(of, "correct gps")) == ([3], [2])
+
+
+def test_carried_gain_in_any_order_of_arrival_nothing_is_done_again() -> None:
+    """The camera's of step 1 overtakes the gps's of step 0. Both are in flight in steps 2 and 3."""
+    costs = CARRIED | {"correct.camera": 2, "carry.camera": 2, "beside.camera": 1, "land.camera": 1}
+    gps, camera = sensor("gps", 100, 5), sensor("camera", 100, 2, offset=1)
+    of = scenario(20, costs, gps, camera, late="carried-gain", steps=7)
+    pieces = slices_of(of, "predict")
+    busy = [sum(end - start for start, end in pieces if start // 20 == step) for step in range(7)]
+    assert busy == [3 + 2, 3 + 1 + 2 + 1, 3 + 1 + 2, 3 + 1 + 2, 3 + 1, 3 + 1, 3]
+    assert slices_of(of, "correct camera") == [(66, 67)]
+    assert slices_of(of, "correct gps") == [(104, 106)]
+
+
+def test_carried_gain_a_correction_that_catches_up_corrects_the_covariance_once_more() -> None:
+    """The imu's of step 0 takes until 27, in step 2. It has steps 1 and 2 to do, and what the gps, taken in step 1,
+    does to the covariance: 8. Then step 3, until 46, then step 4."""
+    imu, gps = sensor("imu", 100), sensor("gps", 100, 8, offset=1)
+    of = scenario(10, CARRIED | {"correct.imu": 15}, imu, gps, late="carried-gain", steps=9)
+    assert slices_of(of, "correct imu") == [
+        (3, 10),
+        (15, 20),
+        (24, 27),
+        (27, 30),
+        (34, 39),
+        (39, 40),
+        (44, 46),
+        (46, 49),
+    ]
+    assert run_scenario(of).sensors["imu"].achieved == {4: 1}
 
 
 def test_on_two_processors_corrections_run_beside_the_predictor() -> None:
