@@ -54,9 +54,9 @@ def _processor(value: Any) -> str:
 
 def _late(value: Any) -> Any:
     if value == "dual-rate":
-        ways = " or ".join(repr(way) for way in get_args(Late))
+        *ways, last = map(repr, get_args(Late))
         raise ValueError(
-            f"a scenario cannot do that: choose {ways}; for a filter of one sensor there is "
+            f"a scenario cannot do that: choose {', '.join(ways)} or {last}; for a filter of one sensor there is "
             f"`sched-sim simulate --method dual-rate`"
         )
     return value

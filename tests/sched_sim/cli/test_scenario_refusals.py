@@ -118,14 +118,24 @@ from tests.sched_sim.cli.test_scenario_commands import REST, SHORT, write
         (("steps = 40", "steps = 40\ncpus = 3"), ["cpus", "1 or 2"]),
         (("steps = 40", "steps = 40\ncpus = true"), ["cpus: must be a whole number"]),
         (("steps = 40", "steps = 40\ncontext_switch = -1"), ["context_switch: must be at least 0 (given: -1)"]),
-        (("steps = 40", 'steps = 40\nlate = "newest"'), ["late", "'recalculate' or 'larsen'", "newest"]),
+        (
+            ("steps = 40", 'steps = 40\nlate = "newest"'),
+            ["late", "'recalculate', 'larsen' or 'carried-gain'", "newest"],
+        ),
         (
             ("steps = 40", 'steps = 40\nlate = "dual-rate"'),
-            ["late: a scenario cannot do that: choose 'recalculate' or 'larsen'", "simulate --method dual-rate`"],
+            [
+                "late: a scenario cannot do that: choose 'recalculate', 'larsen' or 'carried-gain'",
+                "simulate --method dual-rate`",
+            ],
         ),
         (
             (REST, REST.replace("costs =", 'late = "larsen"\ncosts =').replace("delay = 2", "delay = 12")),
-            ["sensor 'gps', steps 0 to 12 and sensor 'gps', steps 10 to 22", 'late = "recalculate"'],
+            [
+                "no costs of carry_product, beside_product.gps",
+                "with several measurements in flight",
+                'late = "recalculate"',
+            ],
         ),
         (('costs = "costs.toml"', 'costs = ""'), ["costs: the name is empty: give the path"]),
         (('costs = "costs.toml"', 'costs = ".."'), ["'..' is a folder, not a file: give the path"]),

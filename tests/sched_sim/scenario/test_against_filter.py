@@ -10,14 +10,16 @@ from unittest.mock import Mock
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from filters.modular import (
     Measurement,
     ModularFilter,
+    carried_gain,
     extended_corrector,
     extended_predictor,
+    in_flight,
     larsen,
     linear_corrector,
     linear_predictor,
@@ -179,3 +181,45 @@ def carried_by_the_filter(sensors: Sequence[Sensor], steps: int, seed: int) -> b
         patch.setattr(larsen, "run_in_flight", carried)
         run(composed, np.zeros(1), one, np.zeros((steps + 10, 0)), fated(sensors, steps, seed), late="larsen")
     return carried.called
+
+
+# ---------------------------------------------------------------------------------------- several in flight at once
+
+
+@given(
+    delays=st.lists(st.lists(st.integers(0, 9), min_size=1, max_size=3), min_size=1, max_size=3),
+    every=st.lists(st.integers(1, 4) | QUOTIENTS, min_size=3, max_size=3),
+    priority=st.sampled_from([HR, LR]),
+    seed=st.integers(0, 9),
+)
+@settings(max_examples=40, deadline=None)
+def test_on_a_fast_processor_as_many_are_carried_and_land_as_in_the_filter(
+    delays: list[list[int]], every: list[Steps], priority: int, seed: int
+) -> None:
+    steps, base = 16, 1000
+    sensors = [
+        sensor(f"s{number}", every[number], drawn, offset=number, priority=priority)
+        for number, drawn in enumerate(delays)
+    ]
+    assume(any(each.delayed for each in sensors))
+    works = {"predict": 1, "carry": base, "land": base**2, "correct": base**3, "beside": base**4}
+    entries = {f"{kind}.{each.name}": work for kind, work in works.items() for each in sensors} | {"predict": 1}
+    of = scenario(base**6, entries, *sensors, steps=steps, seed=seed, late="carried-gain")
+    units = int(run_scenario(of).schedule.utilization * steps * base**6)
+    assert [units // base**place % base for place in range(4)] == in_the_filter(sensors, steps, seed)
+
+
+def in_the_filter(sensors: Sequence[Sensor], steps: int, seed: int) -> list[int]:
+    """Predictions, with one in step 0; steps of what is carried; landings; corrections of the covariance."""
+    one = np.eye(1)
+    composed = ModularFilter(
+        linear_predictor(one, one), [FilterSensor(each.name, linear_corrector(one, one)) for each in sensors]
+    )
+    at_once = sum(taken.taken == taken.arrives < steps for taken in fated(sensors, steps, seed))
+    with pytest.MonkeyPatch.context() as patch:
+        carry, land, take_in = (Mock(wraps=each) for each in (in_flight.carry, carried_gain.land, carried_gain.take_in))
+        patch.setattr(in_flight, "carry", carry)
+        patch.setattr(carried_gain, "land", land)
+        patch.setattr(carried_gain, "take_in", take_in)
+        run(composed, np.zeros(1), one, np.zeros((steps - 1, 0)), fated(sensors, steps, seed), late="carried-gain")
+    return [steps, carry.call_count, land.call_count, take_in.call_count + at_once]
