@@ -60,6 +60,8 @@ from filters.records import Estimate
 
 LANDS, AT_ONCE, TAKEN = range(3)
 """What happens with a measurement in a step, in this order."""
+MOST_IN_FLIGHT = 500
+"""What each is in the innovation of each other takes memory."""
 
 
 class Events(NamedTuple):
@@ -191,7 +193,8 @@ def run(
     Arguments and results as in `late.run`.
 
     Raises:
-        ValueError: a part is unscented, which leaves no F or H; and as `late.run`.
+        ValueError: a part is unscented, which leaves no F or H; more than MOST_IN_FLIGHT are in flight at once; and as
+            `late.run`.
     """
     check_linearised(composed, "carried-gain")
     x, P, moves = check_problem(composed, x0, P0, inputs)
@@ -211,6 +214,11 @@ def run_in_flight(
     """The same once all is checked; start is written to. products: they are carried in place of gains."""
     events = events_of(arrived, len(moves))
     places = int(events.place.max(initial=-1)) + 1
+    if places > MOST_IN_FLIGHT:
+        raise ValueError(
+            f"{places} measurements are in flight at once, and there is room for {MOST_IN_FLIGHT}: leave out what "
+            f"never arrives, give one that is lost the step in which that is known, or use late='recalculate'"
+        )
     observed = [sensor.corrector.observed for sensor in composed.sensors]
     flights = new_in_flight(places, composed.of, observed, products=products)
     own = events, flights, start, empty(composed.of)

@@ -195,19 +195,20 @@ def _only_sensor(composed: ModularFilter) -> Sensor:
     if len(composed.sensors) != 1:
         names = ", ".join(repr(sensor.name) for sensor in composed.sensors) or "none"
         raise ValueError(
-            f"late='dual-rate' works with one sensor, and the filter's are {names}; use late='recalculate' or 'larsen'"
+            f"late='dual-rate' works with one sensor, and the filter's are {names}; use late='recalculate', 'larsen' or "
+            f"'carried-gain'"
         )
     (sensor,) = composed.sensors
     observed = sensor.corrector.observed
     if len(composed.of.attitudes) or len(composed.of.angles):
         raise ValueError(
             "late='dual-rate' adds its corrections to plain quantities, and the filter's state holds attitudes or "
-            "angles; use late='recalculate' or 'larsen'"
+            "angles; use late='recalculate', 'larsen' or 'carried-gain'"
         )
     if len(observed.attitudes) or len(observed.angles):
         raise ValueError(
             f"sensor {sensor.name!r}: late='dual-rate' subtracts plain quantities, and it observes attitudes or "
-            f"angles; use late='recalculate' or 'larsen'"
+            f"angles; use late='recalculate', 'larsen' or 'carried-gain'"
         )
     return sensor
 
@@ -216,7 +217,7 @@ def _whole_rate(sensor: Sensor) -> int:
     if isinstance(sensor.every, Fraction):
         raise ValueError(
             f"sensor {sensor.name!r}: every={sensor.every!r}, and late='dual-rate' takes measurements every so many "
-            f"whole steps; use late='recalculate' or 'larsen'"
+            f"whole steps; use late='recalculate', 'larsen' or 'carried-gain'"
         )
     return sensor.every
 

@@ -49,6 +49,12 @@ def test_to_carry_corrections_takes_matrices(late: str) -> None:
     refused(f"sensor 'camera': late='{late}' .* use late='recalculate'", filtered(sigma, late))
 
 
+@pytest.mark.parametrize("late", ["larsen", "carried-gain"])
+def test_there_is_room_for_so_many_in_flight(late: str) -> None:
+    many = [Measurement("gps", k % 8, 8, Y) for k in range(501)]
+    refused("501 measurements are in flight at once, and there is room for 500: leave", filtered(GPS, late, *many))
+
+
 def test_the_dual_rate_way_needs_one_sensor_that_fits_its_cycle() -> None:
     case = linear_case(Sensor("gps", POSITION, every=4, delay=2))
     refused("late='dual-rate' works with one sensor, .* are 'gps', 'other'; use", filtered(GPS, "dual-rate"))
