@@ -195,8 +195,8 @@ def _only_sensor(composed: ModularFilter) -> Sensor:
     if len(composed.sensors) != 1:
         names = ", ".join(repr(sensor.name) for sensor in composed.sensors) or "none"
         raise ValueError(
-            f"late='dual-rate' works with one sensor, and the filter's are {names}; use late='recalculate', 'larsen' or "
-            f"'carried-gain'"
+            f"late='dual-rate' works with one sensor, and the filter's are {names}; use late='recalculate', 'larsen' "
+            f"or 'carried-gain'"
         )
     (sensor,) = composed.sensors
     observed = sensor.corrector.observed
