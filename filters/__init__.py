@@ -9,7 +9,7 @@ from filters.lazy import lazily
 if TYPE_CHECKING:
     from filters import accuracy, modular, multirate_gain
     from filters.backends.counted import Operations, count
-    from filters.delayed import dual_rate, larsen, recalculate, standard
+    from filters.delayed import carried_gain, clone, clone_split, dual_rate, larsen, recalculate, standard
     from filters.error_covariance import true_covariance
     from filters.history import History
     from filters.system import System
@@ -21,6 +21,9 @@ __all__ = [
     "Operations",
     "System",
     "accuracy",
+    "carried_gain",
+    "clone",
+    "clone_split",
     "count",
     "dual_rate",
     "example_system",
@@ -38,7 +41,7 @@ __getattr__, __dir__ = lazily(
     {
         "filters": "accuracy modular multirate_gain",
         "filters.backends.counted": "Operations count",
-        "filters.delayed": "dual_rate larsen recalculate standard",
+        "filters.delayed": "carried_gain clone clone_split dual_rate larsen recalculate standard",
         "filters.error_covariance": "true_covariance",
         "filters.history": "History",
         "filters.system": "System",

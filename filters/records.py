@@ -50,6 +50,7 @@ class Workspace(NamedTuple):
     S_inverse: FloatArray
     pp1: FloatArray
     n1: FloatArray  # (n,)
+    p1: FloatArray  # (p,)
 
 
 class Sample(NamedTuple):
@@ -104,4 +105,5 @@ def new_workspace(system: System) -> Workspace:
         S_inverse=np.zeros((p, p)),
         pp1=np.zeros((p, p)),
         n1=np.zeros(n),
+        p1=np.zeros(p),
     )

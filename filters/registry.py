@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 from filters import multirate_gain
 from filters.arrays import FloatArray
 from filters.covariance_forms import CovarianceFormName, covariance_form
-from filters.delayed import dual_rate, larsen, recalculate, standard
+from filters.delayed import carried_gain, clone, clone_split, dual_rate, larsen, recalculate, standard
 from filters.factored import FactoredFormName, factored_form
 from filters.history import History
 from filters.jobs import Form, Job, JobKind
@@ -68,12 +68,15 @@ def _multirate(form: FactoredFormName) -> tuple[Callable[..., History], Callable
 
 
 DELAYED_METHODS = {
-    name: Method(name, run, _jobs(covariance_form, *kinds))
-    for name, run, kinds in (
-        ("standard", standard.run, standard.JOBS),
-        ("recalculate", recalculate.run, recalculate.JOBS),
-        ("larsen", larsen.run, larsen.JOBS),
-        ("dual-rate", dual_rate.run, dual_rate.JOBS),
+    name: Method(name, run, jobs)
+    for name, run, jobs in (
+        ("standard", standard.run, _jobs(covariance_form, *standard.JOBS)),
+        ("recalculate", recalculate.run, _jobs(covariance_form, *recalculate.JOBS)),
+        ("larsen", larsen.run, _jobs(covariance_form, *larsen.JOBS)),
+        ("dual-rate", dual_rate.run, _jobs(covariance_form, *dual_rate.JOBS)),
+        ("clone", clone.run, _jobs(covariance_form, *clone.JOBS)),
+        ("clone-split", clone_split.run, _jobs(clone_split.split_form, *clone_split.JOBS)),
+        ("carried-gain", carried_gain.run, _jobs(covariance_form, *carried_gain.JOBS)),
     )
 }
 """One measurement every N steps, which comes M steps late; and the standard filter, for which it is never late."""

@@ -67,6 +67,18 @@ def _cholesky(S: FloatArray, out: FloatArray) -> None:
     out[:] = or_nan(np.linalg.cholesky, S)
 
 
+def _solve_factor(C: FloatArray, b: FloatArray, out: FloatArray) -> None:
+    out[:] = or_nan(np.linalg.solve, np.tril(C), b)
+
+
+def _divide_by_factor(W: FloatArray, C: FloatArray, out: FloatArray) -> None:
+    out.T[:] = or_nan(np.linalg.solve, np.tril(C), W.T)
+
+
+def _subtract_outer_product(P: FloatArray, V: FloatArray, out: FloatArray) -> None:
+    np.subtract(P, V @ V.T, out=out)
+
+
 def _solve_cholesky(C: FloatArray, B: FloatArray, out: FloatArray) -> None:
     out[:] = or_nan(np.linalg.solve, np.tril(C) @ np.tril(C).T, B)
 
@@ -87,11 +99,14 @@ _VERSIONS: dict[FunctionType, Any] = {
         (dense.subtract_vectors, _subtract),
         (dense.add_matmul_blocked, _add_matmul),
         (dense.negate, _negate),
+        (dense.subtract_outer_product, _subtract_outer_product),
         (dense.transpose, _transpose),
         (dense.mirror, _mirror),
         (solve.inverse, _inverse),
         (solve.cholesky, _cholesky),
         (solve.solve_cholesky, _solve_cholesky),
+        (solve.solve_factor, _solve_factor),
+        (solve.divide_by_factor, _divide_by_factor),
         *FACTOR_VERSIONS,
         *BLOCK_VERSIONS,
     )

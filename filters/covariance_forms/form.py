@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import NamedTuple, TypeAlias
 
 from filters.arrays import FloatArray
-from filters.records import Workspace
+from filters.records import Estimate, Workspace
 
 Product: TypeAlias = Callable[[FloatArray, FloatArray, FloatArray], None]
 Propagation: TypeAlias = Callable[[FloatArray, FloatArray, FloatArray, FloatArray, Workspace], None]
@@ -15,6 +15,9 @@ Covariance: TypeAlias = Callable[[FloatArray, FloatArray, FloatArray, FloatArray
 DelayedCovariance: TypeAlias = Callable[
     [FloatArray, FloatArray, FloatArray, FloatArray, FloatArray, FloatArray, FloatArray, Workspace], None
 ]
+Cross: TypeAlias = Callable[[FloatArray, FloatArray, FloatArray, Workspace], None]
+Factor: TypeAlias = Callable[[FloatArray, FloatArray, Workspace], None]
+CrossUpdate: TypeAlias = Callable[[Estimate, FloatArray, FloatArray, FloatArray, FloatArray, Estimate, Workspace], None]
 
 
 class CovarianceForm(NamedTuple):
@@ -27,10 +30,17 @@ class CovarianceForm(NamedTuple):
     propagation(Phi, P, Q, out, work): writes Phi P Phi^T + Q, all (n, n), Eqs. (8), (14) and (18); P may be work.nn3.
 
     The others take P_{k^-} (n, n), H_k (p, n), R_k (p, p), K_k (n, p).
-    gain(P, H, R, K, work): writes K, Eq. (9).
+    gain(P, H, R, K, work): writes K, Eq. (9); leaves S = H P H^T + R in work.S.
     covariance(P, H, R, K, out, work): writes P_{k^+}, Eq. (11), right after `gain`.
     delayed_covariance(Phi, P, H, R, K, P_m, out, work): writes P_{m^+} from Phi_{k->m} and P_{m^-}, Eq. (21), right
     after `gain`.
+
+    Of a measurement of which W = Phi_{k->j} P_{k^-} H_k^T (n, p) is carried, the covariance of the state of j with what
+    is expected of the measurement, and S (p, p), the innovation covariance:
+    cross(P, H, W, work): writes P H^T, which is W at k.
+    factor(S, out, work): writes what divides by S: its inverse, or its Cholesky factor.
+    cross_gain(W, factor, K, work): writes W S^-1, which is K_k at k.
+    cross_update(before, W, S, factor, z, after, work): writes x + W S^-1 z and P - W S^-1 W^T, for the innovation z.
     """
 
     product: Product
@@ -38,3 +48,7 @@ class CovarianceForm(NamedTuple):
     gain: Gain
     covariance: Covariance
     delayed_covariance: DelayedCovariance
+    cross: Cross
+    factor: Factor
+    cross_gain: Cross
+    cross_update: CrossUpdate

@@ -4,9 +4,18 @@ from __future__ import annotations
 
 from filters.arrays import FloatArray
 from filters.covariance_forms.form import CovarianceForm
-from filters.covariance_forms.textbook import gain, propagation
-from filters.kernels.dense import add, matmul, matmul_narrow, matmul_transposed, mirror, subtract
-from filters.records import Workspace
+from filters.covariance_forms.textbook import cross, cross_gain, factor, gain, propagation
+from filters.kernels.dense import (
+    add,
+    add_vectors,
+    matmul,
+    matmul_narrow,
+    matmul_transposed,
+    matvec,
+    mirror,
+    subtract,
+)
+from filters.records import Estimate, Workspace
 
 
 def covariance(P: FloatArray, H: FloatArray, R: FloatArray, K: FloatArray, out: FloatArray, work: Workspace) -> None:
@@ -40,4 +49,31 @@ def delayed_covariance(
     mirror(out)
 
 
-FORM = CovarianceForm(matmul, propagation, gain, covariance, delayed_covariance)
+def cross_update(
+    before: Estimate,
+    W: FloatArray,
+    S: FloatArray,
+    S_inverse: FloatArray,
+    z: FloatArray,
+    after: Estimate,
+    work: Workspace,
+) -> None:
+    """x + K z and [I, -K] C [I, -K]^T with K = W S^-1 and C = [[P, W], [W^T, S]], that of state and innovation.
+
+    The latter is P - K W^T - (W - K S) K^T: the last term is zero but for rounding of K.
+    """
+    cross_gain(W, S_inverse, work.np1, work)
+    matvec(work.np1, z, work.n1)
+    add_vectors(before.x, work.n1, after.x)
+    matmul_narrow(work.np1, S, work.PHt)
+    subtract(W, work.PHt, work.PHt)
+    matmul_transposed(work.np1, W, work.nn1, work.pn1)
+    matmul_transposed(work.PHt, work.np1, work.nn2, work.pn1)
+    add(work.nn1, work.nn2, work.nn1)
+    subtract(before.P, work.nn1, after.P)
+    mirror(after.P)
+
+
+FORM = CovarianceForm(
+    matmul, propagation, gain, covariance, delayed_covariance, cross, factor, cross_gain, cross_update
+)

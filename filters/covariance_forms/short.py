@@ -11,15 +11,18 @@ from filters.covariance_forms.form import CovarianceForm
 from filters.kernels.dense import (
     add,
     add_matmul_blocked,
+    add_vectors,
     matmul_blocked,
     matmul_narrow,
     matmul_transposed_narrow,
+    matvec,
     mirror,
     negate,
+    subtract_outer_product,
     transpose,
 )
-from filters.kernels.solve import cholesky, solve_cholesky
-from filters.records import Workspace
+from filters.kernels.solve import cholesky, divide_by_factor, solve_cholesky, solve_factor
+from filters.records import Estimate, Workspace
 
 
 def propagation(Phi: FloatArray, P: FloatArray, Q: FloatArray, out: FloatArray, work: Workspace) -> None:
@@ -66,4 +69,36 @@ def delayed_covariance(
     mirror(out)
 
 
-FORM = CovarianceForm(matmul_blocked, propagation, gain, covariance, delayed_covariance)
+def cross(P: FloatArray, H: FloatArray, W: FloatArray, work: Workspace) -> None:
+    """(H P)^T, equal to P H^T for symmetric P."""
+    matmul_blocked(H, P, work.HP)
+    transpose(work.HP, W)
+
+
+def factor(S: FloatArray, out: FloatArray, _work: Workspace) -> None:
+    """C of S = C C^T."""
+    cholesky(S, out)
+
+
+def cross_gain(W: FloatArray, C: FloatArray, K: FloatArray, work: Workspace) -> None:
+    """K^T = S^-1 W^T."""
+    transpose(W, work.pn1)
+    solve_cholesky(C, work.pn1, work.pn1)
+    transpose(work.pn1, K)
+
+
+def cross_update(
+    before: Estimate, W: FloatArray, _S: FloatArray, C: FloatArray, z: FloatArray, after: Estimate, work: Workspace
+) -> None:
+    """x + V (C^-1 z) and P - V V^T with V = W C^-T: no gain is formed, and P is computed on and below its diagonal."""
+    divide_by_factor(W, C, work.np1)
+    solve_factor(C, z, work.p1)
+    matvec(work.np1, work.p1, work.n1)
+    add_vectors(before.x, work.n1, after.x)
+    subtract_outer_product(before.P, work.np1, after.P)
+    mirror(after.P)
+
+
+FORM = CovarianceForm(
+    matmul_blocked, propagation, gain, covariance, delayed_covariance, cross, factor, cross_gain, cross_update
+)

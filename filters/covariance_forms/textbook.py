@@ -6,15 +6,17 @@ from filters.arrays import FloatArray
 from filters.covariance_forms.form import CovarianceForm
 from filters.kernels.dense import (
     add,
+    add_vectors,
     matmul,
     matmul_narrow,
     matmul_transposed,
     matmul_transposed_narrow,
+    matvec,
     mirror,
     subtract,
 )
 from filters.kernels.solve import inverse
-from filters.records import Workspace
+from filters.records import Estimate, Workspace
 
 
 def propagation(Phi: FloatArray, P: FloatArray, Q: FloatArray, out: FloatArray, work: Workspace) -> None:
@@ -62,4 +64,39 @@ def delayed_covariance(
     mirror(out)
 
 
-FORM = CovarianceForm(matmul, propagation, gain, covariance, delayed_covariance)
+def cross(P: FloatArray, H: FloatArray, W: FloatArray, _work: Workspace) -> None:
+    """P H^T."""
+    matmul_transposed_narrow(P, H, W)
+
+
+def factor(S: FloatArray, out: FloatArray, work: Workspace) -> None:
+    """S^-1."""
+    inverse(S, out, work.pp1)
+
+
+def cross_gain(W: FloatArray, S_inverse: FloatArray, K: FloatArray, _work: Workspace) -> None:
+    """K = W S^-1."""
+    matmul_narrow(W, S_inverse, K)
+
+
+def cross_update(
+    before: Estimate,
+    W: FloatArray,
+    _S: FloatArray,
+    S_inverse: FloatArray,
+    z: FloatArray,
+    after: Estimate,
+    work: Workspace,
+) -> None:
+    """x + K z and P - K W^T with K = W S^-1."""
+    cross_gain(W, S_inverse, work.np1, work)
+    matvec(work.np1, z, work.n1)
+    add_vectors(before.x, work.n1, after.x)
+    matmul_transposed(work.np1, W, work.nn1, work.pn1)
+    subtract(before.P, work.nn1, after.P)
+    mirror(after.P)
+
+
+FORM = CovarianceForm(
+    matmul, propagation, gain, covariance, delayed_covariance, cross, factor, cross_gain, cross_update
+)

@@ -1,1 +1,1 @@
-"""Filters of delayed measurements: standard, recalculate, Larsen, dual-rate."""
+"""Filters of delayed measurements: standard, recalculate, Larsen, dual-rate, stochastic cloning, carried gain."""

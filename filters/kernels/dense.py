@@ -103,6 +103,16 @@ def matmul_transposed_narrow(A: FloatArray, B: FloatArray, out: FloatArray) -> N
             out[i, j] = total
 
 
+def subtract_outer_product(P: FloatArray, V: FloatArray, out: FloatArray) -> None:
+    """out = P - V V^T on and below the diagonal, for symmetric P (n, n), V (n, m), out (n, n); out may be P."""
+    for i in range(P.shape[0]):
+        for j in range(i + 1):
+            total = P[i, j]
+            for k in range(V.shape[1]):
+                total -= V[i, k] * V[j, k]
+            out[i, j] = total
+
+
 def matvec(A: FloatArray, x: FloatArray, out: FloatArray) -> None:
     """out = A x, for A (n, m), x (m,), out (n,)."""
     for i in range(A.shape[0]):

@@ -34,6 +34,9 @@ class Case(NamedTuple):
 CASES = [
     Case("recalculate", {}, "at-arrival"),
     Case("larsen", {}, "at-arrival"),
+    Case("clone", {}, "at-arrival"),
+    Case("clone-split", {}, "at-arrival"),
+    Case("carried-gain", {}, "at-arrival"),
     Case("dual-rate", {}, "next-step"),
     Case("dual-rate", {"gain": "precomputed"}, "next-step"),
     Case("dual-rate", {"feedback": "same-step"}, "same-step"),

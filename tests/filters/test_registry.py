@@ -29,13 +29,19 @@ KINDS = {
         "hr_restart", "hr_propagate", "hr_propagate_sum", "hr_propagate_euler", "hr_update",
         "lr_propagate", "lr_propagate_euler", "lr_update", "lr_gain", "lr_correct",
     ],
+    "clone": ["propagate", "start", "carry", "update"],
+    "clone-split": ["propagate", "start", "carry", "update"],
+    "carried-gain": ["propagate", "update", "carry", "land", "couple", "compensate"],
     "multirate": ["state_update", "covariance_gain"],
     "multirate-square-root": ["state_update", "covariance_gain"],
     "multirate-ud": ["state_update", "covariance_gain"],
 }  # fmt: skip
 
+SYSTEM = example_system(9, 3, 3)
+
 OF_A_FORM = [
     ("standard", "propagate"), ("standard", "update"), ("larsen", "propagate_accumulate"), ("larsen", "update"),
+    ("clone", "start"), ("clone", "update"),
 ]  # fmt: skip
 """Jobs that call every function of a covariance form between them."""
 
@@ -177,6 +183,17 @@ def product(n: int, m: int, p: int) -> Operations:
     return Operations(multiply=n * m * p, add=n * (m - 1) * p)
 
 
+def cholesky(p: int) -> Operations:
+    return Operations((p - 1) * p * (p + 1) // 6, (p - 1) * p * (p + 1) // 6, p * (p - 1) // 2, p)
+
+
+def terms_update(n: int, p: int) -> Operations:
+    """z; V = W C^-T and C^-1 z; x + V (C^-1 z); P - V V^T on and below its diagonal."""
+    pairs, half = p * (p - 1) // 2, n * (n + 1) // 2
+    solved = Operations((n + 1) * pairs + n * p, (n + 1) * pairs, 2 * p)
+    return Operations(add=p) + solved + product(n, p, 1) + Operations(add=n) + Operations(half * p, half * p)
+
+
 @pytest.mark.parametrize(("n", "u", "p"), [(9, 3, 3), (4, 2, 1), (5, 1, 3)])
 def test_operations_of_the_jobs_in_textbook_form(n: int, u: int, p: int) -> None:
     system = example_system(n, u, p)
@@ -195,6 +212,8 @@ def test_operations_of_the_jobs_in_textbook_form(n: int, u: int, p: int) -> None
     error = product(p, n, 1) + Operations(add=p) + product(n, p, 1)
     covariance = product(n, p, n) + square + cube
     quadratic = cube + cube + square
+    cross, S, h = product(n, n, p), product(p, n, p) + Operations(add=p * p), product(p, n, 1)
+    subtracted, factor, by_terms = Operations(add=p), cholesky(p), terms_update(n, p)
     expected = {
         ("standard", "propagate"): f + quadratic,
         ("standard", "update"): gain + covariance + error + vector,
@@ -211,11 +230,22 @@ def test_operations_of_the_jobs_in_textbook_form(n: int, u: int, p: int) -> None
         ("dual-rate", "lr_update"): gain + covariance + error,
         ("dual-rate", "lr_gain"): gain + covariance,
         ("dual-rate", "lr_correct"): error,
+        ("clone", "start"): cross + S + inverse + h,
+        ("clone", "carry"): product(n, n, p),
+        ("clone", "update"): product(n, p, p) + subtracted + product(n, p, 1) + vector + product(n, p, n) + square,
+        ("clone-split", "start"): cross + h,
+        ("clone-split", "update"): S + factor + by_terms,
+        ("carried-gain", "update"): gain + covariance + h,
+        ("carried-gain", "land"): subtracted + product(n, p, 1) + vector,
+        ("carried-gain", "couple"): product(p, n, p),
+        ("carried-gain", "compensate"): Operations(multiply=p * p, add=p * p),
         ("multirate", "state_update"): f + error + vector,
         ("multirate", "covariance_gain"): quadratic + gain + covariance + Operations(multiply=n * p),
     }  # fmt: skip
     expected["recalculate", "propagate"] = expected["recalculate", "replay"] = expected["standard", "propagate"]
-    expected["larsen", "propagate"] = expected["standard", "propagate"]
+    for method in ("larsen", "clone", "clone-split", "carried-gain"):
+        expected[method, "propagate"] = expected["standard", "propagate"]
+    expected["clone-split", "carry"] = expected["carried-gain", "carry"] = expected["clone", "carry"]
     expected["recalculate", "update"] = expected["standard", "update"]
     assert found == expected
 
@@ -234,18 +264,36 @@ def test_every_form_propagates_with_as_many_operations(key: tuple[str, str], for
 def test_operations_of_the_updates_in_short_form(n: int, u: int, p: int) -> None:
     jobs = {name: method.jobs(example_system(n, u, p), "short") for name, method in ALL_METHODS.items()}
     S = product(p, n, n) + product(p, n, p) + Operations(add=p * p)
-    factor = Operations((p - 1) * p * (p + 1) // 6, (p - 1) * p * (p + 1) // 6, p * (p - 1) // 2, p)
+    factor, h = cholesky(p), product(p, n, 1)
     solve = Operations(p * (p - 1) * n + 2 * p * n, p * (p - 1) * n, 2 * p)
     error = product(p, n, 1) + Operations(add=p) + product(n, p, 1)
     covariance = Operations(multiply=n * n * p, add=n * n * p)
-    found = {name: count(jobs[name][kind].function, *jobs[name][kind].arguments(0))
-             for name, kind in (("standard", "update"), ("larsen", "update"), ("dual-rate", "lr_update"))}  # fmt: skip
+    kinds = [("standard", "update"), ("larsen", "update"), ("dual-rate", "lr_update"), ("clone", "start"),
+             ("clone", "update"), ("clone-split", "update"), ("carried-gain", "update")]  # fmt: skip
+    found = {key: count(job.function, *job.arguments(0)) for key in kinds for job in [jobs[key[0]][key[1]]]}
     assert found == {
-        "standard": S + factor + solve + error + covariance + Operations(add=n),
-        "larsen": S + factor + solve + error + covariance + product(n, n, 1) + Operations(add=n)
+        ("standard", "update"): S + factor + solve + error + covariance + Operations(add=n),
+        ("larsen", "update"): S + factor + solve + error + covariance + product(n, n, 1) + Operations(add=n)
         + product(n, n, p) + product(p, n, n),
-        "dual-rate": S + factor + solve + error + covariance,
+        ("dual-rate", "lr_update"): S + factor + solve + error + covariance,
+        ("clone", "start"): S + factor + h,
+        ("clone", "update"): terms_update(n, p),
+        ("clone-split", "update"): product(p, n, p) + Operations(add=p * p) + factor + terms_update(n, p),
+        ("carried-gain", "update"): S + factor + solve + covariance + h,
     }  # fmt: skip
+
+
+def test_counts_of_cloning_are_those_of_its_prototype_or_less() -> None:
+    """9 states, 3 inputs, 3 measurements, `short`: propagate 3042, start 686, carry 459, update 711."""
+    found = {
+        name: [count(job.function, *job.arguments(0)).total for job in ALL_METHODS[name].jobs(SYSTEM, "short").values()]
+        for name in ("clone", "clone-split", "carried-gain")
+    }
+    assert found == {
+        "clone": [3042, 686, 459, 420],
+        "clone-split": [3042, 510, 459, 596],
+        "carried-gain": [3042, 1340, 459, 57, 153, 18],
+    }
 
 
 def test_operation_counts_reach_the_printed_tables() -> None:
