@@ -10,6 +10,8 @@ from hypothesis import strategies as st
 
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import (
+    CarriedGainCosts,
+    CloneCosts,
     DualRateCosts,
     JobCosts,
     LarsenCosts,
@@ -36,6 +38,8 @@ def serial_designs(draw: st.DrawFn) -> Design:
         st.builds(StandardCosts, ticks, ticks)
         | st.builds(RecalculateCosts, ticks, ticks, ticks)
         | st.builds(LarsenCosts, ticks, ticks, ticks)
+        | st.builds(CloneCosts, ticks, ticks, ticks, ticks)
+        | st.builds(CarriedGainCosts, ticks, ticks, ticks, ticks, ticks, ticks)
     )
     N = draw(st.integers(1, 12))
     M = draw(st.sampled_from([0, N]) | st.integers(0, N))

@@ -74,6 +74,9 @@ FILLS = {
     "P": Fill("#b3d4ee", INK, "", "propagate"),
     "U": Fill("#11538c", "white", "", "update"),
     "R": Fill("#dfe8f0", "#11538c", "\\\\\\\\", "replayed steps"),
+    "ST": Fill("#5b93c4", "white", "", "start"),
+    "CA": Fill("#e3edf5", "#11538c", "....", "carry"),
+    "LA": Fill("#5b93c4", "white", "", "land"),
     "HRP": Fill("#b3d4ee", INK, "", "high-rate propagate"),
     "HRU": Fill("#11538c", "white", "", "high-rate update"),
     "LRP": Fill("#fbe3b5", "#9a6200", "////", "low-rate propagate"),
@@ -113,6 +116,9 @@ METHOD_LINES = {
     "recalculate": Line("#8a3b73", (0, (5.0, 1.5, 1.0, 1.5)), "D"),
     "larsen": Line("#b8700a", (0, (4.0, 1.5)), "^"),
     "dual-rate": Line("#11538c", "-", "o"),
+    "clone": Line("#2e7d4f", (0, (6.0, 1.5)), "v"),
+    "clone-split": Line("#1d8a8a", (0, (2.5, 1.0)), "<"),
+    "carried-gain": Line("#b3382f", (0, (6.0, 1.5, 1.0, 1.5, 1.0, 1.5)), "P"),
 }
 
 SOURCE_LINES = (

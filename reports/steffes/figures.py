@@ -16,7 +16,7 @@ from reports.drawing.placing import spread
 from reports.drawing.style import GREY, INK, METHOD_LINES, PALE, SMALL_PT, TITLE_PT, WIDTH_MM, axes_at, drawing, page
 from reports.steffes.comparisons import SPEED_UNIT, Speeds, cost_figure, table4_figure
 from reports.steffes.curves import achieved_curve, hr_limit, knee, speed_grid
-from sched_sim.costs.methods import DELAYED_METHODS
+from sched_sim.costs.methods import PAPER_METHODS
 from sched_sim.costs.table import CostTable
 from sched_sim.design.least_speed import Stair, staircase
 from sched_sim.design.methods import METHODS, select
@@ -113,10 +113,10 @@ def achieved_figure(
 
 
 def _flights(table: CostTable, design: Design, options: Options) -> Mapping[str, Sequence[Stair]]:
-    possible = [name for name in DELAYED_METHODS if METHODS[name].law(options.feedback).why_none(*design) is None]
+    possible = [name for name in PAPER_METHODS if METHODS[name].law(options.feedback).why_none(*design) is None]
     return {
         name: staircase(select(table, name, options), *design, options) if name in possible else []
-        for name in DELAYED_METHODS
+        for name in PAPER_METHODS
     }
 
 
@@ -128,7 +128,7 @@ def _limits(flights: Mapping[Design, Mapping[str, Sequence[Stair]]], below: floa
 
 def _sheet(designs: Sequence[Design]) -> tuple[Figure, list[Axes]]:
     """A page with a plot for each design side by side, and the methods' legend below."""
-    legend = [line_entry(METHOD_NAMES[method], METHOD_LINES[method]) for method in DELAYED_METHODS]
+    legend = [line_entry(METHOD_NAMES[method], METHOD_LINES[method]) for method in PAPER_METHODS]
     across = WIDTH_MM - LEFT_MM - RIGHT_MM
     width = (across - GAP_MM * (len(designs) - 1)) / len(designs)
     legend_top = EDGE_MM + TITLE_MM + PLOT_MM + AXIS_MM

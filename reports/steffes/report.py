@@ -11,7 +11,7 @@ from reports.pages.render import csv_bytes, render
 from reports.steffes.comparisons import Speeds, cost_figure, table4_figure
 from reports.steffes.figures import achieved_figure, least_speed_figure
 from reports.steffes.timelines import dual_rate_timeline, serial_costs, serial_timeline
-from sched_sim.costs.methods import DELAYED_METHODS
+from sched_sim.costs.methods import PAPER_METHODS
 from sched_sim.costs.table import CostTable
 from sched_sim.costs.table_file import costs_text, load_costs
 from sched_sim.design.analysis import BINDING_WORDS
@@ -160,7 +160,7 @@ def _simulated(paper: CostTable) -> list[list[Any]]:
     heading = ["N", "M", "L", "Method", "least speed", "fixed by", "misses", "achieved L", "busy"]
     rows: list[list[Any]] = [[*heading, "misses one tick slower"]]
     for timing in steffes.cases():
-        for method in DELAYED_METHODS:
+        for method in PAPER_METHODS:
             costs = select(paper, method, Options())
             least = least_speed(costs, timing)
             schedule = simulate(costs, timing, least.speed, cycles=4)

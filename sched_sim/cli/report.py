@@ -38,7 +38,7 @@ def _steffes(thorough: bool) -> dict[str, bytes]:
     from filters.systems.example import example_system
     from reports.steffes.report import build
     from sched_sim.cli.progress import progress_bar
-    from sched_sim.costs.methods import DELAYED_METHODS
+    from sched_sim.costs.methods import PAPER_METHODS
     from studies.measurement.methods import measure
 
     with progress_bar("Measuring") as progress:
@@ -48,7 +48,7 @@ def _steffes(thorough: bool) -> dict[str, bytes]:
             name="measured-9-3-3",
             thorough=thorough,
             progress=progress,
-            methods=DELAYED_METHODS,
+            methods=PAPER_METHODS,
         )
     say_busy(measured.name, measured.provenance)
     return build(measured)

@@ -5,10 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Literal, get_args
 
-DelayedMethod = Literal["standard", "recalculate", "larsen", "dual-rate"]
+PaperMethod = Literal["standard", "recalculate", "larsen", "dual-rate"]
+DelayedMethod = Literal[PaperMethod, "clone", "clone-split", "carried-gain"]
 MultirateMethod = Literal["multirate", "multirate-square-root", "multirate-ud"]
 RobustMethod = Literal["robust-inverse", "robust-givens", "robust-lu", "robust-closed"]
 Method = Literal[DelayedMethod, MultirateMethod, RobustMethod]
+PAPER_METHODS: tuple[PaperMethod, ...] = get_args(PaperMethod)
+"""Those of Steffes 2014."""
 DELAYED_METHODS: tuple[DelayedMethod, ...] = get_args(DelayedMethod)
 """One measurement every N steps, that comes M steps late; and the standard filter, for which it is never late."""
 MULTIRATE_METHODS: tuple[MultirateMethod, ...] = get_args(MultirateMethod)
@@ -38,6 +41,8 @@ KINDS: Mapping[str, tuple[str, ...]] = {
         "lr_gain",
         "lr_correct",
     ),
+    **dict.fromkeys(("clone", "clone-split"), ("propagate", "start", "carry", "update")),
+    "carried-gain": ("propagate", "update", "carry", "land", "couple", "compensate"),
     **dict.fromkeys(MULTIRATE_METHODS, ("state_update", "covariance_gain")),
     **dict.fromkeys(ROBUST_METHODS, ("inertial", "robust_step")),
 }

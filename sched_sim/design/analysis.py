@@ -16,6 +16,8 @@ from operator import index
 from sched_sim.design.demand import DualRateDemand, Quotient, choose, largest, quotient, smaller
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import (
+    CarriedGainCosts,
+    CloneCosts,
     DualRateCosts,
     JobCosts,
     LarsenCosts,
@@ -149,6 +151,20 @@ def _longest_serial_job(costs: SerialCosts[int], N: Whole, M: Whole) -> Whole:
             return propagate + update + replay * M
         case LarsenCosts(propagate, accumulate, update):
             return where(M >= 2, 0 * N + max(accumulate + update, propagate), 0 * N + propagate + update)
+        case CloneCosts(propagate, start, carry, update):
+            return propagate + _longest_carried(start + 0 * N, carry, update + 0 * N, N, M)
+        case CarriedGainCosts(propagate, update, carry, land, couple, compensate):
+            others = larger(M - 1, 0) // N
+            longest = _longest_carried(update + others * couple, carry, land + others * compensate, N, M)
+            return propagate + others * carry + longest
+
+
+def _longest_carried(at_k: Whole, carry: int, at_m: Whole, N: Whole, M: Whole) -> Whole:
+    """The most that a step has beyond what all have: the work at k, with that at m where these are one step, or that at
+    m, or, where a step lies between them, one measurement more to carry."""
+    together = at_k + where(M % N == 0, at_m, 0)
+    between = where(larger(M - 1, 0) % N > 0, 0 * N + carry, 0)
+    return larger(larger(together, at_m), between)
 
 
 def _two_rate_demand(costs: TwoRateCosts[int], N: Whole, options: Options) -> DualRateDemand[Whole]:

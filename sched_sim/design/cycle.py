@@ -9,6 +9,8 @@ from typing import NamedTuple
 
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import (
+    CarriedGainCosts,
+    CloneCosts,
     DualRateCosts,
     JobCosts,
     LarsenCosts,
@@ -60,6 +62,18 @@ def cycle_of(costs: JobCosts[int], timing: Timing, options: Options) -> Cycle:
             high = [accumulate if 2 <= step < M else propagate for step in range(N)]
             updated = update + (accumulate if M >= 2 else propagate)
             high[M % N] = max(updated, propagate) if M == N else updated  # the first step has no measurement yet
+            return Cycle(high)
+        case CloneCosts(propagate, start, carry, update):
+            high = [propagate + carry * (1 <= step < M) for step in range(N)]
+            high[0] += start
+            high[M % N] += update
+            return Cycle(high)
+        case CarriedGainCosts(propagate, update, carry, land, couple, compensate):
+            high = [propagate] * N
+            for age in range(1, M):
+                high[age % N] += carry + couple * (age % N == 0)
+            high[0] += update
+            high[M % N] += land + sum(compensate for age in range(1, M) if age % N == 0)
             return Cycle(high)
         case MultirateCosts() | RobustCosts():
             each_step, once = works(costs)

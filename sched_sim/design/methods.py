@@ -9,10 +9,12 @@ from typing import TypeAlias, cast, get_args
 from sched_sim.bounds import check_kind
 from sched_sim.costs.methods import MULTIRATE_METHODS, ROBUST_METHODS
 from sched_sim.costs.table import CostTable
-from sched_sim.design import dual_rate, serial, two_rate
+from sched_sim.design import carried, dual_rate, serial, two_rate
 from sched_sim.design.method import Exact, InTicks, Method
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import (
+    CarriedGainCosts,
+    CloneCosts,
     Costs,
     DualRateCosts,
     JobCosts,
@@ -38,6 +40,8 @@ _BY_PIECES: Mapping[type, AnyMethod] = {
     RecalculateCosts: _any(serial.RECALCULATE),
     LarsenCosts: _any(serial.LARSEN),
     DualRateCosts: _any(dual_rate.DUAL_RATE),
+    CloneCosts: _any(carried.CLONE),
+    CarriedGainCosts: _any(carried.CARRIED_GAIN),
     MultirateCosts: _any(two_rate.MULTIRATE),
     RobustCosts: _any(two_rate.ROBUST),
 }
@@ -47,6 +51,9 @@ METHODS: Mapping[str, AnyMethod] = {
     "recalculate": _BY_PIECES[RecalculateCosts],
     "larsen": _BY_PIECES[LarsenCosts],
     "dual-rate": _BY_PIECES[DualRateCosts],
+    "clone": _BY_PIECES[CloneCosts],
+    "clone-split": _BY_PIECES[CloneCosts],
+    "carried-gain": _BY_PIECES[CarriedGainCosts],
     **dict.fromkeys(MULTIRATE_METHODS, _BY_PIECES[MultirateCosts]),
     **dict.fromkeys(ROBUST_METHODS, _BY_PIECES[RobustCosts]),
 }

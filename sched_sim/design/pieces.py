@@ -42,6 +42,32 @@ class LarsenCosts(Generic[Number]):
 
 
 @dataclass(frozen=True, slots=True)
+class CloneCosts(Generic[Number]):
+    """Work of the pieces of stochastic cloning; start: at k; carry: in each of the steps k+1 .. m-1; update: at m."""
+
+    propagate: Number
+    start: Number
+    carry: Number
+    update: Number
+
+
+@dataclass(frozen=True, slots=True)
+class CarriedGainCosts(Generic[Number]):
+    """Work of the pieces of the carried gain.
+
+    update: gain and covariance, at k; carry: in each of the steps k+1 .. m-1; land: at m; couple, compensate: for each
+    other measurement that is on its way at k, at k and when that one lands.
+    """
+
+    propagate: Number
+    update: Number
+    carry: Number
+    land: Number
+    couple: Number
+    compensate: Number
+
+
+@dataclass(frozen=True, slots=True)
 class DualRateCosts(Generic[Number]):
     """Work of the dual-rate filter's pieces.
 
@@ -76,7 +102,8 @@ class RobustCosts(Generic[Number]):
     robust_step: Number
 
 
-SerialCosts: TypeAlias = StandardCosts[Number] | RecalculateCosts[Number] | LarsenCosts[Number]
+CarriedCosts: TypeAlias = CloneCosts[Number] | CarriedGainCosts[Number]
+SerialCosts: TypeAlias = StandardCosts[Number] | RecalculateCosts[Number] | LarsenCosts[Number] | CarriedCosts[Number]
 TwoRateCosts: TypeAlias = MultirateCosts[Number] | RobustCosts[Number]
 JobCosts: TypeAlias = SerialCosts[Number] | DualRateCosts[Number] | TwoRateCosts[Number]
 Costs: TypeAlias = JobCosts[Fraction]

@@ -12,6 +12,8 @@ import pytest
 
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import (
+    CarriedGainCosts,
+    CloneCosts,
     DualRateCosts,
     JobCosts,
     LarsenCosts,
@@ -43,6 +45,11 @@ SERIAL = [
     LarsenCosts(9, 1, 2),  # an ordinary step is the longest
     LarsenCosts(9, 4, 5),  # one that ties
     LarsenCosts(4, 9, 1),
+    CloneCosts(3, 4, 2, 1),  # the start is the longest
+    CloneCosts(3, 1, 2, 4),  # the update
+    CloneCosts(3, 1, 5, 2),  # what is carried
+    CarriedGainCosts(3, 4, 2, 1, 1, 1),
+    CarriedGainCosts(3, 1, 5, 2, 7, 7),
 ]
 TWO_RATE = [MultirateCosts(3, 7), RobustCosts(5, 1), MultirateCosts(1, 1), RobustCosts(2, 40)]
 
@@ -79,7 +86,8 @@ BATCH = 50
 
 def random_costs(random: Random) -> JobCosts:
     """In ticks: small ones, which tie, and larger ones."""
-    kinds = [DualRateCosts] * 5 + [StandardCosts, RecalculateCosts, LarsenCosts, MultirateCosts, RobustCosts]
+    others = [StandardCosts, RecalculateCosts, LarsenCosts, CloneCosts, CarriedGainCosts, MultirateCosts, RobustCosts]
+    kinds = [DualRateCosts] * 5 + others
     kind, most = random.choice(kinds), random.choice([2, 5, 12, 100, 1000])
     pieces = [random.randint(1, random.choice([2, most])) for _ in fields(kind)]
     if kind is DualRateCosts and random.random() < 0.7:
