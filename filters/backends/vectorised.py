@@ -67,16 +67,16 @@ def _cholesky(S: FloatArray, out: FloatArray) -> None:
     out[:] = or_nan(np.linalg.cholesky, S)
 
 
-def _solve_factor(C: FloatArray, b: FloatArray, out: FloatArray) -> None:
-    out[:] = or_nan(np.linalg.solve, np.tril(C), b)
+def _subtract_lower_product(P: FloatArray, A: FloatArray, B: FloatArray, out: FloatArray) -> None:
+    np.subtract(P, A.T @ B, out=out)
 
 
-def _divide_by_factor(W: FloatArray, C: FloatArray, out: FloatArray) -> None:
-    out.T[:] = or_nan(np.linalg.solve, np.tril(C), W.T)
+def _divide_rows(B: FloatArray, D: FloatArray, out: FloatArray) -> None:
+    np.divide(B, np.diag(D)[:, np.newaxis], out=out)
 
 
-def _subtract_outer_product(P: FloatArray, V: FloatArray, out: FloatArray) -> None:
-    np.subtract(P, V @ V.T, out=out)
+def _place_diagonal(d: FloatArray, out: FloatArray) -> None:
+    np.fill_diagonal(out, d)
 
 
 def _solve_cholesky(C: FloatArray, B: FloatArray, out: FloatArray) -> None:
@@ -99,14 +99,14 @@ _VERSIONS: dict[FunctionType, Any] = {
         (dense.subtract_vectors, _subtract),
         (dense.add_matmul_blocked, _add_matmul),
         (dense.negate, _negate),
-        (dense.subtract_outer_product, _subtract_outer_product),
+        (dense.subtract_lower_product, _subtract_lower_product),
+        (dense.divide_rows, _divide_rows),
+        (dense.place_diagonal, _place_diagonal),
         (dense.transpose, _transpose),
         (dense.mirror, _mirror),
         (solve.inverse, _inverse),
         (solve.cholesky, _cholesky),
         (solve.solve_cholesky, _solve_cholesky),
-        (solve.solve_factor, _solve_factor),
-        (solve.divide_by_factor, _divide_by_factor),
         *FACTOR_VERSIONS,
         *BLOCK_VERSIONS,
     )

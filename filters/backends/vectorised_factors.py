@@ -26,12 +26,16 @@ def _first_indefinite(covariances: FloatArray, scratch: FloatArray) -> int:
 
 
 def _unit_lower_factors(R: FloatArray, L: FloatArray, variances: FloatArray) -> None:
-    C = np.linalg.cholesky(R)
+    C = np.broadcast_to(or_nan(np.linalg.cholesky, R), R.shape)
     L[:], variances[:] = C / np.diag(C), np.diag(C) ** 2
 
 
 def _solve_unit_lower(L: FloatArray, B: FloatArray, out: FloatArray) -> None:
     out[:] = np.linalg.solve(_unit_lower(L), B)
+
+
+def _solve_unit_lower_vector(L: FloatArray, b: FloatArray, out: FloatArray) -> None:
+    out[:] = np.linalg.solve(_unit_lower(L), b)
 
 
 def _solve_unit_lower_transposed(L: FloatArray, B: FloatArray, out: FloatArray) -> None:
@@ -129,6 +133,7 @@ FACTOR_VERSIONS: tuple[tuple[Callable[..., Any], Any], ...] = (
     (definite.first_indefinite, _first_indefinite),
     (sequential.unit_lower_factors, _unit_lower_factors),
     (sequential.solve_unit_lower, _solve_unit_lower),
+    (sequential.solve_unit_lower_vector, _solve_unit_lower_vector),
     (sequential.solve_unit_lower_transposed, _solve_unit_lower_transposed),
     (sequential.join_gain, _join_gain),
     (u_d.u_d_factors, _u_d_factors),

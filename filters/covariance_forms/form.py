@@ -38,8 +38,8 @@ class CovarianceForm(NamedTuple):
     Of a measurement of which W = Phi_{k->j} P_{k^-} H_k^T (n, p) is carried, the covariance of the state of j with what
     is expected of the measurement, and S (p, p), the innovation covariance:
     cross(P, H, W, work): writes P H^T, which is W at k.
-    factor(S, out, work): writes what divides by S: its inverse, or its Cholesky factor.
-    cross_gain(W, factor, K, work): writes W S^-1, which is K_k at k.
+    factor(S, out, work): writes what divides by S, (p, p): its inverse, or factors.
+    cross_gain(W, S, K, work): writes W S^-1, which is K_k at k.
     cross_update(before, W, S, factor, z, after, work): writes x + W S^-1 z and P - W S^-1 W^T, for the innovation z.
     """
 

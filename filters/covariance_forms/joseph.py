@@ -62,7 +62,7 @@ def cross_update(
 
     The latter is P - K W^T - (W - K S) K^T: the last term is zero but for rounding of K.
     """
-    cross_gain(W, S_inverse, work.np1, work)
+    matmul_narrow(W, S_inverse, work.np1)
     matvec(work.np1, z, work.n1)
     add_vectors(before.x, work.n1, after.x)
     matmul_narrow(work.np1, S, work.PHt)

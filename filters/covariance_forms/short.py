@@ -12,16 +12,19 @@ from filters.kernels.dense import (
     add,
     add_matmul_blocked,
     add_vectors,
+    divide_rows,
     matmul_blocked,
     matmul_narrow,
     matmul_transposed_narrow,
     matvec,
     mirror,
     negate,
-    subtract_outer_product,
+    place_diagonal,
+    subtract_lower_product,
     transpose,
 )
-from filters.kernels.solve import cholesky, divide_by_factor, solve_cholesky, solve_factor
+from filters.kernels.sequential import solve_unit_lower, solve_unit_lower_vector, unit_lower_factors
+from filters.kernels.solve import cholesky, solve_cholesky
 from filters.records import Estimate, Workspace
 
 
@@ -75,27 +78,35 @@ def cross(P: FloatArray, H: FloatArray, W: FloatArray, work: Workspace) -> None:
     transpose(work.HP, W)
 
 
-def factor(S: FloatArray, out: FloatArray, _work: Workspace) -> None:
-    """C of S = C C^T."""
-    cholesky(S, out)
+def factor(S: FloatArray, out: FloatArray, work: Workspace) -> None:
+    """S = L D L^T, which takes no roots: L below the diagonal, D on it."""
+    unit_lower_factors(S, out, work.p1)
+    place_diagonal(work.p1, out)
 
 
-def cross_gain(W: FloatArray, C: FloatArray, K: FloatArray, work: Workspace) -> None:
-    """K^T = S^-1 W^T."""
-    transpose(W, work.pn1)
-    solve_cholesky(C, work.pn1, work.pn1)
+def cross_gain(W: FloatArray, S: FloatArray, K: FloatArray, work: Workspace) -> None:
+    """K^T = S^-1 W^T, from the Cholesky factor of S."""
+    transpose(W, work.HP)
+    cholesky(S, work.pp1)
+    solve_cholesky(work.pp1, work.HP, work.pn1)
     transpose(work.pn1, K)
 
 
 def cross_update(
-    before: Estimate, W: FloatArray, _S: FloatArray, C: FloatArray, z: FloatArray, after: Estimate, work: Workspace
+    before: Estimate, W: FloatArray, _S: FloatArray, L_D: FloatArray, z: FloatArray, after: Estimate, work: Workspace
 ) -> None:
-    """x + V (C^-1 z) and P - V V^T with V = W C^-T: no gain is formed, and P is computed on and below its diagonal."""
-    divide_by_factor(W, C, work.np1)
-    solve_factor(C, z, work.p1)
+    """x + G (L^-1 z) and P - V G^T with V = W L^-T and G = V D^-1.
+
+    These are p measurements with uncorrelated noise, V G^T one term v v^T / d for each, of which half is computed.
+    """
+    transpose(W, work.HP)
+    solve_unit_lower(L_D, work.HP, work.HP)
+    divide_rows(work.HP, L_D, work.pn1)
+    solve_unit_lower_vector(L_D, z, work.p1)
+    transpose(work.pn1, work.np1)
     matvec(work.np1, work.p1, work.n1)
     add_vectors(before.x, work.n1, after.x)
-    subtract_outer_product(before.P, work.np1, after.P)
+    subtract_lower_product(before.P, work.HP, work.pn1, after.P)
     mirror(after.P)
 
 

@@ -74,9 +74,10 @@ def factor(S: FloatArray, out: FloatArray, work: Workspace) -> None:
     inverse(S, out, work.pp1)
 
 
-def cross_gain(W: FloatArray, S_inverse: FloatArray, K: FloatArray, _work: Workspace) -> None:
+def cross_gain(W: FloatArray, S: FloatArray, K: FloatArray, work: Workspace) -> None:
     """K = W S^-1."""
-    matmul_narrow(W, S_inverse, K)
+    inverse(S, work.S_inverse, work.pp1)
+    matmul_narrow(W, work.S_inverse, K)
 
 
 def cross_update(
@@ -89,7 +90,7 @@ def cross_update(
     work: Workspace,
 ) -> None:
     """x + K z and P - K W^T with K = W S^-1."""
-    cross_gain(W, S_inverse, work.np1, work)
+    matmul_narrow(W, S_inverse, work.np1)
     matvec(work.np1, z, work.n1)
     add_vectors(before.x, work.n1, after.x)
     matmul_transposed(work.np1, W, work.nn1, work.pn1)

@@ -120,7 +120,7 @@ def correct(
 
 def gain_at_k(form: CovarianceForm, clone: Clone, K: FloatArray, work: Workspace) -> None:
     """K_k (Eq. 9), which no job needs; for the record."""
-    form.cross_gain(clone.W, clone.factor, K, work)
+    form.cross_gain(clone.W, clone.S, K, work)
 
 
 @running("system")

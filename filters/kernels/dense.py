@@ -103,14 +103,30 @@ def matmul_transposed_narrow(A: FloatArray, B: FloatArray, out: FloatArray) -> N
             out[i, j] = total
 
 
-def subtract_outer_product(P: FloatArray, V: FloatArray, out: FloatArray) -> None:
-    """out = P - V V^T on and below the diagonal, for symmetric P (n, n), V (n, m), out (n, n); out may be P."""
+def subtract_lower_product(P: FloatArray, A: FloatArray, B: FloatArray, out: FloatArray) -> None:
+    """out = P - A^T B on and below the diagonal, for P (n, n), A and B (m, n), out (n, n); out may be P."""
     for i in range(P.shape[0]):
         for j in range(i + 1):
-            total = P[i, j]
-            for k in range(V.shape[1]):
-                total -= V[i, k] * V[j, k]
-            out[i, j] = total
+            out[i, j] = P[i, j]
+    for k in range(A.shape[0]):
+        for i in range(A.shape[1]):
+            factor = A[k, i]
+            for j in range(i + 1):
+                out[i, j] -= factor * B[k, j]
+
+
+def divide_rows(B: FloatArray, D: FloatArray, out: FloatArray) -> None:
+    """out = B with each row divided by its entry on the diagonal of D (p, p), for B (p, n), out (p, n)."""
+    for i in range(B.shape[0]):
+        scale = 1.0 / D[i, i]
+        for j in range(B.shape[1]):
+            out[i, j] = B[i, j] * scale
+
+
+def place_diagonal(d: FloatArray, out: FloatArray) -> None:
+    """The diagonal of out (n, n) = d (n,)."""
+    for i in range(d.shape[0]):
+        out[i, i] = d[i]
 
 
 def matvec(A: FloatArray, x: FloatArray, out: FloatArray) -> None:

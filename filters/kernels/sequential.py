@@ -40,6 +40,15 @@ def solve_unit_lower(L: FloatArray, B: FloatArray, out: FloatArray) -> None:
                 out[i, j] -= factor * out[k, j]
 
 
+def solve_unit_lower_vector(L: FloatArray, b: FloatArray, out: FloatArray) -> None:
+    """out = L^-1 b, for L (p, p) unit lower triangular, b (p,), out (p,); out may be b."""
+    for i in range(b.shape[0]):
+        total = b[i]
+        for k in range(i):
+            total -= L[i, k] * out[k]
+        out[i] = total
+
+
 def solve_unit_lower_transposed(L: FloatArray, B: FloatArray, out: FloatArray) -> None:
     """out = L^-T B, for L (p, p) unit lower triangular, B (p, n), out (p, n); out may be B."""
     p, n = B.shape

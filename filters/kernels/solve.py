@@ -72,26 +72,3 @@ def solve_cholesky(C: FloatArray, B: FloatArray, out: FloatArray) -> None:
         scale = 1.0 / C[i, i]
         for j in range(n):
             out[i, j] *= scale
-
-
-def solve_factor(C: FloatArray, b: FloatArray, out: FloatArray) -> None:
-    """out = C^-1 b for C (p, p) lower triangular, b (p,), out (p,); out may be b."""
-    for i in range(b.shape[0]):
-        total = b[i]
-        for k in range(i):
-            total -= C[i, k] * out[k]
-        out[i] = total / C[i, i]
-
-
-def divide_by_factor(W: FloatArray, C: FloatArray, out: FloatArray) -> None:
-    """out = V of V C^T = W, for C (p, p) lower triangular, W (n, p), out (n, p); out may be W.
-
-    With S = C C^T, V V^T = W S^-1 W^T.
-    """
-    for i in range(C.shape[0]):
-        scale = 1.0 / C[i, i]
-        for row in range(W.shape[0]):
-            total = W[row, i]
-            for k in range(i):
-                total -= C[i, k] * out[row, k]
-            out[row, i] = total * scale

@@ -134,7 +134,14 @@ def test_the_load_with_context_switches_is_the_simulated_one(sched_sim: Run) -> 
 def test_without_a_method_named_those_that_are_possible_are_shown(sched_sim: Run) -> None:
     """IMU 400 Hz, GPS 10 Hz, 100 ms late: M = N, and the dual-rate filter has no step left."""
     result = sched_sim("minimum -N 40 -M 40 --processor cortex-m7 --hr-hz 400 --format json")
-    assert [row["method"] for row in json.loads(result.out)] == ["standard", "recalculate", "larsen"]
+    assert [row["method"] for row in json.loads(result.out)] == [
+        "standard",
+        "recalculate",
+        "larsen",
+        "clone",
+        "clone-split",
+        "carried-gain",
+    ]
     assert "dual-rate" in result.err
 
 
