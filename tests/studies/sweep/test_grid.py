@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from sched_sim.costs.methods import DELAYED_METHODS, TWO_RATE_METHODS
+from sched_sim.costs.methods import DELAYED_METHODS, PAPER_METHODS, TWO_RATE_METHODS
 from sched_sim.costs.table_file import load_costs
 from sched_sim.design.methods import METHODS
 from sched_sim.design.options import Options
@@ -39,7 +39,7 @@ def legal_designs(method, feedback, Ns, Ms, Ls):
     """One by one, by the rules of `sched_sim.design.timing`."""
     for N in Ns:
         for M in Ms or range(N + 1):
-            only_m = method in ("standard", "recalculate", "larsen")
+            only_m = method in DELAYED_METHODS and method != "dual-rate"
             latest = N - 1 if method == "dual-rate" and feedback == "same-step" else N
             every_L = [M] if only_m else range(latest + 1)
             for L in Ls or every_L:
@@ -83,7 +83,7 @@ def points(grid, start, stop):
     Ms=st.none() | axis(0),
     Ls=st.none() | axis(0),
     speeds=st.integers(0, 3),
-    methods=st.lists(st.sampled_from(DELAYED_METHODS), min_size=1, unique=True),
+    methods=st.lists(st.sampled_from(PAPER_METHODS), min_size=1, unique=True),
     feedbacks=st.lists(FEEDBACK, min_size=1, unique=True),
     data=st.data(),
 )
@@ -119,14 +119,14 @@ def test_a_grid_far_larger_than_memory_is_only_counted():
 def test_an_empty_grid_says_what_was_given():
     said = r"none of the 4 combinations of N=5, M=6, L=all is legal: .*--scenario .*`every = 5` and `delay = 6`"
     with pytest.raises(InputError, match=said):
-        Grid((5,), (6,), None, (), DELAYED_METHODS, (STEFFES,), (Options(),))
+        Grid((5,), (6,), None, (), PAPER_METHODS, (STEFFES,), (Options(),))
 
 
 def test_tables_of_one_name_are_refused():
     with pytest.raises(InputError, match="two cost tables are named 'steffes2014'"):
-        Grid((5,), None, None, (), DELAYED_METHODS, (STEFFES, STEFFES), (Options(),))
+        Grid((5,), None, None, (), PAPER_METHODS, (STEFFES, STEFFES), (Options(),))
 
 
 def test_a_missing_entry_of_a_table_is_an_error():
     with pytest.raises(InputError, match=r"no entry \[costs.dual-rate\] lr_gain"):
-        Grid((5,), None, None, (), DELAYED_METHODS, (STEFFES,), (Options(gain="precomputed"),))
+        Grid((5,), None, None, (), PAPER_METHODS, (STEFFES,), (Options(gain="precomputed"),))
