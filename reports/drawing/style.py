@@ -76,7 +76,7 @@ FILLS = {
     "R": Fill("#dfe8f0", "#11538c", "\\\\\\\\", "replayed steps"),
     "ST": Fill("#5b93c4", "white", "", "start"),
     "CA": Fill("#e3edf5", "#11538c", "....", "carry"),
-    "LA": Fill("#5b93c4", "white", "", "land"),
+    "LA": Fill("#5b93c4", "white", "////", "land"),
     "HRP": Fill("#b3d4ee", INK, "", "high-rate propagate"),
     "HRU": Fill("#11538c", "white", "", "high-rate update"),
     "LRP": Fill("#fbe3b5", "#9a6200", "////", "low-rate propagate"),

@@ -84,6 +84,20 @@ def test_sums_and_copies(backend: BackendName, n: int, m: int, seed: int) -> Non
 
 
 @each_backend
+@given(n=lengths, m=lengths, seed=seeds)
+def test_what_an_update_by_terms_takes(backend: BackendName, n: int, m: int, seed: int) -> None:
+    P, A, B, d = normal(seed, (n, n), (m, n), (m, n), (m,))
+    out = P.copy()
+    function_for(backend, dense.subtract_lower_product)(out, A, B, out)
+    close(np.tril(out), np.tril(P - A.T @ B))
+    D, divided = np.ones((m, m)), A.copy()
+    function_for(backend, dense.place_diagonal)(d, D)
+    close(D, np.where(np.eye(m, dtype=bool), d, 1.0))
+    function_for(backend, dense.divide_rows)(divided, D, divided)
+    close(divided, A / d[:, np.newaxis])
+
+
+@each_backend
 @given(p=lengths, n=lengths, seed=seeds)
 def test_solves(backend: BackendName, p: int, n: int, seed: int) -> None:
     S = positive_definite(seed, p)
@@ -134,6 +148,9 @@ def test_operations_of_products(n: int, m: int, p: int) -> None:
     for kernel in (dense.copy, dense.negate):
         assert count(kernel, A, A) == Operations()
     assert count(dense.transpose, A, np.ones((m, n))) == Operations()
+    half = m * (m + 1) // 2 * n
+    assert count(dense.subtract_lower_product, np.ones((m, m)), A, A, np.ones((m, m))) == Operations(half, half)
+    assert count(dense.divide_rows, B, np.eye(m), B) == Operations(multiply=m * p, divide=m)
 
 
 @given(p=lengths, n=lengths)

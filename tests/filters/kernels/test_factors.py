@@ -145,6 +145,9 @@ def test_measurements_are_decorrelated_by_unit_triangular_solves(
         close(out, expected)
         function_for(backend, kernel)(kept, over, over)
         close(over, expected)
+    (b,) = normal(seed, (p,))
+    function_for(backend, sequential.solve_unit_lower_vector)(kept, b, vector := b.copy())
+    close(vector, np.linalg.solve(L, b))
 
 
 @given(n=lengths)
@@ -200,6 +203,7 @@ def test_operations_of_decorrelation(p: int, n: int) -> None:
     )
     for kernel in (sequential.solve_unit_lower, sequential.solve_unit_lower_transposed):
         assert count(kernel, L, B, B.copy()) == Operations(multiply=n * below, add=n * below)
+    assert count(sequential.solve_unit_lower_vector, L, variances, np.ones(p)) == Operations(below, below)
 
 
 def times(number: int, operations: Operations) -> Operations:

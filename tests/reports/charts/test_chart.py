@@ -21,7 +21,7 @@ from sched_sim.errors import InputError
 from sched_sim.schedule.tasks import Task
 from tests.reports.layout import flaws, texts
 
-PAPER = load_costs("steffes2014")
+PAPER, COUNTED = load_costs("steffes2014"), load_costs("counted-9-3-3").normalised()
 TASKS = [
     Task("control law", Fraction(1), Fraction("0.1"), 5),
     Task("a task_with $a long name$ that does not end", Fraction(5), Fraction("0.3"), 30, Fraction("0.5")),
@@ -44,6 +44,10 @@ CASES: dict[str, Callable[[], list[Panel]]] = {
         panel("standard", 10, 4, 8, "1"),
         panel("recalculate", 10, 4, 8, "2.81"),
         *figure_3(),
+    ],
+    "carried to m": lambda: [
+        method_panel(COUNTED, method, Timing(10, M, 10), Fraction(speed), 2)
+        for method, M, speed in (("clone", 4, "0.61"), ("clone-split", 10, "0.7"), ("carried-gain", 4, "1"))
     ],
     "100 steps": lambda: [
         panel("larsen", 100, 10, 80, "1.47"),
@@ -88,7 +92,7 @@ def test_nor_do_they_in_a_column_of_another_width_with_a_second_axis(case: str, 
     assert flaws(gantt(CASES[case](), width_mm=width_mm, hr_hz=400)) == []
 
 
-@pytest.mark.parametrize("case", ["figure 3", "overload", "2 CPUs", "context switch", "tasks"])
+@pytest.mark.parametrize("case", ["figure 3", "carried to m", "overload", "2 CPUs", "context switch", "tasks"])
 def test_what_is_drawn_is_what_ran(case: str) -> None:
     panels = CASES[case]()
     for axes, shown in zip(gantt(panels).axes, panels, strict=False):
