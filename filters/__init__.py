@@ -9,7 +9,19 @@ from filters.lazy import lazily
 if TYPE_CHECKING:
     from filters import accuracy, modular, multirate_gain
     from filters.backends.counted import Operations, count
-    from filters.delayed import carried_gain, clone, clone_split, dual_rate, larsen, recalculate, standard
+    from filters.delayed import (
+        augmentation,
+        carried_gain,
+        clone,
+        clone_split,
+        delayed_horizon,
+        dual_rate,
+        fuse_as_fresh,
+        larsen,
+        px4_predictor,
+        recalculate,
+        standard,
+    )
     from filters.error_covariance import true_covariance
     from filters.history import History
     from filters.system import System
@@ -21,16 +33,20 @@ __all__ = [
     "Operations",
     "System",
     "accuracy",
+    "augmentation",
     "carried_gain",
     "clone",
     "clone_split",
     "count",
+    "delayed_horizon",
     "dual_rate",
     "example_system",
+    "fuse_as_fresh",
     "larsen",
     "linear_system",
     "modular",
     "multirate_gain",
+    "px4_predictor",
     "recalculate",
     "standard",
     "true_covariance",
@@ -41,7 +57,8 @@ __getattr__, __dir__ = lazily(
     {
         "filters": "accuracy modular multirate_gain",
         "filters.backends.counted": "Operations count",
-        "filters.delayed": "carried_gain clone clone_split dual_rate larsen recalculate standard",
+        "filters.delayed": "augmentation carried_gain clone clone_split delayed_horizon dual_rate fuse_as_fresh larsen "
+        "px4_predictor recalculate standard",
         "filters.error_covariance": "true_covariance",
         "filters.history": "History",
         "filters.system": "System",

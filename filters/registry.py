@@ -15,7 +15,19 @@ from typing import Any, NamedTuple
 from filters import multirate_gain
 from filters.arrays import FloatArray
 from filters.covariance_forms import CovarianceFormName, covariance_form
-from filters.delayed import carried_gain, clone, clone_split, dual_rate, larsen, recalculate, standard
+from filters.delayed import (
+    augmentation,
+    carried_gain,
+    clone,
+    clone_split,
+    delayed_horizon,
+    dual_rate,
+    fuse_as_fresh,
+    larsen,
+    px4_predictor,
+    recalculate,
+    standard,
+)
 from filters.factored import FactoredFormName, factored_form
 from filters.history import History
 from filters.jobs import Form, Job, JobKind
@@ -77,6 +89,10 @@ DELAYED_METHODS = {
         ("clone", clone.run, _jobs(covariance_form, *clone.JOBS)),
         ("clone-split", clone_split.run, _jobs(clone_split.split_form, *clone_split.JOBS)),
         ("carried-gain", carried_gain.run, _jobs(covariance_form, *carried_gain.JOBS)),
+        ("delayed-horizon", delayed_horizon.run, _jobs(covariance_form, *delayed_horizon.JOBS)),
+        ("px4-predictor", px4_predictor.run, _jobs(covariance_form, *px4_predictor.JOBS)),
+        ("augmentation", augmentation.run, _jobs(covariance_form, *augmentation.JOBS)),
+        ("fuse-as-fresh", fuse_as_fresh.run, _jobs(covariance_form, *fuse_as_fresh.JOBS)),
     )
 }
 """One measurement every N steps, which comes M steps late; and the standard filter, for which it is never late."""

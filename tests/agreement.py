@@ -11,7 +11,7 @@ import numpy as np
 
 from sched_sim.design.analysis import NOT_LANDED, achieved_l, least_period
 from sched_sim.design.options import Options
-from sched_sim.design.pieces import DualRateCosts, JobCosts
+from sched_sim.design.pieces import DelayedHorizonCosts, DualRateCosts, JobCosts
 from sched_sim.design.simulate import simulate
 from sched_sim.design.timing import Timing
 from tests.designs import Design
@@ -46,7 +46,9 @@ def landing(costs: JobCosts, timing: Timing, speed: Fraction, options: Options) 
     schedule = simulate(costs, timing, speed, CYCLES, options, on_landing=lambda _cycle, L: landings.append(L))
     last_legal = timing.N - 1 if options.feedback == "same-step" else timing.N
     in_time = len(landings) == CYCLES and max(landings) <= last_legal
-    return landings[-1] if in_time and not schedule.responses["hr"].misses else NOT_LANDED
+    kinds = ("hr", "lr_propagate") if isinstance(costs, DelayedHorizonCosts) else ("hr",)
+    late = any(schedule.responses[kind].misses for kind in kinds if kind in schedule.responses)
+    return landings[-1] if in_time and not late else NOT_LANDED
 
 
 def legal_timings(costs: JobCosts, N: int, options: Options) -> list[Timing]:
@@ -54,4 +56,6 @@ def legal_timings(costs: JobCosts, N: int, options: Options) -> list[Timing]:
     if isinstance(costs, DualRateCosts):
         first, end = (1, N + 1) if options.feedback == "next-step" else (0, N)
         return [Timing(N, M, L) for M in range(N) for L in range(M + first, end)]
+    if isinstance(costs, DelayedHorizonCosts):
+        return [Timing(N, M, L) for M in range(N) for L in range(M + 1, N + 1)]
     return [Timing(N, M, N) for M in range(N + 1)]

@@ -10,12 +10,16 @@ from hypothesis import strategies as st
 
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import (
+    AugmentationCosts,
     CarriedGainCosts,
     CloneCosts,
+    DelayedHorizonCosts,
     DualRateCosts,
+    FuseAsFreshCosts,
     JobCosts,
     LarsenCosts,
     MultirateCosts,
+    Px4PredictorCosts,
     RecalculateCosts,
     RobustCosts,
     StandardCosts,
@@ -40,6 +44,9 @@ def serial_designs(draw: st.DrawFn) -> Design:
         | st.builds(LarsenCosts, ticks, ticks, ticks)
         | st.builds(CloneCosts, ticks, ticks, ticks, ticks)
         | st.builds(CarriedGainCosts, ticks, ticks, ticks, ticks, ticks, ticks)
+        | st.builds(Px4PredictorCosts, ticks, ticks, ticks, ticks, ticks)
+        | st.builds(AugmentationCosts, ticks, ticks, ticks, ticks, ticks)
+        | st.builds(FuseAsFreshCosts, ticks, ticks)
     )
     N = draw(st.integers(1, 12))
     M = draw(st.sampled_from([0, N]) | st.integers(0, N))
@@ -73,7 +80,16 @@ def two_rate_designs(draw: st.DrawFn) -> Design:
     return Design(costs, Timing(N, 0, L), Options(cpus=draw(st.sampled_from([1, 2]))))
 
 
-designs = serial_designs() | dual_rate_designs() | two_rate_designs()
+@st.composite
+def horizon_designs(draw: st.DrawFn) -> Design:
+    N = draw(st.integers(1, 12))
+    M = draw(st.sampled_from([0, N - 1]) | st.integers(0, N - 1))
+    L = draw(st.sampled_from([M + 1, N]) | st.integers(M + 1, N))
+    costs = draw(st.builds(DelayedHorizonCosts, ticks, ticks, ticks, ticks))
+    return Design(costs, Timing(N, M, L), Options(cpus=draw(st.sampled_from([1, 2]))))
+
+
+designs = serial_designs() | dual_rate_designs() | two_rate_designs() | horizon_designs()
 
 
 @st.composite

@@ -1,1 +1,1 @@
-"""Filters of delayed measurements: standard, recalculate, Larsen, dual-rate, stochastic cloning, carried gain."""
+"""Filters of delayed measurements: those of Steffes 2014, and what others fly."""

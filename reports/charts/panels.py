@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import NamedTuple
 
 from sched_sim.bounds import at_least_one, whole
-from sched_sim.costs.methods import MULTIRATE_METHODS, TWO_RATE_METHODS
+from sched_sim.costs.methods import CAVEATS, MULTIRATE_METHODS, TWO_RATE_METHODS
 from sched_sim.costs.table import CostTable
 from sched_sim.design.methods import select
 from sched_sim.design.options import Options
@@ -29,6 +29,10 @@ METHOD_NAMES = {
     "clone": "Stochastic cloning",
     "clone-split": "Stochastic cloning, split",
     "carried-gain": "Carried gain",
+    "delayed-horizon": "Delayed horizon",
+    "px4-predictor": "PX4 output predictor",
+    "augmentation": "Augmentation",
+    "fuse-as-fresh": "Fuse as fresh",
     "multirate": "Multirate gain",
     "multirate-square-root": "Multirate gain, square root",
     "multirate-ud": "Multirate gain, U-D",
@@ -172,6 +176,8 @@ def method_panel(
         notes[1] = "no delay: lands at $k$"
     if method in MULTIRATE_METHODS:
         notes[1] = notes[1].replace("correction", "gain").replace("lands at", "gain in use from")
+    if method in CAVEATS:
+        notes.append(CAVEATS[method].partition(":")[0])
     panel = Panel(
         title=METHOD_NAMES[method] if title is None else title,
         schedule=schedule,

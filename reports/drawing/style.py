@@ -84,6 +84,7 @@ FILLS = {
     "LRU": Fill("#dd9009", INK, "", "low-rate update"),
     "SU": Fill("#b3d4ee", INK, "", "state update"),
     "CG": Fill("#dd9009", INK, "", "covariance and gain"),
+    "OC": Fill("#f4e9d8", "#9a6200", "\\\\\\\\", "output correction"),
     "IP": Fill("#b3d4ee", INK, "", "inertial propagation"),
     "RS": Fill("#dd9009", INK, "", "robust step"),
     "PR": Fill("#b3d4ee", INK, "", "predict"),
@@ -119,6 +120,10 @@ METHOD_LINES = {
     "clone": Line("#2e7d4f", (0, (6.0, 1.5)), "v"),
     "clone-split": Line("#1d8a8a", (0, (2.5, 1.0)), "<"),
     "carried-gain": Line("#b3382f", (0, (6.0, 1.5, 1.0, 1.5, 1.0, 1.5)), "P"),
+    "delayed-horizon": Line("#5c3a6b", (0, (9.0, 1.2, 1.5, 1.2)), ">"),
+    "px4-predictor": Line("#c2477f", (0, (3.5, 1.0, 1.0, 1.0)), "p", 4.2),
+    "augmentation": Line("#6b5b1e", (0, (8.0, 2.5)), "h", 4.2),
+    "fuse-as-fresh": Line("#7d7d7d", (0, (1.0, 2.4)), "X", 4.2),
 }
 
 SOURCE_LINES = (

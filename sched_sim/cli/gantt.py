@@ -10,7 +10,7 @@ import typer
 from sched_sim.cli import options as opt
 from sched_sim.cli.chart_options import From, Until, Width, stretch, width_mm
 from sched_sim.cli.design_flags import with_options
-from sched_sim.cli.output import say
+from sched_sim.cli.output import lines, say
 from sched_sim.cli.outputs import refuse_one_file_for_two
 from sched_sim.design.options import Options
 
@@ -58,6 +58,7 @@ def gantt(
     from reports.charts.chart import method_panel, save
     from reports.charts.panels import zoomed
     from reports.drawing.picture import check_picture
+    from sched_sim.cli.caveats import caveat_note
     from sched_sim.cli.design_times import make_design
     from sched_sim.cli.simulate import released_together
     from sched_sim.design.least_speed import least_speed
@@ -71,8 +72,8 @@ def gantt(
     table, rate = opt.costs_on(costs, part), opt.hr_rate(hr_hz)
     others = opt.make_tasks(tasks, table.unit, rate)
     design = make_design(N, M, L, rate, measurement_hz, delay_ms, land_within_ms)
-    panels = []
-    for name in opt.wanted_methods(method or _usual(table), table):
+    panels, methods = [], opt.wanted_methods(method or _usual(table), table)
+    for name in methods:
         timing = design.timing(name, options)
         work = select(table, name, options, statistic)
         pace = opt.pace(speed, rate, part, partial(least_speed, work, timing, options, others))
@@ -83,8 +84,8 @@ def gantt(
         start, end = stretch(first, until, rate, min(panel.end for panel in panels))
         panels = [zoomed(panel, start, end) for panel in panels]
     save(draw(panels, width_mm=across, hr_hz=rate), output, "--output")
-    if design.words:
-        say(design.words)
+    if note := lines(design.words, caveat_note(methods)):
+        say(note)
     say(f"Wrote {output}")
 
 

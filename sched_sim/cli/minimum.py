@@ -41,6 +41,7 @@ def minimum(
     sched-sim minimum --hr-hz 400 --measurement-hz 5 --delay-ms 110 --processor cortex-m7
     sched-sim minimum -N 40 -M 4 --hr-hz 400 --costs my-costs.toml --method dual-rate
     """
+    from sched_sim.cli.caveats import caveat_note, with_caveats
     from sched_sim.cli.design_times import make_design
     from sched_sim.cli.measured_note import measured_row, range_note
     from sched_sim.cli.parts import MEANING, fit_row, fit_words, fixed_by, least_row, no_less
@@ -107,7 +108,13 @@ def minimum(
         rows.append(row | measured_row(table, name, timing, options, others, scale))
         shown.append(person)
     timings = {row["method"]: design.timing(row["method"], options) for row in rows}
-    note = lines(design.words, update_note(table, [*timings]), range_note(table, timings, options, others))
+    note = lines(
+        design.words,
+        caveat_note(timings),
+        update_note(table, [*timings]),
+        range_note(table, timings, options, others),
+    )
+    rows = with_caveats(rows)
     if format == "json":
         print_json(rows)
     elif format == "csv":

@@ -107,7 +107,7 @@ Methods = Annotated[
     list[str] | None,
     typer.Option(
         "--method",
-        help=f"{', '.join(NAMES)}; repeatable; by default those of the first four that the cost table has.",
+        help=f"{', '.join(NAMES)}; repeatable; by default those for a late measurement that the cost table has.",
         rich_help_panel=DESIGN,
     ),
 ]

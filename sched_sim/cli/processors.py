@@ -204,6 +204,7 @@ def _verdicts(
 ) -> tuple[list[dict[str, Any]], list[dict[str, Any]], list[str]]:
     """A row for each processor and method; the same in words, in the order of `_by_slack`; and remarks: which
     covariance update the operations are of, the ground, and why some processors cannot be told of."""
+    from sched_sim.cli.caveats import caveat_note, with_caveats
     from sched_sim.cli.measured_note import measured_row
     from sched_sim.cli.no_time import no_time_note
     from sched_sim.cli.parts import fit_row, fit_words, fixed_by, least_row
@@ -251,9 +252,14 @@ def _verdicts(
     calibrations = {part.name: None if part.calibration is None else part.calibration.text for part in parts}
     in_order = sorted(range(len(shown)), key=lambda index: _by_slack(verdicts[index]))
     return (
-        rows,
+        with_caveats(rows),
         [shown[index] for index in in_order],
-        [form_note(counts, timings), ground_note(counts, timings, calibrations), no_time_note(lacking)],
+        [
+            caveat_note(timings),
+            form_note(counts, timings),
+            ground_note(counts, timings, calibrations),
+            no_time_note(lacking),
+        ],
     )
 
 

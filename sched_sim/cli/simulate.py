@@ -111,6 +111,7 @@ def simulate(
         )
     from contextlib import ExitStack
 
+    from sched_sim.cli.caveats import caveat_note, with_caveats
     from sched_sim.cli.design_times import make_design
     from sched_sim.cli.measured_note import busy_row
     from sched_sim.cli.simulated import of_run, outcome, responses, show
@@ -169,9 +170,8 @@ def simulate(
     if not schedule.misses and (note := unseen(work, timing, pace, cycles, options, others)):
         say(f"Note: {note}")
     wait = Fraction(0) if rate is None or design.times is None else design.times.wait(rate)
-    about = (
-        of_run(method, timing, pace, table.unit, rate, part) | update_form(table, method) | busy_row(table.provenance)
-    )
+    about_run = of_run(method, timing, pace, table.unit, rate, part)
+    (about,) = with_caveats([about_run | update_form(table, method) | busy_row(table.provenance)])
     if format == "json":
         print_json(about | outcome(schedule, achieved, rate, wait))
     elif format == "csv":
@@ -182,7 +182,7 @@ def simulate(
         if part is not None and rate is None:
             where += f", as fast as it can: HR period {1e6 * float(pace):.6g} us"
         title = f"{method}, N={design.N}{delay} L={timing.L}, {where}"
-        note = lines(design.words, update_note(table, [method]))
+        note = lines(design.words, caveat_note([method]), update_note(table, [method]))
         show(title, schedule, achieved, rate, wait, method in MULTIRATE_METHODS, note)
 
 

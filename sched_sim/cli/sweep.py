@@ -236,6 +236,7 @@ def _progress(total: int) -> Iterator[Callable[[int], None]]:
 
 
 def _report(asked: Sweep, store: Store, outcome: Outcome, exports: Sequence[Path], format: opt.Format) -> None:
+    from sched_sim.cli.caveats import caveat_note
     from sched_sim.cli.measured_note import busy_note, busy_row
     from sched_sim.cli.update_form import form_note
     from studies.sweep.summary import best, by_method
@@ -277,6 +278,7 @@ def _report(asked: Sweep, store: Store, outcome: Outcome, exports: Sequence[Path
         note=lines(
             "All rows: " + ", ".join(str(file) for file in (store.path, *exports)),
             TASKS_ON_PARTS if asked.grid.tasks and len({table.processor for table in tables}) > 1 else "",
+            caveat_note(asked.grid.methods),
             *forms,
         ),
     )

@@ -6,7 +6,16 @@ from collections.abc import Mapping
 from typing import Literal, get_args
 
 PaperMethod = Literal["standard", "recalculate", "larsen", "dual-rate"]
-DelayedMethod = Literal[PaperMethod, "clone", "clone-split", "carried-gain"]
+DelayedMethod = Literal[
+    PaperMethod,
+    "clone",
+    "clone-split",
+    "carried-gain",
+    "delayed-horizon",
+    "px4-predictor",
+    "augmentation",
+    "fuse-as-fresh",
+]
 MultirateMethod = Literal["multirate", "multirate-square-root", "multirate-ud"]
 RobustMethod = Literal["robust-inverse", "robust-givens", "robust-lu", "robust-closed"]
 Method = Literal[DelayedMethod, MultirateMethod, RobustMethod]
@@ -43,7 +52,18 @@ KINDS: Mapping[str, tuple[str, ...]] = {
     ),
     **dict.fromkeys(("clone", "clone-split"), ("propagate", "start", "carry", "update")),
     "carried-gain": ("propagate", "update", "carry", "land", "couple", "compensate"),
+    "delayed-horizon": ("predict", "update", "replay", "propagate_covariance"),
+    "px4-predictor": ("predict", "propagate", "update", "pull", "shift_output"),
+    "augmentation": ("predict_0", "predict_1", "update_0", "update_1", "update_2"),
+    "fuse-as-fresh": ("propagate", "update"),
     **dict.fromkeys(MULTIRATE_METHODS, ("state_update", "covariance_gain")),
     **dict.fromkeys(ROBUST_METHODS, ("inertial", "robust_step")),
 }
 """Every entry a table may hold, by method. Those a run needs depend on its options: see `select`."""
+
+CAVEATS: Mapping[str, str] = {
+    "px4-predictor": "approximate output: it follows a correction with a time constant of its own, and does not jump",
+    "fuse-as-fresh": "wrong by design: a late measurement is taken for a new one, and the estimate lags by what moved "
+    "during the delay",
+}
+"""Methods whose estimate is not the one that the measurements allow: a word or two, and why."""

@@ -14,14 +14,19 @@ from enum import IntEnum
 from operator import index
 
 from sched_sim.design.demand import DualRateDemand, Quotient, choose, largest, quotient, smaller
+from sched_sim.design.horizon_demand import HorizonDemand
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import (
+    AugmentationCosts,
     CarriedGainCosts,
     CloneCosts,
+    DelayedHorizonCosts,
     DualRateCosts,
+    FuseAsFreshCosts,
     JobCosts,
     LarsenCosts,
     MultirateCosts,
+    Px4PredictorCosts,
     RecalculateCosts,
     RobustCosts,
     SerialCosts,
@@ -36,9 +41,9 @@ from sched_sim.design.whole import Flags, Ints, Whole, larger, lesser, where
 class Binding(IntEnum):
     """Which demand fixes the least speed.
 
-    hr: one HR job; lr_propagate: LR propagate by its deadline; lr_update: the LR update between m and l;
-    lr_total: all LR work between k and l; lr_gain: covariance and gain of a multirate method by l;
-    lr_step: the robust step by l.
+    hr: one HR job; lr_propagate: LR propagate by its deadline, of a delayed horizon all LR work of a cycle; lr_update:
+    the LR update between m and l; lr_total: all LR work between k and l; lr_gain: covariance and gain of a multirate
+    method by l; lr_step: the robust step by l.
     """
 
     hr = 0
@@ -60,7 +65,8 @@ BINDING_WORDS = {
 """The bindings as a person reads them."""
 
 NOT_LANDED = -1
-"""Instead of an achieved L where an HR job overruns its step, or nothing lands before the next measurement."""
+"""Instead of an achieved L where an HR job overruns its step, or nothing lands before the next measurement; of
+a delayed horizon also where its LR jobs pile up."""
 
 STEPS_ALONE = 32
 """So many steps are looked at one by one, without numpy, before all the others at once."""
@@ -89,6 +95,9 @@ def _least_period(costs: JobCosts[int], N: Whole, M: Whole, L: Whole, options: O
         demand = DualRateDemand(costs, N, M, separate=options.cpus == 2)
         by_m = options.lr_propagate_by == "m"
         return (_next_step if options.feedback == "next-step" else _same_step)(demand, L, by_m)
+    if isinstance(costs, DelayedHorizonCosts):
+        horizon = HorizonDemand(costs, N, M, separate=options.cpus == 2)
+        return horizon.least_period(L, Binding.hr, Binding.lr_update, Binding.lr_propagate)
     return quotient(_longest_serial_job(costs, N, M), 1, Binding.hr)
 
 
@@ -107,6 +116,8 @@ def _achieved_l(costs: JobCosts[int], N: Whole, M: Whole, period: Whole, options
     if isinstance(costs, MultirateCosts | RobustCosts):
         demand = _two_rate_demand(costs, N, options)
         return where(period >= demand.longest_hr_job(), _landing_next_step(demand, period), NOT_LANDED)
+    if isinstance(costs, DelayedHorizonCosts):
+        return HorizonDemand(costs, N, M, separate=options.cpus == 2).landed(period, NOT_LANDED)
     if not isinstance(costs, DualRateCosts):
         landed = 0 * M if isinstance(costs, StandardCosts) else M
         return where(period >= _longest_serial_job(costs, N, M), landed, NOT_LANDED)
@@ -152,19 +163,26 @@ def _longest_serial_job(costs: SerialCosts[int], N: Whole, M: Whole) -> Whole:
         case LarsenCosts(propagate, accumulate, update):
             return where(M >= 2, 0 * N + max(accumulate + update, propagate), 0 * N + propagate + update)
         case CloneCosts(propagate, start, carry, update):
-            return propagate + _longest_carried(start + 0 * N, carry, update + 0 * N, N, M)
+            return propagate + _longest_carried(start, carry, update, N, M)
         case CarriedGainCosts(propagate, update, carry, land, couple, compensate):
             others = larger(M - 1, 0) // N
-            longest = _longest_carried(update + others * couple, carry, land + others * compensate, N, M)
-            return propagate + others * carry + longest
+            at_k, at_m = update + others * couple, land + others * compensate
+            return propagate + others * carry + _longest_carried(at_k, carry, at_m, N, M)
+        case Px4PredictorCosts(predict, propagate, update, pull, shift):
+            return predict + propagate + update + pull + shift * (M + 1)
+        case AugmentationCosts(predict, predict_more, update, update_more, bend):
+            return predict + update + (predict_more + update_more) * M + bend * (M * (M - 1) // 2)
+        case FuseAsFreshCosts(propagate, update):
+            return propagate + update + 0 * N
 
 
-def _longest_carried(at_k: Whole, carry: int, at_m: Whole, N: Whole, M: Whole) -> Whole:
+def _longest_carried(at_k: Whole | int, carry: int, at_m: Whole | int, N: Whole, M: Whole) -> Whole:
     """The most that a step has beyond what all have: the work at k, with that at m where these are one step, or that at
     m, or, where a step lies between them, one measurement more to carry."""
-    together = at_k + where(M % N == 0, at_m, 0)
-    between = where(larger(M - 1, 0) % N > 0, 0 * N + carry, 0)
-    return larger(larger(together, at_m), between)
+    zero = 0 * N
+    together = zero + at_k + where(M % N == 0, zero + at_m, 0)
+    between = where(larger(M - 1, 0) % N > 0, zero + carry, 0)
+    return larger(larger(together, zero + at_m), between)
 
 
 def _two_rate_demand(costs: TwoRateCosts[int], N: Whole, options: Options) -> DualRateDemand[Whole]:

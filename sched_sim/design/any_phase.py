@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from fractions import Fraction
 from itertools import count
 from math import ceil
@@ -11,7 +12,7 @@ from sched_sim.design.load import loads
 from sched_sim.design.methods import method_of
 from sched_sim.design.options import Options
 from sched_sim.design.phased import Phased, ceiling, phased
-from sched_sim.design.pieces import Costs, StandardCosts
+from sched_sim.design.pieces import Costs, DelayedHorizonCosts, StandardCosts
 from sched_sim.design.search import search_resolution
 from sched_sim.design.timing import Timing
 from sched_sim.design.worst_demand import overloaded
@@ -72,27 +73,51 @@ def late_job(costs: Costs, timing: Timing, speed: Fraction, options: Options, ta
             f"two processors: give each task an offset, and no jitter, or choose {option('policy')} fixed"
         )
     check_simulation(timing.N, tasks, f"the {timing.N} HR periods of a measurement cycle", MOST_JOBS_OF_A_CYCLE)
-    if max(loads(costs, timing, speed, options, tasks)) > 1:
-        return LOAD
-    design = phased(costs, timing, speed, options, tasks)
-    kind, held = _late(design)
-    if kind is None or kind == LOAD or kind.startswith("task:"):
-        return kind
-    return method_of(costs).binding(kind, held, timing, options)
+    return _late_of_all(_settled(costs, timing, speed, options, tasks), timing, speed, options, tasks)
 
 
 def worst_landing(costs: Costs, timing: Timing, speed: Fraction, options: Options, tasks: Sequence[Task]) -> int | None:
     """The L at which corrections have landed at any phase; None where something may be late."""
     if late_job(costs, timing, speed, options, tasks) is not None:
         return None
-    design = phased(costs, timing, speed, options, tasks)
+    costs = _settled(costs, timing, speed, options, tasks)
+    return _landed(costs, timing, phased(costs, timing, speed, options, tasks))
+
+
+def _settled(costs: Costs, timing: Timing, speed: Fraction, options: Options, tasks: Sequence[Task]) -> Costs:
+    """Of a delayed horizon, which replays the longer the later it lands, as much in the update as its first landing
+    needs that is no later than what is replayed for it."""
+    if not isinstance(costs, DelayedHorizonCosts):
+        return costs
+    landed = timing.M + 1
+    while True:
+        replayed = replace(costs, update=costs.update + landed * costs.replay, replay=Fraction(0))
+        if _late_of_all(replayed, timing, speed, options, tasks) is not None:
+            return replayed
+        lands = _landed(replayed, timing, phased(replayed, timing, speed, options, tasks))
+        if lands <= landed:
+            return replayed
+        landed = lands
+
+
+def _late_of_all(costs: Costs, timing: Timing, speed: Fraction, options: Options, tasks: Sequence[Task]) -> str | None:
+    if max(loads(costs, timing, speed, options, tasks)) > 1:
+        return LOAD
+    kind, held = _late(phased(costs, timing, speed, options, tasks))
+    if kind is None or kind == LOAD or kind.startswith("task:"):
+        return kind
+    return method_of(costs).binding(kind, held, timing, options)
+
+
+def _landed(costs: Costs, timing: Timing, design: Phased) -> int:
+    """Where nothing is late."""
     if not design.cycle.low:
         return 0 if isinstance(costs, StandardCosts) else timing.M
-    if options.policy == "edf":
+    if design.options.policy == "edf":
         return timing.L
-    due = design.cycle.low[-1].due
-    found = [each for each in finishes(design) if each.kind in (design.cycle.low[-1].kind, "hr_update")][-1]
-    steps = int((ceiling(found.at - found.due, design.period) + due).max())
+    low = design.cycle.low[design.cycle.landing]
+    found = [each for each in finishes(design) if each.kind in (low.kind, "hr_update")][-1]
+    steps = int((ceiling(found.at - found.due, design.period) + low.due).max())
     return steps - design.cycle.apart
 
 

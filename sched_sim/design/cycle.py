@@ -11,6 +11,7 @@ from sched_sim.design.options import Options
 from sched_sim.design.pieces import (
     CarriedGainCosts,
     CloneCosts,
+    DelayedHorizonCosts,
     DualRateCosts,
     JobCosts,
     LarsenCosts,
@@ -18,6 +19,8 @@ from sched_sim.design.pieces import (
     RecalculateCosts,
     RobustCosts,
     StandardCosts,
+    at_m,
+    each_step,
     works,
 )
 from sched_sim.design.timing import Timing
@@ -37,7 +40,7 @@ class Cycle(NamedTuple):
     """high: work of the HR job of each step, from k on, without the correction.
 
     correction: HR work that comes once, in any step from k + first to k + last, its own job if `apart`. low: in the
-    order in which they run.
+    order in which they run; landing: which of them the correction waits for.
     """
 
     high: list[int]
@@ -46,6 +49,7 @@ class Cycle(NamedTuple):
     last: int = 0
     apart: bool = False
     low: tuple[LowJob, ...] = ()
+    landing: int = -1
 
 
 def cycle_of(costs: JobCosts[int], timing: Timing, options: Options) -> Cycle:
@@ -76,11 +80,17 @@ def cycle_of(costs: JobCosts[int], timing: Timing, options: Options) -> Cycle:
             high[M % N] += land + sum(compensate for age in range(1, M) if age % N == 0)
             return Cycle(high)
         case MultirateCosts() | RobustCosts():
-            each_step, once = works(costs)
+            always, once = works(costs)
             kind = "lr_gain" if isinstance(costs, MultirateCosts) else "lr_step"
-            return Cycle([each_step] * N, low=(LowJob(kind, 0, once, L, after_high=True),))
+            return Cycle([always] * N, low=(LowJob(kind, 0, once, L, after_high=True),))
         case DualRateCosts():
             return _dual_rate(costs, timing, options)
+        case DelayedHorizonCosts():
+            return _delayed_horizon(costs, timing)
+        case _:
+            high = [each_step(costs, M)] * N
+            high[M % N] += at_m(costs, M)
+            return Cycle(high)
 
 
 def _dual_rate(costs: DualRateCosts[int], timing: Timing, options: Options) -> Cycle:
@@ -95,3 +105,14 @@ def _dual_rate(costs: DualRateCosts[int], timing: Timing, options: Options) -> C
         low.append(LowJob("lr_gain", 0, costs.lr_gain, early, after_high=True))
     low.append(LowJob("lr_update", M, costs.lr_update, due, after_high=M == 0))
     return Cycle(high, costs.hr_update, M if apart else M + 1, L, apart, tuple(low))
+
+
+def _delayed_horizon(costs: DelayedHorizonCosts[int], timing: Timing) -> Cycle:
+    """What is replayed counts as if it landed at l."""
+    N, M, L = timing.N, timing.M, timing.L
+    early = 1 if M == 0 else 0  # propagations that only the measurement's own step tells enough for
+    update = early * costs.propagate + costs.update + L * costs.replay
+    low = [LowJob("lr_update", M, update, L, after_high=M == 0)]
+    if early < N:
+        low.append(LowJob("lr_propagate", M, (N - early) * costs.propagate, M + N, after_high=M == 0))
+    return Cycle([costs.predict] * N, low=tuple(low), landing=0)

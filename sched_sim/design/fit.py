@@ -10,6 +10,7 @@ from sched_sim.design.arguments import checked
 from sched_sim.design.highest_rate import highest_rate, landing
 from sched_sim.design.least_speed import LeastSpeed, least_speed
 from sched_sim.design.load import loads
+from sched_sim.design.methods import method_of
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import Costs
 from sched_sim.design.times import Times
@@ -72,7 +73,7 @@ def fit(
             )
     least = least_speed(costs, timing, options, tasks, on_progress)
     busy = sum(loads(costs, timing, 1 / rate, options, tasks), Fraction(0)) / options.cpus
-    if options.context_switch:
+    if options.context_switch or method_of(costs).work_varies:
         busy = _busy(costs, timing, 1 / rate, options, tasks)
     landed = landing(costs, timing, 1 / rate, options, tasks)
     period_ms = 1000 / rate

@@ -64,6 +64,7 @@ class Method(Generic[Exact, InTicks]):
     period in ticks; work: in a measurement cycle; law: of L; check: raises InputError for an L that it cannot have;
     lands_in_step_m: its correction is part of the HR job of step m, so that with M = N it comes with the next cycle;
     binding: the demand that a missed job stands for, from its kind and whether it waited for an earlier LR job.
+    work_varies: the work of a cycle depends on where it lands; `work` is the least that it can be.
     """
 
     pieces: Callable[[CostOf, Options], Exact]
@@ -73,3 +74,4 @@ class Method(Generic[Exact, InTicks]):
     check: Callable[[Timing, Feedback], None] = lambda _timing, _feedback: None
     lands_in_step_m: bool = False
     binding: Callable[[str, bool, Timing, Options], str] = kind_missed
+    work_varies: bool = False

@@ -9,17 +9,21 @@ from typing import TypeAlias, cast, get_args
 from sched_sim.bounds import check_kind
 from sched_sim.costs.methods import MULTIRATE_METHODS, ROBUST_METHODS
 from sched_sim.costs.table import CostTable
-from sched_sim.design import carried, dual_rate, serial, two_rate
+from sched_sim.design import carried, delayed_horizon, dual_rate, late_serial, serial, two_rate
 from sched_sim.design.method import Exact, InTicks, Method
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import (
+    AugmentationCosts,
     CarriedGainCosts,
     CloneCosts,
     Costs,
+    DelayedHorizonCosts,
     DualRateCosts,
+    FuseAsFreshCosts,
     JobCosts,
     LarsenCosts,
     MultirateCosts,
+    Px4PredictorCosts,
     RecalculateCosts,
     RobustCosts,
     StandardCosts,
@@ -42,6 +46,10 @@ _BY_PIECES: Mapping[type, AnyMethod] = {
     DualRateCosts: _any(dual_rate.DUAL_RATE),
     CloneCosts: _any(carried.CLONE),
     CarriedGainCosts: _any(carried.CARRIED_GAIN),
+    DelayedHorizonCosts: _any(delayed_horizon.DELAYED_HORIZON),
+    Px4PredictorCosts: _any(late_serial.PX4_PREDICTOR),
+    AugmentationCosts: _any(late_serial.AUGMENTATION),
+    FuseAsFreshCosts: _any(late_serial.FUSE_AS_FRESH),
     MultirateCosts: _any(two_rate.MULTIRATE),
     RobustCosts: _any(two_rate.ROBUST),
 }
@@ -54,6 +62,10 @@ METHODS: Mapping[str, AnyMethod] = {
     "clone": _BY_PIECES[CloneCosts],
     "clone-split": _BY_PIECES[CloneCosts],
     "carried-gain": _BY_PIECES[CarriedGainCosts],
+    "delayed-horizon": _BY_PIECES[DelayedHorizonCosts],
+    "px4-predictor": _BY_PIECES[Px4PredictorCosts],
+    "augmentation": _BY_PIECES[AugmentationCosts],
+    "fuse-as-fresh": _BY_PIECES[FuseAsFreshCosts],
     **dict.fromkeys(MULTIRATE_METHODS, _BY_PIECES[MultirateCosts]),
     **dict.fromkeys(ROBUST_METHODS, _BY_PIECES[RobustCosts]),
 }

@@ -14,6 +14,8 @@ Number = TypeVar("Number", bound=int | Fraction)
 
 Other = TypeVar("Other", bound=int | Fraction)
 
+Exact = TypeVar("Exact", int, Fraction)
+
 
 @dataclass(frozen=True, slots=True)
 class StandardCosts(Generic[Number]):
@@ -102,12 +104,77 @@ class RobustCosts(Generic[Number]):
     robust_step: Number
 
 
+@dataclass(frozen=True, slots=True)
+class DelayedHorizonCosts(Generic[Number]):
+    """Work of the pieces of the delayed horizon; predict: the HR job of each step; update: at the horizon; replay: each
+    step from there to the present; propagate: the covariance over one step."""
+
+    predict: Number
+    update: Number
+    replay: Number
+    propagate: Number
+
+
+@dataclass(frozen=True, slots=True)
+class Px4PredictorCosts(Generic[Number]):
+    """Work of the pieces of PX4's output predictor; predict: the output; propagate, update: the filter behind it; pull:
+    how far the outputs are to be shifted; shift: one of them."""
+
+    predict: Number
+    propagate: Number
+    update: Number
+    pull: Number
+    shift: Number
+
+
+@dataclass(frozen=True, slots=True)
+class AugmentationCosts(Generic[Number]):
+    """Work of the pieces of augmentation: predict + predict_more D in each step, and for the update
+    update + update_more D + update_bend D (D - 1) / 2, where D = M states are delayed."""
+
+    predict: Number
+    predict_more: Number
+    update: Number
+    update_more: Number
+    update_bend: Number
+
+
+@dataclass(frozen=True, slots=True)
+class FuseAsFreshCosts(Generic[Number]):
+    """Work of the pieces of a standard filter that takes late measurements for new ones."""
+
+    propagate: Number
+    update: Number
+
+
+LateCosts: TypeAlias = Px4PredictorCosts[Number] | AugmentationCosts[Number] | FuseAsFreshCosts[Number]
+"""Work of methods that do the same `each_step`, and besides something `at_m`."""
 CarriedCosts: TypeAlias = CloneCosts[Number] | CarriedGainCosts[Number]
-SerialCosts: TypeAlias = StandardCosts[Number] | RecalculateCosts[Number] | LarsenCosts[Number] | CarriedCosts[Number]
+SerialCosts: TypeAlias = (
+    StandardCosts[Number] | RecalculateCosts[Number] | LarsenCosts[Number] | CarriedCosts[Number] | LateCosts[Number]
+)
 TwoRateCosts: TypeAlias = MultirateCosts[Number] | RobustCosts[Number]
-JobCosts: TypeAlias = SerialCosts[Number] | DualRateCosts[Number] | TwoRateCosts[Number]
+JobCosts: TypeAlias = SerialCosts[Number] | DualRateCosts[Number] | TwoRateCosts[Number] | DelayedHorizonCosts[Number]
 Costs: TypeAlias = JobCosts[Fraction]
 """The costs of one method, as fractions of the cost table's unit."""
+
+
+def each_step(costs: LateCosts[Exact], M: int) -> Exact:
+    """Work of every step, with a delay of M steps."""
+    match costs:
+        case Px4PredictorCosts():
+            return costs.predict + costs.propagate + costs.pull + costs.shift * (M + 1)
+        case AugmentationCosts():
+            return costs.predict + costs.predict_more * M
+        case FuseAsFreshCosts():
+            return costs.propagate
+
+
+def at_m(costs: LateCosts[Exact], M: int) -> Exact:
+    """Work of the update in the step in which the measurement arrives."""
+    if isinstance(costs, AugmentationCosts):
+        return costs.update + costs.update_more * M + costs.update_bend * (M * (M - 1) // 2)
+    return costs.update
 
 
 def converted(costs: JobCosts[Number], convert: Callable[[Number], Other]) -> JobCosts[Other]:

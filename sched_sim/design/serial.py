@@ -17,17 +17,16 @@ from sched_sim.schedule.jobs import HR, Job, Parts, step_at
 class Serial(HrSource):
     """An HR job each step.
 
-    plain: work of an ordinary one; accumulate: of those of steps k+2 .. m; update: what that of step m does besides.
+    plain: an ordinary one; accumulate: those of steps k+2 .. m; update: what that of step m does besides.
     """
 
     def __init__(
-        self, plain: int, accumulate: int, update: Parts, timing: Timing, period: int, on_landing: OnLanding
+        self, plain: Parts, accumulate: Parts, update: Parts, timing: Timing, period: int, on_landing: OnLanding
     ) -> None:
         super().__init__(timing, period, on_landing)
-        self.plain: Parts = (("P", plain),)
-        self.accumulate: Parts = (("P", accumulate),)
-        self.update: Parts = (*(self.accumulate if self.M >= 2 else self.plain), *update)
-        self.update_work = sum(work for _, work in self.update)
+        self.plain, self.accumulate = plain, accumulate
+        self.update: Parts = (*(accumulate if self.M >= 2 else plain), *update)
+        self.plain_work, self.accumulate_work, self.update_work = map(_work, (plain, accumulate, self.update))
 
     def release(self) -> tuple[Job, ...]:
         step, start = self.step, self.next_release
@@ -35,9 +34,10 @@ class Serial(HrSource):
         since_k = step % self.N
         if since_k == self.M % self.N and step >= self.M:
             work, parts, then = self.update_work, self.update, self._landed
+        elif 2 <= since_k < self.M:
+            work, parts, then = self.accumulate_work, self.accumulate, None
         else:
-            parts, then = self.accumulate if 2 <= since_k < self.M else self.plain, None
-            work = parts[0][1]
+            work, parts, then = self.plain_work, self.plain, None
         return (Job("hr", step, HR, start, self.next_release, work, parts, then),)
 
     def state(self, now: int) -> Hashable:
@@ -47,6 +47,10 @@ class Serial(HrSource):
         k = job.step - self.M
         self.on_landing(k // self.N, step_at(now, self.period) - k)
         return ()
+
+
+def _work(parts: Parts) -> int:
+    return sum(work for _, work in parts)
 
 
 def law(_feedback: Feedback) -> Law:
@@ -60,8 +64,8 @@ def _standard_pieces(cost: CostOf, _options: Options) -> StandardCosts[Fraction]
 def _standard_source(
     costs: StandardCosts[int], timing: Timing, _options: Options, period: int, on_landing: OnLanding
 ) -> Serial:
-    update = (("U", costs.update),)
-    return Serial(costs.propagate, costs.propagate, update, replace(timing, M=0), period, on_landing)
+    plain, update = (("P", costs.propagate),), (("U", costs.update),)
+    return Serial(plain, plain, update, replace(timing, M=0), period, on_landing)
 
 
 def _standard_work(costs: StandardCosts[Fraction], timing: Timing) -> CycleWork:
@@ -76,8 +80,8 @@ def _recalculate_source(
     costs: RecalculateCosts[int], timing: Timing, _options: Options, period: int, on_landing: OnLanding
 ) -> Serial:
     replay = (("R", timing.M * costs.replay),) if timing.M else ()
-    update = (("U", costs.update), *replay)
-    return Serial(costs.propagate, costs.propagate, update, timing, period, on_landing)
+    plain, update = (("P", costs.propagate),), (("U", costs.update), *replay)
+    return Serial(plain, plain, update, timing, period, on_landing)
 
 
 def _recalculate_work(costs: RecalculateCosts[Fraction], timing: Timing) -> CycleWork:
@@ -91,7 +95,8 @@ def _larsen_pieces(cost: CostOf, _options: Options) -> LarsenCosts[Fraction]:
 def _larsen_source(
     costs: LarsenCosts[int], timing: Timing, _options: Options, period: int, on_landing: OnLanding
 ) -> Serial:
-    return Serial(costs.propagate, costs.accumulate, (("U", costs.update),), timing, period, on_landing)
+    plain, accumulate = (("P", costs.propagate),), (("P", costs.accumulate),)
+    return Serial(plain, accumulate, (("U", costs.update),), timing, period, on_landing)
 
 
 def _larsen_work(costs: LarsenCosts[Fraction], timing: Timing) -> CycleWork:

@@ -135,9 +135,9 @@ class Grid:
         if delayed and self.M is not None and self.M[0] > self.N[-1]:
             return several_in_flight(self.N[-1], self.M[0])
         return (
-            "legal are M <= L <= N, but M < L <= N for dual-rate (M <= L < N with same-step feedback), and 1 <= L <= N "
-            f"without {option('M')} for the multirate and robust methods: choose {option('L')} and {option('method')} "
-            "so"
+            "legal are M <= L <= N, but M < L <= N for delayed-horizon and dual-rate (M <= L < N with same-step "
+            f"feedback), and 1 <= L <= N without {option('M')} for the multirate and robust methods: choose "
+            f"{option('L')} and {option('method')} so"
         )
 
     @cached_property

@@ -5,10 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from sched_sim.costs.methods import CAVEATS
 from studies.sweep.store import Store
 from studies.sweep.store_layout import BLOCK_COLUMNS
 
 BEST = ("costs", "N", "M", "method", "L", "min_speed", "min_speed_exact", "binding")
+
+APART = ("standard", *CAVEATS)
+"""Methods that have no delay to bear, or whose estimate is not the one that the measurements allow."""
 
 
 def by_method(store: Store) -> list[dict[str, Any]]:
@@ -27,14 +31,15 @@ def best(store: Store) -> list[dict[str, Any]]:
     smallest L; with those of its options that the sweep varies. Where costs are in seconds, `highest_hr_hz` is the HR
     rate up to which its processor will do.
 
-    `standard` has no delay to bear, and takes part only if it is alone.
+    Those `APART` take part only if there are no others.
     """
+    apart = f"({', '.join(map(repr, APART))})"
     names = (*BEST, *_told(store))
     rows = store.query(
         f"SELECT {', '.join(names)} FROM (SELECT *, ROW_NUMBER() OVER "
         "(PARTITION BY costs, N, M ORDER BY min_speed, L, point) AS place, "
         "CASE WHEN hr_hz IS NOT NULL THEN 1 / min_speed END AS highest_hr_hz FROM results "
-        "WHERE method != 'standard' OR NOT EXISTS (SELECT 1 FROM blocks WHERE method != 'standard')) "
+        f"WHERE method NOT IN {apart} OR NOT EXISTS (SELECT 1 FROM blocks WHERE method NOT IN {apart})) "
         "WHERE place = 1 ORDER BY point"
     )
     designs = [dict(zip(names, row, strict=True)) for row in rows]

@@ -41,6 +41,8 @@ CASES = [
     Case("dual-rate", {"gain": "precomputed"}, "next-step"),
     Case("dual-rate", {"feedback": "same-step"}, "same-step"),
     Case("dual-rate", {"feedback": "same-step", "gain": "precomputed"}, "same-step"),
+    Case("delayed-horizon", {}, "next-step"),
+    Case("augmentation", {}, "at-arrival"),
 ]
 
 each_case = pytest.mark.parametrize("case", CASES, ids=lambda case: "-".join([case.method, *case.options.values()]))

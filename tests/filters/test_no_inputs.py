@@ -63,4 +63,4 @@ def test_operations(method: str, form: str) -> None:
 
 
 CALL_F = {"propagate", "replay", "propagate_accumulate", "hr_restart", "hr_propagate", "hr_propagate_sum",
-          "hr_propagate_euler", "state_update"}  # fmt: skip
+          "hr_propagate_euler", "state_update", "predict", "predict_0", "predict_1"}  # fmt: skip

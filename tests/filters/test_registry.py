@@ -32,6 +32,10 @@ KINDS = {
     "clone": ["propagate", "start", "carry", "update"],
     "clone-split": ["propagate", "start", "carry", "update"],
     "carried-gain": ["propagate", "update", "carry", "land", "couple", "compensate"],
+    "delayed-horizon": ["predict", "update", "replay", "propagate_covariance"],
+    "px4-predictor": ["predict", "propagate", "update", "pull", "shift_output"],
+    "augmentation": ["predict_0", "predict_1", "update_0", "update_1", "update_2"],
+    "fuse-as-fresh": ["propagate", "update"],
     "multirate": ["state_update", "covariance_gain"],
     "multirate-square-root": ["state_update", "covariance_gain"],
     "multirate-ud": ["state_update", "covariance_gain"],
@@ -248,11 +252,17 @@ def test_operations_of_the_jobs_in_textbook_form(n: int, u: int, p: int) -> None
         ("multirate", "covariance_gain"): quadratic + gain + covariance + Operations(multiply=n * p),
     }  # fmt: skip
     expected["recalculate", "propagate"] = expected["recalculate", "replay"] = expected["standard", "propagate"]
-    for method in ("larsen", "clone", "clone-split", "carried-gain"):
+    for method in ("larsen", "clone", "clone-split", "carried-gain", "px4-predictor", "fuse-as-fresh"):
         expected[method, "propagate"] = expected["standard", "propagate"]
     expected["clone-split", "carry"] = expected["carried-gain", "carry"] = expected["clone", "carry"]
-    expected["recalculate", "update"] = expected["standard", "update"]
-    assert found == expected
+    for method in ("recalculate", "delayed-horizon", "px4-predictor", "fuse-as-fresh"):
+        expected[method, "update"] = expected["standard", "update"]
+    for key in ("delayed-horizon", "predict"), ("delayed-horizon", "replay"), ("px4-predictor", "predict"):
+        expected[key] = f
+    expected["delayed-horizon", "propagate_covariance"] = quadratic
+    expected["px4-predictor", "pull"] = Operations(multiply=2 * n, add=3 * n)
+    expected["px4-predictor", "shift_output"] = vector
+    assert {key: operations for key, operations in found.items() if key[0] != "augmentation"} == expected
 
 
 PROPAGATE = [key for key in all_jobs() if "propagate" in key[1] or key[1] == "replay"]

@@ -12,12 +12,16 @@ import pytest
 
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import (
+    AugmentationCosts,
     CarriedGainCosts,
     CloneCosts,
+    DelayedHorizonCosts,
     DualRateCosts,
+    FuseAsFreshCosts,
     JobCosts,
     LarsenCosts,
     MultirateCosts,
+    Px4PredictorCosts,
     RecalculateCosts,
     RobustCosts,
     StandardCosts,
@@ -50,6 +54,17 @@ SERIAL = [
     CloneCosts(3, 1, 5, 2),  # what is carried
     CarriedGainCosts(3, 4, 2, 1, 1, 1),
     CarriedGainCosts(3, 1, 5, 2, 7, 7),
+    Px4PredictorCosts(2, 7, 5, 3, 1),
+    AugmentationCosts(7, 3, 3, 4, 2),
+    AugmentationCosts(7, 0, 3, 0, 0),
+    FuseAsFreshCosts(3, 2),
+]
+HORIZON = [
+    DelayedHorizonCosts(2, 14, 2, 28),  # near 9 states, 3 measurements
+    DelayedHorizonCosts(2, 60, 2, 3),  # the update is all
+    DelayedHorizonCosts(1, 3, 9, 1),  # so is the replay
+    DelayedHorizonCosts(1, 1, 1, 1),
+    DelayedHorizonCosts(30, 1, 2, 2),  # HR jobs are the longest, on two processors
 ]
 TWO_RATE = [MultirateCosts(3, 7), RobustCosts(5, 1), MultirateCosts(1, 1), RobustCosts(2, 40)]
 
@@ -62,7 +77,11 @@ def every_option(costs: JobCosts) -> list[Options]:
             Options(feedback=feedback, lr_propagate_by=by, gain=gain, cpus=cpus)
             for feedback, by, cpus in product(("next-step", "same-step"), ("m", "l"), (1, 2))
         ]
-    return [Options(), Options(cpus=2)] if isinstance(costs, MultirateCosts | RobustCosts) else [Options()]
+    return (
+        [Options(), Options(cpus=2)]
+        if isinstance(costs, MultirateCosts | RobustCosts | DelayedHorizonCosts)
+        else [Options()]
+    )
 
 
 def all_timings(costs: JobCosts, N: int, options: Options) -> list[Timing]:
@@ -71,7 +90,7 @@ def all_timings(costs: JobCosts, N: int, options: Options) -> list[Timing]:
     return legal_timings(costs, N, options)
 
 
-@pytest.mark.parametrize("costs", [*DUAL_RATE, *SERIAL, *TWO_RATE], ids=str)
+@pytest.mark.parametrize("costs", [*DUAL_RATE, *SERIAL, *TWO_RATE, *HORIZON], ids=str)
 def test_they_agree_on_every_design_of_up_to_six_steps(costs: JobCosts) -> None:
     for options in every_option(costs):
         timings = [timing for N in range(1, 7) for timing in all_timings(costs, N, options)]
@@ -88,6 +107,7 @@ def random_costs(random: Random) -> JobCosts:
     """In ticks: small ones, which tie, and larger ones."""
     others = [StandardCosts, RecalculateCosts, LarsenCosts, CloneCosts, CarriedGainCosts, MultirateCosts, RobustCosts]
     kinds = [DualRateCosts] * 5 + others
+    kinds += [DelayedHorizonCosts] * 3 + [Px4PredictorCosts, AugmentationCosts, FuseAsFreshCosts]
     kind, most = random.choice(kinds), random.choice([2, 5, 12, 100, 1000])
     pieces = [random.randint(1, random.choice([2, most])) for _ in fields(kind)]
     if kind is DualRateCosts and random.random() < 0.7:
@@ -111,7 +131,7 @@ def test_they_agree_on_a_million_random_designs(seed: int, record_property: Call
 
 
 @pytest.mark.exhaust
-@pytest.mark.parametrize("costs", [*DUAL_RATE, *SERIAL, *TWO_RATE], ids=str)
+@pytest.mark.parametrize("costs", [*DUAL_RATE, *SERIAL, *TWO_RATE, *HORIZON], ids=str)
 @pytest.mark.parametrize("N", [7, 8])
 def test_they_agree_on_every_design_of_seven_and_eight_steps(costs: JobCosts, N: int) -> None:
     for options in every_option(costs):

@@ -41,7 +41,7 @@ def peak(table: CostTable, method: str, timing: Timing) -> Fraction:
 
 
 def test_the_papers_methods_come_first() -> None:
-    assert (*PAPER_METHODS, "clone", "clone-split", "carried-gain") == DELAYED_METHODS
+    assert DELAYED_METHODS[:7] == (*PAPER_METHODS, "clone", "clone-split", "carried-gain")
 
 
 @pytest.mark.parametrize(("method", "most"), [("clone", 3725), ("clone-split", 3632), ("larsen", 6887)])

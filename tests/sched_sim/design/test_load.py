@@ -6,10 +6,10 @@ from fractions import Fraction
 
 from hypothesis import given, settings
 
-from sched_sim.design.least_speed import least_speed
+from sched_sim.design.least_speed import achieved_l, least_speed
 from sched_sim.design.load import utilization
 from sched_sim.design.methods import method_of
-from sched_sim.design.pieces import MultirateCosts
+from sched_sim.design.pieces import DelayedHorizonCosts, MultirateCosts
 from sched_sim.design.simulate import simulate
 from sched_sim.design.timing import Timing
 from tests.designs import Design, designs
@@ -25,7 +25,12 @@ def test_each_cycle_does_the_work_of_a_cycle(design: Design) -> None:
         schedule = simulate(costs, timing, speed, cycles, options)
         return Fraction(schedule.busy) * speed / schedule.period
 
-    assert busy(7) - busy(4) == 3 * sum(method_of(costs).work(costs, timing))
+    work = sum(method_of(costs).work(costs, timing))
+    if isinstance(costs, DelayedHorizonCosts):
+        landed = achieved_l(costs, timing, speed, options)
+        assert landed is not None
+        work += (landed - timing.M - 1) * costs.replay
+    assert busy(7) - busy(4) == 3 * work
 
 
 @given(designs)

@@ -39,7 +39,7 @@ def legal_designs(method, feedback, Ns, Ms, Ls):
     """One by one, by the rules of `sched_sim.design.timing`."""
     for N in Ns:
         for M in Ms or range(N + 1):
-            only_m = method in DELAYED_METHODS and method != "dual-rate"
+            only_m = method in DELAYED_METHODS and method not in ("dual-rate", "delayed-horizon")
             latest = N - 1 if method == "dual-rate" and feedback == "same-step" else N
             every_L = [M] if only_m else range(latest + 1)
             for L in Ls or every_L:
