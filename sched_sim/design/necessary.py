@@ -12,6 +12,8 @@ from typing import NamedTuple
 
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import (
+    CarriedGainCosts,
+    CloneCosts,
     DualRateCosts,
     JobCosts,
     LarsenCosts,
@@ -46,12 +48,23 @@ def demands(costs: JobCosts[int], timings: Range, options: Options) -> Iterator[
         case LarsenCosts(propagate, accumulate, update):
             with_product = max(accumulate + update, propagate)
             yield with_product if timings.least_M >= 2 else min(with_product, propagate + update), 1
+        case CloneCosts(propagate, start, carry, update):
+            yield propagate + _carried(start, carry, update, timings), 1
+        case CarriedGainCosts(propagate, update, carry, land):
+            yield propagate + _carried(update, carry, land, timings), 1
         case MultirateCosts() | RobustCosts():
             each, once = works(costs)
             yield each, 1
             yield _in_window(each, each, once, timings.most_L, options)
         case DualRateCosts():
             yield from _dual_rate(costs, timings, options)
+
+
+def _carried(at_k: int, carry: int, at_m: int, timings: Range) -> int:
+    """Beyond a propagation: the longer of the work at k and at m, or both where these are one step in all timings."""
+    if timings.most_M == 0 or timings.least_M >= timings.most_N:
+        return at_k + at_m
+    return max(at_k, at_m, carry if 2 <= timings.least_M <= timings.least_N else 0)
 
 
 def _dual_rate(costs: DualRateCosts[int], timings: Range, options: Options) -> Iterator[tuple[int, int]]:
