@@ -13,14 +13,20 @@ from typing import NamedTuple
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import (
     CarriedGainCosts,
+    AugmentationCosts,
     CloneCosts,
+    DelayedHorizonCosts,
     DualRateCosts,
+    FuseAsFreshCosts,
     JobCosts,
     LarsenCosts,
     MultirateCosts,
+    Px4PredictorCosts,
     RecalculateCosts,
     RobustCosts,
     StandardCosts,
+    at_m,
+    each_step,
     works,
 )
 
@@ -56,6 +62,10 @@ def demands(costs: JobCosts[int], timings: Range, options: Options) -> Iterator[
             each, once = works(costs)
             yield each, 1
             yield _in_window(each, each, once, timings.most_L, options)
+        case Px4PredictorCosts() | AugmentationCosts() | FuseAsFreshCosts():
+            yield each_step(costs, timings.least_M) + at_m(costs, timings.least_M), 1
+        case DelayedHorizonCosts():
+            yield from _delayed_horizon(costs, timings, options)
         case DualRateCosts():
             yield from _dual_rate(costs, timings, options)
 
@@ -65,6 +75,16 @@ def _carried(at_k: int, carry: int, at_m: int, timings: Range) -> int:
     if timings.most_M == 0 or timings.least_M >= timings.most_N:
         return at_k + at_m
     return max(at_k, at_m, carry if 2 <= timings.least_M <= timings.least_N else 0)
+
+
+def _delayed_horizon(costs: DelayedHorizonCosts[int], timings: Range, options: Options) -> Iterator[tuple[int, int]]:
+    """One HR job; a cycle that lands as soon as it can; the update and the replay from m to l."""
+    beside = 0 if options.cpus == 2 else costs.predict
+    yield costs.predict, 1
+    in_a_cycle = costs.update + costs.replay * (timings.least_M + 1)
+    yield in_a_cycle + (costs.propagate + beside) * timings.most_N, timings.most_N
+    steps = max(timings.most_L - timings.least_M, 0)
+    yield costs.update + costs.replay * timings.most_L + beside * steps, steps
 
 
 def _dual_rate(costs: DualRateCosts[int], timings: Range, options: Options) -> Iterator[tuple[int, int]]:
