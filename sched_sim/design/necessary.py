@@ -12,8 +12,8 @@ from typing import NamedTuple
 
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import (
-    CarriedGainCosts,
     AugmentationCosts,
+    CarriedGainCosts,
     CloneCosts,
     DelayedHorizonCosts,
     DualRateCosts,
