@@ -9,7 +9,7 @@ from typing import Annotated, Any
 import typer
 from typer.core import TyperCommand, TyperGroup
 
-from sched_sim.cli import gantt, measure, minimum, processors, report, simulate, sweep
+from sched_sim.cli import accuracy, gantt, measure, minimum, processors, report, simulate, sweep
 from sched_sim.errors import InputError
 from sched_sim.text import visible_lines
 
@@ -87,5 +87,6 @@ app.command("simulate", cls=Command)(simulate.simulate)
 app.command("gantt", cls=Command)(gantt.gantt)
 app.command("sweep", cls=Command)(sweep.sweep)
 app.command("processors", cls=Command)(processors.processors)
+app.command("accuracy", cls=Command)(accuracy.accuracy)
 app.command("measure", cls=Command)(measure.measure)
 app.command("report", cls=Command)(report.report)

@@ -74,6 +74,16 @@ Delay = Annotated[
         rich_help_panel=DESIGN,
     ),
 ]
+AnyDelay = Annotated[
+    int | None,
+    typer.Option(
+        "-M",
+        help="Delay of the measurement in HR steps, which may be above N: several are on their way then.",
+        parser=whole,
+        metavar="STEPS",
+        rich_help_panel=DESIGN,
+    ),
+]
 FeedbackStep = Annotated[
     int | None,
     typer.Option(

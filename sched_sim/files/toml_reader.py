@@ -23,7 +23,7 @@ def read_toml(path: Path, what: str, remedy: str) -> dict[str, Any]:
     Raises InputError if the file is not there, is a folder or a device, is too large, cannot be read, is no TOML, or
     holds a number that is out of bounds (`sched_sim.bounds`).
     """
-    text = _read(path, what, remedy)
+    text = read_text(path, what, remedy)
     too_deep = f"{what} is nested too deep: no table of this program is in more than a few others"
     if _DEEP.search(text):
         raise InputError(too_deep)
@@ -42,7 +42,7 @@ def read_toml(path: Path, what: str, remedy: str) -> dict[str, Any]:
         raise InputError(f"{what} holds a number that is too long: give at most {MOST_DIGITS} digits") from None
 
 
-def _read(path: Path, what: str, remedy: str) -> str:
+def read_text(path: Path, what: str, remedy: str) -> str:
     """Text of a regular file: a device or a pipe may have no end. Some editors begin one with a byte order mark."""
     try:
         about = path.stat()

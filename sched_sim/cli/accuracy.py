@@ -1,0 +1,374 @@
+"""`sched-sim accuracy`: what landing later costs at the output, for each method."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from sched_sim.cli import accuracy_flags as flags
+from sched_sim.cli import options as opt
+from sched_sim.cli.design_flags import with_options
+from sched_sim.cli.output import lines, print_csv, print_json, print_table
+from sched_sim.design.options import Options
+from sched_sim.errors import InputError
+
+if TYPE_CHECKING:
+    from fractions import Fraction
+
+    from studies.selection.along import AlongComparison
+    from studies.selection.compare import AccuracyRow, Comparison
+    from studies.selection.landing import Processor
+    from studies.selection.outputs import Outputs
+    from studies.selection.sampling import Sampling
+
+Trajectory = Annotated[
+    Path | None,
+    typer.Option(
+        "--trajectory",
+        help="CSV file, a row for each step: the states, then the inputs; the System is linearised along it, and the "
+        "figures are over its steps.",
+        rich_help_panel=flags.ACCURACY,
+    ),
+]
+InitialStd = Annotated[
+    str | None,
+    typer.Option(
+        "--initial-std",
+        help="With --trajectory: standard deviation of each state in its first step; by default what they settle to "
+        "there.",
+        metavar="NUMBERS",
+        rich_help_panel=flags.ACCURACY,
+    ),
+]
+LandingStep = Annotated[
+    int | None,
+    typer.Option(
+        "-L",
+        help="Step in which corrections land that may land later than they arrive (dual-rate, delayed-horizon); by "
+        "default the latest before the next measurement.",
+        parser=opt.whole,
+        metavar="STEPS",
+        rich_help_panel=opt.DESIGN,
+    ),
+]
+
+
+@with_options
+def accuracy(
+    context: typer.Context,
+    model: flags.AnyModel = None,
+    output: flags.Output = None,
+    unit: flags.Unit = None,
+    N: opt.StepsOrNone = None,
+    M: opt.AnyDelay = None,
+    L: LandingStep = None,
+    hr_hz: opt.HrHz = None,
+    measurement_hz: opt.MeasurementHz = None,
+    delay_ms: opt.DelayMs = None,
+    land_within_ms: opt.LandWithinMs = None,
+    method: flags.AccuracyMethods = None,
+    every: flags.Every = "1",
+    metric: flags.Metric = "worst",
+    motion: flags.Motion = None,
+    tau: flags.Tau = "0.25",
+    trajectory: Trajectory = None,
+    initial_std: InitialStd = None,
+    speed: opt.Speed = None,
+    processor: opt.OnProcessor = None,
+    costs: opt.Costs = None,
+    statistic: opt.WhichCost = "minimum",
+    options: Options = Options(),
+    tasks: opt.Tasks = None,
+    format: opt.Format = "table",
+) -> None:
+    """How accurate the output is with each method, exactly: at the worst step and over all, and what the delay, landing
+    later and leaving measurements out cost.
+
+    sched-sim accuracy --model ins-gps
+    sched-sim accuracy --model ins-gps --every 1:4 --motion 15,0,0 --processor cortex-m4f
+    sched-sim accuracy --model mymodule:my_system -N 80 -M 44 --output position=0:3 --unit m --hr-hz 400
+    """
+    from studies.selection.compare import compared
+    from studies.selection.model import load_model, shipped_defaults
+    from studies.selection.outputs import outputs_of, rows_of
+
+    if model is None:
+        raise InputError(f"--model is missing: give one of {flags.MODELS}, or package.module:function of your own")
+    numbers = flags.every_of(every)
+    _refuse_contradictions(context, L, land_within_ms, speed, processor, trajectory)
+    shipped = shipped_defaults(model)
+    asked = flags.sampled(shipped, N, M, L, hr_hz, measurement_hz, delay_ms, land_within_ms)
+    loaded = load_model(model, asked.sampling.hr_hz)
+    runs_on = _processor(speed, processor, costs, asked.sampling.hr_hz, statistic, options, tasks)
+    if trajectory is not None:
+        from studies.selection.along import compared_along
+        from studies.selection.trajectory import read_trajectory
+
+        path = read_trajectory(trajectory, loaded)
+        outputs = rows_of(loaded, output, unit)
+        found = compared_along(
+            loaded,
+            outputs,
+            asked.sampling,
+            path,
+            initial_std=initial_std,
+            L=asked.L,
+            methods=method,
+            every=numbers,
+            options=options,
+            processor=runs_on,
+        )
+        _show_along(found, asked, format)
+        return
+    outputs = outputs_of(loaded, output, unit)
+    _show(
+        compared(
+            loaded,
+            outputs,
+            asked.sampling,
+            L=asked.L,
+            methods=method,
+            every=numbers,
+            motion=motion,
+            tau_s=tau,
+            metric=metric,
+            options=options,
+            processor=runs_on,
+        ),
+        asked,
+        format,
+    )
+
+
+def _refuse_contradictions(
+    context: typer.Context,
+    L: int | None,
+    land_within_ms: str | None,
+    speed: str | None,
+    processor: str | None,
+    trajectory: Path | None,
+) -> None:
+    lands = f"-L {L}" if L is not None else f"--land-within-ms {land_within_ms}"
+    paces = [f"--speed {speed}"] * (speed is not None) + [f"--processor {processor}"] * (processor is not None)
+    if paces and (L is not None or land_within_ms is not None):
+        raise InputError(
+            f"{lands} and {paces[0]} exclude each other: where corrections land follows from the processor; leave one "
+            f"out"
+        )
+    if len(paces) == 2:
+        raise InputError(f"{paces[0]} and {paces[1]} exclude each other: a part's speed follows from --hr-hz")
+    if not paces:
+        given = opt.given_options(context, lambda name: name in ("costs", "tasks", "statistic"))
+        if given:
+            raise InputError(f"{', '.join(given)} without --speed or --processor: give one, or leave it out")
+    if trajectory is None:
+        given = opt.given_options(context, lambda name: name == "initial_std")
+        if given:
+            raise InputError("--initial-std without --trajectory: without one, the covariance is what it settles to")
+    else:
+        given = opt.given_options(context, lambda name: name in ("motion", "tau", "metric", "low_rate_noise"))
+        if given:
+            raise InputError(
+                f"{', '.join(given)} and --trajectory exclude each other: along one there are methods that lose "
+                f"nothing, and median, 95 % and worst of the steps"
+            )
+
+
+def _processor(
+    speed: str | None,
+    processor: str | None,
+    costs: str | None,
+    rate: Fraction | None,
+    statistic: Any,
+    options: Options,
+    tasks: Path | None,
+) -> Processor | None:
+    from sched_sim.ticks import positive
+    from studies.selection.landing import Processor
+
+    if speed is None and processor is None:
+        return None
+    part = opt.make_processor(processor)
+    if part is not None and rate is None:
+        raise InputError(f"--processor {processor} without --hr-hz: give the rate of the HR loop, such as --hr-hz 400")
+    table = opt.costs_on(costs, part)
+    if part is not None and rate is not None:
+        pace, shown = 1 / rate, part.name
+    else:
+        pace, shown = positive(speed or "", "--speed"), f"a processor of speed {speed}"
+    return Processor(table, pace, shown, options, statistic, opt.make_tasks(tasks, table.unit, rate))
+
+
+def _show(found: Comparison, asked: flags.Sampled, format: opt.Format) -> None:
+    if format == "json":
+        print_json([_row(row, found) for row in found.rows])
+        return
+    if format == "csv":
+        print_csv([_row(row, found) for row in found.rows])
+        return
+    remarks = list(dict.fromkeys([row.remark for row in found.rows if row.remark] + list(found.left_out)))
+    unit = _in_unit(found.outputs)
+    print_table(
+        f"Standard deviation of {found.outputs.name}{unit}, {found.model.name}, {_sampled(found.sampling)}",
+        [_words(row, found) for row in found.rows],
+        lines(
+            f"over no delay: {found.metric}, over {found.no_delay:.6g}{_unit(found.outputs)} of the filter that uses "
+            f"every measurement without delay",
+            _meaning(found.rows),
+            asked.words,
+            *remarks,
+        ),
+    )
+
+
+MEANING = {
+    "jump": "jump: how far the output moves when a correction lands (1 sigma)",
+    "believed": "believed: what the filter's own covariance says of its worst step, where that is not the truth",
+    "bias": "bias: the mean error, from --motion and the delay; worst and rms are about it",
+}
+
+
+def _meaning(rows: Sequence[AccuracyRow]) -> str:
+    said = [MEANING["jump"]]
+    if any(row.accuracy and row.accuracy.believed is not None for row in rows):
+        said.append(MEANING["believed"])
+    if any(row.accuracy and row.accuracy.bias for row in rows):
+        said.append(MEANING["bias"])
+    return "\n".join(said)
+
+
+def _in_unit(outputs: Outputs) -> str:
+    return f" in {outputs.unit}" if outputs.unit else ""
+
+
+def _unit(outputs: Outputs) -> str:
+    return f" {outputs.unit}" if outputs.unit else ""
+
+
+def _sampled(sampling: Sampling) -> str:
+    rate = "" if sampling.hr_hz is None else f", HR loop at {float(sampling.hr_hz):g} Hz"
+    return f"N={sampling.N} M={sampling.M}{rate}"
+
+
+def _row(row: AccuracyRow, found: Comparison) -> dict[str, Any]:
+    """For scripts."""
+    of = row.accuracy
+
+    def ms(steps: float | None) -> float | None:
+        return found.sampling.using(row.every).ms(steps)
+
+    return {
+        "method": row.method,
+        "every": row.every,
+        "N": row.N,
+        "M": found.sampling.M,
+        "L": None if of is None else of.L,
+        "reaction_ms": row.reaction_ms,
+        "oldest_age_steps": None if of is None else of.oldest,
+        "oldest_age_ms": row.oldest_ms,
+        "mean_age_steps": None if of is None else of.mean_age,
+        "mean_age_ms": None if of is None else ms(of.mean_age),
+        "output": found.outputs.name,
+        "unit": found.outputs.unit or None,
+        "worst_std": None if of is None else _finite(of.worst),
+        "rms_std": None if of is None else _finite(of.rms),
+        "no_delay_std": found.no_delay,
+        "over_no_delay": None if row.over is None else _finite(row.over),
+        "jump_std": None if of is None else _finite(of.jump),
+        "believed_std": None if of is None or of.believed is None else _finite(of.believed),
+        "bias": None if of is None else of.bias,
+        "worst_with_bias": None if of is None else _finite(of.total),
+        "spectral_radius": None if of is None else of.radius,
+        "verdict": None if of is None else of.verdict,
+        "remark": row.remark or None,
+    }
+
+
+def _finite(value: float) -> float | None:
+    return value if value < float("inf") else None
+
+
+def _words(row: AccuracyRow, found: Comparison) -> dict[str, Any]:
+    of = row.accuracy
+    timed = found.sampling.hr_hz is not None
+    age = "oldest age, ms" if timed else "oldest age, steps"
+    oldest = None if of is None else (row.oldest_ms if timed else of.oldest)
+    return {
+        "method": "standard (no delay)" if row.method == "standard" else row.method,
+        "every": row.every,
+        "N": row.N,
+        "lands at L": None if of is None else of.L,
+        age: None if oldest is None else f"{oldest:g}",
+        "worst": _figure(of and of.worst),
+        "rms": _figure(of and of.rms),
+        "over no delay": None if row.over is None else _percent(row.over),
+        "jump": _figure(of and of.jump),
+        "believed": _figure(of and of.believed),
+        "bias": _figure((of and of.bias) or None),
+        "verdict": "does not land" if of is None else of.verdict,
+    }
+
+
+def _figure(value: float | None) -> str | None:
+    if value is None:
+        return None
+    return f"{value:.5g}" if value < float("inf") else "grows"
+
+
+def _percent(over: float) -> str:
+    return f"{100 * over:.3g} %" if over < float("inf") else "grows"
+
+
+def _show_along(found: AlongComparison, asked: flags.Sampled, format: opt.Format) -> None:
+    rows = [
+        {
+            "method": row.method,
+            "every": row.every,
+            "N": row.N,
+            "M": found.sampling.M,
+            "L": row.L,
+            "oldest_age_ms": row.oldest_ms,
+            "output": found.outputs.name,
+            "unit": found.outputs.unit or None,
+            "median_std": row.spread and row.spread.median,
+            "p95_std": row.spread and row.spread.p95,
+            "worst_std": row.spread and row.spread.worst,
+            "over_no_delay": row.over,
+            "remark": row.remark or None,
+        }
+        for row in found.rows
+    ]
+    if format == "json":
+        print_json(rows)
+        return
+    if format == "csv":
+        print_csv(rows)
+        return
+    shown = [
+        {
+            "method": "standard (no delay)" if row.method == "standard" else row.method,
+            "every": row.every,
+            "N": row.N,
+            "lands at L": row.L,
+            **({} if found.sampling.hr_hz is None else {"oldest age, ms": f"{row.oldest_ms:g}"}),
+            "median": _figure(row.spread and row.spread.median),
+            "95 %": _figure(row.spread and row.spread.p95),
+            "worst": _figure(row.spread and row.spread.worst),
+            "over no delay": None if row.over is None else _percent(row.over),
+        }
+        for row in found.rows
+    ]
+    remarks = dict.fromkeys([row.remark for row in found.rows if row.remark] + list(found.left_out))
+    print_table(
+        f"Standard deviation of {found.outputs.name}{_in_unit(found.outputs)}, {found.model.name}, "
+        f"{_sampled(found.sampling)}, over steps {found.first} to {found.steps} of the trajectory",
+        shown,
+        lines(
+            "over no delay: worst, over that of the filter that uses every measurement without delay",
+            asked.words,
+            *remarks,
+        ),
+    )

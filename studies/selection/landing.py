@@ -1,0 +1,91 @@
+"""Where a method's corrections land: as asked, as a processor lets them, or by what the method is."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import NamedTuple
+
+from sched_sim.costs.table import CostTable
+from sched_sim.design.highest_rate import landing
+from sched_sim.design.methods import METHODS as SCHEDULED
+from sched_sim.design.methods import select
+from sched_sim.design.options import Options
+from sched_sim.design.pieces import Statistic
+from sched_sim.design.timing import Timing
+from sched_sim.errors import InputError, option
+from sched_sim.schedule.tasks import Task
+from studies.selection.methods import METHODS
+
+
+class Processor(NamedTuple):
+    """pace: cost units of the table that it does in an HR period; shown: what it is, for messages."""
+
+    table: CostTable
+    pace: Fraction
+    shown: str
+    options: Options = Options()
+    statistic: Statistic = "minimum"
+    tasks: Sequence[Task] = ()
+
+
+class Landed(NamedTuple):
+    """L: None where nothing lands; remark: why not, or what was not looked at."""
+
+    L: int | None
+    remark: str = ""
+
+
+def landed(method: str, N: int, M: int, L: int | None, options: Options, processor: Processor | None) -> Landed:
+    """L: as asked for, None for what the processor gives, or without one the latest before the next measurement.
+
+    Raises InputError for an L before the earliest that the method can have.
+    """
+    rule = METHODS[method].landing
+    first = earliest(method, M, options)
+    if processor is not None:
+        found = _scheduled(method, N, M, processor)
+        if found is not None:
+            return found
+    if rule == "later":
+        if L is None:
+            L = max(first, N - 1 if options.feedback == "same-step" else N)
+        if first > L:
+            raise InputError(
+                f"{option('L')} {L} is before a correction of {method} can land: its measurement arrives at M={M}; "
+                f"give {option('L')} {first} or more"
+            )
+        return Landed(L, "" if processor is None else _not_costed(method, processor))
+    return Landed(first, "" if processor is None else _not_costed(method, processor))
+
+
+def earliest(method: str, M: int, options: Options) -> int:
+    """The first L that the method can have."""
+    rule = METHODS[method].landing
+    if rule == "at once":
+        return 0
+    if rule == "at M":
+        return M
+    return M if options.feedback == "same-step" and method == "dual-rate" else M + 1
+
+
+def _scheduled(method: str, N: int, M: int, processor: Processor) -> Landed | None:
+    """None for a method that is not scheduled, or whose jobs have no costs."""
+    if method not in SCHEDULED or method not in processor.table.costs:
+        return None
+    law = SCHEDULED[method].law(processor.options.feedback)
+    delay = 0 if METHODS[method].landing == "at once" else M
+    try:
+        costs = select(processor.table, method, processor.options, processor.statistic)
+        timing = Timing(N, delay, law.latest(N, delay))
+        SCHEDULED[method].check(timing, processor.options.feedback)
+        at = landing(costs, timing, processor.pace, processor.options, processor.tasks)
+    except InputError as error:
+        return Landed(None, f"{method}: {error}")
+    if at is None:
+        return Landed(None, f"{method} misses deadlines on {processor.shown}: it does not land")
+    return Landed(0 if METHODS[method].landing == "at once" else at)
+
+
+def _not_costed(method: str, processor: Processor) -> str:
+    return f"{method} has no costs in {processor.table.name}: whether it runs on {processor.shown} is not known"
