@@ -59,7 +59,7 @@ class Part:
     gives times instead of cycles. precision: of the arithmetic, "single" or "double". logic_per_arithmetic: logic
     operations around each arithmetic one, for jobs that do not count their own. sources: where each figure is from,
     by its name in the file. path: where the file was read from, for messages. calibration: None where nothing was
-    measured; it changes no time.
+    measured; it changes no time. price: of one, in whatever currency all files have it; None where it is not known.
     """
 
     name: str
@@ -71,6 +71,7 @@ class Part:
     sources: Mapping[str, str]
     path: str = ""
     calibration: Calibration | None = None
+    price: Fraction | None = None
 
 
 def on_part(table: CostTable, processor: Part) -> CostTable:

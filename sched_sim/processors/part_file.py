@@ -111,6 +111,7 @@ class _ProcessorFile(BaseModel):
     clock_mhz: Annotated[_Figure, _figure("value"), AfterValidator(_positive)] | None = None
     logic_per_arithmetic: Annotated[_Figure, _figure("value"), AfterValidator(_not_negative)]
     calibration: Annotated[_Calibration, BeforeValidator(_range)] | None = None
+    price: Annotated[_Number, AfterValidator(lambda price: positive(price, "the number"))] | None = None
     cycles: _InCycles = {}
     microseconds: _InMicroseconds = {}
 
@@ -173,4 +174,5 @@ def read_part(path: Path, shown: str = "") -> Part:
         sources={name: figure.text for name, figure in named.items()},
         path=shown,
         calibration=None if checked.calibration is None else Calibration(**dict(checked.calibration)),
+        price=checked.price,
     )

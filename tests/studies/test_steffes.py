@@ -6,6 +6,7 @@ from fractions import Fraction
 
 import pytest
 
+from filters.covariance_forms import CovarianceFormName
 from filters.systems.example import example_system
 from sched_sim.costs.methods import PAPER_METHODS
 from sched_sim.costs.table_file import load_costs
@@ -25,9 +26,10 @@ def test_counted_costs_come_within_0_05_of_tables_1_to_3() -> None:
     assert deviation(load_costs("counted-9-3-3")) == pytest.approx(0.0451, abs=0.0001)
 
 
-def test_the_shipped_counts_are_those_of_the_code() -> None:
-    counted = measure(example_system(9, 3, 3), "counted", name="counted-9-3-3")
-    shipped = load_costs("counted-9-3-3")
+@pytest.mark.parametrize(("name", "form"), [("counted-9-3-3", "textbook"), ("counted-9-3-3-short", "short")])
+def test_the_shipped_counts_are_those_of_the_code(name: str, form: CovarianceFormName) -> None:
+    counted = measure(example_system(9, 3, 3), "counted", form, name=name)
+    shipped = load_costs(name)
     assert counted.costs == shipped.costs
     assert counted.provenance == shipped.provenance
 

@@ -44,7 +44,10 @@ def test_the_chosen_statistic_is_what_is_scheduled(file: Path) -> None:
     assert costs == LarsenCosts(Fraction(21, 100), Fraction(3, 10), Fraction(55, 100))
 
 
-@pytest.mark.parametrize(("name", "methods"), [("steffes2014", PAPER_METHODS), ("counted-9-3-3", DELAYED_METHODS)])
+@pytest.mark.parametrize(
+    ("name", "methods"),
+    [("steffes2014", PAPER_METHODS), ("counted-9-3-3", DELAYED_METHODS), ("counted-9-3-3-short", DELAYED_METHODS)],
+)
 def test_shipped_tables_have_what_delayed_methods_need(name: str, methods: Sequence[str]) -> None:
     assert name in shipped_tables()
     for method in methods:
@@ -113,13 +116,13 @@ def test_a_missing_entry_is_named_with_its_remedy(file: Path) -> None:
 def test_an_unknown_table_lists_the_shipped_ones() -> None:
     with pytest.raises(
         InputError,
-        match=r"'steffes' not found: give one of counted-9-3-3, erkf-.*, patent-multirate, steffes2014",
+        match=r"'steffes' not found: give one of counted-9-3-3, counted-9-3-3-short, erkf-.*, patent-multirate, steffes2014",
     ):
         load_costs("steffes")
 
 
 def test_a_missing_entry_of_a_shipped_table_names_the_tables_that_have_it() -> None:
-    with pytest.raises(InputError, match=r"lr_gain: use costs counted-9-3-3 or a table that"):
+    with pytest.raises(InputError, match=r"lr_gain: use costs counted-9-3-3 or counted-9-3-3-short or a table that"):
         select(load_costs("steffes2014"), "dual-rate", Options(gain="precomputed"))
     with pytest.raises(InputError, match=r"use costs .*patent-multirate"):
         select(load_costs("steffes2014"), "multirate", Options())
@@ -163,8 +166,9 @@ def test_costs_in_operations_are_those_that_are_counted(file: Path) -> None:
         assert words in str(error.value)
 
 
-def test_the_shipped_counts_are_written_as_they_are_shipped() -> None:
-    assert costs_text(load_costs("counted-9-3-3")) == (TABLES / "counted-9-3-3.toml").read_text(encoding="utf-8")
+@pytest.mark.parametrize("name", ["counted-9-3-3", "counted-9-3-3-short"])
+def test_the_shipped_counts_are_written_as_they_are_shipped(name: str) -> None:
+    assert costs_text(load_costs(name)) == (TABLES / f"{name}.toml").read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize(
