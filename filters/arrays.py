@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 import warnings
 from typing import Any, TypeAlias
 
@@ -25,6 +26,8 @@ def as_floats(value: Any) -> FloatArray:
 def check_unmasked(name: str, value: Any) -> None:
     """Raises ValueError, naming it, where a number of an array, or of a list of them, is masked: as an array of floats
     it would be what it is under the mask."""
+    if "numpy.ma" not in sys.modules:  # which takes long to import, and nothing is masked without it
+        return
     if isinstance(value, list | tuple):
         for at, item in enumerate(value):
             if isinstance(item, np.ma.MaskedArray):

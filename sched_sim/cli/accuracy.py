@@ -22,7 +22,6 @@ if TYPE_CHECKING:
     from studies.selection.compare import AccuracyRow, Comparison
     from studies.selection.landing import Processor
     from studies.selection.outputs import Outputs
-    from studies.selection.sampling import Sampling
 
 Trajectory = Annotated[
     Path | None,
@@ -212,7 +211,7 @@ def _show(found: Comparison, asked: flags.Sampled, format: opt.Format) -> None:
     remarks = list(dict.fromkeys([row.remark for row in found.rows if row.remark] + list(found.left_out)))
     unit = _in_unit(found.outputs)
     print_table(
-        f"Standard deviation of {found.outputs.name}{unit}, {found.model.name}, {_sampled(found.sampling)}",
+        f"Standard deviation of {found.outputs.name}{unit}, {found.model.name}, {flags.shown(found.sampling)}",
         [_words(row, found) for row in found.rows],
         lines(
             f"over no delay: {found.metric}, over {found.no_delay:.6g}{_unit(found.outputs)} of the filter that uses "
@@ -246,11 +245,6 @@ def _in_unit(outputs: Outputs) -> str:
 
 def _unit(outputs: Outputs) -> str:
     return f" {outputs.unit}" if outputs.unit else ""
-
-
-def _sampled(sampling: Sampling) -> str:
-    rate = "" if sampling.hr_hz is None else f", HR loop at {float(sampling.hr_hz):g} Hz"
-    return f"N={sampling.N} M={sampling.M}{rate}"
 
 
 def _row(row: AccuracyRow, found: Comparison) -> dict[str, Any]:
@@ -319,7 +313,13 @@ def _figure(value: float | None) -> str | None:
 
 
 def _percent(over: float) -> str:
-    return f"{100 * over:.3g} %" if over < float("inf") else "grows"
+    if not over < float("inf"):
+        return "grows"
+    return f"{100 * over:.3g} %" if over < LARGE else f"{100 * over:.0f} %"
+
+
+LARGE = 9.99
+"""From here on a percentage has no more than three digits before its point."""
 
 
 def _show_along(found: AlongComparison, asked: flags.Sampled, format: opt.Format) -> None:
@@ -364,7 +364,7 @@ def _show_along(found: AlongComparison, asked: flags.Sampled, format: opt.Format
     remarks = dict.fromkeys([row.remark for row in found.rows if row.remark] + list(found.left_out))
     print_table(
         f"Standard deviation of {found.outputs.name}{_in_unit(found.outputs)}, {found.model.name}, "
-        f"{_sampled(found.sampling)}, over steps {found.first} to {found.steps} of the trajectory",
+        f"{flags.shown(found.sampling)}, over steps {found.first} to {found.steps} of the trajectory",
         shown,
         lines(
             "over no delay: worst, over that of the filter that uses every measurement without delay",

@@ -150,3 +150,9 @@ def _text(value: object) -> str | None:
 def _held(design: Design) -> tuple[Fraction | None, Fraction | None]:
     """What holds at any rate, of measurements and delay."""
     return (None, None) if design.times is None else (design.times.measurement_hz, design.times.delay_ms)
+
+
+def shown(sampling: Sampling) -> str:
+    """As the title of a table has it."""
+    rate = "" if sampling.hr_hz is None else f", HR loop at {float(sampling.hr_hz):g} Hz"
+    return f"N={sampling.N} M={sampling.M}{rate}"

@@ -9,7 +9,7 @@ from typing import Annotated, Any
 import typer
 from typer.core import TyperCommand, TyperGroup
 
-from sched_sim.cli import accuracy, gantt, measure, minimum, processors, report, simulate, sweep
+from sched_sim.cli import accuracy, design, gantt, measure, minimum, processors, report, simulate, sweep
 from sched_sim.errors import InputError
 from sched_sim.text import visible_lines
 
@@ -88,5 +88,6 @@ app.command("gantt", cls=Command)(gantt.gantt)
 app.command("sweep", cls=Command)(sweep.sweep)
 app.command("processors", cls=Command)(processors.processors)
 app.command("accuracy", cls=Command)(accuracy.accuracy)
+app.command("design", cls=Command)(design.design)
 app.command("measure", cls=Command)(measure.measure)
 app.command("report", cls=Command)(report.report)

@@ -102,9 +102,9 @@ def processors(
             raise InputError(
                 f"{', '.join(given)} and --scenario {scenario} exclude each other: the file says what is simulated"
             )
-        verdicts(scenario, _listed(processor or ()), format)
+        verdicts(scenario, listed(processor or ()), format)
         return
-    parts = [load_part(name) for name in _listed(processor or ())]
+    parts = [load_part(name) for name in listed(processor or ())]
     if not opt.given_options(context, lambda name: name not in OF_THE_LIST):
         rows = [_figures(part) for part in parts]
         shown = [_figures_in_words(part) for part in parts]
@@ -131,7 +131,7 @@ def processors(
         print_table(title, shown, note)
 
 
-def _listed(named: Sequence[str]) -> list[str]:
+def listed(named: Sequence[str]) -> list[str]:
     """The shipped ones that are named, all if none is; and the user's own files."""
     from sched_sim.processors.part_file import shipped_parts
 

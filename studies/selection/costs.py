@@ -3,20 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
-from filters.systems.example import example_system
 from sched_sim.costs.table import COUNTED, CostTable
 from sched_sim.costs.table_file import load_costs
 from sched_sim.errors import InputError, option
-from studies.measurement.methods import measure
 from studies.selection.model import Model
 
-FORMS = ("textbook", "short")
+if TYPE_CHECKING:
+    from filters.covariance_forms import CovarianceFormName
+
+FORMS: tuple[CovarianceFormName, ...] = ("textbook", "short")
 SHIPPED = {(9, 3, 3): (COUNTED, f"{COUNTED}-short")}
 """By states, inputs and measurements: tables of FORMS."""
 
 
-def tables_for(model: Model, names: Sequence[str] | None, forms: Sequence[str] = FORMS) -> tuple[CostTable, ...]:
+def tables_for(
+    model: Model, names: Sequence[str] | None, forms: Sequence[CovarianceFormName] = FORMS
+) -> tuple[CostTable, ...]:
     """The named tables; or counts for a system of the model's sizes, of the user's own System itself.
 
     Raises InputError for tables of several units, and where the user's functions cannot be counted.
@@ -29,6 +33,9 @@ def tables_for(model: Model, names: Sequence[str] | None, forms: Sequence[str] =
         return tables
     if model.system is None and model.sizes in SHIPPED:
         return tuple(load_costs(name) for name, form in zip(SHIPPED[model.sizes], FORMS, strict=True) if form in forms)
+    from filters.systems.example import example_system
+    from studies.measurement.methods import measure
+
     system = model.system or example_system(*model.sizes)
     try:
         return tuple(

@@ -43,7 +43,9 @@ def by_landing(model: Model, outputs: Outputs, N: int, most: int, noise: LowRate
     else:
         wrong = summed_noise if noise == "sum" else halved_noise
         regime = with_assumed(model.linear, outputs.rows, N, N + most, wrong)
-        variances = regime.variances if regime.radius < 1.0 else np.full(N + most + 1, np.inf)
+        if not regime.radius < 1.0:
+            return Curve(0, np.full(most + 1, np.inf))
+        variances = regime.variances
     of_cycle = worst if metric == "worst" else mean
     return Curve(0, np.sqrt(np.maximum(of_cycle(variances, N, np.arange(most + 1)), 0.0)))
 

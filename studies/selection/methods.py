@@ -37,12 +37,13 @@ class Asked(NamedTuple):
 
 class Method(NamedTuple):
     """accuracy: of an `Asked`. needs: what must have been said beside it. lossless: whether it is as good as the age of
-    its measurements allows, and so known by that age."""
+    its measurements allows, and so known by that age; floored: never better than that, and known by a long sum."""
 
     landing: Landing
     accuracy: Callable[[Asked], Accuracy]
     needs: Literal["", "motion", "hr_hz"] = ""
     lossless: bool = True
+    floored: bool = False
 
 
 def _exact(asked: Asked) -> Accuracy:
@@ -77,7 +78,7 @@ METHODS: Mapping[str, Method] = {
     "augmentation": Method("at M", _exact),
     "dual-rate": Method("later", _dual_rate),
     "delayed-horizon": Method("later", _exact),
-    "px4-predictor": Method("at M", _px4_predictor, "hr_hz", lossless=False),
+    "px4-predictor": Method("at M", _px4_predictor, "hr_hz", lossless=False, floored=True),
     "fuse-as-fresh": Method("at M", _fuse_as_fresh, "motion", lossless=False),
     "discard": Method("at M", _discard, lossless=False),
 }

@@ -1,0 +1,1 @@
+"""No report: the figure that `sched-sim design` draws."""

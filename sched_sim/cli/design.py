@@ -1,0 +1,303 @@
+"""`sched-sim design`: from an accuracy to a filter and a part."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from sched_sim.cli import accuracy_flags as flags
+from sched_sim.cli import options as opt
+from sched_sim.cli.design_flags import with_options
+from sched_sim.cli.output import lines, print_csv, print_json, print_table, say, units
+from sched_sim.cli.processors import Parts
+from sched_sim.design.options import Options
+from sched_sim.errors import InputError
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from studies.selection.choose import Candidate, Choice, Question
+    from studies.selection.parts import OnPart
+
+Within = Annotated[
+    str | None,
+    typer.Option(
+        "--within",
+        help="The accuracy that is needed: a standard deviation of the outputs together, in their unit.",
+        metavar="NUMBER",
+        rich_help_panel=flags.ACCURACY,
+    ),
+]
+CostTables = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--costs",
+        help="Cost table, shipped or your own file; repeatable, for other forms of the covariance update. By default "
+        "the operations of filters of the model's size are counted, textbook and short.",
+        rich_help_panel=opt.DESIGN,
+    ),
+]
+AllMethods = Annotated[
+    bool,
+    typer.Option(
+        "--all-methods",
+        help="Every way that keeps the accuracy, not the best of each method alone.",
+        rich_help_panel=opt.OUTPUT,
+    ),
+]
+Figure = Annotated[
+    Path | None,
+    typer.Option(
+        "--figure",
+        help="Draw power against accuracy, all methods: FILE.svg, .pdf or .png, for a column of 88 mm.",
+        rich_help_panel=opt.OUTPUT,
+    ),
+]
+
+
+@with_options
+def design(
+    context: typer.Context,
+    within: Within = None,
+    model: flags.AnyModel = None,
+    output: flags.Output = None,
+    unit: flags.Unit = None,
+    N: opt.StepsOrNone = None,
+    M: opt.AnyDelay = None,
+    hr_hz: opt.HrHz = None,
+    measurement_hz: opt.MeasurementHz = None,
+    delay_ms: opt.DelayMs = None,
+    method: flags.AccuracyMethods = None,
+    every: flags.Every = "1:4",
+    metric: flags.Metric = "worst",
+    motion: flags.Motion = None,
+    tau: flags.Tau = "0.25",
+    processor: Parts = None,
+    costs: CostTables = None,
+    statistic: opt.WhichCost = "minimum",
+    options: Options = Options(),
+    tasks: opt.Tasks = None,
+    all_methods: AllMethods = False,
+    figure: Figure = None,
+    format: opt.Format = "table",
+) -> None:
+    """Which filter keeps an accuracy, how late its corrections may land for it, and on which part: for each method the
+    latest landing, the least speed for that, the part that just does, and what it does better; and why the others do
+    not.
+
+    sched-sim design --within 0.38 --model ins-gps
+    sched-sim design --within 0.38 --model ins-gps --processor cortex-m4f --processor rp2040 --all-methods
+    sched-sim design --within 0.5 --model mymodule:my_system --output position=0:3 --unit m --hr-hz 400 \
+--measurement-hz 5 --delay-ms 110 --figure front.svg
+    """
+    from studies.selection.choose import Question, chosen, parts_for, with_parts, within_of
+    from studies.selection.conditions import conditions_of
+    from studies.selection.costs import tables_for
+    from studies.selection.model import load_model, shipped_defaults
+    from studies.selection.outputs import outputs_of
+    from studies.selection.variants import GAINS, NOISES
+
+    if model is None:
+        raise InputError(f"--model is missing: give one of {flags.MODELS}, or package.module:function of your own")
+    if within is None:
+        raise InputError("--within is missing: give the standard deviation that is allowed, such as --within 0.38")
+    bound, numbers = within_of(within), flags.every_of(every)
+    if figure is not None:
+        from reports.drawing.picture import check_picture
+
+        check_picture(figure, "--figure")
+    asked = flags.sampled(shipped_defaults(model), N, M, None, hr_hz, measurement_hz, delay_ms)
+    rate = asked.sampling.hr_hz
+    if tasks is not None and rate is None:
+        raise InputError(f"--tasks {tasks} without --hr-hz: give the rate of the HR loop, such as --hr-hz 400")
+    loaded = load_model(model, rate)
+    outputs = outputs_of(loaded, output, unit)
+    conditions = conditions_of(loaded, asked.sampling, motion, tau)
+    tables = tables_for(loaded, costs)
+    given = opt.given_options(context, lambda name: name in ("gain", "low_rate_noise"))
+    question = Question(
+        loaded,
+        outputs,
+        asked.sampling,
+        bound,
+        metric,
+        conditions,
+        tables,
+        parts_for(_listed(processor), tables, asked.sampling),
+        options,
+        (options.low_rate_noise,) if "--low-rate-noise" in given else NOISES,
+        (options.gain,) if "--gain" in given else GAINS,
+        statistic,
+        opt.make_tasks(tasks, "second", rate),
+    )
+    found = chosen(question, method, numbers)
+    ways = with_parts(question, found.keeping) if all_methods else found.best
+    if format == "json":
+        print_json(_document(found, ways))
+    elif format == "csv":
+        print_csv([_flat(of, found) for of in ways])
+    else:
+        _show(found, ways, question, asked.words)
+    if figure is not None:
+        _draw(figure, question, found, numbers)
+
+
+def _listed(named: Sequence[str] | None) -> list[str] | None:
+    from sched_sim.cli.processors import listed
+
+    return listed(named) if named else None
+
+
+def _draw(path: Path, question: Question, found: Choice, every: Sequence[int]) -> None:
+    from reports.drawing.picture import save
+    from reports.selection.front_figure import front_figure
+    from studies.selection.front import front
+
+    save(front_figure(front(question, [of.variant.method for of in (*found.best, *found.others)], every)), path)
+    say(f"Wrote {path}")
+
+
+def _show(found: Choice, ways: Sequence[Candidate], question: Question, words: str) -> None:
+    from sched_sim.cli.update_form import ground_note
+
+    unit = found.outputs.unit and f" {found.outputs.unit}"
+    title = (
+        f"{found.metric} standard deviation of {found.outputs.name} within {found.within:g}{unit}, {found.model.name}, "
+        f"{flags.shown(found.sampling)}"
+    )
+    calibrations = {part.name: None if part.calibration is None else part.calibration.text for part in question.parts}
+    table = question.tables[0]
+    print_table(
+        title,
+        [_words(of, found) for of in ways],
+        lines(
+            *found.remarks,
+            *(f"not {of.variant.method}: {of.reason}" for of in found.others),
+            *found.left_out,
+            f"without delay: {found.no_delay:.6g}{unit}; least speed: {units(found.unit)} per HR period, to land by L",
+            "part: the cheapest where prices are known, else the one with the least to spare" if question.parts else "",
+            words,
+            f"costs: {', '.join(table.name for table in question.tables)}",
+            ground_note(table, [of.variant.method for of in ways], calibrations) if question.parts else "",
+        ),
+    )
+
+
+def _words(of: Candidate, found: Choice) -> dict[str, Any]:
+    from sched_sim.cli.parts import no_less
+
+    assert of.least is not None
+    row: dict[str, Any] = {
+        "method": of.variant.method,
+        "how": of.variant.how or None,
+        "every": of.variant.every,
+        "land by L": of.L,
+        "std then": _figure(of.std),
+        "least speed": no_less(of.least.speed, 5),
+    }
+    if not of.parts:
+        return row | {"lands at L": of.landed, "std": _figure(of.landed_std)}
+    on = of.cheapest
+    do = sum(on.fits for on in of.parts)
+    if on is None:
+        nothing = dict.fromkeys(("of its speed", "load", "lands at L", "after, ms", "std"))
+        return row | {"part": of.reason or None, **nothing, "parts that do": f"0 of {len(of.parts)}"}
+    return row | {
+        "part": on.part.name,
+        "of its speed": _percent(on.needed),
+        "load": _percent(on.load),
+        "lands at L": on.landed,
+        "after, ms": _ms(found.sampling.using(of.variant.every).ms(on.landed)),
+        "std": _figure(on.std),
+        "parts that do": f"{do} of {len(of.parts)}",
+    }
+
+
+def _ms(value: float | None) -> str | None:
+    return None if value is None else f"{value:.6g}"
+
+
+def _figure(value: float | None) -> str | None:
+    return None if value is None else f"{value:.5g}"
+
+
+def _percent(share: Any) -> str | None:
+    return None if share is None else f"{float(100 * share):.3g} %"
+
+
+def _document(found: Choice, ways: Sequence[Candidate]) -> dict[str, Any]:
+    return {
+        "within": found.within,
+        "metric": found.metric,
+        "model": found.model.name,
+        "output": found.outputs.name,
+        "unit": found.outputs.unit or None,
+        "N": found.sampling.N,
+        "M": found.sampling.M,
+        "hr_hz": None if found.sampling.hr_hz is None else float(found.sampling.hr_hz),
+        "no_delay_std": found.no_delay,
+        "cost_unit": found.unit,
+        "designs": [_row(of, found) | {"parts": [_on(on, of, found) for on in of.parts]} for of in ways],
+        "others": [
+            {"method": of.variant.method, "best_std": _finite(of.best), "reason": of.reason} for of in found.others
+        ],
+        "remarks": [*found.remarks, *found.left_out],
+    }
+
+
+def _finite(value: float) -> float | None:
+    return value if value < float("inf") else None
+
+
+def _row(of: Candidate, found: Choice) -> dict[str, Any]:
+    assert of.least is not None
+    options = of.variant.options
+    return {
+        "method": of.variant.method,
+        "low_rate_noise": options.low_rate_noise if of.variant.method == "dual-rate" else None,
+        "gain": options.gain if of.variant.method == "dual-rate" else None,
+        "update_form": of.variant.table.update_form,
+        "costs": of.variant.table.name,
+        "every": of.variant.every,
+        "N": of.N,
+        "M": found.sampling.M,
+        "L": of.L,
+        "allowed_L": of.allowed,
+        "std": of.std,
+        "min_speed": float(of.least.speed),
+        "min_speed_exact": str(of.least.speed),
+        "binding": of.least.binding,
+        "achieved_l_at_min_speed": of.landed,
+        "std_at_min_speed": of.landed_std,
+        "reason": of.reason or None,
+    }
+
+
+def _on(on: OnPart, of: Candidate, found: Choice) -> dict[str, Any]:
+    sampling = found.sampling.using(of.variant.every)
+    return {
+        "processor": on.part.name,
+        "price": None if on.part.price is None else float(on.part.price),
+        "fits": on.fits if on.needed is not None else None,
+        "needed_share": None if on.needed is None else float(on.needed),
+        "slack": None if on.slack is None else float(on.slack),
+        "load": None if on.load is None else float(on.load),
+        "achieved_l": on.landed,
+        "correction_ms": sampling.ms(on.landed),
+        "std": on.std,
+        "reason": on.remark or None,
+    }
+
+
+OF_A_PART = ("processor", "price", "fits", "needed_share", "slack", "load", "achieved_l", "correction_ms")
+
+
+def _flat(of: Candidate, found: Choice) -> dict[str, Any]:
+    """With what its cheapest part makes of it."""
+    on = of.cheapest
+    figures = dict.fromkeys(OF_A_PART) if on is None else _on(on, of, found)
+    part = {name: figures[name] for name in OF_A_PART} | {"std_on_part": None if on is None else on.std}
+    do = [other.part.name for other in of.parts if other.fits]
+    return _row(of, found) | part | {"parts_that_do": " ".join(do) or None}

@@ -1,0 +1,396 @@
+"""Which filter keeps an accuracy, how late its corrections may land for it, and what processor it needs then."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+
+from filters.delayed.low_rate_noise import LowRateNoise
+from sched_sim.costs.table import CostTable
+from sched_sim.design.highest_rate import landing
+from sched_sim.design.least_speed import LeastSpeed, least_speed
+from sched_sim.design.methods import METHODS as SCHEDULED
+from sched_sim.design.methods import select
+from sched_sim.design.options import Gain, Options
+from sched_sim.design.pieces import Statistic
+from sched_sim.design.timing import Timing
+from sched_sim.errors import InputError, option
+from sched_sim.processors.part import Part
+from sched_sim.processors.part_file import load_part, shipped_parts
+from sched_sim.schedule.tasks import Task
+from sched_sim.ticks import Number, positive
+from studies.selection.compare import Metric, check_metric, undelayed
+from studies.selection.conditions import TAU_S, Conditions, check_ages, chosen_methods, conditions_of
+from studies.selection.costs import tables_for
+from studies.selection.curve import Curve, at_arrival, by_landing
+from studies.selection.landing import earliest
+from studies.selection.methods import METHODS
+from studies.selection.model import Model, load_model, shipped_defaults
+from studies.selection.outputs import Outputs, outputs_of
+from studies.selection.parts import OnPart, Parts, by_cost
+from studies.selection.sampling import Sampling
+from studies.selection.variants import GAINS, NOISES, Variant, candidates, variants
+
+
+@dataclass(frozen=True, slots=True)
+class Candidate:
+    """One way to run one method.
+
+    N: steps between the measurements that it uses. first: the earliest landing that it can have, best: the figure then.
+    L: the latest landing that keeps the accuracy and is before the next measurement of those; allowed: of the first
+    alone, None where even the first does not keep it. std: the figure at L. least: the least speed for L, in
+    the unit of the cost table; landed: where corrections land at that speed, landed_std: the figure then.
+    parts: what each makes of it, cheapest first. reason: why it will not do; empty if it does.
+    """
+
+    variant: Variant
+    N: int
+    first: int
+    best: float
+    allowed: int | None = None
+    L: int | None = None
+    std: float | None = None
+    least: LeastSpeed | None = None
+    landed: int | None = None
+    landed_std: float | None = None
+    parts: tuple[OnPart, ...] = ()
+    reason: str = ""
+
+    @property
+    def cheapest(self) -> OnPart | None:
+        """The part that runs it, None if none does."""
+        return next((on for on in self.parts if on.fits), None)
+
+
+@dataclass(frozen=True)
+class Choice:
+    """What keeps the accuracy `within`, a standard deviation in the unit of the outputs.
+
+    best: of each method the way that needs least, cheapest first; keeping: all ways that do; others: of each method
+    that has no such way the one that comes nearest, with its reason. no_delay: the figure of the filter without delay
+    that uses every measurement. unit: of the least speeds, per HR period.
+    """
+
+    model: Model
+    outputs: Outputs
+    sampling: Sampling
+    within: float
+    metric: Metric
+    no_delay: float
+    unit: str
+    best: tuple[Candidate, ...]
+    keeping: tuple[Candidate, ...]
+    others: tuple[Candidate, ...]
+    left_out: tuple[str, ...] = ()
+    remarks: tuple[str, ...] = field(default=())
+
+    def _repr_html_(self) -> str:
+        from studies.selection.words import choice_html
+
+        return choice_html(self)
+
+
+@dataclass(frozen=True)
+class Question:
+    """All that a choice depends on. parts: none where the costs are no counts, or the rate is not known."""
+
+    model: Model
+    outputs: Outputs
+    sampling: Sampling
+    within: float
+    metric: Metric
+    conditions: Conditions
+    tables: Sequence[CostTable]
+    parts: Sequence[Part] = ()
+    options: Options = Options()
+    noises: Sequence[LowRateNoise] = NOISES
+    gains: Sequence[Gain] = GAINS
+    statistic: Statistic = "minimum"
+    tasks: Sequence[Task] = ()
+
+
+def choose_filter(
+    within: Number,
+    model: Any,
+    output: Any = None,
+    *,
+    unit: str | None = None,
+    N: int | None = None,
+    M: int | None = None,
+    hr_hz: Number | None = None,
+    measurement_hz: Number | None = None,
+    delay_ms: Number | None = None,
+    methods: Sequence[str] | None = None,
+    every: Sequence[int] = (1, 2, 3, 4),
+    metric: Metric = "worst",
+    motion: Sequence[Number] | str | None = None,
+    tau_s: Number = TAU_S,
+    processors: Sequence[str | Part] | None = None,
+    costs: Sequence[str] | None = None,
+    statistic: Statistic = "minimum",
+    options: Options = Options(),
+    tasks: Sequence[Task] = (),
+) -> Choice:
+    """The filters that keep the outputs within a standard deviation, and the least processor for each.
+
+        choose_filter(0.38, "ins-gps")
+        choose_filter("0.5", my_system, "position=0:3", unit="m", N=80, M=44, hr_hz=400)
+
+    model, output, unit, N to delay_ms, motion, tau_s, metric: as in `compare_accuracy`. every: 2 tries every second
+    measurement too. processors: parts by name, path or as they are, by default all that ship; costs: tables by name or
+    path, by default counts for the model, in each form of the covariance update that is worth it. tasks: with costs in
+    seconds; the least speed is that of the filter alone.
+
+    Raises InputError that names what is wrong, its value and what to give; where no method keeps the accuracy, it says
+    the best that there is, and how.
+    """
+    sampling = Sampling.of(shipped_defaults(model), N, M, hr_hz, measurement_hz, delay_ms)
+    loaded = load_model(model, sampling.hr_hz)
+    tables = tables_for(loaded, costs)
+    return chosen(
+        Question(
+            loaded,
+            outputs_of(loaded, output, unit),
+            sampling,
+            within_of(within),
+            metric,
+            conditions_of(loaded, sampling, motion, tau_s),
+            tables,
+            parts_for(processors, tables, sampling),
+            options,
+            statistic=statistic,
+            tasks=tasks,
+        ),
+        methods,
+        every,
+    )
+
+
+def within_of(value: Number) -> float:
+    """Raises InputError unless it is a number greater than 0."""
+    return float(positive(value, option("within")))
+
+
+def parts_for(asked: Sequence[str | Part] | None, tables: Sequence[CostTable], sampling: Sampling) -> tuple[Part, ...]:
+    """All that ship if none is asked for, and none where they cannot be looked at. Raises InputError where one that was
+    asked for cannot be."""
+    counted = all(table.operations for table in tables)
+    if sampling.hr_hz is None or not counted:
+        if asked and sampling.hr_hz is None:
+            raise InputError(f"{option('processor')} without {option('hr_hz')}: give the rate of the HR loop")
+        if asked:
+            raise InputError(
+                f"{option('processor')} needs counted operations, and {option('costs')} {tables[0].shown} has none: "
+                f"count with `sched-sim measure --backend counted -o FILE`"
+            )
+        return ()
+    parts = [part if isinstance(part, Part) else load_part(part) for part in asked or shipped_parts()]
+    return tuple({part.name: part for part in parts}.values())
+
+
+def chosen(question: Question, methods: Sequence[str] | None = None, every: Sequence[int] = (1, 2, 3, 4)) -> Choice:
+    """`choose_filter` of what has been looked at."""
+    from studies.selection.remarks import remarks
+
+    check_metric(question.metric)
+    sampling, tables = question.sampling, question.tables
+    wanted = chosen_methods(methods, question.conditions)
+    check_ages(question.model, 2 * max(every) * sampling.N + sampling.M)
+    no_delay = undelayed(question.model, question.outputs, sampling, question.metric)
+    names = [
+        name for name in candidates(methods, tables, sampling.M) if name in wanted.methods or METHODS[name].needs == ""
+    ]
+    if not names:
+        raise InputError(
+            f"{option('method')}: the cost table {tables[0].shown} has none of {', '.join(wanted.methods)}; it has "
+            f"{', '.join(name for name in tables[0].costs if name in METHODS)}"
+        )
+    accuracy = Accuracies(question)
+    looked = [
+        _candidate(question, accuracy, variant)
+        for variant in variants(names, every, tables, question.options, question.noises, question.gains)
+    ]
+    if all(candidate.allowed is None for candidate in looked):
+        raise InputError(_out_of_reach(question, looked, no_delay))
+    keeping = [candidate for candidate in looked if candidate.least is not None]
+    best = [_least(keeping, name) for name in names if any(of.variant.method == name for of in keeping)]
+    parts = Parts(question.parts, question.statistic)
+    best = sorted((_on_parts(question, accuracy, parts, candidate) for candidate in best), key=_rank)
+    others = [
+        min((of for of in looked if of.variant.method == name), key=lambda of: of.best)
+        for name in names
+        if not any(of.variant.method == name for of in keeping)
+    ]
+    left_out = [words for words in wanted.left_out if any(f"no {name}:" in words for name in SCHEDULED)]
+    choice = Choice(
+        question.model,
+        question.outputs,
+        sampling,
+        question.within,
+        question.metric,
+        no_delay,
+        tables[0].unit,
+        tuple(best),
+        tuple(sorted(keeping, key=_power)),
+        tuple(others),
+        tuple(left_out),
+    )
+    return replace(choice, remarks=tuple(remarks(choice, question, accuracy)))
+
+
+def with_parts(question: Question, looked: Sequence[Candidate]) -> tuple[Candidate, ...]:
+    """Each of them on each part, cheapest first."""
+    accuracy, parts = Accuracies(question), Parts(question.parts, question.statistic)
+    return tuple(sorted((_on_parts(question, accuracy, parts, candidate) for candidate in looked), key=_rank))
+
+
+class Accuracies:
+    """The curves of a question, each computed once."""
+
+    def __init__(self, question: Question) -> None:
+        self.question = question
+        self._curves: dict[tuple[object, ...], Curve] = {}
+
+    def of(self, variant: Variant) -> Curve:
+        """By landing. Raises ValueError where there is no regime."""
+        asked, using = self.question, self.question.sampling.using(variant.every)
+        method = METHODS[variant.method]
+        if method.lossless:
+            most = max(2 * using.N, using.N + using.M)
+            key: tuple[object, ...] = (using.N, variant.options.low_rate_noise)
+            if key not in self._curves:
+                noise = variant.options.low_rate_noise
+                self._curves[key] = by_landing(asked.model, asked.outputs, using.N, most, noise, asked.metric)
+        else:
+            key = (using.N, variant.method)
+            if key not in self._curves:
+                self._curves[key] = self._at_arrival(variant, using)
+        return self._curves[key]
+
+    def _at_arrival(self, variant: Variant, using: Sampling) -> Curve:
+        """Of what is never better than a method that loses nothing, only that where it is out of the bound: the rest
+        takes long."""
+        asked = self.question
+        if METHODS[variant.method].floored:
+            lossless = self.of(variant._replace(method="recalculate")).at(using.M)
+            if lossless > asked.within:
+                return Curve(using.M, np.array([lossless]))
+        return at_arrival(asked.model, asked.outputs, variant.method, using.N, using.M, asked.conditions, asked.metric)
+
+
+def _candidate(question: Question, accuracy: Accuracies, variant: Variant) -> Candidate:
+    using = question.sampling.using(variant.every)
+    first = earliest(variant.method, using.M, variant.options)
+    delay = 0 if METHODS[variant.method].landing == "at once" else using.M
+    try:
+        curve = accuracy.of(variant)
+    except ValueError as error:
+        return Candidate(variant, using.N, first, float("inf"), reason=str(error))
+    curve = Curve(first, curve.figures[first - curve.first :])
+    found = Candidate(variant, using.N, first, curve.at(first), curve.latest(question.within))
+    if found.allowed is None:
+        return replace(found, reason=_too_coarse(question, found))
+    law = SCHEDULED[variant.method].law(variant.options.feedback)
+    last = found.first if METHODS[variant.method].landing != "later" else min(found.allowed, law.latest(using.N, delay))
+    try:
+        timing = Timing(using.N, delay, max(last, delay))
+        SCHEDULED[variant.method].check(timing, variant.options.feedback)
+        costs = select(variant.table, variant.method, variant.options, question.statistic)
+        least = least_speed(costs, timing, variant.options)
+    except InputError as error:
+        return replace(found, reason=str(error))
+    landed = landing(costs, timing, least.speed, variant.options, ())
+    at = None if landed is None else (0 if delay == 0 and found.first == 0 else landed)
+    return replace(
+        found,
+        L=timing.L,
+        std=curve.at(timing.L),
+        least=least,
+        landed=at,
+        landed_std=None if at is None else curve.at(max(at, first)),
+    )
+
+
+def _on_parts(question: Question, accuracy: Accuracies, parts: Parts, candidate: Candidate) -> Candidate:
+    rate, variant = question.sampling.hr_hz, candidate.variant
+    if rate is None or not question.parts or candidate.L is None:
+        return candidate
+    delay = 0 if METHODS[variant.method].landing == "at once" else question.sampling.M
+    timing = Timing(candidate.N, delay, candidate.L)
+    curve = accuracy.of(variant)
+    looked = [
+        replace(on, std=None if on.landed is None else curve.at(max(on.landed, candidate.first)))
+        for on in parts.look(variant.table, variant.method, timing, rate, variant.options, question.tasks)
+    ]
+    looked.sort(key=by_cost)
+    reason = "" if any(on.fits for on in looked) else _too_slow(looked)
+    return replace(candidate, parts=tuple(looked), reason=reason)
+
+
+def _too_slow(looked: Sequence[OnPart]) -> str:
+    nearest = next((on for on in looked if on.needed is not None), None)
+    if nearest is None or nearest.needed is None:
+        return "; ".join(on.remark for on in looked)
+    return f"no part is fast enough: the nearest, {nearest.part.name}, needs {float(100 * nearest.needed):.3g} %"
+
+
+def _too_coarse(question: Question, found: Candidate) -> str:
+    measured = "" if found.variant.every == 1 else f" with every {ordinal(found.variant.every)} measurement"
+    unit = f" {question.outputs.unit}" if question.outputs.unit else ""
+    floor = "more than " if METHODS[found.variant.method].floored and found.variant.every > 1 else ""
+    return f"{floor}{found.best:.4g}{unit} at best, landing at L={found.first}{measured}"
+
+
+def ordinal(number: int) -> str:
+    """second, third, 4th, ..."""
+    return {2: "second", 3: "third"}.get(number, f"{number}th")
+
+
+def _out_of_reach(question: Question, looked: Sequence[Candidate], no_delay: float) -> str:
+    best = min(looked, key=lambda of: of.best)
+    unit = f" {question.outputs.unit}" if question.outputs.unit else ""
+    asked = f"{option('within')} {question.within:g}"
+    if not best.best < float("inf"):
+        return f"{asked}: no method has a bounded error: {best.reason}"
+    names = list(dict.fromkeys(of.variant.method for of in looked if of.best == best.best))
+    using = "every measurement" if best.variant.every == 1 else f"every {ordinal(best.variant.every)} measurement"
+    after = question.sampling.using(best.variant.every).ms(best.first)
+    when = f"L={best.first}" if after is None else f"L={best.first}, {after:g} ms after its measurement was taken"
+    return (
+        f"{asked}: no method reaches it; the best there is, is {question.metric} {_up(best.best)}{unit}, by "
+        f"{', '.join(names)}, landing at {when}, with {using} (without delay it would be {no_delay:.6g}{unit}); allow "
+        f"{option('within')} {_up(best.best)}, measure more often, shorten the delay, or take a better sensor"
+    )
+
+
+def _up(value: float) -> str:
+    """To six digits, not below it."""
+    from math import ceil, floor, log10
+
+    scale = 10.0 ** (floor(log10(value)) - 5)
+    return f"{ceil(value / scale * (1 - 1e-12)) * scale:.6g}"
+
+
+def _least(keeping: Sequence[Candidate], method: str) -> Candidate:
+    return min((of for of in keeping if of.variant.method == method), key=_power)
+
+
+def _power(candidate: Candidate) -> tuple[Fraction, int, int]:
+    """Of equals the one with the most measurements, then the one that is most as in the paper."""
+    assert candidate.least is not None
+    return candidate.least.speed, candidate.variant.every, candidate.variant.departures
+
+
+def _rank(candidate: Candidate) -> tuple[int, Fraction, Fraction]:
+    """By the price of its cheapest part; without prices by its least speed; last what no part runs."""
+    assert candidate.least is not None
+    on = candidate.cheapest
+    if on is None:
+        return (2 if candidate.parts else 1), Fraction(0), candidate.least.speed
+    return (
+        (1, Fraction(0), candidate.least.speed) if on.part.price is None else (0, on.part.price, candidate.least.speed)
+    )

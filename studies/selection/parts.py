@@ -1,0 +1,91 @@
+"""Which parts run a design, how much of each it takes, and where its corrections land there."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+from sched_sim.costs.table import CostTable
+from sched_sim.design.highest_rate import landing
+from sched_sim.design.least_speed import least_speed
+from sched_sim.design.load import loads
+from sched_sim.design.methods import select
+from sched_sim.design.options import Options
+from sched_sim.design.pieces import Statistic
+from sched_sim.design.timing import Timing
+from sched_sim.errors import InputError
+from sched_sim.processors.part import Part, on_part
+from sched_sim.schedule.tasks import Task
+
+
+@dataclass(frozen=True, slots=True)
+class OnPart:
+    """needed: the share of the part's speed at which every deadline holds, above 1 it is too slow; load: the share of
+    its time that it is busy. landed: the L at which corrections land there, std: the figure of the output then; None if
+    it is too slow. remark: why nothing is known of it."""
+
+    part: Part
+    needed: Fraction | None
+    load: Fraction | None
+    landed: int | None = None
+    std: float | None = None
+    remark: str = ""
+
+    @property
+    def fits(self) -> bool:
+        return self.landed is not None
+
+    @property
+    def slack(self) -> Fraction | None:
+        return None if self.needed is None else 1 - self.needed
+
+
+def by_cost(on: OnPart) -> tuple[int, int, Fraction]:
+    """First what runs it: by price, those without one after the others, the one with the least to spare first; then
+    what is too slow, the nearest first; last what nothing is known of."""
+    if on.needed is None:
+        return 3, 0, Fraction(0)
+    if not on.fits:
+        return 2, 0, on.needed
+    price = on.part.price
+    return (1, 0, -on.needed) if price is None else (0, 0, price)
+
+
+class Parts:
+    """The cost tables on each part, each made once."""
+
+    def __init__(self, parts: Sequence[Part], statistic: Statistic) -> None:
+        self.parts = parts
+        self.statistic: Statistic = statistic
+        self._tables: dict[tuple[str, str], CostTable] = {}
+
+    def look(
+        self, table: CostTable, method: str, timing: Timing, rate: Fraction, options: Options, tasks: Sequence[Task]
+    ) -> list[OnPart]:
+        """What each part makes of the design, without its accuracy."""
+        return [self._one(part, table, method, timing, rate, options, tasks) for part in self.parts]
+
+    def _one(
+        self,
+        part: Part,
+        table: CostTable,
+        method: str,
+        timing: Timing,
+        rate: Fraction,
+        options: Options,
+        tasks: Sequence[Task],
+    ) -> OnPart:
+        key = table.name, part.name
+        if key not in self._tables:
+            self._tables[key] = on_part(table, part)
+        try:
+            costs = select(self._tables[key], method, options, self.statistic)
+        except InputError as error:
+            if method not in self._tables[key].lacking:
+                raise
+            return OnPart(part, None, None, remark=str(error))
+        needed = least_speed(costs, timing, options, tasks).speed * rate
+        busy = sum(loads(costs, timing, 1 / rate, options, tasks), Fraction(0)) / options.cpus
+        lands = landing(costs, timing, 1 / rate, options, tasks) if needed <= 1 else None
+        return OnPart(part, needed, busy, lands)
