@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from studies.selection.along import AlongComparison
     from studies.selection.compare import AccuracyRow, Comparison
     from studies.selection.landing import Processor
+    from studies.selection.model import Model
     from studies.selection.outputs import Outputs
 
 Trajectory = Annotated[
@@ -40,6 +41,15 @@ InitialStd = Annotated[
         "there.",
         metavar="NUMBERS",
         rich_help_panel=flags.ACCURACY,
+    ),
+]
+Costs = Annotated[
+    str | None,
+    typer.Option(
+        "--costs",
+        help="Cost table, shipped or your own file, with --speed or --processor; by default steffes2014, with "
+        "--processor the operations of filters of the model's size are counted.",
+        rich_help_panel=opt.DESIGN,
     ),
 ]
 LandingStep = Annotated[
@@ -77,7 +87,7 @@ def accuracy(
     initial_std: InitialStd = None,
     speed: opt.Speed = None,
     processor: opt.OnProcessor = None,
-    costs: opt.Costs = None,
+    costs: Costs = None,
     statistic: opt.WhichCost = "minimum",
     options: Options = Options(),
     tasks: opt.Tasks = None,
@@ -101,7 +111,7 @@ def accuracy(
     shipped = shipped_defaults(model)
     asked = flags.sampled(shipped, N, M, L, hr_hz, measurement_hz, delay_ms, land_within_ms)
     loaded = load_model(model, asked.sampling.hr_hz)
-    runs_on = _processor(speed, processor, costs, asked.sampling.hr_hz, statistic, options, tasks)
+    runs_on = _processor(loaded, speed, processor, costs, asked.sampling.hr_hz, statistic, options, tasks)
     if trajectory is not None:
         from studies.selection.along import compared_along
         from studies.selection.trajectory import read_trajectory
@@ -177,6 +187,7 @@ def _refuse_contradictions(
 
 
 def _processor(
+    model: Model,
     speed: str | None,
     processor: str | None,
     costs: str | None,
@@ -185,7 +196,9 @@ def _processor(
     options: Options,
     tasks: Path | None,
 ) -> Processor | None:
+    from sched_sim.processors.part import on_part
     from sched_sim.ticks import positive
+    from studies.selection.costs import tables_for
     from studies.selection.landing import Processor
 
     if speed is None and processor is None:
@@ -193,10 +206,11 @@ def _processor(
     part = opt.make_processor(processor)
     if part is not None and rate is None:
         raise InputError(f"--processor {processor} without --hr-hz: give the rate of the HR loop, such as --hr-hz 400")
-    table = opt.costs_on(costs, part)
     if part is not None and rate is not None:
-        pace, shown = 1 / rate, part.name
+        (counts,) = tables_for(model, costs and [costs], ("textbook",))
+        table, pace, shown = on_part(counts, part), 1 / rate, part.name
     else:
+        table = opt.costs_on(costs, None)
         pace, shown = positive(speed or "", "--speed"), f"a processor of speed {speed}"
     return Processor(table, pace, shown, options, statistic, opt.make_tasks(tasks, table.unit, rate))
 
@@ -208,7 +222,7 @@ def _show(found: Comparison, asked: flags.Sampled, format: opt.Format) -> None:
     if format == "csv":
         print_csv([_row(row, found) for row in found.rows])
         return
-    remarks = list(dict.fromkeys([row.remark for row in found.rows if row.remark] + list(found.left_out)))
+    remarks = [*_remarks((row.method, row.remark) for row in found.rows), *found.left_out]
     unit = _in_unit(found.outputs)
     print_table(
         f"Standard deviation of {found.outputs.name}{unit}, {found.model.name}, {flags.shown(found.sampling)}",
@@ -221,6 +235,15 @@ def _show(found: Comparison, asked: flags.Sampled, format: opt.Format) -> None:
             *remarks,
         ),
     )
+
+
+def _remarks(of_methods: Iterable[tuple[str, str]]) -> list[str]:
+    """Each once, with the methods that it is of."""
+    named: dict[str, list[str]] = {}
+    for method, remark in dict.fromkeys(of_methods):
+        if remark:
+            named.setdefault(remark, []).append(method)
+    return [f"{', '.join(methods)}: {remark}" for remark, methods in named.items()]
 
 
 MEANING = {
@@ -361,7 +384,7 @@ def _show_along(found: AlongComparison, asked: flags.Sampled, format: opt.Format
         }
         for row in found.rows
     ]
-    remarks = dict.fromkeys([row.remark for row in found.rows if row.remark] + list(found.left_out))
+    remarks = [*_remarks((row.method, row.remark) for row in found.rows), *found.left_out]
     print_table(
         f"Standard deviation of {found.outputs.name}{_in_unit(found.outputs)}, {found.model.name}, "
         f"{flags.shown(found.sampling)}, over steps {found.first} to {found.steps} of the trajectory",

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from sched_sim.cli import options as opt
+from sched_sim.cli.accuracy_flags import ACCURACY, Output
 from sched_sim.cli.design_flags import Axes, with_axes
 from sched_sim.cli.output import lines, print_csv, print_json, print_table, say
 from sched_sim.cli.outputs import refuse_one_file_for_two
@@ -82,6 +83,15 @@ HrRates = Annotated[
         opt.PROCESSOR,
     ),
 ]
+AccuracyModel = Annotated[
+    str | None,
+    typer.Option(
+        "--model",
+        help="Adds the columns worst_std and rms_std, how accurate each design's output is where it lands: ins-gps, "
+        "ins-rtk, star-tracker, camera, or package.module:function as in `sched-sim accuracy`.",
+        rich_help_panel=ACCURACY,
+    ),
+]
 Simulate = Annotated[
     bool | None,
     typer.Option("--simulate/--no-simulate", help="Simulate every point too.", rich_help_panel=opt.OUTPUT),
@@ -130,6 +140,8 @@ def sweep(
     processor: Processors = None,
     hr_hz: HrRates = None,
     tasks: opt.Tasks = None,
+    model: AccuracyModel = None,
+    output: Output = None,
     simulate: Simulate = None,
     cycles: Cycles = None,
     results: ResultsFile = None,
@@ -160,6 +172,8 @@ def sweep(
         "processor": processor,
         "hr_hz": hr_hz,
         "tasks": tasks,
+        "model": model,
+        "output": output,
         "simulate": simulate,
         "cycles": cycles,
     }

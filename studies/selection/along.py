@@ -123,7 +123,7 @@ def compared_along(
             over = of.worst / no_delay - 1 if no_delay else None
             rows.append(AlongRow(name, number, using.N, at.L, of, over, oldest, at.remark))
     if all(row.spread is None for row in rows):
-        raise InputError(rows[0].remark)
+        raise InputError(f"{rows[0].method}: {rows[0].remark}")
     return AlongComparison(model, outputs, sampling, path.steps, first, tuple(rows), left_out)
 
 

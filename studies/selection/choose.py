@@ -264,7 +264,9 @@ class Accuracies:
             key: tuple[object, ...] = (using.N, variant.options.low_rate_noise)
             if key not in self._curves:
                 noise = variant.options.low_rate_noise
-                self._curves[key] = by_landing(asked.model, asked.outputs, using.N, most, noise, asked.metric)
+                self._curves[key] = by_landing(
+                    asked.model.linear, asked.outputs.rows, using.N, most, noise, asked.metric
+                )
         else:
             key = (using.N, variant.method)
             if key not in self._curves:

@@ -149,7 +149,7 @@ def compared(
             of, remark = _accuracy(model, outputs, using, name, at, options, conditions)
             rows.append(_row(name, number, using, of, remark, no_delay, metric))
     if all(row.accuracy is None for row in rows):
-        raise InputError(rows[0].remark)
+        raise InputError(f"{rows[0].method}: {rows[0].remark}")
     return Comparison(model, outputs, sampling, metric, no_delay, tuple(rows), chosen.left_out)
 
 
@@ -194,7 +194,7 @@ def _accuracy(
     try:
         return METHODS[name].accuracy(asked), at.remark
     except ValueError as error:
-        return None, f"{name}: {error}"
+        return None, str(error)
 
 
 def _row(

@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from filters.accuracy.gains import halved_noise, summed_noise, with_assumed
+from filters.accuracy.model import LinearModel
 from filters.accuracy.periodic import mean, steady, worst
 from filters.arrays import FloatArray
 from filters.delayed.low_rate_noise import LowRateNoise
@@ -33,16 +34,16 @@ class Curve(NamedTuple):
         return self.first + kept - 1 if kept else None
 
 
-def by_landing(model: Model, outputs: Outputs, N: int, most: int, noise: LowRateNoise, metric: Metric) -> Curve:
+def by_landing(model: LinearModel, rows: FloatArray, N: int, most: int, noise: LowRateNoise, metric: Metric) -> Curve:
     """Of a method that is as good as the age of its measurements, but for the noise over N steps: L = 0 .. most.
 
     Raises ValueError where there is no regime.
     """
     if noise == "exact":
-        variances = steady(model.linear, outputs.rows, [N], N + most).variances[0]
+        variances = steady(model, rows, [N], N + most).variances[0]
     else:
         wrong = summed_noise if noise == "sum" else halved_noise
-        regime = with_assumed(model.linear, outputs.rows, N, N + most, wrong)
+        regime = with_assumed(model, rows, N, N + most, wrong)
         if not regime.radius < 1.0:
             return Curve(0, np.full(most + 1, np.inf))
         variances = regime.variances

@@ -55,8 +55,8 @@ def landed(method: str, N: int, M: int, L: int | None, options: Options, process
                 f"{option('L')} {L} is before a correction of {method} can land: its measurement arrives at M={M}; "
                 f"give {option('L')} {first} or more"
             )
-        return Landed(L, "" if processor is None else _not_costed(method, processor))
-    return Landed(first, "" if processor is None else _not_costed(method, processor))
+        return Landed(L, "" if processor is None else _not_costed(processor))
+    return Landed(first, "" if processor is None else _not_costed(processor))
 
 
 def earliest(method: str, M: int, options: Options) -> int:
@@ -81,11 +81,11 @@ def _scheduled(method: str, N: int, M: int, processor: Processor) -> Landed | No
         SCHEDULED[method].check(timing, processor.options.feedback)
         at = landing(costs, timing, processor.pace, processor.options, processor.tasks)
     except InputError as error:
-        return Landed(None, f"{method}: {error}")
+        return Landed(None, str(error))
     if at is None:
-        return Landed(None, f"{method} misses deadlines on {processor.shown}: it does not land")
+        return Landed(None, f"misses deadlines on {processor.shown} and does not land")
     return Landed(0 if METHODS[method].landing == "at once" else at)
 
 
-def _not_costed(method: str, processor: Processor) -> str:
-    return f"{method} has no costs in {processor.table.name}: whether it runs on {processor.shown} is not known"
+def _not_costed(processor: Processor) -> str:
+    return f"no costs in {processor.table.name}, so whether it runs on {processor.shown} is not known"

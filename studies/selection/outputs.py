@@ -54,7 +54,7 @@ def _outputs(model: Model, asked: Any) -> Outputs:
             raise InputError(f"{option('output')} is missing: {HOW}; the model has the states 0 to {n - 1}")
         asked = model.shipped.output
     if not isinstance(asked, str):
-        return Outputs("output", _rows(asked, option("output"), n), "")
+        return Outputs("output", _rows(asked, f"{option('output')} of shape {np.shape(asked)}", n), "")
     if asked in named:
         return Outputs(asked, output_rows(named[asked].states, n), named[asked].unit)
     said = f"{option('output')} {short(asked)}"
@@ -88,11 +88,9 @@ def _rows(asked: Any, said: str, states: int) -> FloatArray:
     try:
         rows = output_rows(asked, states)
     except (ValueError, TypeError):
-        shape = np.shape(asked)
-        shown = f"{asked}" if len(shape) == 1 else f"shape {shape}"
         raise InputError(
-            f"{said}: {shown} is not of this model, which has the states 0 to {states - 1}: {HOW}, or rows of "
-            f"{states} finite numbers"
+            f"{said} is not of this model, which has the states 0 to {states - 1}: {HOW}, or rows of {states} finite "
+            f"numbers"
         ) from None
     if not np.any(rows, axis=1).all():
         raise InputError(f"{said}: a row of zeros is no output: give rows with a number in them")

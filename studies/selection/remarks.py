@@ -47,7 +47,12 @@ def _leaving_out(question: Question, accuracy: Accuracies, first: Candidate) -> 
 
 
 def _percent(ratio: float) -> str:
-    return f"{100 * (ratio - 1):.2g} %"
+    percent = 100 * (ratio - 1)
+    return f"{percent:.0f} %" if percent >= TWO_DIGITS else f"{percent:.2g} %"
+
+
+TWO_DIGITS = 10
+"""From here on a percentage has no decimals."""
 
 
 def _unit(choice: Choice) -> str:

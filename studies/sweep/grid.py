@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
 from itertools import accumulate, product
+from typing import TYPE_CHECKING
 
 from sched_sim.costs.methods import DELAYED_METHODS
 from sched_sim.costs.table import CostTable
@@ -19,6 +20,9 @@ from sched_sim.errors import InputError, option
 from sched_sim.schedule.tasks import Task, check_cpus
 from studies.sweep.legal import Designs, Legal
 
+if TYPE_CHECKING:
+    from studies.sweep.accuracy import OutputAccuracy
+
 MOST_PAIRS = 10_000_000
 """Pairs of N and M looked through for those that are legal."""
 
@@ -28,8 +32,9 @@ class Block:
     """The part of a grid with one cost table, one method and one set of options.
 
     number: its position among the blocks; table: the table's name; processor: the name of the one that its times are
-    for; unit: that of `costs`, what the method's pieces cost; tasks: the user's other ones, the same for all blocks;
-    busy: whether the machine was while the costs were timed, None if `measure` did not time them.
+    for; unit: that of `costs`, what the method's pieces cost; tasks: the user's other ones, accuracy: at which
+    output, the same for all blocks; busy: whether the machine was while the costs were timed, None if `measure` did not
+    time them.
     """
 
     number: int
@@ -41,6 +46,7 @@ class Block:
     costs: Costs
     tasks: tuple[Task, ...]
     busy: bool | None = None
+    accuracy: OutputAccuracy | None = field(default=None, compare=False)
 
     @property
     def has_closed_form(self) -> bool:
@@ -79,7 +85,7 @@ class Grid:
     """The axes of a sweep, each sorted and without repeats; M or L may be None: all that are legal.
 
     statistic: which figure of a measured cost. No speeds: each design is looked at at its own least speed. tasks: the
-    user's other ones, beside every design.
+    user's other ones, beside every design; accuracy: at which output, None if that was not asked for.
     A point's design index counts, from 0, the legal points in the order table, method, options, N, M, L, speed, the
     last running fastest.
     Raises InputError where a cost table lacks an entry, two tables have one name, a task cannot run beside every
@@ -95,6 +101,7 @@ class Grid:
     options: tuple[Options, ...]
     statistic: Statistic = "minimum"
     tasks: tuple[Task, ...] = ()
+    accuracy: OutputAccuracy | None = None
 
     def __post_init__(self) -> None:
         names = [table.name for table in self.tables]
@@ -154,6 +161,7 @@ class Grid:
                 costs=select(table, method, options, self.statistic),
                 tasks=self.tasks,
                 busy=table.measured_on_busy_machine,
+                accuracy=self.accuracy,
             )
             for number, (table, method, options) in enumerate(keys)
         )

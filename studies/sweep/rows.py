@@ -41,6 +41,9 @@ ANALYSIS_COLUMNS = (
 corrections land there, nothing if they do not. No speed given: `speed` is min_speed. hr_hz: where costs are in seconds,
 the HR rate at which a period is `speed`."""
 
+ACCURACY_COLUMNS = (Column("worst_std", "float"), Column("rms_std", "float"))
+"""Of the output at `achieved_l`, in its unit; nothing where nothing lands."""
+
 SIMULATION_COLUMNS = (
     Column("misses", "int"),
     Column("landed", "int"),
@@ -55,9 +58,9 @@ SIMULATION_COLUMNS = (
 worst response times in HR periods of the HR job and the LR update (nothing if none finished)."""
 
 
-def columns(*, simulated: bool) -> tuple[Column, ...]:
+def columns(*, simulated: bool, accuracy: bool = False) -> tuple[Column, ...]:
     """Those of a sweep's rows."""
-    return ANALYSIS_COLUMNS + SIMULATION_COLUMNS if simulated else ANALYSIS_COLUMNS
+    return ANALYSIS_COLUMNS + (ACCURACY_COLUMNS if accuracy else ()) + (SIMULATION_COLUMNS if simulated else ())
 
 
 def rows_of(chunk: Chunk, cycles: int | None) -> list[Row]:
@@ -75,6 +78,11 @@ def rows_of(chunk: Chunk, cycles: int | None) -> list[Row]:
         design, at = divmod(position, per_design)
         pace = paces[at] if paces else at_least[design]
         rows.append((point, block.number, *designs[design], *pace, *least[design], int(feasible), achieved))
+    if block.accuracy is not None:
+        periods = [designs[position // per_design][0] for position in chunk.positions]
+        landed = [outcome.achieved for outcome in analysis.outcomes]
+        stds = block.accuracy.of(block.method, block.options.low_rate_noise, periods, landed)
+        rows = [(*row, *figures) for row, figures in zip(rows, stds, strict=True)]
     if cycles is None:
         return rows
     return [

@@ -43,7 +43,7 @@ class Sweep:
     @property
     def columns(self) -> tuple[Column, ...]:
         """The rows' columns."""
-        return columns(simulated=self.cycles is not None)
+        return columns(simulated=self.cycles is not None, accuracy=self.grid.accuracy is not None)
 
     def description(self) -> Mapping[str, Any]:
         """All that the rows depend on, for the results file: equal for two sweeps only if all their rows are."""
@@ -61,6 +61,7 @@ class Sweep:
             "options": [[str(value) for value in astuple(options)] for options in grid.options],
             "work": [[str(value) for value in astuple(block.costs)] for block in grid.blocks],
             "simulated cycles": self.cycles,
+            **({} if grid.accuracy is None else {"accuracy": grid.accuracy.description()}),
         }
 
     @property

@@ -38,6 +38,9 @@ from studies.sweep.axes import numbers, whole_numbers, words
 from studies.sweep.grid import Grid
 from studies.sweep.run import Sweep
 
+if TYPE_CHECKING:
+    from studies.sweep.accuracy import OutputAccuracy
+
 ALL = "all"
 """Instead of values of M or L: every legal one."""
 
@@ -90,6 +93,12 @@ def _path(entry: Any, info: ValidationInfo) -> str:
     return str(entry)
 
 
+def _name(entry: Any, info: ValidationInfo) -> str:
+    if not isinstance(entry, str) or not entry:
+        raise InputError(f"{_called(info)} {short(repr(entry))}: give text")
+    return entry
+
+
 def _one_of(*known: Any) -> PlainValidator:
     def validated(entry: Any, info: ValidationInfo) -> tuple[str, ...]:
         return words(entry, _called(info), [str(word) for word in known])
@@ -113,6 +122,8 @@ class _Settings(BaseModel):
     processor: Annotated[tuple[str, ...], _names_of("processor")] = ()
     hr_hz: Annotated[tuple[Fraction, ...], PlainValidator(_speeds)] = ()
     tasks: Annotated[str | None, PlainValidator(_path)] = None
+    model: Annotated[str | None, PlainValidator(_name)] = None
+    output: Annotated[str | None, PlainValidator(_name)] = None
     simulate: StrictBool = False
     cycles: Annotated[int, Bounds(strict=True, ge=1, le=MOST_STEPS)] = 3
 
@@ -141,8 +152,16 @@ class _Settings(BaseModel):
             options=self._options(),
             statistic=self.statistic,
             tasks=self._tasks(tables),
+            accuracy=self._accuracy(),
         )
         return Sweep(grid, self.cycles if self.simulate else None)
+
+    def _accuracy(self) -> OutputAccuracy | None:
+        if self.model is None and self.output is None:
+            return None
+        from studies.sweep.accuracy import output_accuracy
+
+        return output_accuracy(self.model, self.output, self.hr_hz)
 
     def _tasks(self, tables: Sequence[CostTable]) -> tuple[Task, ...]:
         """In HR periods at the one rate there is, in the unit of the tables."""
