@@ -45,9 +45,13 @@ class Model:
         return self.linear.states, self.inputs, len(self.linear.H)
 
 
-def shipped_defaults(name: Any) -> ShippedModel | None:
-    """The shipped model of this name."""
-    return SHIPPED_MODELS.get(name) if isinstance(name, str) else None
+def shipped_defaults(asked: Any) -> ShippedModel | None:
+    """The shipped model of this name, None for what is the user's own. Raises InputError for a name that is neither."""
+    if not isinstance(asked, str):
+        return None
+    if asked not in SHIPPED_MODELS and ":" not in asked:
+        raise InputError(f"{option('model')} {short(asked)!r} is unknown: {HOW}")
+    return SHIPPED_MODELS.get(asked)
 
 
 def load_model(asked: Any, hr_hz: Fraction | None) -> Model:
@@ -62,8 +66,6 @@ def load_model(asked: Any, hr_hz: Fraction | None) -> Model:
         rate = shipped.hr_hz if hr_hz is None else float(hr_hz)
         return Model(shipped.name, shipped.model(rate), INPUTS.get(shipped.name, 0), shipped)
     if isinstance(asked, str):
-        if ":" not in asked:
-            raise InputError(f"{said} is unknown: {HOW}")
         name, value = returned_by(asked, option("model"), HOW)
     else:
         name, value = "model", asked
