@@ -194,7 +194,6 @@ def _words(of: Candidate, found: Choice) -> dict[str, Any]:
         "how": of.variant.how or None,
         "every": of.variant.every,
         "land by L": of.L,
-        "std then": _figure(of.std),
         "least speed": no_less(of.least.speed, 5),
     }
     if not of.parts:

@@ -18,7 +18,7 @@ def listed(page: str) -> list[str]:
 
 
 def test_the_columns_of_a_sweep_and_what_binds() -> None:
-    columns = run_sweep(N=3, M=1, L=3, simulate=True).table.column_names
+    columns = run_sweep(N=3, M=1, L=3, simulate=True, model="camera").table.column_names
     heading = ["binding"]
     bindings = [*Binding.__members__, "task:NAME", "load"]
     assert sorted(listed("howto/sweeps.md")) == sorted([*columns, *heading, *bindings])

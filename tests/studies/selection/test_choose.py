@@ -1,0 +1,149 @@
+"""Choosing a filter from Python: against a search of every landing, and what a notebook shows."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from filters.accuracy import LinearModel, lossless, shipped_model, with_low_rate_noise
+from filters.systems.linear import linear_system
+from sched_sim import InputError, Options, Timing, least_speed, load_part, select
+from sched_sim.design.methods import METHODS as SCHEDULED
+from studies import choose_filter, compare_accuracy
+from studies.selection.choose import Choice, Question, chosen, within_of
+from studies.selection.conditions import Conditions
+from studies.selection.costs import tables_for
+from studies.selection.front import front
+from studies.selection.methods import METHODS
+from studies.selection.model import load_model
+from studies.selection.outputs import outputs_of
+from studies.selection.sampling import Sampling
+
+Phi = np.array([[1.0, 1.0], [0.0, 1.0]])
+Q = 0.01 * np.array([[1 / 3, 1 / 2], [1 / 2, 1.0]])
+CV = LinearModel(Phi, Q, np.array([[1.0, 0.0]]), np.eye(1))
+
+
+def choice(within: float, **more: Any) -> Choice:
+    return choose_filter(within, CV, [0], N=10, M=4, **more)
+
+
+@pytest.mark.parametrize("within", [4.4, 4.9, 5.5, 6.2, 9.0])
+@pytest.mark.parametrize("metric", ["worst", "rms"])
+def test_it_is_what_a_search_of_every_landing_finds(within: float, metric: str) -> None:
+    """Each way that keeps it, with its latest landing and its least speed; no other does."""
+    found = choice(within, every=(1, 2), metric=metric)
+    tables = tables_for(load_model(CV, None), None)
+    expected = {}
+    for table in tables:
+        for every in (1, 2):
+            for name in ("recalculate", "larsen", "dual-rate"):
+                for noise in ("exact", "sum", "euler") if name == "dual-rate" else ("exact",):
+                    for gain in ("at-update", "precomputed") if name == "dual-rate" else ("at-update",):
+                        options = Options(low_rate_noise=noise, gain=gain)  # type: ignore[arg-type]
+                        latest = None
+                        for L in SCHEDULED[name].law("next-step").legal(10 * every, 4):
+                            accuracy = with_low_rate_noise(CV, [0], 10 * every, L, options.low_rate_noise)
+                            if getattr(accuracy, metric) > within:
+                                break
+                            latest = L
+                        if latest is not None:
+                            least = least_speed(select(table, name, options), Timing(10 * every, 4, latest), options)
+                            expected[table.name, every, name, noise, gain] = latest, least.speed
+    got = {
+        (
+            of.variant.table.name,
+            of.variant.every,
+            of.variant.method,
+            of.variant.options.low_rate_noise,
+            of.variant.options.gain,
+        ): (of.L, of.least.speed)
+        for of in found.keeping
+        if of.least is not None
+    }
+    assert got == expected
+    assert {of.variant.method for of in found.best} == {name for _, _, name, _, _ in expected}
+
+
+def test_without_delay_the_standard_filter_takes_part() -> None:
+    found = choose_filter(4.0, CV, [0], N=10, M=0)
+    names = [of.variant.method for of in found.best]
+    assert "standard" in names
+    assert "standard" not in [of.variant.method for of in choice(9.0).best]
+
+
+def test_parts_as_they_are() -> None:
+    found = choice(9.0, hr_hz=100, processors=[load_part("leon3"), "cortex-m4f"])
+    assert {on.part.name for of in found.best for on in of.parts} == {"leon3", "cortex-m4f"}
+    for of in found.best:
+        assert of.cheapest is not None
+        assert of.cheapest.std == pytest.approx(lossless(CV, [0], of.N, of.cheapest.landed or 0).worst, rel=0.01)
+
+
+def test_a_users_own_system_is_counted() -> None:
+    system = linear_system(Phi, np.zeros((2, 0)), CV.H, Q, CV.R)
+    by_system, by_matrices = (choose_filter(9.0, model, [0], N=10, M=4) for model in (system, CV))
+    assert [of.least for of in by_system.best] == [of.least for of in by_matrices.best]
+
+
+def test_notebooks_show_it() -> None:
+    found = choice(4.45)
+    shown = found._repr_html_()
+    assert "<table>" in shown
+    assert "within 4.45" in shown
+    assert all(of.variant.method in shown for of in (*found.best, *found.others))
+    assert "at best" in shown
+    assert "worst" in compare_accuracy(CV, [0], N=10, M=4)._repr_html_()
+
+
+def test_the_front_is_what_no_other_design_beats() -> None:
+    model = load_model("ins-gps", None)
+    sampling = Sampling.of(shipped_model("ins-gps"))
+    question = Question(model, outputs_of(model), sampling, 0.38, "worst", Conditions(), tables_for(model, None))
+    points = front(question, ["recalculate", "larsen", "dual-rate"], (1, 2)).points
+    best = [of for of in points if of.on_front]
+    assert {of.every for of in best} == {1}
+    assert {of.method for of in best} >= {"larsen", "dual-rate"}
+    for of in points:
+        better = [other for other in points if other.std <= of.std and other.speed <= of.speed and other is not of]
+        assert of.on_front == all((other.std, other.speed) == (of.std, of.speed) for other in better)
+    latest = chosen(question).best[0]
+    assert latest.std is not None
+    assert min(of.speed for of in points if of.std <= 0.38) == float(latest.least.speed if latest.least else 0)
+
+
+def test_each_scheduled_method_of_a_late_measurement_has_an_accuracy() -> None:
+    late = {name for name in SCHEDULED if not name.startswith(("multirate", "robust"))}
+    assert late <= set(METHODS)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        ({"within": 0}, "within is 0: it must be greater than 0"),
+        ({"within": float("nan")}, "within is 'nan'"),
+        ({"model": "nix"}, "model 'nix' is unknown"),
+        ({"model": 3}, "model: model\\(\\) returned a int"),
+        ({"output": [5]}, "output of shape \\(1,\\) is not of this model"),
+        ({"output": [[0.0, 0.0]]}, "a row of zeros is no output"),
+        ({"output": [[1.0, 0.0, 0.0]]}, "output of shape \\(1, 3\\)"),
+        ({"N": 0}, "N is 0"),
+        ({"N": 2.5}, "N is 2.5: give a whole number"),
+        ({"M": -1}, "M is -1"),
+        ({"metric": "mean"}, "metric 'mean' is unknown"),
+        ({"methods": ["kalman"]}, "method 'kalman' is unknown"),
+        ({"processors": ["leon3"]}, "processor without hr_hz"),
+        ({"delay_ms": 5}, "need hr_hz"),
+        ({"tau_s": -1}, "tau is -1"),
+    ],
+)
+def test_what_cannot_be_is_named(arguments: dict[str, Any], said: str) -> None:
+    given: dict[str, Any] = {"within": 9.0, "model": CV, "output": [0], "N": 10, "M": 4} | arguments
+    with pytest.raises(InputError, match=said):
+        choose_filter(**given)
+
+
+def test_a_bound_is_a_number() -> None:
+    assert within_of("0.38") == 0.38
