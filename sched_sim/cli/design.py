@@ -18,8 +18,9 @@ from sched_sim.errors import InputError
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from studies.selection.choose import Candidate, Choice, Question
+    from studies.selection.choice import Candidate, Choice
     from studies.selection.parts import OnPart
+    from studies.selection.question import Question
 
 Within = Annotated[
     str | None,
@@ -92,11 +93,12 @@ def design(
     sched-sim design --within 0.5 --model mymodule:my_system --output position=0:3 --unit m --hr-hz 400 \
 --measurement-hz 5 --delay-ms 110 --figure front.svg
     """
-    from studies.selection.choose import Question, chosen, parts_for, with_parts, within_of
+    from studies.selection.choose import chosen, parts_for, with_parts, within_of
     from studies.selection.conditions import conditions_of
     from studies.selection.costs import tables_for
     from studies.selection.model import load_model, shipped_defaults
     from studies.selection.outputs import outputs_of
+    from studies.selection.question import Question
     from studies.selection.variants import GAINS, NOISES
 
     if model is None:

@@ -3,19 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
-import numpy as np
-
-from filters.delayed.low_rate_noise import LowRateNoise
 from sched_sim.costs.table import CostTable
 from sched_sim.design.highest_rate import landing
-from sched_sim.design.least_speed import LeastSpeed, least_speed
+from sched_sim.design.least_speed import least_speed
 from sched_sim.design.methods import METHODS as SCHEDULED
 from sched_sim.design.methods import select
-from sched_sim.design.options import Gain, Options
+from sched_sim.design.options import Options
 from sched_sim.design.pieces import Statistic
 from sched_sim.design.timing import Timing
 from sched_sim.errors import InputError, option
@@ -23,94 +20,20 @@ from sched_sim.processors.part import Part
 from sched_sim.processors.part_file import load_part, shipped_parts
 from sched_sim.schedule.tasks import Task
 from sched_sim.ticks import Number, positive
+from studies.selection.choice import Candidate, Choice
 from studies.selection.compare import Metric, check_metric, undelayed
-from studies.selection.conditions import TAU_S, Conditions, check_ages, chosen_methods, conditions_of
+from studies.selection.conditions import TAU_S, check_ages, chosen_methods, conditions_of
 from studies.selection.costs import tables_for
-from studies.selection.curve import Curve, at_arrival, by_landing
+from studies.selection.curve import Curve
 from studies.selection.landing import earliest
 from studies.selection.methods import METHODS
-from studies.selection.model import Model, load_model, shipped_defaults
-from studies.selection.outputs import Outputs, outputs_of
+from studies.selection.model import load_model, shipped_defaults
+from studies.selection.outputs import outputs_of
 from studies.selection.parts import OnPart, Parts, by_cost
+from studies.selection.question import Accuracies, Question
+from studies.selection.remarks import remarks
 from studies.selection.sampling import Sampling
-from studies.selection.variants import GAINS, NOISES, Variant, candidates, variants
-
-
-@dataclass(frozen=True, slots=True)
-class Candidate:
-    """One way to run one method.
-
-    N: steps between the measurements that it uses. first: the earliest landing that it can have, best: the figure then.
-    L: the latest landing that keeps the accuracy and is before the next measurement of those; allowed: of the first
-    alone, None where even the first does not keep it. std: the figure at L. least: the least speed for L, in
-    the unit of the cost table; landed: where corrections land at that speed, landed_std: the figure then.
-    parts: what each makes of it, cheapest first. reason: why it will not do; empty if it does.
-    """
-
-    variant: Variant
-    N: int
-    first: int
-    best: float
-    allowed: int | None = None
-    L: int | None = None
-    std: float | None = None
-    least: LeastSpeed | None = None
-    landed: int | None = None
-    landed_std: float | None = None
-    parts: tuple[OnPart, ...] = ()
-    reason: str = ""
-
-    @property
-    def cheapest(self) -> OnPart | None:
-        """The part that runs it, None if none does."""
-        return next((on for on in self.parts if on.fits), None)
-
-
-@dataclass(frozen=True)
-class Choice:
-    """What keeps the accuracy `within`, a standard deviation in the unit of the outputs.
-
-    best: of each method the way that needs least, cheapest first; keeping: all ways that do; others: of each method
-    that has no such way the one that comes nearest, with its reason. no_delay: the figure of the filter without delay
-    that uses every measurement. unit: of the least speeds, per HR period.
-    """
-
-    model: Model
-    outputs: Outputs
-    sampling: Sampling
-    within: float
-    metric: Metric
-    no_delay: float
-    unit: str
-    best: tuple[Candidate, ...]
-    keeping: tuple[Candidate, ...]
-    others: tuple[Candidate, ...]
-    left_out: tuple[str, ...] = ()
-    remarks: tuple[str, ...] = field(default=())
-
-    def _repr_html_(self) -> str:
-        from studies.selection.words import choice_html
-
-        return choice_html(self)
-
-
-@dataclass(frozen=True)
-class Question:
-    """All that a choice depends on. parts: none where the costs are no counts, or the rate is not known."""
-
-    model: Model
-    outputs: Outputs
-    sampling: Sampling
-    within: float
-    metric: Metric
-    conditions: Conditions
-    tables: Sequence[CostTable]
-    parts: Sequence[Part] = ()
-    options: Options = Options()
-    noises: Sequence[LowRateNoise] = NOISES
-    gains: Sequence[Gain] = GAINS
-    statistic: Statistic = "minimum"
-    tasks: Sequence[Task] = ()
+from studies.selection.variants import Variant, candidates, variants
 
 
 def choose_filter(
@@ -194,8 +117,6 @@ def parts_for(asked: Sequence[str | Part] | None, tables: Sequence[CostTable], s
 
 def chosen(question: Question, methods: Sequence[str] | None = None, every: Sequence[int] = (1, 2, 3, 4)) -> Choice:
     """`choose_filter` of what has been looked at."""
-    from studies.selection.remarks import remarks
-
     check_metric(question.metric)
     sampling, tables = question.sampling, question.tables
     wanted = chosen_methods(methods, question.conditions)
@@ -246,42 +167,6 @@ def with_parts(question: Question, looked: Sequence[Candidate]) -> tuple[Candida
     """Each of them on each part, cheapest first."""
     accuracy, parts = Accuracies(question), Parts(question.parts, question.statistic)
     return tuple(sorted((_on_parts(question, accuracy, parts, candidate) for candidate in looked), key=_rank))
-
-
-class Accuracies:
-    """The curves of a question, each computed once."""
-
-    def __init__(self, question: Question) -> None:
-        self.question = question
-        self._curves: dict[tuple[object, ...], Curve] = {}
-
-    def of(self, variant: Variant) -> Curve:
-        """By landing. Raises ValueError where there is no regime."""
-        asked, using = self.question, self.question.sampling.using(variant.every)
-        method = METHODS[variant.method]
-        if method.lossless:
-            most = max(2 * using.N, using.N + using.M)
-            key: tuple[object, ...] = (using.N, variant.options.low_rate_noise)
-            if key not in self._curves:
-                noise = variant.options.low_rate_noise
-                self._curves[key] = by_landing(
-                    asked.model.linear, asked.outputs.rows, using.N, most, noise, asked.metric
-                )
-        else:
-            key = (using.N, variant.method)
-            if key not in self._curves:
-                self._curves[key] = self._at_arrival(variant, using)
-        return self._curves[key]
-
-    def _at_arrival(self, variant: Variant, using: Sampling) -> Curve:
-        """Of what is never better than a method that loses nothing, only that where it is out of the bound: the rest
-        takes long."""
-        asked = self.question
-        if METHODS[variant.method].floored:
-            lossless = self.of(variant._replace(method="recalculate")).at(using.M)
-            if lossless > asked.within:
-                return Curve(using.M, np.array([lossless]))
-        return at_arrival(asked.model, asked.outputs, variant.method, using.N, using.M, asked.conditions, asked.metric)
 
 
 def _candidate(question: Question, accuracy: Accuracies, variant: Variant) -> Candidate:

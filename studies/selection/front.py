@@ -11,10 +11,10 @@ from sched_sim.design.methods import METHODS as SCHEDULED
 from sched_sim.design.methods import select
 from sched_sim.design.timing import Timing
 from sched_sim.errors import InputError
-from studies.selection.choose import Accuracies, Question
 from studies.selection.compare import undelayed
 from studies.selection.landing import earliest
 from studies.selection.methods import METHODS
+from studies.selection.question import Accuracies, Question
 from studies.selection.variants import Variant, variants
 
 if TYPE_CHECKING:

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from studies.selection.choose import Accuracies, Candidate, Choice, Question
+from studies.selection.choice import Candidate, Choice
+from studies.selection.question import Accuracies, Question
 
 
 def remarks(choice: Choice, question: Question, accuracy: Accuracies) -> Iterator[str]:

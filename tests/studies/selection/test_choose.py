@@ -12,13 +12,15 @@ from filters.systems.linear import linear_system
 from sched_sim import InputError, Options, Timing, least_speed, load_part, select
 from sched_sim.design.methods import METHODS as SCHEDULED
 from studies import choose_filter, compare_accuracy
-from studies.selection.choose import Choice, Question, chosen, within_of
+from studies.selection.choice import Choice
+from studies.selection.choose import chosen, within_of
 from studies.selection.conditions import Conditions
 from studies.selection.costs import tables_for
 from studies.selection.front import front
 from studies.selection.methods import METHODS
 from studies.selection.model import load_model
 from studies.selection.outputs import outputs_of
+from studies.selection.question import Question
 from studies.selection.sampling import Sampling
 
 Phi = np.array([[1.0, 1.0], [0.0, 1.0]])

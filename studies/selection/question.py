@@ -1,0 +1,78 @@
+"""All that a choice depends on, and the accuracies that it asks for."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from filters.delayed.low_rate_noise import LowRateNoise
+from sched_sim.costs.table import CostTable
+from sched_sim.design.options import Gain, Options
+from sched_sim.design.pieces import Statistic
+from sched_sim.processors.part import Part
+from sched_sim.schedule.tasks import Task
+from studies.selection.compare import Metric
+from studies.selection.conditions import Conditions
+from studies.selection.curve import Curve, at_arrival, by_landing
+from studies.selection.methods import METHODS
+from studies.selection.model import Model
+from studies.selection.outputs import Outputs
+from studies.selection.sampling import Sampling
+from studies.selection.variants import GAINS, NOISES, Variant
+
+
+@dataclass(frozen=True)
+class Question:
+    """All that a choice depends on. parts: none where the costs are no counts, or the rate is not known."""
+
+    model: Model
+    outputs: Outputs
+    sampling: Sampling
+    within: float
+    metric: Metric
+    conditions: Conditions
+    tables: Sequence[CostTable]
+    parts: Sequence[Part] = ()
+    options: Options = Options()
+    noises: Sequence[LowRateNoise] = NOISES
+    gains: Sequence[Gain] = GAINS
+    statistic: Statistic = "minimum"
+    tasks: Sequence[Task] = ()
+
+
+class Accuracies:
+    """The curves of a question, each computed once."""
+
+    def __init__(self, question: Question) -> None:
+        self.question = question
+        self._curves: dict[tuple[object, ...], Curve] = {}
+
+    def of(self, variant: Variant) -> Curve:
+        """By landing. Raises ValueError where there is no regime."""
+        asked, using = self.question, self.question.sampling.using(variant.every)
+        method = METHODS[variant.method]
+        if method.lossless:
+            most = max(2 * using.N, using.N + using.M)
+            key: tuple[object, ...] = (using.N, variant.options.low_rate_noise)
+            if key not in self._curves:
+                noise = variant.options.low_rate_noise
+                self._curves[key] = by_landing(
+                    asked.model.linear, asked.outputs.rows, using.N, most, noise, asked.metric
+                )
+        else:
+            key = (using.N, variant.method)
+            if key not in self._curves:
+                self._curves[key] = self._at_arrival(variant, using)
+        return self._curves[key]
+
+    def _at_arrival(self, variant: Variant, using: Sampling) -> Curve:
+        """Of what is never better than a method that loses nothing, only that where it is out of the bound: the rest
+        takes long."""
+        asked = self.question
+        if METHODS[variant.method].floored:
+            lossless = self.of(variant._replace(method="recalculate")).at(using.M)
+            if lossless > asked.within:
+                return Curve(using.M, np.array([lossless]))
+        return at_arrival(asked.model, asked.outputs, variant.method, using.N, using.M, asked.conditions, asked.metric)
