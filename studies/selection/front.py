@@ -84,7 +84,7 @@ def _points(question: Question, accuracy: Accuracies, variant: Variant) -> Itera
         costs = select(variant.table, variant.method, variant.options, question.statistic)
     except ValueError:
         return
-    for L in _some(first, last):
+    for L in _some(first, min(last, curve.first + len(curve.figures) - 1)):
         std = curve.at(L)
         try:
             speed = least_speed(costs, Timing(using.N, delay, max(L, delay)), variant.options).speed

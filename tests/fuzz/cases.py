@@ -36,6 +36,10 @@ SETTINGS = options(
 )
 TRACES = options("--trace=out.json --trace=out.csv")
 FORMATS = options("--format=json --format=csv")
+ACCURACY = options(
+    "-N=6 -M=2 --output=position --output=0:1 --output=0,2 --unit=m --metric=rms --motion=1 --tau=0.1 --every=1:2 "
+    "--measurement-hz=20 --delay-ms=30"
+)
 COUNTED = "measure --backend counted"
 COMMANDS: dict[str, tuple[Options, Options]] = {
     "minimum": (DESIGN, SETTINGS),
@@ -54,12 +58,17 @@ COMMANDS: dict[str, tuple[Options, Options]] = {
     ),
     f"{COUNTED} --system system:made": (options("--method=larsen"), [*options("--output=out.toml"), *FORMATS]),
     f"{COUNTED} --filter filter:made": ([], [*options("--output=out.toml"), *FORMATS]),
+    "accuracy": (options("--model=camera"), [*ACCURACY, *SETTINGS, *options("--land-within-ms=40")]),
+    "accuracy --model system:made": (options("-N=4 -M=1 --output=0"), [*ACCURACY, *SETTINGS]),
+    "design": (options("--model=camera --within=0.03"), [*ACCURACY, *SETTINGS, *options("--all-methods")]),
+    "design --model system:made": (options("--within=1 -N=4 -M=1 --output=0"), [*ACCURACY, *SETTINGS]),
     "": ([], [*options("--version --help"), *SETTINGS]),
 }
 """What each needs, and what else it may have."""
 OFTEN = {"minimum": 6, "simulate": 5, "simulate --scenario scenario.toml": 5, "processors": 3}
 """Others count one: a sweep waits for its disk."""
 DRAWN: dict[str, tuple[Options, Options]] = {
+    "design": (options("--model=camera --within=0.03 --every=1 --figure=out.svg"), [*ACCURACY, *SETTINGS]),
     "gantt": (
         [*DESIGN, ("--output", "out.svg")],
         [*SETTINGS, *options("--output=out.png --output=out.pdf --width=88mm --from=2 --until=5")],
@@ -72,8 +81,8 @@ DRAWN: dict[str, tuple[Options, Options]] = {
 NAMES = {"scenario.toml": ["samples.toml"], "parts.toml": ["part.toml", "tasks.toml"]}
 """Files by those that name them."""
 INPUT_OPTIONS = {"--costs", "--processor", "--tasks", "--scenario"}
-OUTPUT_OPTIONS = {"--output", "--gantt", "--trace", "--histogram", "--results", "--export"}
-FUNCTION_OPTIONS = {"--system", "--filter"}
+OUTPUT_OPTIONS = {"--output", "--gantt", "--trace", "--histogram", "--results", "--export", "--figure"}
+FUNCTION_OPTIONS = {"--system", "--filter", "--model"}
 
 numbers = st.sampled_from(NUMBERS)
 texts = st.sampled_from(HOSTILE_TEXT) | st.text(max_size=6)
