@@ -33,7 +33,6 @@ from studies.selection.front import Front, FrontPoint
 COLUMN_MM, PLOT_MM, LEFT_MM, TOP_MM = 88.0, 66.0, 11.5, 4.0
 
 LINES: Mapping[str, Line] = {
-    **METHOD_LINES,
     "clone": Line("#2e7d4f", "-", "s"),
     "clone-split": Line("#2e7d4f", (0, (4.0, 1.5)), "v"),
     "carried-gain": Line(INK, "-", "*", 5.4),
@@ -41,7 +40,9 @@ LINES: Mapping[str, Line] = {
     "delayed-horizon": Line("#2e9c9c", "-", "<"),
     "px4-predictor": Line("#c00000", (0, (4.0, 1.5)), "X", 4.4),
     "fuse-as-fresh": Line(GREY, (0, (4.0, 1.5)), ">"),
+    **METHOD_LINES,
 }
+"""Those of the house first; the others until it has them."""
 OTHER = Line(GREY, "-", "o")
 SHADE = "#c4c4c4"
 """Of the line below designs that no other one beats."""
@@ -65,6 +66,7 @@ def front_figure(front: Front) -> Figure:
                 _curve(axes, front, [of for of in front.points if of.every == every and of.method == method])
         for every in dict.fromkeys(point.every for point in front.points):
             _name(axes, front, every, [of for of in front.points if of.every == every])
+        _landings(axes, front)
         axes.axhline(_over(front, front.within), color=RED, lw=0.9, ls=(0, (5, 2)), zorder=1.5)
         plain(axes)
         axes.grid(axis="y", color=PALE, lw=0.5)
@@ -106,8 +108,10 @@ def _scale(axes: Axes, front: Front) -> None:
     """Power, and by how much the figure is above that without delay, both logarithmic."""
     speeds = [of.speed for of in front.points]
     axes.set_xscale("log")
-    axes.set_xlim(min(speeds) / 1.6, max(speeds) * 1.9)
-    _ticks(axes.xaxis, axes.get_xlim(), (1, 3), _power)
+    low, high = log10(min(speeds)), log10(max(speeds))
+    unit = max(high - low, 0.5) / (1 - NAMES_SHARE - LANDINGS_SHARE)
+    axes.set_xlim(10 ** (low - LANDINGS_SHARE * unit), 10 ** (high + NAMES_SHARE * unit))
+    _ticks(axes.xaxis, axes.get_xlim(), (1, 3) if high - low < WIDE else (1,), _power)
     axes.grid(axis="x", color=PALE, lw=0.5)
     axes.set_yscale("log")
     axes.set_ylim(*_ends(front))
@@ -129,6 +133,11 @@ def _power(value: float) -> str:
 
 
 WHOLE_FROM, PLAIN_TO = 1.0, 3e6
+
+NAMES_SHARE, LANDINGS_SHARE = 0.25, 0.14
+"""Of the width: right of all designs for the names of groups, left of them for landings."""
+WIDE = 2.0
+"""So many powers of ten have ticks at these alone."""
 
 LEAST_PERCENT = 1e-3
 """What costs less has no place on a logarithmic axis."""
@@ -232,16 +241,24 @@ def _curve(axes: Axes, front: Front, points: Sequence[FrontPoint]) -> None:
         mew=0.8,
         zorder=3 if filled else 2.5,
     )
-    if len(points) > 1 and filled:
-        for of in (points[0], points[-1]):
-            _beside(axes, f"L={of.L}", (of.speed, _over(front, of.std)), (5, 0), "left", "center")
+
+
+def _landings(axes: Axes, front: Front) -> None:
+    """The earliest and the latest of the method that needs least, on its left."""
+    of_all = [of for of in front.points if of.every == 1]
+    if not of_all:
+        return
+    least = min(of_all, key=lambda of: of.speed).method
+    curve = [of for of in of_all if of.method == least]
+    for of in {curve[0].L: curve[0], curve[-1].L: curve[-1]}.values():
+        _beside(axes, f"L={of.L}", (of.speed, _over(front, of.std)), (-4, 0), "right")
 
 
 def _name(axes: Axes, front: Front, every: int, points: Sequence[FrontPoint]) -> None:
-    """Beside the design that needs most: on the left, for there is more room."""
+    """Right of the design that needs most."""
     last = max(points, key=lambda of: of.speed)
-    text = "all measurements" if every == 1 else f"every {_ordinal(every)}"
-    _beside(axes, text, (last.speed, _over(front, last.std)), (-5, 5 if every == 1 else 0), "right", "center")
+    text = "all used" if every == 1 else f"every {_ordinal(every)}"
+    _beside(axes, text, (last.speed, _over(front, last.std)), (5, 0), "left")
 
 
 def _beside(
@@ -250,9 +267,8 @@ def _beside(
     at: tuple[float, float],
     points: tuple[float, float],
     across: Literal["left", "right"],
-    up: Literal["center"],
 ) -> None:
-    note = axes.annotate(text, at, points, textcoords="offset points", size=SMALL_PT, ha=across, va=up, zorder=2)
+    note = axes.annotate(text, at, points, textcoords="offset points", size=SMALL_PT, ha=across, va="center", zorder=2)
     note.set_path_effects([withStroke(linewidth=2.0, foreground="white")])
 
 

@@ -142,7 +142,7 @@ def chosen(question: Question, methods: Sequence[str] | None = None, every: Sequ
     parts = Parts(question.parts, question.statistic)
     best = sorted((_on_parts(question, accuracy, parts, candidate) for candidate in best), key=_rank)
     others = [
-        min((of for of in looked if of.variant.method == name), key=lambda of: of.best)
+        min((of for of in looked if of.variant.method == name), key=_nearness)
         for name in names
         if not any(of.variant.method == name for of in keeping)
     ]
@@ -264,6 +264,11 @@ def _up(value: float) -> str:
 
 def _least(keeping: Sequence[Candidate], method: str) -> Candidate:
     return min((of for of in keeping if of.variant.method == method), key=_power)
+
+
+def _nearness(candidate: Candidate) -> tuple[bool, float]:
+    """What is known exactly goes before what is known to be out of the bound."""
+    return METHODS[candidate.variant.method].floored and candidate.variant.every > 1, candidate.best
 
 
 def _power(candidate: Candidate) -> tuple[Fraction, int, int]:

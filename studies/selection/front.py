@@ -54,7 +54,7 @@ class Front:
 
 def front(question: Question, methods: Sequence[str], every: Sequence[int]) -> Front:
     """Of these methods."""
-    accuracy = Accuracies(question)
+    accuracy = Accuracies(question, whole=True)
     least: dict[tuple[str, int, int], FrontPoint] = {}
     for variant in variants(methods, every, question.tables, question.options, question.noises, question.gains):
         for point in _points(question, accuracy, variant):

@@ -43,10 +43,11 @@ class Question:
 
 
 class Accuracies:
-    """The curves of a question, each computed once."""
+    """The curves of a question, each computed once. whole: also of what is known to be out of the bound anyway."""
 
-    def __init__(self, question: Question) -> None:
+    def __init__(self, question: Question, *, whole: bool = False) -> None:
         self.question = question
+        self.whole = whole
         self._curves: dict[tuple[object, ...], Curve] = {}
 
     def of(self, variant: Variant) -> Curve:
@@ -71,7 +72,7 @@ class Accuracies:
         """Of what is never better than a method that loses nothing, only that where it is out of the bound: the rest
         takes long."""
         asked = self.question
-        if METHODS[variant.method].floored:
+        if METHODS[variant.method].floored and not self.whole:
             lossless = self.of(variant._replace(method="recalculate")).at(using.M)
             if lossless > asked.within:
                 return Curve(using.M, np.array([lossless]))
