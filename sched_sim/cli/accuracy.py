@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -152,6 +153,13 @@ def accuracy(
     )
 
 
+OF_A_SCHEDULE = (
+    *("costs", "tasks", "statistic"),
+    *(choice.name for choice in fields(Options) if choice.name not in ("low_rate_noise", "feedback")),
+)
+"""Parameters that say nothing where nothing is scheduled."""
+
+
 def _refuse_contradictions(
     context: typer.Context,
     L: int | None,
@@ -170,7 +178,7 @@ def _refuse_contradictions(
     if len(paces) == 2:
         raise InputError(f"{paces[0]} and {paces[1]} exclude each other: a part's speed follows from --hr-hz")
     if not paces:
-        given = opt.given_options(context, lambda name: name in ("costs", "tasks", "statistic"))
+        given = opt.given_options(context, lambda name: name in OF_A_SCHEDULE)
         if given:
             raise InputError(f"{', '.join(given)} without --speed or --processor: give one, or leave it out")
     if trajectory is None:

@@ -217,6 +217,7 @@ def test_each_method_can_be_asked_for(sched_sim: Run) -> None:
         (f"{CV} --speed 0", ["--speed is 0"]),
         (f"{CV} --speed 0.001 --method larsen", ["larsen", "does not land"]),
         (f"{CV} --costs steffes2014", ["--costs without --speed or --processor"]),
+        (f"{CV} --gain precomputed --cpus 2", ["--gain, --cpus without --speed or --processor"]),
         (f"{CV} --initial-std 1,1", ["--initial-std without --trajectory"]),
         (f"{CV} --trajectory path.csv", ["--trajectory 'path.csv' is for a System", "mine:cv is constant"]),
         ("--model mine:cv_system -N 10 -M 4 --output 0 --trajectory gone.csv", ["--trajectory 'gone.csv' not found"]),
