@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from filters.accuracy.model import LinearModel, linear_model, linearised, output_rows
     from filters.accuracy.outcome import Accuracy
     from filters.accuracy.predictor import px4_predictor
+    from filters.accuracy.sensors import SensorsModel, sensors_model, settled
     from filters.accuracy.shipped import SHIPPED_MODELS, Output, ShippedModel, shipped_model
     from filters.accuracy.stated_time import AtTime, after_cycles
     from filters.accuracy.trace import Along, Landing, Spread, along, spread
@@ -32,6 +33,7 @@ __all__ = [
     "Latest",
     "LinearModel",
     "Output",
+    "SensorsModel",
     "ShippedModel",
     "Spread",
     "after_cycles",
@@ -51,6 +53,8 @@ __all__ = [
     "output_rows",
     "px4_predictor",
     "repeated",
+    "sensors_model",
+    "settled",
     "shipped_model",
     "spread",
     "uncompensated",
@@ -72,6 +76,7 @@ __getattr__, __dir__ = lazily(
         "filters.accuracy.model": "LinearModel linear_model linearised output_rows",
         "filters.accuracy.outcome": "Accuracy",
         "filters.accuracy.predictor": "px4_predictor",
+        "filters.accuracy.sensors": "SensorsModel sensors_model settled",
         "filters.accuracy.shipped": "SHIPPED_MODELS Output ShippedModel shipped_model",
         "filters.accuracy.stated_time": "AtTime after_cycles",
         "filters.accuracy.trace": "Along Landing Spread along spread",

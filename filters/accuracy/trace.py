@@ -7,7 +7,7 @@ back to each measurement and replays. Time-varying models and transients are no 
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -55,6 +55,8 @@ def along(
     P0: ArrayLike,
     steps: int,
     landings: Iterable[tuple[str, int, int]],
+    *,
+    on_step: Callable[[int], None] | None = None,
 ) -> Along:
     """The covariance recursion along steps 0 .. steps.
 
@@ -62,6 +64,7 @@ def along(
         in `linear_system`. P0 (n, n): covariance in step 0, before a measurement of that step.
     outputs: rows C (o, n), or the numbers of the states that are the outputs.
     landings: (sensor, k, step) in any order, see `Landing`; those after the last step come too late to matter.
+    on_step: called with each step that is done.
 
     Raises ValueError, naming it, for a wrong shape, what is no covariance, an unknown sensor, and a landing before its
     measurement.
@@ -80,7 +83,7 @@ def along(
     check_covariance("P0", start)
     C = output_rows(outputs, n)
     due, longest = _due(landings, known, steps)
-    return _recursion(transitions, noises, known, C.T @ C, start, steps, due, longest + 1)
+    return _recursion(transitions, noises, known, C.T @ C, start, steps, due, longest + 1, on_step)
 
 
 def spread(deviations: FloatArray, start: int = 0) -> Spread:
@@ -105,6 +108,7 @@ def _recursion(
     steps: int,
     due: Mapping[int, list[Landing]],
     window: int,
+    on_step: Callable[[int], None] | None,
 ) -> Along:
     """weights (n, n): C^T C. window: the states of so many steps are kept, each as it is before its measurements."""
     kept: list[FloatArray] = [P0] * window
@@ -133,6 +137,8 @@ def _recursion(
         deviations[j] = np.vdot(weights, P)
         for name, last in newest.items():
             ages[name][j] = j - last
+        if on_step is not None:
+            on_step(j)
     return Along(np.sqrt(deviations.clip(0.0)), ages)
 
 

@@ -56,7 +56,7 @@ def typical_moment(
     check_composed(composed)
     check_seed(seed)
     space, random = composed.of, np.random.default_rng(seed)
-    x, P = check_start(space, _origin(space) if x0 is None else x0, np.eye(space.errors) if P0 is None else P0)
+    x, P = check_start(space, origin(space) if x0 is None else x0, np.eye(space.errors) if P0 is None else P0)
     inputs = np.zeros(_inputs(composed)) if u is None else as_numbers("u", u)
     if inputs.ndim != 1 or not np.isfinite(inputs).all():
         raise ValueError(f"u has shape {inputs.shape}; an input has one dimension, and finite numbers")
@@ -99,7 +99,7 @@ def _warmed_up(composed: ModularFilter, start: Estimate, u: FloatArray, random: 
     return at
 
 
-def _origin(space: Space) -> FloatArray:
+def origin(space: Space) -> FloatArray:
     x = np.zeros(space.numbers)
     starts: IntArray = space.attitudes
     x[starts] = 1.0

@@ -56,7 +56,8 @@ class SensorFigures:
 
     taken: in the simulated time; dropped: those of them that never arrive; arrived: by its end;
     achieved: how many corrections landed at each l - k; longest: from when a measurement was taken, between two steps
-    or at the start of one, to the start of the step in which its correction landed, in HR steps; None if none landed.
+    or at the start of one, to the start of the step in which its correction landed, in HR steps; None if none landed;
+    landings: k and l of each, in order of landing.
     """
 
     taken: int
@@ -64,6 +65,7 @@ class SensorFigures:
     arrived: int
     achieved: Counter[int]
     longest: Fraction | None = None
+    landings: Sequence[tuple[int, int]] = field(default=(), repr=False)
 
     @property
     def not_landed(self) -> int:
@@ -169,10 +171,16 @@ def run_scenario(
     sensors = {}
     for number, sensor in enumerate(scenario.sensors):
         done = finishes[correct_kind(sensor)]
-        achieved = Counter(step_at(job.end, period) - job.step for job in done)
+        landings = [(job.step, step_at(job.end, period)) for job in done]
+        achieved = Counter(l - k for k, l in landings)
         arrived = achieved.total() + sum(waiting.sensor == number for waiting in composed.pending)
         sensors[sensor.name] = SensorFigures(
-            composed.taken[number], composed.dropped[number], arrived, achieved, _longest(sensor, done, period)
+            composed.taken[number],
+            composed.dropped[number],
+            arrived,
+            achieved,
+            _longest(sensor, done, period),
+            landings,
         )
     kinds = ["predict", *map(correct_kind, scenario.sensors), *(f"task:{task.name}" for task in tasks)]
     jobs = {kind: _figures(finishes[kind], schedule.responses.get(kind), period) for kind in kinds}

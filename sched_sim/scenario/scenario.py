@@ -13,6 +13,7 @@ from typing import Any, Literal, NamedTuple, get_args
 from sched_sim.bounds import MOST_STEPS, check_sensors, short
 from sched_sim.errors import InputError
 from sched_sim.files.toml_writer import toml_key
+from sched_sim.scenario.accuracy_asked import AccuracyAsked
 from sched_sim.scenario.draws import fates
 from sched_sim.scenario.fields import (
     all_of,
@@ -162,6 +163,7 @@ class Scenario:
     cpus: with 2, corrections run on the second. context_switch: in cost units, as in `options.Options`.
     files: those that its own file names, from which costs were read.
     harness: whether any of the costs are samples of `measure --filter`, from which no probability of a miss follows.
+    accuracy: what its file asks to know of it. filter: the function that its file names as its filter.
     Raises InputError that lists all that is wrong.
     """
 
@@ -179,6 +181,8 @@ class Scenario:
     cpus: Literal[1, 2] = 1
     files: Sequence[Path] = ()
     harness: bool = False
+    accuracy: AccuracyAsked | None = None
+    filter: str | None = None
 
     def __post_init__(self) -> None:
         bad = settle(self, SCENARIO_FIELDS)

@@ -22,6 +22,7 @@ from sched_sim.processors.part import NoTimeError, seconds_for
 from sched_sim.processors.part_file import load_part, shipped_parts
 from sched_sim.scenario.composition import Composition, Describe, with_its_sensors
 from sched_sim.scenario.fields import ends
+from sched_sim.scenario.file_accuracy import AccuracyEntry
 from sched_sim.scenario.file_entries import Entry, PredictorEntry, SensorEntry, not_negative
 from sched_sim.scenario.file_units import Said, Units, agreed, costs_said, plain_cost, shown, time, timed_cost, units_of
 from sched_sim.scenario.scenario import Late, Samples, Scenario, carried, needed_parts
@@ -103,6 +104,7 @@ class _ScenarioFile(Entry):
     predictor: PredictorEntry = PredictorEntry()
     sensor: Annotated[list[SensorEntry], Field(min_length=1), BeforeValidator(_not_too_many)]
     task: list[TaskEntry] = Field(default_factory=list)
+    accuracy: AccuracyEntry | None = None
 
     @model_validator(mode="after")
     def _together(self, info: ValidationInfo) -> Self:
@@ -284,6 +286,8 @@ def _scenario(checked: _ScenarioFile, units: Units, folder: Path) -> Scenario:
         cpus=checked.cpus,
         files=[folder / name for name in (checked.costs, checked.processor) if name is not None],
         harness=harness,
+        accuracy=None if checked.accuracy is None else checked.accuracy.asked(),
+        filter=checked.filter,
     )
 
 
