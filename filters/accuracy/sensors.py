@@ -48,16 +48,18 @@ def sensors_model(
     """Raises ValueError, naming the matrix and the sensor, for what `linear_model` refuses, and if there is none."""
     if not isinstance(sensors, Mapping) or not sensors:
         raise ValueError("sensors must give the H and R of each by its name, of at least one: {'gps': (H, R)}")
-    checked = {}
+    states = len(np.atleast_1d(as_array("Phi", Phi)))
+    model = linear_model(Phi, Q, np.eye(1, states), np.eye(1), names)
+    checked: dict[str, tuple[FloatArray, FloatArray]] = {}
     for name, both in sensors.items():
         if not isinstance(both, tuple | list) or len(both) != 2:
             raise ValueError(f"sensor {name!r}: give its H and its R: (H, R)")
         try:
             H, R = (np.atleast_2d(as_array(what, value)) for what, value in zip("HR", both, strict=True))
-            model = linear_model(Phi, Q, H, R, names)
+            seen = linear_model(model.Phi, model.Q, H, R)
         except ValueError as error:
             raise ValueError(f"sensor {name!r}: {error}") from None
-        checked[name] = (model.H, model.R)
+        checked[name] = (seen.H, seen.R)
     return SensorsModel(model.Phi, model.Q, checked, model.names)
 
 
@@ -71,8 +73,8 @@ def settled(model: SensorsModel, taken: Mapping[str, Sequence[int]], cycle: int)
     for name, steps in taken.items():
         H, R = model.sensors[name]
         told = H.T @ np.linalg.solve(R, H)
-        for step in steps:
-            information[step] = information[step] + told if step in information else told
+        for at in steps:
+            information[at] = information[at] + told if at in information else told
     events = sorted({0, *information})
     nothing = np.zeros_like(model.Q)
     lengths = [after - at for at, after in zip(events, [*events[1:], cycle], strict=True)]

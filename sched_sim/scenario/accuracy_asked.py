@@ -19,8 +19,10 @@ class Seen(NamedTuple):
 
 @dataclass(frozen=True)
 class AccuracyAsked:
-    """model: a shipped one's name, or "module:function" in the folder of the scenario; None: its filter's. output, unit:
-    as `sched-sim accuracy` has them. initial_std: of each state in step 0. sensors: by name, what the model does not say.
+    """model: a shipped one's name, or "module:function" in the folder of the scenario; None: its filter's.
+
+    output, unit: as `sched-sim accuracy` has them. initial_std: of each state in step 0. sensors: by name, what the
+    model does not say.
     """
 
     model: str | None = None

@@ -60,19 +60,29 @@ def load_model(asked: Any, hr_hz: Fraction | None) -> Model:
 
     Raises InputError that names the model and what is wrong with it.
     """
-    said = f"{option('model')} {short(asked)!r}" if isinstance(asked, str) else option("model")
     shipped = shipped_defaults(asked)
     if shipped is not None:
         rate = shipped.hr_hz if hr_hz is None else float(hr_hz)
         return Model(shipped.name, shipped.model(rate), INPUTS.get(shipped.name, 0), shipped)
     if isinstance(asked, str):
-        name, value = returned_by(asked, option("model"), HOW)
-    else:
-        name, value = "model", asked
+        return model_of(returned_from(asked), asked)
+    return model_of(Returned("model", asked), asked)
+
+
+def returned_from(asked: str) -> Returned:
+    """What the user's function returns. Raises InputError where there is none, or it fails."""
+    shipped_defaults(asked)
+    return returned_by(asked, option("model"), HOW)
+
+
+def model_of(returned: Returned, asked: Any) -> Model:
+    """Of a LinearModel, a System or (System, x0); asked: as it was named. Raises InputError for what is none."""
+    said = f"{option('model')} {short(asked)!r}" if isinstance(asked, str) else option("model")
+    value = returned.value
     if isinstance(value, LinearModel):
         with explained(said):
             return Model(_shown(asked), linear_model(*value), 0)
-    system, x0 = checked_system(Returned(name, value), said, HOW)
+    system, x0 = checked_system(returned, said, HOW)
     with explained(said):
         return Model(_shown(asked), linearised(system, x0), system.inputs, None, system, x0)
 
