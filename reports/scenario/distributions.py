@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from math import ceil
-from typing import NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -28,43 +28,31 @@ from reports.drawing.style import (
     page,
     text_width_mm,
 )
+from reports.scenario.cells import BINS, Cell, Note, share_axis
 from sched_sim.scenario.distribution import finished_or_not
 from sched_sim.scenario.run import JobFigures, Outcome, SensorFigures
 from sched_sim.scenario.scenario import Scenario, Sensor
 from sched_sim.scenario.source import correct_kind
 
+if TYPE_CHECKING:
+    from studies.selection.in_scenario import ScenarioAccuracy
+
 LEFT_MM, RIGHT_MM, GAP_MM, EDGE_MM = 11.0, 3.0, 15.0, 2.0
 TITLE_MM, NOTE_MM, PLOT_MM, AXIS_MM = 4.6, 3.6, 24.0, 11.0
 BESIDE_MM = 4.0
 """A note may reach so far into the gap between the plots."""
-BINS = 40
 NEAR = 1.6
 """A deadline is near if an axis that shows it is no longer than this factor times one without it."""
-HEADROOM = 1.2
 FEWEST_SHOWN = 7
 """Steps on the axis of achieved l."""
 EDGE = 0.03
 """Left free at both ends of that axis."""
 
 
-class Note(NamedTuple):
-    """A piece of a subtitle. missed: something is wrong, so it is red."""
-
-    text: str
-    missed: bool = False
-
-
-class Cell(NamedTuple):
-    """One plot. notes: under the title, in as many lines as they take; draw: fills the axes."""
-
-    title: str
-    notes: Sequence[Note]
-    draw: Callable[[Axes], None]
-
-
-def distributions_figure(scenario: Scenario, outcome: Outcome) -> Figure:
+def distributions_figure(scenario: Scenario, outcome: Outcome, accuracy: ScenarioAccuracy | None = None) -> Figure:
     """A histogram of the response times of each job kind, and bars of the achieved l beside it where it is a
-    correction; a red line is a deadline. A deadline that is too far off for a line is in the subtitle."""
+    correction; a red line is a deadline. A deadline that is too far off for a line is in the subtitle. With the
+    accuracy, histograms of the output's standard deviation, and of the age of each sensor's information."""
     plain: list[Cell | None] = [_response("predict", scenario, outcome.jobs["predict"], FILLS["PR"], 1.0)]
     for number, task in enumerate(scenario.tasks):
         fill = TASK_FILLS[number % len(TASK_FILLS)]
@@ -80,6 +68,12 @@ def distributions_figure(scenario: Scenario, outcome: Outcome) -> Figure:
             _response(f"correct {shortened(sensor.name)}", scenario, outcome.jobs[kind], FILLS["CO"], deadline)
         )
         plain.append(_achieved(sensor, outcome.sensors[sensor.name]))
+    if accuracy is not None:
+        from reports.scenario.accuracy import accuracy_cells
+
+        plain += accuracy_cells(accuracy)
+        if len(plain) % 2:
+            plain.append(None)
     width = (WIDTH_MM - LEFT_MM - GAP_MM - RIGHT_MM) / 2
     rows = [plain[number : number + 2] for number in range(0, len(plain), 2)]
     with drawing():
@@ -93,7 +87,7 @@ def distributions_figure(scenario: Scenario, outcome: Outcome) -> Figure:
                     axes = axes_at(figure, LEFT_MM + column * (width + GAP_MM), top, width, PLOT_MM)
                     _draw_cell(axes, cell, width)
                     if column == 0:
-                        axes.set_ylabel("% of the finished")
+                        axes.set_ylabel(cell.shares)
                         axes.yaxis.set_label_coords(-8.0 / width, 0.5)
             top += PLOT_MM + AXIS_MM
         return figure
@@ -157,10 +151,6 @@ def is_near(limit: float, low: float, high: float) -> bool:
     return max(high, limit) - min(low, limit) <= NEAR * (high - low)
 
 
-def _share_axis(axes: Axes, shares: Sequence[float]) -> None:
-    axes.set_ylim(0, min(HEADROOM * max(shares), 100) or 100)
-
-
 def _response(title: str, scenario: Scenario, figures: JobFigures, fill: Fill, deadline: float | None) -> Cell:
     """deadline: in HR periods from the release, None if it differs from job to job."""
     unit, scale = ("HR periods", 1.0) if scenario.hr_hz is None else ("ms", float(1000 / scenario.hr_hz))
@@ -182,7 +172,7 @@ def _response(title: str, scenario: Scenario, figures: JobFigures, fill: Fill, d
         shares = 100 * counts / max(len(values), 1)
         axes.bar(edges[:-1], shares, np.diff(edges), align="edge", color=fill.colour, edgecolor=fill.ink, lw=0.3)
         axes.set_xlim(0, end)
-        _share_axis(axes, shares.tolist())
+        share_axis(axes, shares.tolist())
         if near and limit is not None:
             _deadline(axes, limit)
 
@@ -230,7 +220,7 @@ def _achieved(sensor: Sensor, figures: SensorFigures) -> Cell:
         low, high = (min(first, sensor.land_by), max(shown, sensor.land_by + 1)) if near else (first, shown)
         edge = max(1.0, EDGE * (high - low))
         axes.set_xlim(low - edge, high + edge)
-        _share_axis(axes, shares)
+        share_axis(axes, shares)
         if near:
             _deadline(axes, limit)
 

@@ -13,16 +13,35 @@ from sched_sim import shares
 from sched_sim.cli.output import Format, print_csv, print_json, print_table
 from sched_sim.cli.outputs import Named, module_files, refuse_one_file_for_two
 from sched_sim.cli.progress import progress_bar
+from sched_sim.cli.scenario_accuracy import (
+    Run,
+    accuracy_of,
+    columns,
+    document,
+    question,
+    show,
+    show_slower,
+    slower_rows,
+    slower_runs,
+)
+from sched_sim.cli.scenario_flags import Asked
 
 if TYPE_CHECKING:
     from sched_sim.scenario.composition import Composition
     from sched_sim.scenario.run import JobFigures, Outcome, SensorFigures
     from sched_sim.scenario.scenario import Scenario, Sensor
     from sched_sim.schedule.outcome import Slice
+    from studies.selection.in_scenario import ScenarioAccuracy
 
 
 def simulate_scenario(
-    path: Path, gantt: Path | None, traces: Sequence[Path], histogram: Path | None, outputs: Named, format: Format
+    path: Path,
+    gantt: Path | None,
+    traces: Sequence[Path],
+    histogram: Path | None,
+    asked: Asked,
+    outputs: Named,
+    format: Format,
 ) -> None:
     """outputs: the three, by their options. Raises InputError for a scenario that cannot be run, and for a file that
     cannot be written or is one that is read."""
@@ -38,7 +57,8 @@ def simulate_scenario(
                 check_picture(picture, option)
     for trace in traces:
         check_trace(trace)
-    scenario = read_scenario(path, describe)
+    scenario, slower = read_scenario(path, describe), asked.slower
+    about = question(scenario, path, asked)
     read: list[Path | str] = [*scenario.files, *module_files()]
     refuse_one_file_for_two(outputs, [("--scenario", file) for file in read])
     with ExitStack() as files:
@@ -53,11 +73,12 @@ def simulate_scenario(
 
         progress = files.enter_context(progress_bar("Simulating"))
         outcome = run_scenario(scenario, on_slice=write if writers or scenario.cpus > 1 else None, on_progress=progress)
+    accuracy = None if about is None else accuracy_of(about, scenario, outcome)
     if histogram is not None:
         from reports.drawing.picture import save
         from reports.scenario.distributions import distributions_figure
 
-        save(distributions_figure(scenario, outcome), histogram, "--histogram")
+        save(distributions_figure(scenario, outcome, accuracy), histogram, "--histogram")
     if gantt is not None:
         from reports.charts.chart import gantt as draw
         from reports.charts.chart import save
@@ -68,12 +89,20 @@ def simulate_scenario(
     busy_shares = [float(schedule.utilization)]
     if scenario.cpus > 1:
         busy_shares = [busy[cpu] / schedule.horizon for cpu in range(scenario.cpus)]
+    runs: list[Run] = []
+    if about is not None and accuracy is not None and slower:
+        runs = slower_runs(about, scenario, outcome, accuracy, slower)
     if format == "json":
-        print_json(_document(scenario, outcome, busy_shares))
+        accurate = {} if accuracy is None else {"accuracy": document(accuracy, runs)}
+        print_json(_document(scenario, outcome, busy_shares) | accurate)
     elif format == "csv":
-        print_csv([_flat(scenario, kind, figures) for kind, figures in outcome.jobs.items()])
+        print_csv(slower_rows(runs) or _rows(scenario, outcome, accuracy))
     else:
         _show(scenario, outcome, busy_shares)
+        if accuracy is not None:
+            show(accuracy)
+        if runs:
+            show_slower(runs)
 
 
 def describe(name: str, folder: Path) -> Composition:
@@ -144,6 +173,17 @@ def _job(figures: JobFigures, ms: float | None, harness: bool) -> dict[str, Any]
 
 def _times(unit: float, value: float | None) -> float | None:
     return None if value is None else unit * value
+
+
+def _rows(scenario: Scenario, outcome: Outcome, accuracy: ScenarioAccuracy | None) -> list[dict[str, Any]]:
+    """Of CSV, one for each kind of job."""
+    from sched_sim.scenario.source import correct_kind
+
+    rows = [_flat(scenario, kind, figures) for kind, figures in outcome.jobs.items()]
+    if accuracy is None:
+        return rows
+    sensors = {correct_kind(sensor): sensor.name for sensor in scenario.sensors}
+    return [row | columns(accuracy, sensors.get(row["job"])) for row in rows]
 
 
 def _flat(scenario: Scenario, kind: str, figures: JobFigures) -> dict[str, Any]:

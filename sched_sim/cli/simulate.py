@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from sched_sim.cli import options as opt
+from sched_sim.cli import scenario_flags as flags
 from sched_sim.cli.design_flags import with_options
 from sched_sim.cli.output import lines, print_csv, print_json, say
 from sched_sim.cli.outputs import refuse_one_file_for_two
@@ -59,7 +60,8 @@ HistogramFile = Annotated[
         rich_help_panel=opt.OUTPUT,
     ),
 ]
-WITH_SCENARIO = ("scenario", "gantt", "trace", "histogram", "format")
+ABOUT_ACCURACY = flags.Asked._fields
+WITH_SCENARIO = ("scenario", "gantt", "trace", "histogram", "format", *ABOUT_ACCURACY)
 """The parameters that go together with --scenario; what the others say, the scenario says itself."""
 
 
@@ -85,6 +87,11 @@ def simulate(
     trace: TraceFiles = None,
     scenario: ScenarioFile = None,
     histogram: HistogramFile = None,
+    model: flags.ScenarioModel = None,
+    output: flags.ScenarioOutput = None,
+    unit: flags.ScenarioUnit = None,
+    initial_std: flags.StartStd = None,
+    times_slower: flags.TimesSlower = None,
     format: opt.Format = "table",
 ) -> None:
     """Run one filter's jobs on the simulated preemptive processor: achieved l, misses, response times.
@@ -93,6 +100,7 @@ def simulate(
     sched-sim simulate -N 10 -M 4 --method larsen --speed 1.2 --trace slices.json
     sched-sim simulate -N 40 -M 20 --processor cortex-m7 --hr-hz 400
     sched-sim simulate --scenario rocket.toml --histogram rocket.svg
+    sched-sim simulate --scenario rocket.toml --model mymodule:my_model --output position=0:3 --times-slower 2
     """
     outputs = [("--histogram", histogram), ("--gantt", gantt), *(("--trace", path) for path in trace or ())]
     inputs = [("--scenario", scenario), ("--costs", costs), ("--processor", processor), ("--tasks", tasks)]
@@ -101,8 +109,14 @@ def simulate(
         from sched_sim.cli.scenario import simulate_scenario
 
         _refuse_beside_scenario(context, scenario)
-        simulate_scenario(scenario, gantt, trace or (), histogram, outputs, format)
+        asked = flags.Asked(model, output, unit, initial_std, times_slower)
+        simulate_scenario(scenario, gantt, trace or (), histogram, asked, outputs, format)
         return
+    if given := opt.given_options(context, lambda name: name in ABOUT_ACCURACY):
+        raise InputError(
+            f"{', '.join(given)}: the accuracy along a simulation is of a scenario: give --scenario FILE.toml too; "
+            f"that of one filter in its cycle is `sched-sim accuracy`"
+        )
     if histogram is not None:
         raise InputError(f"--histogram {histogram} is for random times: give --scenario FILE.toml too")
     if N is None and measurement_hz is None:

@@ -251,8 +251,8 @@ def _remarks(scenario: Scenario, outcome: Outcome, question: Question) -> Iterat
         )
     if scenario.late == "larsen" and len(scenario.sensors) > 1:
         yield (
-            "late = larsen: where others measure meanwhile its corrections are not the best ones, and these figures are "
-            "of the best"
+            "late = larsen: where others measure meanwhile its corrections are not the best ones, and these figures "
+            "are of the best"
         )
     if question.model.linearised:
         yield "the model is linearised at its start"

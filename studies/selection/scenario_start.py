@@ -26,8 +26,10 @@ class Start(NamedTuple):
 
 
 def settled_start(of: SensorsModel, outputs: FloatArray, sensors: Sequence[Sensor]) -> Start:
-    """That of a filter which has long had every measurement without delay, each worth its share that is not lost. outputs
-    (o, n): C; what they do not depend on and nobody measures is left out of the model."""
+    """That of a filter which has long had every measurement without delay, each worth its share that is not lost.
+
+    outputs (o, n): C; what they do not depend on and nobody measures is left out of the model.
+    """
     try:
         model, rows = visible(of.stacked, outputs)
     except ValueError:
