@@ -11,12 +11,15 @@ from sched_sim.cli.output import Format, lines, print_csv, print_json, print_tab
 from sched_sim.cli.parts import WORDS
 from sched_sim.cli.progress import progress_bar
 from sched_sim.cli.scenario import describe, phases_note
+from sched_sim.cli.scenario_accuracy import accuracy_of, over_the_same_steps, question, verdict_columns, verdict_words
+from sched_sim.cli.scenario_flags import NOTHING_ASKED
 from sched_sim.errors import InputError
 from sched_sim.shares import percent
 
 if TYPE_CHECKING:
     from sched_sim.scenario.run import Outcome
     from sched_sim.scenario.scenario import Scenario, Sensor
+    from studies.selection.in_scenario import ScenarioAccuracy
 
 
 def verdicts(path: Path, processors: Sequence[str], format: Format) -> None:
@@ -33,6 +36,7 @@ def verdicts(path: Path, processors: Sequence[str], format: Format) -> None:
     lacking: dict[str, Sequence[str]] = {}
     scenario: Scenario | None = None
     read: list[Scenario] = []
+    accuracies: dict[str, ScenarioAccuracy] = {}
     for name in processors:
         try:
             scenario = read_scenario(path, describe, processor=name)
@@ -43,11 +47,19 @@ def verdicts(path: Path, processors: Sequence[str], format: Format) -> None:
             lacking[name] = error.operations
             continue
         read.append(scenario)
+        about = question(scenario, path, NOTHING_ASKED)
         with progress_bar(f"On {name}") as progress:
-            rows.append(_row(name, scenario, run_scenario(scenario, on_progress=progress)))
+            outcome = run_scenario(scenario, on_progress=progress)
+        rows.append(_row(name, scenario, outcome))
+        if about is not None:
+            accuracies[name] = accuracy_of(about, scenario, outcome)
     if scenario is None:
         raise InputError(f"--scenario {str(path)!r}: {no_time_note(lacking)}")
     rows.sort(key=_by_slack)
+    accuracies = dict(zip(accuracies, over_the_same_steps([*accuracies.values()]), strict=True))
+    for row in rows if accuracies else ():
+        accuracy = accuracies.get(row["processor"])
+        row |= dict.fromkeys(DEVIATIONS) if accuracy is None else verdict_columns(accuracy)
     if format == "json":
         print_json(rows)
     elif format == "csv":
@@ -62,9 +74,18 @@ def verdicts(path: Path, processors: Sequence[str], format: Format) -> None:
             f"taken"
         )
         shown = [_in_words(row, scenario) for row in rows]
+        if accuracies:
+            heading = next(iter(accuracies.values()))
+            shown = [
+                words | verdict_words(accuracies.get(row["processor"]), heading)
+                for words, row in zip(shown, rows, strict=True)
+            ]
+            at_start = ", of the model linearised at its start" if heading.question.model.linearised else ""
+            note = lines(note, f"std: of {heading.question.outputs.name}{at_start}, from step {heading.first} on")
         print_table(title, shown, lines(note, _same(read), phases_note(scenario), no_time_note(lacking)))
 
 
+DEVIATIONS = ("output", "output_unit", "median_std", "p95_std", "worst_std")
 KEYS = ("processor", "fits", "jobs", "misses", "miss_share", "slack", "slack_of", "utilization", "latest_l",
         "correction_ms", "reason")  # fmt: skip
 

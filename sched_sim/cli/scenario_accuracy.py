@@ -61,7 +61,8 @@ def slower_runs(
     accuracy: ScenarioAccuracy,
     slower: Sequence[tuple[str, float]],
 ) -> list[Run]:
-    """The scenario as it is, then on each processor; with the same draws of delays, dropout and execution times."""
+    """The scenario as it is, then on each processor; with the same draws of delays, dropout and execution times, and
+    over the same steps, those that all have figures of."""
     from sched_sim.scenario.run import run_scenario
 
     runs = [Run("1", 1.0, outcome, accuracy)]
@@ -70,7 +71,33 @@ def slower_runs(
         with progress_bar(f"{text} times as slow") as progress:
             found = run_scenario(other, on_progress=progress)
         runs.append(Run(text, times, found, accuracy_of(asked, other, found)))
-    return runs
+    together = over_the_same_steps([run.accuracy for run in runs])
+    return [run._replace(accuracy=accuracy) for run, accuracy in zip(runs, together, strict=True)]
+
+
+def over_the_same_steps(several: Sequence[ScenarioAccuracy]) -> list[ScenarioAccuracy]:
+    """Those of which all have figures, so that these can be compared. Raises InputError if there are none."""
+    first = max((accuracy.first for accuracy in several), default=0)
+    last = min((accuracy.last for accuracy in several), default=0)
+    if first > last:
+        raise InputError(
+            f"the accuracy on different processors cannot be compared: on one it has figures from step {first} on, on "
+            f"one up to step {last}: simulate more steps, or leave out what is so slow"
+        )
+    return [accuracy.between(first, last) for accuracy in several]
+
+
+def verdict_columns(accuracy: ScenarioAccuracy) -> dict[str, Any]:
+    """Beside the verdict on a processor, for scripts."""
+    outputs = accuracy.question.outputs
+    return {"output": outputs.name, "output_unit": outputs.unit or None, **_deviations(accuracy)}
+
+
+def verdict_words(accuracy: ScenarioAccuracy | None, heading: ScenarioAccuracy) -> dict[str, Any]:
+    """The same in the table; accuracy: None where it is not known."""
+    unit = heading.question.outputs.unit
+    words = dict.fromkeys(NAMES) if accuracy is None else _words(accuracy.spread)
+    return {f"{name} std{f', {unit}' if unit else ''}": value for name, value in words.items()}
 
 
 def document(accuracy: ScenarioAccuracy, runs: Sequence[Run]) -> dict[str, Any]:
@@ -105,6 +132,7 @@ def slower_row(run: Run, first: Run) -> dict[str, Any]:
     over = {f"over_{name}": _over(getattr(found.spread, name), getattr(base.spread, name)) for name in NAMES}
     return {
         "times_slower": run.times,
+        "from_step": found.first,
         "misses": run.outcome.misses,
         "utilization": float(run.outcome.schedule.utilization),
         "output": found.question.outputs.name,
@@ -129,8 +157,8 @@ def show(accuracy: ScenarioAccuracy) -> None:
     """The table of the output and of each sensor's information."""
     question, unit = accuracy.question, accuracy.age_unit
     rows = [
-        {"": question.outputs.name, "in": question.outputs.unit or None, **_words(accuracy.spread)},
-        *({"": f"age of {sensor}", "in": unit, **_words(accuracy.age(sensor))} for sensor in accuracy.ages),
+        {"quantity": question.outputs.name, "in": question.outputs.unit or None, **_words(accuracy.spread)},
+        *({"quantity": f"age of {sensor}", "in": unit, **_words(accuracy.age(sensor))} for sensor in accuracy.ages),
     ]
     print_table(
         f"Standard deviation of {question.outputs.name} along the simulation, and the age of what is in it: "
@@ -174,15 +202,13 @@ def _sentences(runs: Sequence[Run]) -> Iterator[str]:
     """Such as "a processor 2 times as slow costs 6 % of the accuracy of position: ..."."""
     first = runs[0].accuracy
     name = first.question.outputs.name
+    yield f"all from step {first.first} on, with the same draws of delays, dropout and execution times"
     for run in runs[1:]:
         overs = {which: _over(getattr(run.accuracy.spread, which), getattr(first.spread, which)) for which in NAMES}
         known = [f"{which} {_percent(over)}" for which, over in overs.items() if over is not None]
         if known:
             more = ", ".join(known)
             yield f"a processor {run.text} times as slow: the standard deviation of {name} is higher by: {more}"
-        starts = {run.accuracy.first, first.first}
-        if len(starts) > 1:
-            yield f"  its figures are from step {run.accuracy.first} on, those of the scenario from {first.first} on"
 
 
 def _deviations(accuracy: ScenarioAccuracy) -> dict[str, float]:
@@ -212,8 +238,10 @@ def _four(value: float) -> str:
 
 
 def _percent(over: float) -> str:
-    shown = f"{100 * over:.3g}" if abs(over) < LARGE else f"{100 * over:.0f}"
-    return f"{'0' if float(shown) == 0 else shown} %"
+    """Three digits, to a hundredth of a percent; what is many times as much as a factor."""
+    if 0 < abs(over) < LEAST:
+        return f"less than {100 * LEAST:g} %"
+    return f"{1 + over:.4g}-fold" if over >= LARGE else f"{float(f'{100 * over:.2f}'):.3g} %"
 
 
-LARGE = 9.99
+LARGE, LEAST = 9.99, 1e-4

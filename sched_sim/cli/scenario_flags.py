@@ -87,3 +87,4 @@ class Asked(NamedTuple):
 
 
 MOST_SLOWER = 20
+NOTHING_ASKED = Asked(None, None, None, None, None)

@@ -7,13 +7,14 @@ accuracy depends on, for methods that lose nothing. What is lost never lands.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
 
 from filters.accuracy.trace import Along, Spread, along, spread
+from filters.accuracy.visible import visible
 from filters.arrays import FloatArray
 from sched_sim.bounds import short
 from sched_sim.errors import SPELLING, InputError, option
@@ -21,7 +22,7 @@ from sched_sim.scenario.accuracy_asked import AccuracyAsked
 from sched_sim.scenario.run import Outcome
 from sched_sim.scenario.scenario import Scenario, Sensor
 from sched_sim.schedule.clock import REPORTS, OnProgress
-from studies.selection.outputs import Outputs, outputs_of, rows_of
+from studies.selection.outputs import Outputs, rows_of
 from studies.selection.scenario_model import ScenarioModel, load_scenario_model
 from studies.selection.scenario_start import Start, settled_start
 
@@ -68,6 +69,15 @@ class ScenarioAccuracy:
         ages = self.ages[sensor]
         return None if ages is None else spread(ages * self.age_scale)
 
+    def between(self, first: int, last: int) -> ScenarioAccuracy:
+        """The figures of fewer steps, not before its own first nor after its own last."""
+        ages = {
+            sensor: None if ages is None else ages[first - self.first : last + 1 - self.first]
+            for sensor, ages in self.ages.items()
+        }
+        deviations = self.deviations[: last + 1]
+        return replace(self, first=first, last=last, spread=spread(deviations, first), deviations=deviations, ages=ages)
+
     @property
     def age_scale(self) -> float:
         """Of a step, in `age_unit`."""
@@ -104,8 +114,9 @@ def question_of(
         where = folder if model is None else Path()
         loaded = load_scenario_model(asked.model if model is None else model, scenario, where, asked.sensors)
         start = _start(asked.initial_std if initial_std is None else initial_std, loaded.of.states)
-        seen = outputs_of if start is None else rows_of
-        outputs = seen(loaded.model, output or asked.output, asked.unit if unit is None else unit)
+        outputs = rows_of(loaded.model, output or asked.output, asked.unit if unit is None else unit)
+        if start is None:
+            _check_bounded(loaded, outputs)
         return Question(loaded, outputs, start)
     finally:
         SPELLING.reset(token)
@@ -156,6 +167,16 @@ def accuracy_along(
         {sensor.name: _ages(sensor, found.ages[sensor.name][first:], first) for sensor in scenario.sensors},
         (*remarks, *_remarks(scenario, outcome, question)),
     )
+
+
+def _check_bounded(model: ScenarioModel, outputs: Outputs) -> None:
+    try:
+        visible(model.model.linear, outputs.rows)
+    except ValueError as error:
+        raise InputError(
+            f"{option('output')} {short(outputs.name)}: {error}; or give {option('initial_std')}, and see what becomes "
+            f"of it"
+        ) from None
 
 
 def _start(values: Sequence[float] | None, states: int) -> FloatArray | None:
@@ -249,10 +270,10 @@ def _remarks(scenario: Scenario, outcome: Outcome, question: Question) -> Iterat
             f"{late} predict jobs finish late, and so does the output of their steps: the figures are of it once it is "
             f"there"
         )
-    if scenario.late == "larsen" and len(scenario.sensors) > 1:
+    if scenario.late != "recalculate" and len(scenario.sensors) > 1:
         yield (
-            "late = larsen: where others measure meanwhile its corrections are not the best ones, and these figures "
-            "are of the best"
+            f"the figures are of a filter that goes back to each measurement: late = {scenario.late} is not quite as "
+            f"good where other sensors measure while one is on its way"
         )
     if question.model.linearised:
         yield "the model is linearised at its start"
