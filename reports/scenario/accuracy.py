@@ -16,6 +16,8 @@ from reports.scenario.cells import BINS, Cell, Note, share_axis
 from studies.selection.in_scenario import ScenarioAccuracy
 
 OF_STEPS = "% of the steps"
+CONSTANT = 1e-4
+"""Relative: what differs by less is one bar."""
 
 
 def accuracy_cells(accuracy: ScenarioAccuracy) -> list[Cell]:
@@ -26,11 +28,12 @@ def accuracy_cells(accuracy: ScenarioAccuracy) -> list[Cell]:
 def _output(accuracy: ScenarioAccuracy) -> Cell:
     outputs, values = accuracy.question.outputs, accuracy.counted
     low, high = float(values.min()), float(values.max())
-    edges = np.linspace(low, high, BINS + 1) if high - low > 1e-9 * high else np.array([0.99, 1.01]) * (high or 1.0)
+    edges = np.linspace(low, high, BINS + 1) if high - low > CONSTANT * high else np.array([0.99, 1.01]) * (high or 1.0)
     unit = f" ({shortened(outputs.unit)})" if outputs.unit else ""
 
     def draw(axes: Axes) -> None:
         _bars(axes, values, edges, FILLS["LRU"].colour, FILLS["LRU"].ink)
+        axes.ticklabel_format(axis="x", useOffset=False)
         axes.set_xlabel(f"standard deviation{unit}", labelpad=2)
 
     return Cell(f"{shortened(outputs.name)}: accuracy", _notes(accuracy.spread, outputs.unit), draw, OF_STEPS)

@@ -39,7 +39,7 @@ if TYPE_CHECKING:
 
 LEFT_MM, RIGHT_MM, GAP_MM, EDGE_MM = 11.0, 3.0, 15.0, 2.0
 TITLE_MM, NOTE_MM, PLOT_MM, AXIS_MM = 4.6, 3.6, 24.0, 11.0
-BESIDE_MM = 4.0
+BESIDE_MM = 2.5
 """A note may reach so far into the gap between the plots."""
 NEAR = 1.6
 """A deadline is near if an axis that shows it is no longer than this factor times one without it."""
