@@ -81,7 +81,9 @@ def verdicts(path: Path, processors: Sequence[str], format: Format) -> None:
                 for words, row in zip(shown, rows, strict=True)
             ]
             at_start = ", of the model linearised at its start" if heading.question.model.linearised else ""
-            note = lines(note, f"std: of {heading.question.outputs.name}{at_start}, from step {heading.first} on")
+            note = lines(
+                note, f"std: of {heading.question.outputs.name}{at_start}, steps {heading.first} to {heading.last}"
+            )
         print_table(title, shown, lines(note, _same(read), phases_note(scenario), no_time_note(lacking)))
 
 

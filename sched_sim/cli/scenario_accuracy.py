@@ -202,7 +202,7 @@ def _sentences(runs: Sequence[Run]) -> Iterator[str]:
     """Such as "a processor 2 times as slow costs 6 % of the accuracy of position: ..."."""
     first = runs[0].accuracy
     name = first.question.outputs.name
-    yield f"all from step {first.first} on, with the same draws of delays, dropout and execution times"
+    yield f"all over steps {first.first} to {first.last}, with the same draws of delays, dropout and execution times"
     for run in runs[1:]:
         overs = {which: _over(getattr(run.accuracy.spread, which), getattr(first.spread, which)) for which in NAMES}
         known = [f"{which} {_percent(over)}" for which, over in overs.items() if over is not None]

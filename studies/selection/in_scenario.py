@@ -150,10 +150,12 @@ def accuracy_along(
         _run(start, landings, last, _told(on_progress, number * (last + 1), len(starts) * (last + 1)))
         for number, start in enumerate(starts)
     ]
-    found = runs[0]
+    last, too_large = _finite(runs, last)
+    remarks += too_large
+    deviations = [run.deviations[: last + 1] for run in runs]
     first = max((_first(outcome, sensor, last) for sensor in scenario.sensors), default=0)
     if len(runs) == 2:
-        first, felt = _forgotten(runs[0].deviations, runs[1].deviations, first)
+        first, felt = _forgotten(*deviations, first)
         remarks = [*remarks, felt]
     else:
         remarks = [*remarks, _since(scenario, first, question.initial_std is None)]
@@ -162,9 +164,9 @@ def accuracy_along(
         scenario.hr_hz,
         first,
         last,
-        spread(found.deviations, first),
-        found.deviations,
-        {sensor.name: _ages(sensor, found.ages[sensor.name][first:], first) for sensor in scenario.sensors},
+        spread(deviations[0], first),
+        deviations[0],
+        {sensor.name: _ages(sensor, runs[0].ages[sensor.name][first : last + 1], first) for sensor in scenario.sensors},
         (*remarks, *_remarks(scenario, outcome, question)),
     )
 
@@ -225,7 +227,17 @@ def _run(
 ) -> Along:
     P0, model, rows = start
     assert P0 is not None
-    return along(model.Phi, model.Q, model.sensors, rows, P0, last, landings, on_step=on_step)
+    with np.errstate(all="ignore"):  # see _finite
+        return along(model.Phi, model.Q, model.sensors, rows, P0, last, landings, on_step=on_step)
+
+
+def _finite(runs: Sequence[Along], last: int) -> tuple[int, list[str]]:
+    """The last step up to which all are numbers, and what to say where it is not the last."""
+    usable = np.logical_and.reduce([np.isfinite(run.deviations) for run in runs])
+    if usable.all():
+        return last, []
+    until = max(int(np.argmin(usable)) - 1, 0)
+    return until, [f"up to step {until}: then it is too large for a number"]
 
 
 def _first(outcome: Outcome, sensor: Sensor, last: int) -> int:

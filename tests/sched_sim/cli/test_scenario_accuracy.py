@@ -79,7 +79,7 @@ def test_a_processor_twice_as_slow_costs_so_much_of_the_accuracy(sched_sim: Run)
     over = f"{100 * (exact(64) / exact(51) - 1):.2f} %"
     assert "a processor 2 times as slow: the standard deviation of position is higher by: median" in said
     assert f"worst {over}" in said
-    assert "all from step 64 on, with the same draws" in said
+    assert "all over steps 64 to 7999, with the same draws" in said
 
 
 def test_csv_has_columns_of_it(sched_sim: Run) -> None:
@@ -154,7 +154,7 @@ def test_parts_are_compared(sched_sim: Run, tmp_path: Path) -> None:
     assert rows["desktop"]["worst_std"] < rows["cortex-m4f"]["worst_std"]
     said = sched_sim(command).out
     assert "worst std, m" in said
-    assert "std: of position, from step" in said
+    assert "std: of position, steps" in said
 
 
 @pytest.mark.parametrize(

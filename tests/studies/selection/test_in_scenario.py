@@ -250,3 +250,32 @@ def test_outputs_that_grow_want_a_start(tmp_path: Path, monkeypatch: pytest.Monk
     np.testing.assert_allclose(found.deviations, np.sqrt(4.0 + np.arange(400)))
     alone, _ = along(of, model="model:it", output="0")
     assert alone.spread.worst < 13
+
+
+@pytest.mark.parametrize("model", [INS, CV])
+def test_sensors_between_steps_settle_too(model: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    sensors = {"gps": (model.H, model.R), "camera": (model.H, 3 * model.R)}
+    given_by(tmp_path, monkeypatch, SensorsModel(model.Phi, model.Q, sensors))
+    camera = sensor("camera", Fraction(40, 3), Fraction(5, 2), offset=Fraction(90, 7))
+    of = scenario(100, CHEAP | {"correct.camera": 1}, sensor("gps", 20, 11), camera, steps=400)
+    found, _ = along(of, model="model:it", output="0")
+    np.testing.assert_allclose(found.deviations[80:], found.deviations[40:-40], rtol=1e-9)
+
+
+def test_what_grows_beyond_all_numbers_is_cut_there(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    given_by(tmp_path, monkeypatch, SensorsModel([[2.0]], [[1.0]], {"gps": ([[1.0]], [[1.0]])}))
+    of = scenario(100, CHEAP, sensor("gps", 600, 599), steps=1000)
+    found, _ = along(of, model="model:it", output="0", initial_std=[1.0])
+    assert 500 < found.last < 512
+    assert np.isfinite(found.spread.worst)
+    assert any("too large for a number" in remark for remark in found.remarks)
+
+
+def test_what_the_figures_are_not_of_is_told() -> None:
+    asked = AccuracyAsked("ins-gps", sensors={"radio": Seen(H, R)})
+    late = scenario(0.9, CHEAP | {"correct.radio": 1}, GPS, sensor("radio", 8), steps=100, hr_hz=400, accuracy=asked)
+    assert any("predict jobs finish late" in remark for remark in along(late)[0].remarks)
+    costs = CHEAP | {"correct.radio": 1, "predict_accumulate": 1, "correct_late.gps": 1, "correct_accumulate.radio": 1}
+    costs |= {"carry_product.gps": 1, "beside_product.radio": 1, "land_product.gps": 1, "carry_product": 1}
+    larsen = scenario(100, costs, GPS, sensor("radio", 8), steps=100, hr_hz=400, accuracy=asked, late="larsen")
+    assert any("late = larsen is not quite as good" in remark for remark in along(larsen)[0].remarks)
