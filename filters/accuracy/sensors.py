@@ -78,23 +78,31 @@ def settled(model: SensorsModel, taken: Mapping[str, Sequence[int]], cycle: int)
     events = sorted({0, *information})
     nothing = np.zeros_like(model.Q)
     lengths = [after - at for at, after in zip(events, [*events[1:], cycle], strict=True)]
-    step = Cycles(model.Phi, nothing, model.Q)
-    between = {length: repeated(step, length) for length in {*lengths, model.states}}
-    scale = _scale(between[model.states].Q)
-    outer = np.outer(scale, scale)
-    pieces = [
-        Cycles(
-            between[length].F * scale / scale[:, None], information.get(at, nothing) * outer, between[length].Q / outer
-        )
-        for at, length in zip(events, lengths, strict=True)
-    ]
-    whole = reduce(composed, pieces)
+    with np.errstate(all="ignore"):
+        step = Cycles(model.Phi, nothing, model.Q)
+        between = {length: repeated(step, length) for length in {*lengths, model.states}}
+        scale = _scale(between[model.states].Q)
+        outer = np.outer(scale, scale)
+        pieces = [
+            Cycles(
+                between[length].F * scale / scale[:, None],
+                information.get(at, nothing) * outer,
+                between[length].Q / outer,
+            )
+            for at, length in zip(events, lengths, strict=True)
+        ]
+        whole = reduce(composed, pieces)
+    if not all(np.isfinite(matrix).all() for matrix in whole):
+        raise ValueError(UNSETTLED)
     values, vectors = np.linalg.eigh(whole.G)
     seen = (vectors * np.sqrt(values.clip(0.0))).T
     P = steady_prior(whole.F, whole.Q, seen, np.eye(len(seen)))
     if not np.isfinite(P).all():
-        raise ValueError("the covariance does not settle: something is never seen, or too seldom")
+        raise ValueError(UNSETTLED)
     return np.asarray(P * outer)
+
+
+UNSETTLED = "the covariance does not settle: something is never seen, or too seldom"
 
 
 def _scale(Q: FloatArray) -> FloatArray:

@@ -155,7 +155,7 @@ def accuracy_along(
     deviations = [run.deviations[: last + 1] for run in runs]
     first = max((_first(outcome, sensor, last) for sensor in scenario.sensors), default=0)
     if len(runs) == 2:
-        first, felt = _forgotten(*deviations, first)
+        first, felt = _forgotten(deviations[0], deviations[1], first)
         remarks = [*remarks, felt]
     else:
         remarks = [*remarks, _since(scenario, first, question.initial_std is None)]

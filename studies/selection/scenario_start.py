@@ -7,6 +7,7 @@ from fractions import Fraction
 from math import ceil, floor, lcm
 from typing import NamedTuple
 
+from filters.accuracy.riccati import posterior
 from filters.accuracy.sensors import SensorsModel, settled
 from filters.accuracy.visible import visible
 from filters.arrays import FloatArray
@@ -45,14 +46,18 @@ def settled_start(of: SensorsModel, outputs: FloatArray, sensors: Sequence[Senso
     if not sharing:
         return Start(None, reduced, rows)
     takes = {
-        sensor.name: taken(sensor.every, sensor.offset % sensor.every, cycle)
+        sensor.name: sorted({step % cycle for step in taken(sensor.every, sensor.offset % sensor.every, cycle + 1)})
         for sensor in sensors
         if sensor.name in sharing
     }
     try:
-        return Start(settled(reduced._replace(sensors=sharing), takes, cycle), reduced, rows)
+        P0 = settled(reduced._replace(sensors=sharing), takes, cycle)
     except ValueError:
         return Start(None, reduced, rows)
+    for sensor in sensors:
+        if 0 in takes.get(sensor.name, ()) and sensor.offset > 0:  # taken before the simulation, for its first step
+            P0 = posterior(P0, *sharing[sensor.name])[1]
+    return Start(P0, reduced, rows)
 
 
 def _split(of: SensorsModel, Phi: FloatArray, Q: FloatArray, H: FloatArray) -> SensorsModel:
