@@ -26,8 +26,8 @@ from studies.selection.outputs import Outputs, rows_of
 from studies.selection.scenario_model import ScenarioModel, load_scenario_model
 from studies.selection.scenario_start import Start, settled_start
 
-MOST_PROPAGATIONS = 2_000_000
-"""Some minute; as many steps are looked at as take so much."""
+MOST_PROPAGATIONS = 4_000_000
+"""Some half a minute; as many steps are looked at as take no more."""
 MOST_KEPT_BYTES = 400_000_000
 FELT = 0.01
 """The start no longer matters when it makes less than this share of difference."""
