@@ -64,15 +64,8 @@ def load_model(asked: Any, hr_hz: Fraction | None) -> Model:
     if shipped is not None:
         rate = shipped.hr_hz if hr_hz is None else float(hr_hz)
         return Model(shipped.name, shipped.model(rate), INPUTS.get(shipped.name, 0), shipped)
-    if isinstance(asked, str):
-        return model_of(returned_from(asked), asked)
-    return model_of(Returned("model", asked), asked)
-
-
-def returned_from(asked: str) -> Returned:
-    """What the user's function returns. Raises InputError where there is none, or it fails."""
-    shipped_defaults(asked)
-    return returned_by(asked, option("model"), HOW)
+    returned = returned_by(asked, option("model"), HOW) if isinstance(asked, str) else Returned("model", asked)
+    return model_of(returned, asked)
 
 
 def model_of(returned: Returned, asked: Any) -> Model:

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from filters.accuracy.sensors import SensorsModel, sensors_model
+from filters.accuracy.shipped import SHIPPED_MODELS
 from filters.arrays import FloatArray
 from filters.modular.composition import ModularFilter
 from filters.modular.linearised import linearised_filter
@@ -19,12 +20,12 @@ from sched_sim.errors import InputError, option
 from sched_sim.scenario.accuracy_asked import Seen
 from sched_sim.scenario.scenario import Scenario
 from studies.measurement.described import UNSAID
-from studies.measurement.user_function import Returned, explained
-from studies.selection.model import Model, load_model, model_of, returned_from, shipped_defaults
+from studies.measurement.user_function import Returned, explained, returned_by
+from studies.selection.model import Model, load_model, model_of, shipped_defaults
 
 HOW = (
     "give a function package.module:function that returns a filters.accuracy.SensorsModel or a ModularFilter with the "
-    "scenario's sensors, or for one sensor a System or LinearModel; or a shipped model's name"
+    f"scenario's sensors, or for one sensor a System or LinearModel; or one of {', '.join(SHIPPED_MODELS)}"
 )
 
 
@@ -104,7 +105,9 @@ def _does_not_say(own: object, sensor: str, lacking: list[str]) -> str:
 
 
 def _found(name: str, hr_hz: Fraction | None, folder: Path) -> _Found:
-    if shipped_defaults(name) is not None:
+    if ":" not in name and name not in SHIPPED_MODELS:
+        raise InputError(f"{option('model')} {short(repr(name))} is unknown: {HOW}")
+    if name in SHIPPED_MODELS:
         if hr_hz is None:
             raise InputError(
                 f"{option('model')} {name} depends on the time of a step: give the scenario hr_hz, not speed"
@@ -112,7 +115,7 @@ def _found(name: str, hr_hz: Fraction | None, folder: Path) -> _Found:
         linear = load_model(name, hr_hz).linear
         return _Found(linear.Phi, linear.Q, (linear.H, linear.R), linear.names, False)
     with chdir(folder):
-        returned = returned_from(name)
+        returned = returned_by(name, option("model"), HOW)
     which = f"{option('model')} {short(repr(name))}"
     if isinstance(returned.value, SensorsModel):
         with explained(which):

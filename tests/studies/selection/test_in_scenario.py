@@ -216,7 +216,7 @@ H, R = ((1.0,) * 9,), ((1.0,),)
         (AccuracyAsked("ins-gps", sensors={"radio": Seen(H, None)}), "'ins-gps' has the H and R of one sensor"),
         (AccuracyAsked("ins-gps", sensors={"radio": Seen(H, ((0.0,),))}), "sensor 'radio': R .* positive definite"),
         (AccuracyAsked("ins-gps", sensors={"radio": Seen(((1.0,),), R)}), r"sensor 'radio': H has shape \(1, 1\)"),
-        (AccuracyAsked("ins-gps", "7:10", sensors={"radio": Seen(H, R)}), r"\[accuracy\] output 7:10: .* 0 to 8"),
+        (AccuracyAsked("ins-gps", "7:10", sensors={"radio": Seen(H, R)}), r"\[accuracy\] output 7:10.* 0 to 8"),
         (AccuracyAsked("nope"), r"\[accuracy\] model 'nope' is unknown"),
         (AccuracyAsked(), "^model is missing"),
         (
