@@ -11,6 +11,7 @@ import pytest
 
 from filters.accuracy import SensorsModel, lossless
 from filters.arrays import FloatArray
+from filters.modular import Measurement, ModularFilter, Sensor, linear_corrector, linear_predictor, run
 from sched_sim.errors import InputError
 from sched_sim.scenario.accuracy_asked import AccuracyAsked, Seen
 from sched_sim.scenario.run import Outcome, run_scenario
@@ -279,3 +280,23 @@ def test_what_the_figures_are_not_of_is_told() -> None:
     costs |= {"carry_product.gps": 1, "beside_product.radio": 1, "land_product.gps": 1, "carry_product": 1}
     larsen = scenario(100, costs, GPS, sensor("radio", 8), steps=100, hr_hz=400, accuracy=asked, late="larsen")
     assert any("late = larsen is not quite as good" in remark for remark in along(larsen)[0].remarks)
+
+
+def test_it_is_the_covariance_of_the_filter_itself(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A modular filter that gets each measurement in the step in which the simulation has it landed."""
+    camera = linear_corrector([[1.0, 0.0]], [[0.3]])
+    gps = linear_corrector(np.eye(2), np.diag([4.0, 1.0]))
+    sensors = [Sensor("gps", gps, 20, range(5, 30), 0.2), Sensor("camera", camera, 7, range(2, 6), 0.1)]
+    composed = ModularFilter(linear_predictor(CV.Phi, CV.Q), sensors)
+    given_by(tmp_path, monkeypatch, composed)
+    costs = {"predict": [1, 2], "correct.gps": [1, 5], "correct.camera": [1, 4]}
+    late = (sensor("gps", 20, range(5, 30), dropout=0.2, land_by=90), sensor("camera", 7, range(2, 6), dropout=0.1))
+    of = scenario(9, costs, *late, steps=300, seed=3)
+    found, outcome = along(of, model="model:it", output="0", initial_std=[2.0, 1.0])
+    measured = [
+        Measurement(name, k, l, np.zeros(2 if name == "gps" else 1))
+        for name, figures in outcome.sensors.items()
+        for k, l in figures.landings
+    ]
+    history = run(composed, [0.0, 0.0], np.diag([4.0, 1.0]), np.zeros((299, 0)), measured, history=200)
+    np.testing.assert_allclose(found.deviations, np.sqrt(history.P[:, 0, 0]), rtol=1e-9)
