@@ -41,15 +41,22 @@ def check_problem(
     P0: ArrayLike,
     inputs: ArrayLike,
     measurements: Measurements,
+    *,
+    several: bool = False,
 ) -> Problem:
-    """Raises ValueError, naming the argument, unless 0 <= M <= L <= N, N >= 1, all shapes fit and all is finite."""
+    """Raises ValueError, naming the argument, unless 0 <= M <= L <= N, N >= 1, all shapes fit and all is finite.
+
+    several: measurements may be taken before one arrives, so that M and L may be more than N.
+    """
     for name, value in (("N", N), ("M", M), ("L", L)):
         if not isinstance(value, int | np.integer):
             raise ValueError(f"{name}={value!r} must be a whole number of steps")
     if N < 1:
         raise ValueError(f"N={N} must be at least 1: it is the number of steps between measurements")
-    if not 0 <= M <= L <= N:
-        raise ValueError(f"M={M}, L={L}, N={N} must satisfy 0 <= M <= L <= N")
+    if not 0 <= M <= L or (L > N and not several):
+        rule = "0 <= M <= L" if several else "0 <= M <= L <= N"
+        other = "; with more than N, use recalculate, larsen or dual_rate" if 0 <= M <= L else ""
+        raise ValueError(f"M={M}, L={L}, N={N} must satisfy {rule}{other}")
     start, moves = _start_and_inputs(system, x0, P0, inputs)
     readings = measured(system.measurements, N, measurements)
     return Problem(lossy(shaped(system), N, readings.present), start, moves, readings)

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 from filters.arrays import Flags, FloatArray
 from filters.backends.choose import BackendName, arguments_for, function_for
 from filters.covariance_forms import covariance_form
-from filters.delayed.dual_rate import HighRateTask
+from filters.delayed.high_rate_task import HighRateTask
 from filters.delayed.low_rate_noise import NOISE_METHODS
 from filters.kernels.dense import copy
 from filters.modular.arrivals import Arrivals, TooOld, arrivals
@@ -73,7 +73,7 @@ def run(
     _check_arrivals(sensor, arrived, lands)
     low_rate = LowRateTask(composed, sensor, Estimate(x, P), backend)
     system = composed_system(composed, P, moves.shape[1])
-    high_rate = HighRateTask(system, N, x, NOISE_METHODS["exact"], covariance_form("short"), backend)
+    high_rate = HighRateTask(system, N, lands, x, NOISE_METHODS["exact"], covariance_form("short"), backend)
     estimates = new_estimates(composed.of, len(moves))
     following, scratch = 0, np.empty_like(P)
     with running("filter"):
@@ -81,7 +81,7 @@ def run(
             if j > 0:
                 high_rate.step(j - 1, moves[j - 1])
             if j % N == lands % N and low_rate.has_correction:
-                high_rate.correct(lands, low_rate.hand_over())
+                high_rate.correct(j - lands, lands, low_rate.hand_over())
             P = low_rate.covariance(high_rate.message(j).transition)
             if j % N == 0:
                 low_rate.restart(Estimate(high_rate.x, P))
