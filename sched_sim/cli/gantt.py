@@ -61,7 +61,7 @@ def gantt(
     from sched_sim.cli.design_times import make_design
     from sched_sim.cli.simulate import released_together
     from sched_sim.design.least_speed import least_speed
-    from sched_sim.design.methods import select
+    from sched_sim.design.methods import METHODS, select
 
     check_picture(output, "--output")
     across = width_mm(width)
@@ -75,6 +75,9 @@ def gantt(
     for name in opt.wanted_methods(method or _usual(table), table):
         timing = design.timing(name, options)
         work = select(table, name, options, statistic)
+        if not method and (reason := METHODS[name].lacking(work, timing)):
+            say(f"Note: no {name}: {reason}")
+            continue
         pace = opt.pace(speed, rate, part, partial(least_speed, work, timing, options, others))
         if together := released_together(work, timing, pace, options, others):
             say(f"Note: {name}: {together}")

@@ -37,7 +37,10 @@ def range_note(table: CostTable, designs: Mapping[str, Timing], options: Options
     from sched_sim.design.least_speed import has_closed_form, least_speed
     from sched_sim.design.methods import select
 
-    if not _spread(table, designs) or not has_closed_form(options, tasks):
+    if not _spread(table, designs):
+        return ""
+    costs = {method: select(table, method, options) for method in designs}
+    if not all(has_closed_form(options, tasks, costs[method], timing) for method, timing in designs.items()):
         return ""
     scale, unit = (SECONDS[table.unit] * 10**6, ", us an HR period") if table.unit in SECONDS else (Fraction(1), "")
 

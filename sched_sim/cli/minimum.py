@@ -70,6 +70,9 @@ def minimum(
             say(f"Note: no {name}: {reason}")
             continue
         work = select(table, name, options, statistic)
+        if not method and (reason := METHODS[name].lacking(work, timing)):
+            say(f"Note: no {name}: {reason}")
+            continue
         person: dict[str, Any] = {"method": "standard (no delay)" if name == "standard" else name}
         unit_and_form = {"cost_unit": "second" if timed else table.unit} | update_form(table, name)
         with simulations(name) as on_progress:

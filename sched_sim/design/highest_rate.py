@@ -29,7 +29,7 @@ def landing(costs: Costs, timing: Timing, pace: Fraction, options: Options, task
         from sched_sim.design.any_phase import worst_landing
 
         return worst_landing(costs, timing, pace, options, tasks)
-    if not has_closed_form(options, tasks):
+    if not has_closed_form(options, tasks, costs, timing):
         from sched_sim.design.steady import run_until_steady
 
         steady = run_until_steady(costs, timing, pace, options, tasks)
@@ -56,10 +56,11 @@ def highest_rate(
             N, M, L = times.steps(rate)
             assert N is not None
             M = M or 0
-            if N > MOST_STEPS or M > N:
+            if N > MOST_STEPS or (M > N and not law.several):
                 return False
-            timing = Timing(N, M, law.latest(N, M) if L is None else min(L, law.latest(N, M)))
-            method_of(costs).check(timing, options.feedback)
+            latest = law.latest(N, M)
+            timing = Timing(N, M, latest if L is None else L if law.several else min(L, latest))
+            method_of(costs).check_design(costs, timing, options.feedback)
             return landing(costs, timing, 1 / rate, options, _at(tasks, rate, hr_hz)) is not None
         except InputError:
             return False
