@@ -62,7 +62,7 @@ def lacking(costs: LarsenCosts[Fraction], timing: Timing) -> str | None:
     if timing.M <= timing.N or all((costs.gain, costs.correct, costs.compensate)):
         return None
     return (
-        f"M={timing.M} is more than N={timing.N}, and for several measurements on their way the cost table has no "
+        f"where M is more than N, others are measured before one arrives, and for that the cost table has no "
         f"[costs.larsen] gain, correct, compensate: use {option('costs')} counted-9-3-3 or a table that `sched-sim "
         f"measure` writes, or choose {option('method')} recalculate or dual-rate"
     )

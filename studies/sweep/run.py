@@ -113,7 +113,7 @@ def _computed(sweep: Sweep, missing: list[range], workers: int, stopped: Callabl
         if stopped():
             return
         chunk = chunk_of(span)
-        if cycles is None and chunk.block.has_closed_form:
+        if cycles is None and chunk.has_closed_form:
             yield rows_of(chunk, None)
         else:
             simulated.append(span)
@@ -123,7 +123,7 @@ def _computed(sweep: Sweep, missing: list[range], workers: int, stopped: Callabl
     def size(first: Chunk) -> int:
         N = int(first.designs.N[0])
         steps = N * (cycles or 0)
-        if not first.block.has_closed_form:
+        if cycles is None or not first.has_closed_form:
             steps += SEARCH_RUNS * (STEPS_TO_START + hyperperiod_steps(Timing(N, 0, N), first.block.tasks))
         return min(SIMULATED_STEPS // steps, LARGEST_TASK)
 

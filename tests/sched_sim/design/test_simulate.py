@@ -261,7 +261,7 @@ def test_memory_does_not_grow_with_the_cycles_and_slices_are_kept_only_on_demand
 
 
 def test_an_l_that_dual_rate_cannot_have_is_refused() -> None:
-    with pytest.raises(InputError, match="L=4 must be > M=4.*give L from 5 on"):
+    with pytest.raises(InputError, match=r"L=4 must be > M=4.*give L from 5 on"):
         simulate(DUAL_RATE, Timing(10, 4, 4), Fraction(10), 1)
 
 
