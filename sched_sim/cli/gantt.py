@@ -72,10 +72,11 @@ def gantt(
     others = opt.make_tasks(tasks, table.unit, rate)
     design = make_design(N, M, L, rate, measurement_hz, delay_ms, land_within_ms)
     panels = []
-    for name in opt.wanted_methods(method or _usual(table), table):
+    names = opt.wanted_methods(method or _usual(table), table)
+    for name in names:
         timing = design.timing(name, options)
         work = select(table, name, options, statistic)
-        if not method and (reason := METHODS[name].lacking(work, timing)):
+        if len(names) > 1 and not method and (reason := METHODS[name].lacking(work, timing)):
             say(f"Note: no {name}: {reason}")
             continue
         pace = opt.pace(speed, rate, part, partial(least_speed, work, timing, options, others))

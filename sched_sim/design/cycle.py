@@ -74,7 +74,7 @@ def cycle_of(costs: JobCosts[int], timing: Timing, options: Options) -> Cycle:
 
 def _larsen_in_flight(costs: LarsenCosts[int], N: int, M: int) -> Cycle:
     """Once as many are on their way as there will be."""
-    products = [sum(1 for ago in range(2, M + 1) if ago % N == step) for step in range(N)]
+    products = [(M - step) // N - (1 - step) // N for step in range(N)]  # of k that are 2 .. M steps ago
     high = [costs.propagate + count * costs.product for count in products]
     high[0] += costs.gain
     high[M % N] += costs.correct + (M - 1) // N * costs.compensate

@@ -86,8 +86,15 @@ def hyperperiod_steps(timing: Timing, tasks: Sequence[Task]) -> int:
 
 
 def longest_run(timing: Timing, tasks: Sequence[Task]) -> int:
-    """HR periods to simulate before a schedule is said not to repeat: until the last task has started, and six
-    hyperperiods. Raises InputError where one of the two is longer than LONGEST, or they release too many jobs."""
+    """HR periods to simulate before a schedule is said not to repeat: until the last task has started and the first
+    correction of several in flight is due, and six hyperperiods. Raises InputError where one of them is longer than
+    LONGEST, or they release too many jobs."""
+    flight = max(timing.M, timing.L)
+    if flight > max(LONGEST, timing.N):
+        raise InputError(
+            f"L={flight} is more than the {LONGEST} HR periods that are simulated to find the least speed: look at one "
+            f"speed with `sched-sim simulate --speed`"
+        )
     hyperperiod, started = hyperperiod_steps(timing, tasks), max((ceil(task.start) for task in tasks), default=0)
     if started > LONGEST:
         last = max(tasks, key=lambda task: task.start)
@@ -110,6 +117,7 @@ def longest_run(timing: Timing, tasks: Sequence[Task]) -> int:
             f"periods ({', '.join(periods)}) down to a common grid "
             f"with N={timing.N}, or look at one speed with `sched-sim simulate --speed`"
         )
+    started += flight if flight > timing.N else 0
     once = started + hyperperiod
     check_simulation(once, tasks, f"the {once} HR periods until the tasks repeat", MOST_JOBS_TO_REPEAT)
     return started + max(6 * hyperperiod, FEWEST)

@@ -49,7 +49,7 @@ class Sweep:
         """All that the rows depend on, for the results file: equal for two sweeps only if all their rows are."""
         grid = self.grid
         return {
-            "format": 4,
+            "format": 5,
             "N": list(grid.N),
             "M": "all legal" if grid.M is None else list(grid.M),
             "L": "all legal" if grid.L is None else list(grid.L),
