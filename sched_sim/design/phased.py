@@ -9,11 +9,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 from itertools import chain
-from math import gcd, lcm
 from typing import NamedTuple
 
 import numpy as np
 
+from sched_sim.design.common_period import common_period
 from sched_sim.design.cycle import Cycle, cycle_of
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import Costs, converted, works
@@ -144,11 +144,3 @@ def phased(costs: Costs, timing: Timing, speed: Fraction, options: Options, task
     whole = np.int64 if largest * (steps + LONGEST_BUSY) < 2**56 else object
     before = np.concatenate([[0], np.cumsum(np.array(cycle.high, dtype=whole) + switches)]).astype(whole)
     return Phased(timing.N, steps, period, switches, cycle, before, tuple(in_ticks), options)
-
-
-def common_period(N: int, periods: Sequence[Fraction]) -> int:
-    """HR steps after which measurements and tasks of these periods are released together again as they were."""
-    common = Fraction(N)
-    for period in periods:
-        common = Fraction(lcm(common.numerator, period.numerator), gcd(common.denominator, period.denominator))
-    return common.numerator

@@ -15,10 +15,8 @@ from sched_sim.design.arguments import checked
 from sched_sim.design.hr_loop import OnLanding
 from sched_sim.design.methods import method_of
 from sched_sim.design.options import Options
-from sched_sim.design.phased import phased
 from sched_sim.design.pieces import Costs, converted, works
 from sched_sim.design.timing import Timing
-from sched_sim.design.worst_phase import critical_start
 from sched_sim.schedule.clock import Clock, OnProgress
 from sched_sim.schedule.jobs import RecurringSource
 from sched_sim.schedule.length import check_simulation
@@ -119,6 +117,9 @@ def worst_start(
     """When those of any phase are released together, in HR periods; None if there are none."""
     if all(task.offset != "any" for task in tasks):
         return None
+    from sched_sim.design.phased import phased
+    from sched_sim.design.worst_phase import critical_start
+
     design = phased(costs, timing, speed, options, tasks)
     start = Fraction(0) if options.policy == "edf" else Fraction(critical_start(design), design.period)
     longest = max(task.jitter for task in tasks if task.offset == "any")

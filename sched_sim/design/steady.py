@@ -15,8 +15,8 @@ from fractions import Fraction
 from math import ceil
 
 from sched_sim.bounds import MOST_JOBS_TO_REPEAT, short
+from sched_sim.design.common_period import common_period
 from sched_sim.design.options import Options
-from sched_sim.design.phased import common_period
 from sched_sim.design.pieces import Costs
 from sched_sim.design.simulate import workload_in_ticks
 from sched_sim.design.timing import Timing
