@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import ceil
 
-from sched_sim.bounds import MOST_JOBS_TO_REPEAT, short
+from sched_sim.bounds import MOST_IN_FLIGHT, MOST_JOBS_TO_REPEAT, short
 from sched_sim.design.common_period import common_period
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import Costs
@@ -90,10 +90,10 @@ def longest_run(timing: Timing, tasks: Sequence[Task]) -> int:
     correction of several in flight is due, and six hyperperiods. Raises InputError where one of them is longer than
     LONGEST, or they release too many jobs."""
     flight = max(timing.M, timing.L)
-    if flight > max(LONGEST, timing.N):
+    if flight > max(LONGEST, timing.N) or flight > MOST_IN_FLIGHT * timing.N:
         raise InputError(
-            f"L={flight} is more than the {LONGEST} HR periods that are simulated to find the least speed: look at one "
-            f"speed with `sched-sim simulate --speed`"
+            f"L={flight} with N={timing.N} is more than is simulated to find the least speed, {LONGEST} HR periods and "
+            f"{MOST_IN_FLIGHT} measurements on their way at once: look at one speed with `sched-sim simulate --speed`"
         )
     hyperperiod, started = hyperperiod_steps(timing, tasks), max((ceil(task.start) for task in tasks), default=0)
     if started > LONGEST:

@@ -217,6 +217,12 @@ def test_the_default_is_the_first_measurement_that_is_taken_after_arrival() -> N
     assert METHODS["recalculate"].law("next-step").latest(10, 14) == 14
 
 
+@pytest.mark.parametrize("timing", [Timing(1, 2000, 2001), Timing(10**5, 10, 3 * 10**5)])
+def test_more_in_flight_than_anyone_has_is_refused(timing: Timing) -> None:
+    with pytest.raises(InputError, match=f"L={timing.L} with N={timing.N} is more than is simulated"):
+        least_speed(select(COUNTED, "dual-rate"), timing)
+
+
 def test_a_table_without_the_entries_of_larsen_in_flight_says_which() -> None:
     costs = select(load_costs("steffes2014"), "larsen")
     assert least_speed(costs, Timing(10, 10, 10)).speed == Fraction("1.47")
