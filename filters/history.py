@@ -15,7 +15,8 @@ class History(NamedTuple):
     """The results of a filter run over steps 0 .. steps.
 
     x (steps + 1, n): the whole-state estimate at the end of every step.
-    P_reference (cycles, n, n): P_{k^-} at k = 0, N, 2N, ...
+    P_reference (cycles, n, n): P_{k^-} at k = 0, N, 2N, ...; where several measurements are on their way at once, as
+        far as all that were taken before k have arrived within the run.
     innovations (updates, p), gains (updates, n, p): z and K of each measurement that arrived within the run.
     """
 
@@ -47,6 +48,11 @@ class HistoryRecorder:
         """What a measurement that was used has said."""
         self._z.append(correction.z)
         self._K.append(correction.K)
+
+    def keep_known(self, measurements: int) -> None:
+        """Forget the references of which it is not known yet what came before them, of so many measurements."""
+        if len(self._z) < measurements:
+            del self._references[len(self._z) + 1 :]
 
     def references(self) -> Estimate:
         """x_{k^-} (cycles, n) and P_{k^-} (cycles, n, n)."""

@@ -25,6 +25,8 @@ MOST_JOBS_TO_REPEAT = 1_000_000
 """Released until all has begun and been seen once: a search for the least speed simulates that some thirty times."""
 MOST_STATES = 200
 """States of a measured system; inputs and measurements too. Its operations grow with the third power."""
+MOST_IN_FLIGHT = 1_000
+"""Measurements on their way at once, where a least speed is searched by simulation."""
 MOST_TASKS = 1_000
 """The user's, beside the filter."""
 MOST_SENSORS = 100

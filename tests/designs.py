@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 from hypothesis import strategies as st
 
+from sched_sim.design.methods import method_of
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import (
     AugmentationCosts,
@@ -41,7 +42,7 @@ def serial_designs(draw: st.DrawFn) -> Design:
     costs = draw(
         st.builds(StandardCosts, ticks, ticks)
         | st.builds(RecalculateCosts, ticks, ticks, ticks)
-        | st.builds(LarsenCosts, ticks, ticks, ticks)
+        | st.builds(LarsenCosts, ticks, ticks, ticks, ticks, ticks, ticks)
         | st.builds(CloneCosts, ticks, ticks, ticks, ticks)
         | st.builds(CarriedGainCosts, ticks, ticks, ticks, ticks, ticks, ticks)
         | st.builds(Px4PredictorCosts, ticks, ticks, ticks, ticks, ticks)
@@ -49,8 +50,10 @@ def serial_designs(draw: st.DrawFn) -> Design:
         | st.builds(FuseAsFreshCosts, ticks, ticks)
     )
     N = draw(st.integers(1, 12))
-    M = draw(st.sampled_from([0, N]) | st.integers(0, N))
-    return Design(costs, Timing(N, M, N), Options())
+    M = draw(st.sampled_from([0, N]) | st.integers(0, N) | st.integers(N + 1, 3 * N + 1))
+    if not method_of(costs).law("next-step").several:
+        M = min(M, N)
+    return Design(costs, Timing(N, M, max(N, M)), Options())
 
 
 @st.composite
@@ -69,6 +72,17 @@ def dual_rate_designs(draw: st.DrawFn) -> Design:
         gain="precomputed" if precomputed else "at-update",
         cpus=draw(st.sampled_from([1, 2])),
     )
+    return Design(costs, Timing(N, M, L), options)
+
+
+@st.composite
+def designs_in_flight(draw: st.DrawFn) -> Design:
+    """Of the dual-rate filter, with L beyond N, and M too or not."""
+    costs, _, options = draw(dual_rate_designs())
+    N = draw(st.integers(1, 8))
+    M = draw(st.integers(0, 2 * N + 2))
+    first = M + (options.feedback == "next-step")
+    L = draw(st.integers(max(first, N - (options.feedback == "same-step") + 1), max(first, N) + 2 * N))
     return Design(costs, Timing(N, M, L), options)
 
 

@@ -11,6 +11,7 @@ from filters.backends.choose import BackendName, arguments_for, function_for
 from filters.breakdown import check_history, sturdier
 from filters.covariance_forms import CovarianceFormName, covariance_form
 from filters.covariance_forms.form import CovarianceForm
+from filters.delayed.larsen_in_flight import compensate, correct, gain, run_in_flight
 from filters.delayed.standard import PROPAGATE, propagate
 from filters.delayed.standard import update as update_at_once
 from filters.delayed.update import update_error
@@ -81,17 +82,21 @@ def run(
 ) -> History:
     """Filter a record of data in which the measurement of step k can be read from step m = k + M on.
 
-    Arguments, results and errors as in `standard.run`. The correction is in the state of step m, whatever L is.
+    Arguments, results and errors as in `standard.run`. The correction is in the state of step m, whatever L is. With
+    M > N there are several on their way at once, see `larsen_in_flight`.
     """
-    problem = check_problem(system, N, M, L, x0, P0, inputs, measurements)
+    problem = check_problem(system, N, M, L, x0, P0, inputs, measurements, several=True)
     moves, y = problem.inputs, problem.measured.y
+    recorder = HistoryRecorder(system)
+    if M > N:
+        run_in_flight(problem, N, M, covariance_form(update), backend, recorder)
+        return check_history(recorder.history(), recorder.references().x, problem, N, sturdier(update), backend)
     run_propagate = function_for(backend, propagate)
     run_propagate_accumulate = function_for(backend, propagate_accumulate)
     run_update_at_once = function_for(backend, update_at_once)
     run_update = function_for(backend, extrapolated_update)
     form, model = arguments_for(backend, covariance_form(update)), arguments_for(backend, problem.system)
     work = new_workspace(system)
-    recorder = HistoryRecorder(system)
 
     estimate = reference = problem.start
     Phi_from_k = np.eye(system.states)
@@ -136,8 +141,27 @@ def _extrapolated_update(system: System, form: CovarianceForm, at: Sample) -> tu
     return system, form, at.k, at.y, at.reference, at.transition.Phi, at.now, after, correction, work
 
 
+def _gain(system: System, form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
+    P_posterior, correction = np.empty_like(at.P_posterior), new_correction(system)
+    return system, form, at.k, at.reference, P_posterior, correction, new_workspace(system)
+
+
+def _correct(system: System, _form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
+    correction, x_corrected = new_correction(system), np.empty_like(at.now.x)
+    correction.K[:] = at.correction.K
+    transition, work = at.transition, new_workspace(system)
+    return system, at.k, at.y, at.reference.x, transition.Phi, at.now.x, x_corrected, correction, work
+
+
+def _compensate(system: System, _form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
+    return at.now.x, at.transition.Phi, at.correction.delta_x, np.empty_like(at.now.x), new_workspace(system)
+
+
 JOBS: tuple[JobKind[CovarianceForm], ...] = (
     PROPAGATE,
     ("propagate_accumulate", propagate_accumulate, _propagate_accumulate),
     ("update", extrapolated_update, _extrapolated_update),
+    ("gain", gain, _gain),
+    ("correct", correct, _correct),
+    ("compensate", compensate, _compensate),
 )

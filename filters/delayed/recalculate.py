@@ -1,7 +1,9 @@
 """Recalculate the filter when the delayed measurement arrives: go back to k, update, and propagate to m again.
 
 At m the state and covariance of step k, and the inputs since, are still at hand; the update of Eqs. (9) to (12) at k is
-followed by M propagations. Nothing is done twice in other steps.
+followed by M propagations. Nothing is done twice in other steps. With M > N others have been taken since k: of each of
+them state and covariance are kept too, and the replay passes by them, so that they are those which all that came before
+has corrected.
 """
 
 from __future__ import annotations
@@ -37,7 +39,7 @@ def run(
 
     Arguments, results and errors as in `standard.run`. The correction is in the state of step m, whatever L is.
     """
-    problem = check_problem(system, N, M, L, x0, P0, inputs, measurements)
+    problem = check_problem(system, N, M, L, x0, P0, inputs, measurements, several=True)
     moves, y = problem.inputs, problem.measured.y
     propagate = function_for(backend, standard.propagate)
     update_at_k = function_for(backend, standard.update)
@@ -50,27 +52,29 @@ def run(
         propagate(model, form, j, before, moves[j], after, work)
         return after
 
-    estimate = reference = problem.start
+    estimate = problem.start
+    references: dict[int, Estimate] = {}  # x_{k^-} and P_{k^-} of the measurements that have not arrived
     for j in range(len(moves) + 1):
         if j > 0:
             estimate = propagated(j - 1, estimate)
-        if j % N == 0 and M < N:
-            reference = estimate
-            recorder.reference(*reference)
+        if j % N == 0:
+            references[j] = estimate
 
         k = j - M
         if k >= 0 and k % N == 0 and k // N < len(y):
-            correction = new_correction(system)
+            reference, correction = references.pop(k), new_correction(system)
+            recorder.reference(*reference)
             estimate = new_estimate(system)
             update_at_k(model, form, k, y[k // N], reference, estimate, correction, work)
+            recorder.correction(correction)
             for i in range(k, j):
                 estimate = propagated(i, estimate)
-            recorder.correction(correction)
-
-        if j % N == 0 and M == N:  # the measurement that has just arrived belonged to the reference before this one
-            reference = estimate
-            recorder.reference(*reference)
+                if (i + 1) % N == 0:
+                    references[i + 1] = estimate
         recorder.state(estimate.x)
+    for reference in references.values():
+        recorder.reference(*reference)
+    recorder.keep_known(len(y))
     return check_history(recorder.history(), recorder.references().x, problem, N, sturdier(update), backend)
 
 

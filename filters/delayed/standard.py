@@ -132,7 +132,7 @@ def run(
             is not, or a Q or R that is no covariance; or rounding has been too much for a covariance or a gain, see
             `breakdown` and `rounding`. The step is named, and what to do.
     """
-    problem = check_problem(system, N, M, L, x0, P0, inputs, measurements)
+    problem = check_problem(system, N, M, L, x0, P0, inputs, measurements, several=True)
     steps, cycles = len(problem.inputs), len(problem.inputs) // N + 1
     updates = min(cycles, len(problem.measured.y))
     n, p = system.states, system.measurements

@@ -25,7 +25,7 @@ from numpy.typing import ArrayLike
 from filters.arrays import Flags, FloatArray
 from filters.backends.choose import BackendName, arguments_for, function_for
 from filters.covariance_forms import covariance_form
-from filters.delayed.dual_rate import HighRateTask
+from filters.delayed.high_rate_task import HighRateTask
 from filters.delayed.low_rate_noise import NOISE_METHODS
 from filters.kernels.dense import copy
 from filters.modular.arrivals import Arrivals, TooOld, arrivals
@@ -82,7 +82,7 @@ def run(
     _check_arrivals(sensor, arrived, lands)
     low_rate = LowRateTask(composed, sensor, Estimate(x, P), backend)
     system = composed_system(composed, P, moves.shape[1])
-    high_rate = HighRateTask(system, N, x, NOISE_METHODS["exact"], covariance_form("short"), backend)
+    high_rate = HighRateTask(system, N, N, x, NOISE_METHODS["exact"], covariance_form("short"), backend)
     estimates = new_estimates(composed.of, len(moves))
     following, scratch = 0, np.empty_like(P)
     with running("filter"):
@@ -92,7 +92,8 @@ def run(
             if low_rate.lands(j, lands):
                 delta_x = low_rate.hand_over()
                 if delta_x is not None:
-                    high_rate.correct(lands, delta_x)
+                    last_k = (j - 1) // N * N
+                    high_rate.correct(last_k, j - last_k, delta_x)
             transition = high_rate.message(j).transition
             if j % N == 0:
                 low_rate.begin(Cycle(j, high_rate.x, transition, []))

@@ -13,7 +13,7 @@ from sched_sim.costs.table import CostTable
 from sched_sim.design.methods import select
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import Statistic
-from sched_sim.design.simulate import simulate
+from sched_sim.design.simulate import simulate, simulated_steps
 from sched_sim.design.timing import Timing
 from sched_sim.errors import InputError
 from sched_sim.schedule.length import check_simulation
@@ -96,22 +96,25 @@ def steps_shown(first: int, last: int, steps: int) -> str:
     return f"first {last} of {steps} steps" if last < steps else f"all {steps} steps"
 
 
-def cycle_marks(timing: Timing, cycles: int, landings: Mapping[int, int], *, arrives: bool = True) -> list[Mark]:
+def cycle_marks(
+    timing: Timing, cycles: int, landings: Mapping[int, int], *, arrives: bool = True, end: int = 0
+) -> list[Mark]:
     """k, m and l of every cycle; steps that coincide share one mark, "m = l".
 
-    landings: achieved L by cycle, for the cycles whose correction landed; arrives: whether there is an m.
+    landings: achieved L by cycle, for the cycles whose correction landed; arrives: whether there is an m; end: where
+    the last of them must have landed after the last cycle, the step until which each k has its mark.
     """
     names: dict[int, list[Mark]] = {}
 
     def add(step: int, text: str, cycle: int, is_k: bool = False) -> None:
         names.setdefault(step, []).append(Mark(step, text, cycle, is_k))
 
-    for cycle in range(cycles + 1):
+    for cycle in range(max(cycles, end // timing.N) + 1):
         k = cycle * timing.N
         later = "" if cycle == 0 else "+N" if cycle == 1 else f"+{cycle}N"
         add(k, f"k{later}", cycle, True)
-        if cycle == cycles:
-            break
+        if cycle >= cycles:
+            continue
         if arrives:
             add(k + timing.M, f"m{later}", cycle)
         if cycle in landings:
@@ -159,14 +162,15 @@ def method_panel(
     Raises InputError as `methods.select` and `simulate` do, and for more steps than a chart can show.
     """
     speed, cycles = positive(speed, "speed"), at_least_one(cycles, "cycles")
-    if cycles * timing.N > MOST_STEPS:
+    costs = select(table, method, options, statistic)
+    steps = simulated_steps(costs, timing, cycles, options)
+    if steps > MOST_STEPS:
         raise InputError(
-            f"a Gantt chart of {cycles} cycles with N={timing.N} has {cycles * timing.N} steps; at most {MOST_STEPS} "
+            f"a Gantt chart of {cycles} cycles with N={timing.N} has {steps} steps; at most {MOST_STEPS} "
             f"can be drawn: give fewer cycles, or write a trace"
         )
-    check_simulation(cycles * timing.N, tasks, f"{cycles} cycles of N={timing.N}", MOST_JOBS)
+    check_simulation(steps, tasks, f"{cycles} cycles of N={timing.N}", MOST_JOBS)
     landings: dict[int, int] = {}
-    costs = select(table, method, options, statistic)
     schedule = simulate(costs, timing, speed, cycles, options, tasks, keep_slices=True, on_landing=landings.__setitem__)
     two_rate = method in TWO_RATE_METHODS
     delay = replace(timing, M=0) if two_rate or method == "standard" else timing
@@ -182,7 +186,7 @@ def method_panel(
         title=METHOD_NAMES[method] if title is None else title,
         schedule=schedule,
         notes=(*notes, *option_notes(options), f"{100 * float(schedule.utilization):.0f} % busy"),
-        marks=cycle_marks(delay, cycles, landings, arrives=not two_rate),
+        marks=cycle_marks(delay, cycles, landings, arrives=not two_rate, end=schedule.horizon // schedule.period),
     )
     if first == 0 and last is None:
         return panel

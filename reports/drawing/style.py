@@ -73,6 +73,7 @@ class Fill(NamedTuple):
 FILLS = {
     "P": Fill("#b3d4ee", INK, "", "propagate"),
     "U": Fill("#11538c", "white", "", "update"),
+    "G": Fill("#f4e9d8", "#9a6200", "\\\\\\\\", "gain and covariance"),
     "R": Fill("#dfe8f0", "#11538c", "\\\\\\\\", "replayed steps"),
     "ST": Fill("#5b93c4", "white", "", "start"),
     "CA": Fill("#e3edf5", "#11538c", "....", "carry"),

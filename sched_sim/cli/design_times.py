@@ -35,7 +35,8 @@ class Design(NamedTuple):
 
     def timing(self, method: str, options: Options, *, asked: bool = True) -> Timing:
         """With the latest L that the method can have, if none was said. Raises InputError for a delay or a landing that
-        it cannot have; for M = N, where it needs a step more, only if it was asked for."""
+        it cannot have; for M = N, where it needs a step more, only if it was asked for. Some methods can have several
+        measurements on their way, so that M and L may be more than N."""
         from sched_sim.design.methods import METHODS
         from sched_sim.design.time_limits import check_times
 
@@ -44,7 +45,7 @@ class Design(NamedTuple):
         M = 0 if law.undelayed else self.M
         if self.rate is not None and M is not None and not (law.undelayed and self.M):
             skipped = not asked and M <= self.N and law.why_none(self.N, M)
-            needs = (0, 0) if skipped else (law.after, law.before)
+            needs = (0, 0) if skipped else (law.after, None if law.several else law.before)
             check_times(self.said, Steps(self.N, M, self.L), self.rate, *needs)
         return opt.make_timing(self.N, self.M, self.L, method, options, delay)
 

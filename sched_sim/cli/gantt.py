@@ -62,7 +62,7 @@ def gantt(
     from sched_sim.cli.design_times import make_design
     from sched_sim.cli.simulate import released_together
     from sched_sim.design.least_speed import least_speed
-    from sched_sim.design.methods import select
+    from sched_sim.design.methods import METHODS, select
 
     check_picture(output, "--output")
     across = width_mm(width)
@@ -76,6 +76,9 @@ def gantt(
     for name in methods:
         timing = design.timing(name, options)
         work = select(table, name, options, statistic)
+        if len(methods) > 1 and not method and (reason := METHODS[name].lacking(work, timing)):
+            say(f"Note: no {name}: {reason}")
+            continue
         pace = opt.pace(speed, rate, part, partial(least_speed, work, timing, options, others))
         if together := released_together(work, timing, pace, options, others):
             say(f"Note: {name}: {together}")

@@ -44,7 +44,7 @@ def range_note(table: CostTable, designs: Mapping[str, Timing], options: Options
 
     designs: by the method.
     """
-    if not any(_has_range(table, method, options, tasks) for method in designs):
+    if not any(_has_range(table, method, timing, options, tasks) for method, timing in designs.items()):
         return ""
     scale, unit = (SECONDS[table.unit] * 10**6, ", us an HR period") if table.unit in SECONDS else (Fraction(1), "")
     ends = {method: _ends(table, method, timing, options) for method, timing in designs.items()}
@@ -66,18 +66,19 @@ def measured_row(
     busy. Null where the note says nothing."""
     least, most = (
         (float(scale * speed) for speed in _ends(table, method, timing, options))
-        if _has_range(table, method, options, tasks)
+        if _has_range(table, method, timing, options, tasks)
         else (None, None)
     )
     return {"min_speed_least": least, "min_speed_most": most} | busy_row(table.provenance)
 
 
-def _has_range(table: CostTable, method: str, options: Options, tasks: Sequence[Task]) -> bool:
+def _has_range(table: CostTable, method: str, timing: Timing, options: Options, tasks: Sequence[Task]) -> bool:
     """Whether one can be told, of the least speed."""
     from sched_sim.design.least_speed import has_closed_form
+    from sched_sim.design.methods import select
 
     spread = any(cost.minimum != cost.p95 for cost in table.costs.get(method, {}).values())
-    return spread and has_closed_form(options, tasks)
+    return spread and has_closed_form(options, tasks, select(table, method, options), timing)
 
 
 def _ends(table: CostTable, method: str, timing: Timing, options: Options) -> tuple[Fraction, Fraction]:

@@ -65,12 +65,16 @@ def minimum(
 
     rows: list[dict[str, Any]] = []
     shown: list[dict[str, Any]] = []
-    for name in opt.wanted_methods(method, table):
+    names = opt.wanted_methods(method, table)
+    for name in names:
         timing = design.timing(name, options, asked=bool(method))
         if not method and (reason := METHODS[name].law(options.feedback).why_none(timing.N, timing.M)):
             say(f"Note: no {name}: {reason}")
             continue
         work = select(table, name, options, statistic)
+        if len(names) > 1 and not method and (reason := METHODS[name].lacking(work, timing)):
+            say(f"Note: no {name}: {reason}")
+            continue
         person: dict[str, Any] = {"method": "standard (no delay)" if name == "standard" else name}
         unit_and_form = {"cost_unit": "second" if timed else table.unit} | update_form(table, name)
         with simulations(name) as on_progress:

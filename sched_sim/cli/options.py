@@ -67,8 +67,8 @@ Delay = Annotated[
     int | None,
     typer.Option(
         "-M",
-        help="Delay of the measurement in HR steps, 0 <= M <= N (longer: simulate --scenario); multirate and robust "
-        "methods have none.",
+        help="Delay of the measurement in HR steps; more than N, so that others are taken before it arrives, with "
+        "recalculate, larsen and dual-rate; multirate and robust methods have none.",
         parser=whole,
         metavar="STEPS",
         rich_help_panel=DESIGN,
@@ -88,8 +88,8 @@ FeedbackStep = Annotated[
     int | None,
     typer.Option(
         "-L",
-        help="Step by which the correction must land, M < L <= N, or L = M with --feedback same-step; by default the "
-        "latest possible.",
+        help="Step by which the correction must land, M < L, or L = M with --feedback same-step; with dual-rate it may "
+        "be more than N; by default the step in which the next measurement is taken (M >= N: the first after arrival).",
         parser=whole,
         metavar="STEPS",
         rich_help_panel=DESIGN,
@@ -204,7 +204,7 @@ def make_timing(
             said = delay or f"-M {M}"
             raise InputError(
                 f"{said}: {method} has no delay, it uses each measurement in its step: for a late one choose --method "
-                f"recalculate, larsen or dual-rate; without delay leave {said.split()[0]} out"
+                f"recalculate, larsen, carried-gain or dual-rate; without delay leave {said.split()[0]} out"
             )
         M = 0
     if M is None:
@@ -213,7 +213,7 @@ def make_timing(
             "(multirate and robust methods have none)"
         )
     if L is None:
-        L = law.latest(N, M) if 0 <= M <= N else N
+        L = law.latest(N, M) if M >= 0 else M
     return Timing(N, M, L)
 
 

@@ -211,7 +211,7 @@ def unseen(
     shown = f"{cycles} {'cycle is' if cycles == 1 else 'cycles are'} shown"
     if (most := max(loads(costs, timing, speed, options, tasks))) > 1:
         return f"{shown}; the work is {_above(most)} of what the processor can do, and piles up without end"
-    if has_closed_form(options, tasks):
+    if has_closed_form(options, tasks, costs, timing):
         return None
     if phases_matter(tasks):
         return _at_another_phase(costs, timing, speed, options, tasks)

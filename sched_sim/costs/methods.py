@@ -37,7 +37,7 @@ METHODS: tuple[Method, ...] = (*DELAYED_METHODS, *TWO_RATE_METHODS)
 KINDS: Mapping[str, tuple[str, ...]] = {
     "standard": ("propagate", "update"),
     "recalculate": ("propagate", "update", "replay"),
-    "larsen": ("propagate", "propagate_accumulate", "update"),
+    "larsen": ("propagate", "propagate_accumulate", "update", "gain", "correct", "compensate"),
     "dual-rate": (
         "hr_propagate",
         "hr_propagate_sum",

@@ -75,8 +75,9 @@ STEPS_ALONE = 32
 def least_period(costs: JobCosts[int], N: Whole, M: Whole, L: Whole, options: Options) -> Quotient[Whole]:
     """The least HR period, in ticks, at which every deadline holds; its code is a `Binding`.
 
-    costs in ticks; N, M, L: integers, or integer arrays of one shape, legal for the method. `context_switch` and
-    `policy` of the options are not looked at: see `sched_sim.design.search`.
+    costs in ticks; N, M, L: integers, or integer arrays of one shape, legal for the method, and of the dual-rate filter
+    with one correction on its way at a time. `context_switch` and `policy` of the options are not looked at: see
+    `sched_sim.design.search`.
     Raises TypeError for what is no whole number.
     """
     costs = _counted(costs)
@@ -137,7 +138,7 @@ def _arrays(costs: JobCosts[int], N: Ints, M: Ints, other: Ints) -> tuple[Ints, 
     import numpy as np
 
     arrays = [_whole_numbers(array).ravel() for array in (N, M, other)]
-    steps = int(arrays[0].max(initial=0)) + 3
+    steps = max(int(array.max(initial=0)) for array in arrays[:2]) + 3
     largest = max(int(array.max(initial=0)) for array in arrays)
     fits = 8 * steps * max(steps * sum(works(costs)), largest) <= np.iinfo(np.int64).max
     N, M, other = (array.astype(np.int64 if fits else object) for array in arrays)
@@ -161,7 +162,8 @@ def _longest_serial_job(costs: SerialCosts[int], N: Whole, M: Whole) -> Whole:
         case RecalculateCosts(propagate, update, replay):
             return propagate + update + replay * M
         case LarsenCosts(propagate, accumulate, update):
-            return where(M >= 2, 0 * N + max(accumulate + update, propagate), 0 * N + propagate + update)
+            alone = where(M >= 2, 0 * N + max(accumulate + update, propagate), 0 * N + propagate + update)
+            return where(M <= N, alone, _longest_of_several(costs, N, M))
         case CloneCosts(propagate, start, carry, update):
             return propagate + _longest_carried(start, carry, update, N, M)
         case CarriedGainCosts(propagate, update, carry, land, couple, compensate):
@@ -183,6 +185,18 @@ def _longest_carried(at_k: Whole | int, carry: int, at_m: Whole | int, N: Whole,
     together = zero + at_k + where(M % N == 0, zero + at_m, 0)
     between = where(larger(M - 1, 0) % N > 0, zero + carry, 0)
     return larger(larger(together, zero + at_m), between)
+
+
+def _longest_of_several(costs: LarsenCosts[int], N: Whole, M: Whole) -> Whole:
+    """Of Larsen's method where others are measured before one arrives, M > N: the HR job of step m, where as many
+    products are accumulated as in any, or that of step k, which is the same where N divides M."""
+    others = (M - 1) // N
+    at_m = M % N
+    correction = costs.correct + others * costs.compensate + where(at_m == 0, 0 * N + costs.gain, 0)
+    products_at_m, products_at_k = M // N - (1 - at_m) // N, M // N - 1 // N
+    at_k = products_at_k * costs.product + costs.gain
+    longest: Whole = costs.propagate + larger(products_at_m * costs.product + correction, at_k)
+    return longest
 
 
 def _two_rate_demand(costs: TwoRateCosts[int], N: Whole, options: Options) -> DualRateDemand[Whole]:

@@ -13,7 +13,7 @@ from sched_sim.design.hr_loop import HrSource, OnLanding
 from sched_sim.design.method import CostOf, CycleWork, Method
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import CarriedGainCosts, CloneCosts
-from sched_sim.design.serial import law
+from sched_sim.design.serial import law, law_with_several
 from sched_sim.design.timing import Timing
 from sched_sim.schedule.jobs import HR, Job, step_at
 
@@ -105,4 +105,6 @@ def _carried_gain_work(costs: CarriedGainCosts[Fraction], timing: Timing) -> Cyc
 
 
 CLONE = Method(_clone_pieces, _clone_source, _clone_work, law, lands_in_step_m=True)
-CARRIED_GAIN = Method(_carried_gain_pieces, _carried_gain_source, _carried_gain_work, law, lands_in_step_m=True)
+CARRIED_GAIN = Method(
+    _carried_gain_pieces, _carried_gain_source, _carried_gain_work, law_with_several, lands_in_step_m=True
+)

@@ -24,6 +24,7 @@ from sched_sim.design.pieces import (
     works,
 )
 from sched_sim.design.timing import Timing
+from sched_sim.errors import InputError
 
 
 class LowJob(NamedTuple):
@@ -62,6 +63,8 @@ def cycle_of(costs: JobCosts[int], timing: Timing, options: Options) -> Cycle:
             high = [propagate] * N
             high[M % N] += update + M * replay
             return Cycle(high)
+        case LarsenCosts() if M > N:
+            return _larsen_in_flight(costs, N, M)
         case LarsenCosts(propagate, accumulate, update):
             high = [accumulate if 2 <= step < M else propagate for step in range(N)]
             updated = update + (accumulate if M >= 2 else propagate)
@@ -93,9 +96,23 @@ def cycle_of(costs: JobCosts[int], timing: Timing, options: Options) -> Cycle:
             return Cycle(high)
 
 
+def _larsen_in_flight(costs: LarsenCosts[int], N: int, M: int) -> Cycle:
+    """Once as many are on their way as there will be."""
+    products = [(M - step) // N - (1 - step) // N for step in range(N)]  # of k that are 2 .. M steps ago
+    high = [costs.propagate + count * costs.product for count in products]
+    high[0] += costs.gain
+    high[M % N] += costs.correct + (M - 1) // N * costs.compensate
+    return Cycle(high)
+
+
 def _dual_rate(costs: DualRateCosts[int], timing: Timing, options: Options) -> Cycle:
     N, M, L = timing.N, timing.M, timing.L
     apart = options.feedback == "same-step"
+    if L + apart > N:
+        raise InputError(
+            f"with L={L} and N={N} several corrections are on their way, and then it is not known at which phase of "
+            f"the tasks they are latest: give each task an offset, and no jitter"
+        )
     due = L + 1 if apart else L
     early = due if options.lr_propagate_by == "l" or M == 0 else M
     high = [costs.hr] * N

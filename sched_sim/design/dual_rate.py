@@ -11,14 +11,19 @@ from sched_sim.design.method import CostOf, CycleWork, Law, Method
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import DualRateCosts
 from sched_sim.design.timing import Feedback, Timing
-from sched_sim.errors import InputError, option
+from sched_sim.errors import InputError
 from sched_sim.schedule.jobs import HR, LR, Job, Parts, Then, step_at
 
 
 class DualRate(HrSource):
-    """The dual-rate filter: an HR job each step, and per cycle a chain of LR jobs in order:
+    """The dual-rate filter: an HR job each step, and per cycle a chain of LR jobs, first in first out:
 
-    LR propagate (when the HR job of step k finishes), the gain if it is precomputed, the LR update (at m).
+    LR propagate (when the HR job of step k finishes), the gain if it is precomputed, the LR update (at m). With M >= N,
+    LR propagate of the next cycle waits for the LR update of the last, unless the gain is precomputed.
+
+    A correction that lands after the next measurement was taken goes through each cycle since, an HR update for each;
+    and those which are not in the state at k, for they land later, are carried there by the LR update of k, with the
+    work of an HR update for each (`filters.delayed.low_rate_task`).
     """
 
     def __init__(
@@ -37,10 +42,13 @@ class DualRate(HrSource):
         self.ordinary: Parts = (("HRP", costs.hr),)
         self.restart: Parts = (("HRP", costs.hr_restart),)
         self.to_apply: deque[int] = deque()  # cycles whose LR update has finished, not yet in the state
+        self.in_state = 0  # cycles whose corrections are
+        self.missing: deque[int] = deque()  # corrections not in the state at k, of the cycles not measured yet
         self.lr_queue: deque[Job] = deque()
         self.lr_busy = False
-        self.propagates_released = 0
-        self.arrived: deque[Job] = deque()  # LR updates at m whose LR propagate is not released yet
+        self.propagates: deque[Job] = deque()  # released, and not in the queue yet
+        self.updates: deque[Job] = deque()
+        self.propagates_queued = self.updates_queued = 0
 
     def release(self) -> tuple[Job, ...]:
         step, start = self.step, self.next_release
@@ -49,48 +57,59 @@ class DualRate(HrSource):
         parts = self.restart if offset == self.restart_offset else self.ordinary
         work = parts[0][1]
         if self.to_apply:
-            corrections = self._apply(step)
-            work += corrections * self.costs.hr_update
-            parts = (*parts, ("HRU", corrections * self.costs.hr_update))
+            correction = self._apply(step) * self.costs.hr_update
+            work += correction
+            parts = (*parts, ("HRU", correction))
         job = Job("hr", step, HR, start, self.next_release, work, parts, None if offset else self._propagate)
-        if offset == self.M:
-            return (job, *self._measurement(step - offset, start))
+        if not offset:
+            self.missing.append(step // self.N - self.in_state)
+        if step >= self.M and offset == self.M % self.N:
+            return (job, *self._measurement(step - self.M, start))
         return (job,)
 
     def at_horizon(self) -> tuple[Job, ...]:
         """The horizon is the start of a step: what has finished by then lands in it."""
         self._apply(self.step)
-        return (*self.lr_queue, *self.arrived)
+        return (*self.lr_queue, *self.propagates, *self.updates)
 
     def state(self, now: int) -> Hashable:
         this = self.step // self.N
+        waiting = (self.lr_queue, self.propagates, self.updates)
         return (
             super().state(now),
             tuple(cycle - this for cycle in self.to_apply),
-            tuple(job.state(now, job.remaining, 0) for job in (*self.lr_queue, *self.arrived)),
-            self.propagates_released - this,
+            self.in_state - this,
+            tuple(self.missing),
+            tuple(tuple(job.state(now, job.remaining, 0) for job in jobs) for jobs in waiting),
+            self.propagates_queued - this,
+            self.updates_queued - this,
             self.lr_busy,
         )
 
     def _apply(self, step: int) -> int:
-        """The corrections that reach the state in the HR job of `step`; how many they are."""
-        corrections = len(self.to_apply)
+        """Land the corrections that reach the state in the HR job of `step`; returns how many HR updates they take."""
+        cycles = 0
         for cycle in self.to_apply:
+            cycles += self._cycles_between(cycle * self.N, step)
             self.on_landing(cycle, step - cycle * self.N)
+        self.in_state += len(self.to_apply)
         self.to_apply.clear()
-        return corrections
+        return cycles
+
+    def _cycles_between(self, k: int, step: int) -> int:
+        """Through how many cycles a correction of k goes: one, if the next k is not passed."""
+        return max(-(-(step - k) // self.N), 1)
 
     def _lr_job(self, kind: str, label: str, k: int, release: int, due: int, cost: int, then: Then) -> Job:
         return Job(kind, k, LR, release, k * self.period + due, cost, ((label, cost),), then, self.lr_cpu)
 
     def _propagate(self, job: Job, now: int) -> tuple[Job, ...]:
         """Phi and Q of the last cycle are sent at k: LR propagate is released."""
-        self.propagates_released += 1
-        k, cost = job.step, self.costs.lr_propagate
         then = self._gain if self.costs.lr_gain else self._early_work_done
-        propagate = self._lr_job("lr_propagate", "LRP", k, now, self.propagate_due, cost, then)
-        updates = [self.arrived.popleft()] if self.arrived else []
-        return self._enqueue(propagate, *updates)
+        self.propagates.append(
+            self._lr_job("lr_propagate", "LRP", job.step, now, self.propagate_due, self.costs.lr_propagate, then)
+        )
+        return self._enqueue()
 
     def _gain(self, job: Job, now: int) -> tuple[Job, ...]:
         return (
@@ -104,32 +123,41 @@ class DualRate(HrSource):
 
     def _measurement(self, k: int, now: int) -> tuple[Job, ...]:
         """The measurement of step k arrives at m: the LR update is released."""
-        update = self._lr_job("lr_update", "LRU", k, now, self.update_due, self.costs.lr_update, self._update_done)
-        if self.propagates_released * self.N <= k:
-            self.arrived.append(update)
-            return ()
-        return self._enqueue(update)
+        cost = self.costs.lr_update + self.missing.popleft() * self.costs.hr_update
+        self.updates.append(self._lr_job("lr_update", "LRU", k, now, self.update_due, cost, self._update_done))
+        return self._enqueue()
 
     def _update_done(self, job: Job, now: int) -> tuple[Job, ...]:
         if not self.same_step:
             self.to_apply.append(job.step // self.N)
             return self._next_in_chain()
-        cost = self.costs.hr_update
+        cost = self._cycles_between(job.step, step_at(now, self.period)) * self.costs.hr_update
         due = job.step * self.period + self.update_due
         feedback = Job("hr_update", job.step, HR, now, due, cost, (("HRU", cost),), self._landed)
         return (feedback, *self._next_in_chain())
 
     def _landed(self, job: Job, now: int) -> tuple[Job, ...]:
+        self.in_state += 1
         self.on_landing(job.step // self.N, step_at(now, self.period) - job.step)
         return ()
 
-    def _enqueue(self, *jobs: Job) -> tuple[Job, ...]:
-        self.lr_queue.extend(jobs)
-        return () if self.lr_busy else self._next_lr()
+    def _enqueue(self) -> tuple[Job, ...]:
+        """What is released goes into the queue as soon as what it needs is there: an LR update its LR propagate, and LR
+        propagate the LR update before it, if that computes the gain."""
+        while True:
+            needed = 0 if self.costs.lr_gain else self.propagates_queued
+            if self.propagates and self.updates_queued >= needed:
+                self.propagates_queued += 1
+                self.lr_queue.append(self.propagates.popleft())
+            elif self.updates and self.updates_queued < self.propagates_queued:
+                self.updates_queued += 1
+                self.lr_queue.append(self.updates.popleft())
+            else:
+                return () if self.lr_busy else self._next_lr()
 
     def _next_in_chain(self) -> tuple[Job, ...]:
         self.lr_busy = False
-        for waiting in self.lr_queue:
+        for waiting in (*self.lr_queue, *self.propagates, *self.updates):
             waiting.held = True
         return self._next_lr()
 
@@ -141,26 +169,18 @@ class DualRate(HrSource):
 
 
 def law(feedback: Feedback) -> Law:
-    return Law(1, 0, only_first=False) if feedback == "next-step" else Law(0, 1, only_first=False)
-
-
-def _another_method() -> str:
-    """Where M = N leaves no step."""
-    return f"choose {option('method')} recalculate or larsen, which correct the state in that very step"
+    after, before = (1, 0) if feedback == "next-step" else (0, 1)
+    return Law(after, before, only_first=False, several=True)
 
 
 def check(timing: Timing, feedback: Feedback) -> None:
-    """Raises InputError unless M < L <= N (next-step) or M <= L < N (same-step)."""
-    N, M, L = timing.N, timing.M, timing.L
+    """Raises InputError unless M < L (next-step)."""
+    M, L = timing.M, timing.L
     if feedback == "next-step" and L <= M:
-        advice = f"give L from {M + 1} to N={N} (same-step feedback allows L = M)" if M < N else _another_method()
         raise InputError(
             f"L={L} must be > M={M}: the dual-rate correction cannot land in the step in which the measurement "
-            f"arrives; {advice}"
+            f"arrives; give L from {M + 1} on (same-step feedback allows L = M)"
         )
-    if feedback == "same-step" and L >= N:
-        advice = f"give L from {M} to {N - 1}" if M < N else _another_method()
-        raise InputError(f"L={L} must be < N={N} with same-step feedback: the correction lands during step l; {advice}")
 
 
 def pieces(cost: CostOf, options: Options) -> DualRateCosts[Fraction]:
@@ -177,8 +197,11 @@ def pieces(cost: CostOf, options: Options) -> DualRateCosts[Fraction]:
 
 
 def work(costs: DualRateCosts[Fraction], timing: Timing) -> CycleWork:
-    high = (timing.N - 1) * costs.hr + costs.hr_restart + costs.hr_update
-    return CycleWork(high, costs.lr_propagate + costs.lr_gain + costs.lr_update)
+    """Where corrections land as soon as measurements arrive; later ones go through more cycles."""
+    cycles = max(-(-timing.M // timing.N), 1)
+    high = (timing.N - 1) * costs.hr + costs.hr_restart + cycles * costs.hr_update
+    compensation = (cycles - 1) * costs.hr_update
+    return CycleWork(high, costs.lr_propagate + costs.lr_gain + costs.lr_update + compensation)
 
 
 def binding(kind: str, held: bool, timing: Timing, options: Options) -> str:

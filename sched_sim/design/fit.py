@@ -27,7 +27,8 @@ class Fit:
     least: the least speed, in seconds of work per HR period, and what fixes it.
     needed: the share of the processor's speed at which every deadline holds; above 1 it is too slow.
     load: the share of its time that it works at its own speed, mean of the processors where there are two; with context
-        switches that of the simulated time, where it is at most 1 and which ends at a miss.
+        switches that of the simulated time, where it is at most 1 and which ends at a miss. Of several corrections on
+        their way, as if they landed as soon as measurements arrive: later ones take a few HR updates more.
     fits: whether every deadline holds at its own speed. landed: the L at which corrections land then, None if not.
     highest_hz: the highest HR rate at which it fits, with all else held in seconds, see `highest_rate`; None if none.
     """

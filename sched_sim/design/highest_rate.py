@@ -53,7 +53,7 @@ def landing(costs: Costs, timing: Timing, pace: Fraction, options: Options, task
         from sched_sim.design.any_phase import worst_landing
 
         return worst_landing(costs, timing, pace, options, tasks)
-    if not has_closed_form(options, tasks):
+    if not has_closed_form(options, tasks, costs, timing):
         from sched_sim.design.steady import run_until_steady
 
         steady = run_until_steady(costs, timing, pace, options, tasks)
@@ -74,13 +74,13 @@ def highest_rate(
     are in seconds. costs: in seconds. hr_hz: the rate of which the tasks are in HR periods; what is found does not hang
     on it. The tasks' phases may be any, for a given offset would be another part of the HR period at each rate.
 
-    It is exact where there is a closed form (`has_closed_form`). With tasks, context switches or earliest deadline
-    first it is found by bisection from above, which takes for granted that a lower rate fits where a higher one does;
-    then `LOOKS` of the rates above at which N, M or L is another, spread over all where there are more, are looked at
-    from the top. A rate that is higher still may fit.
+    It is exact where there is a closed form (`has_closed_form`). With several dual-rate corrections on their way,
+    tasks, context switches or earliest deadline first it is found by bisection from above, which takes for granted that
+    a lower rate fits where a higher one does; then `LOOKS` of the rates above at which N, M or L is another, spread over
+    all where there are more, are looked at from the top. A rate that is higher still may fit.
     """
     pieces = _Pieces.of(costs, times, options)
-    if has_closed_form(options, tasks):
+    if has_closed_form(options, tasks) and pieces.one_in_flight:
         return pieces.highest()
     return _Search(pieces, tuple(tasks), hr_hz).highest()
 
@@ -117,6 +117,14 @@ class _Pieces(NamedTuple):
         in_ticks = converted(costs, lambda work: to_ticks(work, per_cost))
         return cls(costs, options, law, per_hz, by_N, by_M, by_L, times.land_within_ms is not None, per_cost, in_ticks)
 
+    @property
+    def one_in_flight(self) -> bool:
+        """Whether at no rate a correction is on its way that costs something when the next measurement is taken."""
+        if self.law.only_first or not self.law.several:
+            return True
+        interval, delay, landing = (Fraction(1, by) if by else Fraction(0) for by in (self.by_N, self.by_M, self.by_L))
+        return delay < interval and landing <= interval
+
     def hz(self, units: int) -> Fraction:
         return Fraction(units, self.per_hz)
 
@@ -127,7 +135,10 @@ class _Pieces(NamedTuple):
         M = int(-(-rate // self.by_M)) if self.by_M else 0
         wait = 1 if rate % self.by_N else 0
         latest = self.law.latest(N, M)
-        return N, M, min(latest, self.landing(rate) - wait) if self.L_bound else latest
+        if not self.L_bound:
+            return N, M, latest
+        L = self.landing(rate) - wait
+        return N, M, L if self.law.several else min(latest, L)
 
     def landing(self, rate: int | Fraction) -> int:
         """The last step that starts by the time by which corrections must land."""
@@ -136,11 +147,13 @@ class _Pieces(NamedTuple):
     def timing(self, rate: int | Fraction) -> Timing | None:
         """None where the method can have none."""
         N, M, L = self.steps(rate)
-        if not 1 <= N <= MOST_STEPS or M > N:
+        if not 1 <= N <= MOST_STEPS or (M > N and not self.law.several):
+            return None
+        if self.one_in_flight and not self.law.one_in_flight(N, L):
             return None
         try:
             timing = Timing(N, M, L)
-            method_of(self.costs).check(timing, self.options.feedback)
+            method_of(self.costs).check_design(self.costs, timing, self.options.feedback)
         except InputError:
             return None
         return timing
@@ -156,14 +169,15 @@ class _Pieces(NamedTuple):
         most_N, most_M, _ = self.steps(high)
         most_L = self.law.latest(most_N, most_M)
         if self.L_bound:
-            most_L = min(most_L, self.landing(high))
-        if least_N > MOST_STEPS or least_M > most_N or most_L < least_M:
+            most_L = self.landing(high) if self.law.several else min(most_L, self.landing(high))
+        if least_N > MOST_STEPS or (least_M > most_N and not self.law.several) or most_L < least_M:
             return False
         timings = Range(least_N, most_N, least_M, most_M, most_L)
         period, rate = self.per_hz * self.per_cost, low if rate is None else rate  # in ticks of work, at a rate of 1
-        return all(
-            work * rate <= periods * period for work, periods in demands(self.costs_in_ticks, timings, self.options)
-        )
+        costs = self.costs_in_ticks
+        if isinstance(costs, DualRateCosts) and not self.one_in_flight:
+            return costs.hr * rate <= period
+        return all(work * rate <= periods * period for work, periods in demands(costs, timings, self.options))
 
     def change_between(self, low: int, high: int) -> int | None:
         """A rate at which a step changes, near the middle of those between; None if there is none."""

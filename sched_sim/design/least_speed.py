@@ -50,7 +50,8 @@ def least_speed(
 ) -> LeastSpeed:
     """The least speed at which every deadline holds (Steffes 2014, Sec. III.C: needed processing power).
 
-    In closed form and exact; with context-switch costs, other tasks or earliest deadline first by bisection on the
+    In closed form and exact; with context-switch costs, other tasks or earliest deadline first, and where the dual-rate
+    filter has several corrections on their way, M >= N or L > N, by bisection on the
     simulation, which is exact to one tick and calls `on_progress` (see `search.least_speed_by_simulation`); with tasks
     whose offset may be any, or with jitter, by bisection on the worst response times, for every phase
     (`any_phase.least_speed_of_any_phase`). Every
@@ -59,8 +60,8 @@ def least_speed(
     Raises InputError for an L that the method cannot have.
     """
     tasks = checked(timing, options, tasks)
-    method_of(costs).check(timing, options.feedback)
-    if not has_closed_form(options, tasks):
+    method_of(costs).check_design(costs, timing, options.feedback)
+    if not has_closed_form(options, tasks, costs, timing):
         if phases_matter(tasks):
             from sched_sim.design.any_phase import least_speed_of_any_phase
 
@@ -76,36 +77,43 @@ def least_speed(
 
 def achieved_l(costs: Costs, timing: Timing, speed: Number, options: Options = Options()) -> int | None:
     """The L at which corrections land at `speed`, in closed form; None where an HR job overruns its step or nothing
-    lands before the next measurement.
+    lands before the next measurement. Where several corrections are on their way, M >= N or L > N with the dual-rate
+    filter, the latest of a simulation until it repeats; None where a deadline is missed.
 
     Raises InputError for options that have no closed form (`has_closed_form`).
     """
     checked(timing, options)
     speed = positive(speed, "speed")
-    method_of(costs)
+    method_of(costs).check_design(costs, timing, options.feedback)
     if not has_closed_form(options, ()):
         raise InputError(
             f"options with context_switch={float(options.context_switch):g} and policy={options.policy!r} have no "
             f"closed form: `simulate` says where corrections land"
         )
+    if not has_closed_form(options, (), costs, timing):
+        from sched_sim.design.steady import run_until_steady
+
+        steady = run_until_steady(costs, timing, speed, options)
+        return max(steady.schedule.achieved) if steady.repeats else None
     resolution, in_ticks = _in_ticks(costs, speed)
     landed = analysis.achieved_l(in_ticks, timing.N, timing.M, to_ticks(speed, resolution), options)
     return None if landed == analysis.NOT_LANDED else landed
 
 
 def staircase(costs: Costs, N: int, M: int, options: Options = Options()) -> list[Stair]:
-    """Every legal L with its least speed, from the earliest to the latest.
+    """Every legal L with its least speed, from the earliest to the latest, or to the one that is meant where none is
+    given (`Law.latest`), where later ones are possible.
 
     A step on which `achieved` is less than L is waste: the same processor already lands earlier.
     For the serial methods there is one stair: the correction lands at m, whatever L is.
     """
     method = method_of(costs)
-    longest = Timing(N, M, N)
-    checked(longest, options)
     law = method.law(options.feedback)
     M = 0 if law.undelayed else M
+    longest = Timing(N, M, max(N, M))
+    checked(longest, options)
     if not law.legal(N, M):
-        method.check(longest, options.feedback)
+        method.check_design(costs, longest, options.feedback)
     stairs = []
     for L in law.legal(N, M):
         timing = Timing(N, M, L)
@@ -116,9 +124,16 @@ def staircase(costs: Costs, N: int, M: int, options: Options = Options()) -> lis
     return stairs
 
 
-def has_closed_form(options: Options, tasks: Sequence[Task]) -> bool:
-    """Whether the least speed needs no simulation."""
-    return not tasks and not options.context_switch and options.policy == "fixed"
+def has_closed_form(
+    options: Options, tasks: Sequence[Task], costs: Costs | None = None, timing: Timing | None = None
+) -> bool:
+    """Whether the least speed needs no simulation: with these options and tasks, and, if they are given, of this
+    method's design."""
+    if tasks or options.context_switch or options.policy != "fixed":
+        return False
+    if costs is None or timing is None:
+        return True
+    return method_of(costs).law(options.feedback).one_in_flight(timing.N, timing.L)
 
 
 def _in_ticks(costs: Costs, *others: Fraction) -> tuple[int, JobCosts[int]]:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Generic, NamedTuple, TypeVar
 
 from sched_sim.design.hr_loop import HrSource, OnLanding
 from sched_sim.design.options import Options
-from sched_sim.design.timing import Feedback, Timing
+from sched_sim.design.timing import Feedback, Timing, latest, one_at_a_time
+from sched_sim.errors import InputError
 
 CostOf = Callable[[str], Fraction]
 """What a job of this kind costs, by a cost table."""
@@ -19,28 +20,37 @@ InTicks = TypeVar("InTicks")
 
 
 class Law(NamedTuple):
-    """Which L a method can have: from M + after to N - before.
+    """Which L a method can have: from M + after to N - before; or, with several measurements on their way at once, from
+    M + after on.
 
-    only_first: it is M + after, whatever is asked for; undelayed: M is 0.
+    only_first: it is M + after, whatever is asked for; undelayed: M is 0; several: M and L may be more than N.
     """
 
     after: int
     before: int
     only_first: bool
     undelayed: bool = False
+    several: bool = False
 
     def legal(self, N: int, M: int) -> range:
-        """Every L, from the earliest to the latest."""
+        """Every L, from the earliest to the latest; to `latest` where later ones are possible."""
         first = M + self.after
-        return range(first, first + 1 if self.only_first else N - self.before + 1)
+        return range(first, first + 1 if self.only_first else self.latest(N, M) + 1)
 
     def latest(self, N: int, M: int) -> int:
-        """The last L, or what comes nearest to one where there is none."""
+        """The L that is meant where none is given: the last one, or what comes nearest to one where there is none; with
+        several on their way the last before the first measurement that is taken after this one has arrived."""
+        if self.several and not self.only_first:
+            return latest(N, M) - self.before
         return max(N - self.before, M)
+
+    def one_in_flight(self, N: int, L: int) -> bool:
+        """Whether a correction has landed before the next measurement is taken, or costs nothing until it does."""
+        return self.only_first or N - self.before >= L
 
     def why_none(self, N: int, M: int) -> str | None:
         """Why no L is left, although other methods have one; None if one is."""
-        if M + self.after <= N - self.before:
+        if self.several or M + self.after <= N - self.before:
             return None
         return f"with M=N={N} no step is left to it between the measurement's arrival and the next one"
 
@@ -63,6 +73,7 @@ class Method(Generic[Exact, InTicks]):
     pieces: the record of what they cost, from the costs of its kinds of jobs; source: of its jobs, from costs and HR
     period in ticks; work: in a measurement cycle; law: of L; check: raises InputError for an L that it cannot have;
     lands_in_step_m: its correction is part of the HR job of step m, so that with M = N it comes with the next cycle;
+    lacking: what its pieces lack for a timing, in words; None if nothing;
     binding: the demand that a missed job stands for, from its kind and whether it waited for an earlier LR job.
     work_varies: the work of a cycle depends on where it lands; `work` is the least that it can be.
     """
@@ -75,3 +86,14 @@ class Method(Generic[Exact, InTicks]):
     lands_in_step_m: bool = False
     binding: Callable[[str, bool, Timing, Options], str] = kind_missed
     work_varies: bool = False
+    lacking: Callable[[Exact, Timing], str | None] = lambda _costs, _timing: None
+
+    def check_design(self, costs: Exact, timing: Timing, feedback: Feedback) -> None:
+        """Raises InputError for a timing that the method cannot have, or for which its costs lack something."""
+        law = self.law(feedback)
+        wrong = None if law.several else one_at_a_time(replace(timing, M=0) if law.undelayed else timing)
+        if wrong:
+            raise InputError(wrong)
+        self.check(timing, feedback)
+        if lacking := self.lacking(costs, timing):
+            raise InputError(lacking)

@@ -53,7 +53,8 @@ def demands(costs: JobCosts[int], timings: Range, options: Options) -> Iterator[
             yield propagate + update + replay * timings.least_M, 1
         case LarsenCosts(propagate, accumulate, update):
             with_product = max(accumulate + update, propagate)
-            yield with_product if timings.least_M >= 2 else min(with_product, propagate + update), 1
+            alone = with_product if timings.least_M >= 2 else min(with_product, propagate + update)
+            yield alone if timings.most_M <= timings.least_N else min(alone, propagate + costs.correct), 1
         case CloneCosts(propagate, start, carry, update):
             yield propagate + _carried(start, carry, update, timings), 1
         case CarriedGainCosts(propagate, update, carry, land):
@@ -72,7 +73,7 @@ def demands(costs: JobCosts[int], timings: Range, options: Options) -> Iterator[
 
 def _carried(at_k: int, carry: int, at_m: int, timings: Range) -> int:
     """Beyond a propagation: the longer of the work at k and at m, or both where these are one step in all timings."""
-    if timings.most_M == 0 or timings.least_M >= timings.most_N:
+    if timings.most_M == 0 or timings.least_M == timings.most_M == timings.least_N == timings.most_N:
         return at_k + at_m
     return max(at_k, at_m, carry if 2 <= timings.least_M <= timings.least_N else 0)
 

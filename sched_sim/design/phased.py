@@ -13,6 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from sched_sim.design.common_period import common_period
 from sched_sim.design.cycle import Cycle, cycle_of
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import Costs, converted, works
@@ -200,11 +201,3 @@ def _parts(task: Task, speed: Fraction) -> list[tuple[int, int]]:
 
 def _denominator(above: int, below: int) -> int:
     return below // gcd(above, below)
-
-
-def common_period(N: int, periods: Sequence[Fraction]) -> int:
-    """HR steps after which measurements and tasks of these periods are released together again as they were."""
-    common = Fraction(N)
-    for period in periods:
-        common = Fraction(lcm(common.numerator, period.numerator), gcd(common.denominator, period.denominator))
-    return common.numerator

@@ -36,11 +36,23 @@ class RecalculateCosts(Generic[Number]):
 
 @dataclass(frozen=True, slots=True)
 class LarsenCosts(Generic[Number]):
-    """Work of the pieces of Larsen's method; accumulate: a propagated step with the product Phi(k->j) in it."""
+    """Work of the pieces of Larsen's method; accumulate: a propagated step with the product Phi(k->j) in it.
+
+    With several measurements in flight, M > N, in place of update: gain, with the covariance, at k; correct, the state,
+    at m; compensate, for each that is in flight then, at m too. 0 if a table does not have them.
+    """
 
     propagate: Number
     accumulate: Number
     update: Number
+    gain: Number = 0  # type: ignore[assignment]  # of either kind
+    correct: Number = 0  # type: ignore[assignment]
+    compensate: Number = 0  # type: ignore[assignment]
+
+    @property
+    def product(self) -> Number:
+        """One more product in a step."""
+        return max(self.accumulate - self.propagate, 0)  # type: ignore[operator, return-value]  # each of one kind
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,11 +6,13 @@ from collections.abc import Hashable
 from dataclasses import replace
 from fractions import Fraction
 
+from sched_sim.design import larsen_in_flight
 from sched_sim.design.hr_loop import HrSource, OnLanding
 from sched_sim.design.method import CostOf, CycleWork, Law, Method
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import LarsenCosts, RecalculateCosts, StandardCosts
 from sched_sim.design.timing import Feedback, Timing
+from sched_sim.errors import InputError
 from sched_sim.schedule.jobs import HR, Job, Parts, step_at
 
 
@@ -41,7 +43,7 @@ class Serial(HrSource):
         return (Job("hr", step, HR, start, self.next_release, work, parts, then),)
 
     def state(self, now: int) -> Hashable:
-        return super().state(now), self.M < self.N or self.step >= self.N
+        return super().state(now), 0 if self.M < self.N else min(self.step, self.M)
 
     def _landed(self, job: Job, now: int) -> tuple[Job, ...]:
         k = job.step - self.M
@@ -55,6 +57,10 @@ def _work(parts: Parts) -> int:
 
 def law(_feedback: Feedback) -> Law:
     return Law(0, 0, only_first=True)
+
+
+def law_with_several(_feedback: Feedback) -> Law:
+    return Law(0, 0, only_first=True, several=True)
 
 
 def _standard_pieces(cost: CostOf, _options: Options) -> StandardCosts[Fraction]:
@@ -89,21 +95,43 @@ def _recalculate_work(costs: RecalculateCosts[Fraction], timing: Timing) -> Cycl
 
 
 def _larsen_pieces(cost: CostOf, _options: Options) -> LarsenCosts[Fraction]:
-    return LarsenCosts(cost("propagate"), cost("propagate_accumulate"), cost("update"))
+    several = (_if_there(cost, kind) for kind in ("gain", "correct", "compensate"))
+    return LarsenCosts(cost("propagate"), cost("propagate_accumulate"), cost("update"), *several)
+
+
+def _if_there(cost: CostOf, kind: str) -> Fraction:
+    """0 for what only some designs need, where a table does not have it."""
+    try:
+        return cost(kind)
+    except InputError:
+        return Fraction(0)
 
 
 def _larsen_source(
     costs: LarsenCosts[int], timing: Timing, _options: Options, period: int, on_landing: OnLanding
-) -> Serial:
+) -> HrSource:
+    if timing.M > timing.N:
+        return larsen_in_flight.LarsenInFlight(costs, timing, period, on_landing)
     plain, accumulate = (("P", costs.propagate),), (("P", costs.accumulate),)
     return Serial(plain, accumulate, (("U", costs.update),), timing, period, on_landing)
 
 
 def _larsen_work(costs: LarsenCosts[Fraction], timing: Timing) -> CycleWork:
+    if timing.M > timing.N:
+        return larsen_in_flight.work(costs, timing)
     products = max(timing.M - 1, 0)
     return CycleWork((timing.N - products) * costs.propagate + products * costs.accumulate + costs.update)
 
 
-STANDARD = Method(_standard_pieces, _standard_source, _standard_work, law)
-RECALCULATE = Method(_recalculate_pieces, _recalculate_source, _recalculate_work, law, lands_in_step_m=True)
-LARSEN = Method(_larsen_pieces, _larsen_source, _larsen_work, law, lands_in_step_m=True)
+STANDARD = Method(_standard_pieces, _standard_source, _standard_work, law_with_several)
+RECALCULATE = Method(
+    _recalculate_pieces, _recalculate_source, _recalculate_work, law_with_several, lands_in_step_m=True
+)
+LARSEN = Method(
+    _larsen_pieces,
+    _larsen_source,
+    _larsen_work,
+    law_with_several,
+    lands_in_step_m=True,
+    lacking=larsen_in_flight.lacking,
+)

@@ -15,10 +15,8 @@ from sched_sim.design.arguments import checked
 from sched_sim.design.hr_loop import OnLanding
 from sched_sim.design.methods import method_of
 from sched_sim.design.options import Options
-from sched_sim.design.phased import phased
 from sched_sim.design.pieces import Costs, converted, works
 from sched_sim.design.timing import Timing
-from sched_sim.design.worst_phase import critical_start
 from sched_sim.schedule.clock import Clock, OnProgress
 from sched_sim.schedule.jobs import RecurringSource
 from sched_sim.schedule.length import check_simulation
@@ -41,8 +39,8 @@ def simulate(
     on_landing: OnLanding | None = None,
     on_progress: OnProgress | None = None,
 ) -> Schedule:
-    """Run one filter, and the user's tasks beside it, for `cycles` measurement cycles; where recalculate or Larsen's
-    method has M = N, for a step more, in which the last measurement arrives.
+    """Run one filter, and the user's tasks beside it, for `cycles` measurement cycles, and for as many steps more as it
+    takes until the correction of the last must be in the state (with M = N that is one step for recalculate).
 
     costs: from `select`; speed: cost units the processor does per HR period.
     keep_slices: return every `Slice`; without it memory does not grow with `cycles`.
@@ -66,7 +64,8 @@ def simulate(
                 on_landing(cycle, L)
 
     workload = workload_in_ticks(costs, timing, speed, options, tasks, landed)
-    steps = cycles * timing.N + (method_of(costs).lands_in_step_m and timing.M == timing.N)
+    steps = simulated_steps(costs, timing, cycles, options)
+    check_simulation(steps, tasks, f"{short(cycles)} cycles of N={timing.N} with L={timing.L}")
     clock = [] if on_progress is None else [Clock(workload.period, steps, on_progress)]
     slices: list[Slice] = []
 
@@ -84,6 +83,16 @@ def simulate(
     )
     processor.run()
     return replace(processor.schedule(), achieved=achieved, slices=tuple(slices))
+
+
+def simulated_steps(costs: Costs, timing: Timing, cycles: int, options: Options) -> int:
+    """Until the correction of the last cycle must be in the state; at least to the end of it."""
+    method = method_of(costs)
+    law = method.law(options.feedback)
+    lands = timing.L + law.before
+    if law.only_first:
+        lands = timing.M + 1 if method.lands_in_step_m else 0
+    return cycles * timing.N + max(lands - timing.N, 0)
 
 
 def at_worst_phase(
@@ -108,6 +117,9 @@ def worst_start(
     """When those of any phase are released together, in HR periods; None if there are none."""
     if all(task.offset != "any" for task in tasks):
         return None
+    from sched_sim.design.phased import phased
+    from sched_sim.design.worst_phase import critical_start
+
     design = phased(costs, timing, speed, options, tasks)
     start = Fraction(0) if options.policy == "edf" else Fraction(critical_start(design), design.period)
     longest = max(task.jitter for task in tasks if task.offset == "any")
@@ -132,6 +144,7 @@ def workload_in_ticks(
     """The fewest ticks per cost unit in which all is whole. Raises InputError as `simulate` does."""
     check_cpus(tasks, options.cpus)
     method = method_of(costs)
+    method.check_design(costs, timing, options.feedback)
     costs = converted(costs, Fraction)
     of_tasks = chain.from_iterable(work_and_times(task, speed) for task in tasks)
     resolution = ticks_per_unit([speed, options.context_switch, *works(costs), *of_tasks])

@@ -14,9 +14,9 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import ceil
 
-from sched_sim.bounds import MOST_JOBS_TO_REPEAT, short
+from sched_sim.bounds import MOST_IN_FLIGHT, MOST_JOBS_TO_REPEAT, short
+from sched_sim.design.common_period import common_period
 from sched_sim.design.options import Options
-from sched_sim.design.phased import common_period
 from sched_sim.design.pieces import Costs
 from sched_sim.design.simulate import workload_in_ticks
 from sched_sim.design.timing import Timing
@@ -86,8 +86,15 @@ def hyperperiod_steps(timing: Timing, tasks: Sequence[Task]) -> int:
 
 
 def longest_run(timing: Timing, tasks: Sequence[Task]) -> int:
-    """HR periods to simulate before a schedule is said not to repeat: until the last task has started, and six
-    hyperperiods. Raises InputError where one of the two is longer than LONGEST, or they release too many jobs."""
+    """HR periods to simulate before a schedule is said not to repeat: until the last task has started and the first
+    correction of several in flight is due, and six hyperperiods. Raises InputError where one of them is longer than
+    LONGEST, or they release too many jobs."""
+    flight = max(timing.M, timing.L)
+    if flight > max(LONGEST, timing.N) or flight > MOST_IN_FLIGHT * timing.N:
+        raise InputError(
+            f"L={flight} with N={timing.N} is more than is simulated to find the least speed, {LONGEST} HR periods and "
+            f"{MOST_IN_FLIGHT} measurements on their way at once: look at one speed with `sched-sim simulate --speed`"
+        )
     hyperperiod, started = hyperperiod_steps(timing, tasks), max((ceil(task.start) for task in tasks), default=0)
     if started > LONGEST:
         last = max(tasks, key=lambda task: task.start)
@@ -110,6 +117,7 @@ def longest_run(timing: Timing, tasks: Sequence[Task]) -> int:
             f"periods ({', '.join(periods)}) down to a common grid "
             f"with N={timing.N}, or look at one speed with `sched-sim simulate --speed`"
         )
+    started += flight if flight > timing.N else 0
     once = started + hyperperiod
     check_simulation(once, tasks, f"the {once} HR periods until the tasks repeat", MOST_JOBS_TO_REPEAT)
     return started + max(6 * hyperperiod, FEWEST)

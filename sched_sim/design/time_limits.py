@@ -14,22 +14,24 @@ SO_MANY_TIMES = 4
 """The rates that are looked at are up to so many times the one that was given."""
 
 
-def check_times(times: Times, steps: Steps, hr_hz: Fraction, after: int = 0, before: int = 0) -> None:
+def check_times(times: Times, steps: Steps, hr_hz: Fraction, after: int = 0, before: int | None = 0) -> None:
     """Raises InputError for a delay or a landing out of bounds that was given as a time, or beside a rate of
     measurements. What was given in steps alone is for `Timing` to check.
 
-    times: as they were given; steps: what all came to. A correction lands from M + after to N - before.
+    times: as they were given; steps: what all came to. A correction lands from M + after to N - before, or, where
+    before is None, from M + after on: then several measurements may be on their way.
     """
     N, M, L = steps
     assert N is not None
     assert M is not None
-    first, last = M + after, N - before
-    if first > last and (times.delay_ms is not None or times.measurement_hz is not None):
+    first, last = M + after, None if before is None else N - before
+    said = times.delay_ms is not None or times.measurement_hz is not None
+    if before is not None and first > N - before and said:
         raise InputError(_too_late_to_wait(times, N, M, hr_hz, after + before))
     if L is None or times.land_within_ms is None:
         return
     land, at = f"{option('land_within_ms')} {_shown(times.land_within_ms)}", f"{_hr(hr_hz)} and {_measured(times, N)}"
-    if last < L:
+    if last is not None and last < L:
         most = _shown(times.landing_ms(last, hr_hz), floor)
         raise InputError(
             f"{land} is later than the correction may land: before the next measurement is taken, at {at} within "
@@ -53,14 +55,16 @@ def _too_late_to_wait(times: Times, N: int, M: int, hr_hz: Fraction, left: int) 
     else:
         delay_ms, late = times.delay_ms, f"delay_ms = {_exact(times.delay_ms)}"
         delay = f"{option('delay_ms')} {_shown(delay_ms)}"
-    one = "these methods wait for one measurement at a time"
+    one = "this method waits for one measurement at a time"
     other = (
-        f"simulate several on their way with `sched-sim simulate --scenario FILE.toml`, and write in that file under "
-        f"[[sensor]] `{every}` and `{late}`"
+        f"choose {option('method')} recalculate, larsen, carried-gain or dual-rate, or simulate several on their way "
+        f"with `sched-sim simulate --scenario FILE.toml`, and write in it under [[sensor]] `{every}` and `{late}`"
     )
     if M <= N:
         one = "this method needs a step from a measurement's arrival to the next one"
-        other = f"choose {option('method')} recalculate or larsen, which correct the state in that very step"
+        other = (
+            f"choose {option('method')} recalculate or larsen, which correct the state in that very step, or dual-rate"
+        )
     most = f"the delay is at most {_shown((N - left) * 1000 / hr_hz, floor)} ms"
     if delay_ms > 1000 / hz:
         between = f"the {_shown(1000 / hz)} ms from one measurement to the next ({measured})"

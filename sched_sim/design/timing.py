@@ -8,7 +8,7 @@ from typing import Literal
 from sched_sim.bounds import whole
 from sched_sim.design.time_limits import check_times
 from sched_sim.design.times import Steps, Times
-from sched_sim.errors import InputError
+from sched_sim.errors import InputError, option
 from sched_sim.ticks import Number, positive
 
 Feedback = Literal["next-step", "same-step"]
@@ -19,8 +19,10 @@ class Timing:
     """The timeline of one filter, in high-rate (HR) steps (Steffes 2014, Sec. II and III.A).
 
     N: steps between measurement references, k = 0, N, 2N, ...
-    M: delay; the measurement of step k is available at the start of m = k + M, 0 <= M <= N.
-    L: feedback step; the correction must reach the state by l = k + L, M <= L <= N.
+    M: delay; the measurement of step k is available at the start of m = k + M, 0 <= M.
+    L: feedback step; the correction must reach the state by l = k + L, M <= L.
+
+    Where M or L is more than N, several are on their way at once; not every method can have that (`Law.several`).
     """
 
     N: int
@@ -32,7 +34,8 @@ class Timing:
         cls, hr_hz: Number, measurement_hz: Number, delay_ms: Number = 0, land_within_ms: Number | None = None
     ) -> Timing:
         """Of an HR loop at this rate, of measurements that come so often and so late, and whose corrections must be in
-        the state so long after they were taken; by default before the next one is taken, L = N.
+        the state so long after they were taken; by default before the first is taken after their arrival: L = N where
+        M < N, else the next multiple of N (`latest`).
 
         N and L are rounded down and M up: a measurement is used in the first step at or after its arrival, and L is
         less by the longest time that one waits for its step k (`Times.wait`). Raises InputError as `Times` does.
@@ -41,9 +44,8 @@ class Timing:
         N, M, L = times.steps(rate)
         assert N is not None
         assert M is not None
-        L = N if L is None else min(L, N)
-        check_times(times, Steps(N, M, L), rate)
-        return cls(N, M, L)
+        check_times(times, Steps(N, M, L), rate, before=None)
+        return cls(N, M, latest(N, M) if L is None else L)
 
     def __post_init__(self) -> None:
         for name in ("N", "M", "L"):
@@ -52,28 +54,34 @@ class Timing:
             raise InputError(f"N={self.N} must be at least 1: it is the number of HR steps between measurements")
         if self.M < 0:
             raise InputError(f"M={self.M} must be at least 0: it is the delay of the measurement in HR steps")
-        if self.M > self.N:
-            raise InputError(f"M={self.M} must be <= N={self.N}: {several_in_flight(self.N, self.M)}")
         if self.L < self.M:
             raise InputError(
                 f"L={self.L} must be > M={self.M}: the correction cannot land before the measurement arrives; "
-                f"give L {_up_to(min(self.M + 1, self.N), self.N)}"
-            )
-        if self.L > self.N:
-            raise InputError(
-                f"L={self.L} must be <= N={self.N}: the correction must land before the next measurement is taken; "
-                f"give L {_up_to(min(self.M + 1, self.N), self.N)}"
+                f"give L from {self.M + 1} on"
             )
 
 
-def _up_to(first: int, N: int) -> str:
-    return f"from {first} to N={N}" if first < N else f"of N={N}"
+def latest(N: int, M: int) -> int:
+    """The L that is meant where none is given: by the step in which the first measurement is taken after this one has
+    arrived. Where M < N that is the next one, L = N, as in the paper."""
+    return (M // N + 1) * N if N > 0 else M
 
 
-def several_in_flight(N: int, M: int) -> str:
-    """Why no method here can have M > N, and what can."""
+def one_at_a_time(timing: Timing) -> str | None:
+    """Why a method cannot have M > N or L > N if it has one measurement on its way at a time, and what can; None if it
+    can."""
+    N, M, L = timing.N, timing.M, timing.L
+    if N >= L:
+        return None
+    if M > N:
+        return (
+            f"M={M} must be <= N={N} with this method: it waits for one measurement at a time, and here others are "
+            f"taken before one arrives; choose {option('method')} recalculate, larsen, carried-gain or dual-rate, or "
+            f"simulate several on their way with `sched-sim simulate --scenario FILE.toml`, and write in it under "
+            f"[[sensor]] `every = {N}` and `delay = {M}`"
+        )
+    first = min(M + 1, N)
     return (
-        f"these methods wait for one measurement at a time, and here others are taken before one arrives; simulate "
-        f"several on their way with `sched-sim simulate --scenario FILE.toml`, and write in that file under [[sensor]] "
-        f"`every = {N}` and `delay = {M}`"
+        f"L={L} must be <= N={N} with this method: the correction must land before the next measurement is taken; "
+        f"give L {f'from {first} to N={N}' if first < N else f'of N={N}'}"
     )

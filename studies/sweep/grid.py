@@ -9,13 +9,13 @@ from functools import cached_property
 from itertools import accumulate, product
 from typing import TYPE_CHECKING
 
-from sched_sim.costs.methods import DELAYED_METHODS
 from sched_sim.costs.table import CostTable
 from sched_sim.design.least_speed import has_closed_form
+from sched_sim.design.method import Law
 from sched_sim.design.methods import METHODS, select
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import Costs, Statistic
-from sched_sim.design.timing import Timing, several_in_flight
+from sched_sim.design.timing import Timing
 from sched_sim.errors import InputError, option
 from sched_sim.schedule.tasks import Task, check_cpus
 from studies.sweep.legal import Designs, Legal
@@ -50,7 +50,7 @@ class Block:
 
     @property
     def has_closed_form(self) -> bool:
-        """Whether the least speed needs no simulation."""
+        """Whether the least speed of a design with one correction on its way at a time needs no simulation."""
         return has_closed_form(self.options, self.tasks)
 
 
@@ -70,6 +70,13 @@ class Chunk:
     skip: int
 
     @property
+    def has_closed_form(self) -> bool:
+        """Whether no least speed of it needs a simulation."""
+        law = METHODS[self.block.method].law(self.block.options.feedback)
+        one_in_flight = law.only_first or bool((self.designs.N - law.before >= self.designs.L).all())
+        return one_in_flight and self.block.has_closed_form
+
+    @property
     def points(self) -> range:
         """The design indexes."""
         return range(self.start, self.start + self.size)
@@ -86,6 +93,7 @@ class Grid:
 
     statistic: which figure of a measured cost. No speeds: each design is looked at at its own least speed. tasks: the
     user's other ones, beside every design; accuracy: at which output, None if that was not asked for.
+    Where a table lacks what a method needs for M > N, such points are left out.
     A point's design index counts, from 0, the legal points in the order table, method, options, N, M, L, speed, the
     last running fastest.
     Raises InputError where a cost table lacks an entry, two tables have one name, a task cannot run beside every
@@ -138,12 +146,13 @@ class Grid:
                 longest_run(Timing(N, 0, N), self.tasks)
 
     def _rules(self) -> str:
-        delayed = set(self.methods) & set(DELAYED_METHODS)
-        if delayed and self.M is not None and self.M[0] > self.N[-1]:
-            return several_in_flight(self.N[-1], self.M[0])
+        lacking = [reason for block in self.blocks if (reason := _lacking(block))]
+        if lacking and self.M is not None and self.M[0] > self.N[-1]:
+            return lacking[0]
         return (
-            "legal are M <= L <= N, but M < L <= N for delayed-horizon and dual-rate (M <= L < N with same-step "
-            f"feedback), and 1 <= L <= N without {option('M')} for the multirate and robust methods: choose "
+            "legal are M <= L for standard, recalculate, larsen and carried-gain, M < L for dual-rate (M <= L with "
+            "same-step feedback), M < L <= N for delayed-horizon, M <= L <= N for other methods of late measurements, "
+            f"and 1 <= L <= N without {option('M')} for the multirate and robust methods: choose "
             f"{option('L')} and {option('method')} so"
         )
 
@@ -169,7 +178,7 @@ class Grid:
     @cached_property
     def _legal(self) -> tuple[Legal, ...]:
         """By block; blocks under one law share theirs."""
-        laws = [METHODS[block.method].law(block.options.feedback) for block in self.blocks]
+        laws = [_law(block) for block in self.blocks]
         of_law = {law: Legal(law, self.N, self.M, self.L) for law in set(laws)}
         return tuple(of_law[law] for law in laws)
 
@@ -209,6 +218,19 @@ class Grid:
             stop = min(start + max(size(first), 1), self._ends[first.block.number], indexes.stop)
             yield range(start, stop)
             start = stop
+
+
+MORE_THAN_N = Timing(1, 2, 2)
+
+
+def _lacking(block: Block) -> str | None:
+    """What the costs of a block lack for M > N."""
+    return METHODS[block.method].lacking(block.costs, MORE_THAN_N)
+
+
+def _law(block: Block) -> Law:
+    law = METHODS[block.method].law(block.options.feedback)
+    return law._replace(several=False) if _lacking(block) else law
 
 
 def _extent(values: tuple[int, ...] | None) -> str:

@@ -12,7 +12,7 @@ import numpy as np
 
 from sched_sim.design import analysis, whole
 from sched_sim.design.demand import Quotient
-from sched_sim.design.least_speed import least_speed
+from sched_sim.design.least_speed import achieved_l, has_closed_form, least_speed
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import Costs, JobCosts, converted, works
 from sched_sim.design.timing import Timing
@@ -51,9 +51,9 @@ class Analysis(NamedTuple):
 
 
 def analyse(chunk: Chunk) -> Analysis:
-    """In closed form; with context-switch costs, other tasks or earliest deadline first, which have none, by
-    simulation."""
-    return _in_closed_form(chunk) if chunk.block.has_closed_form else _by_simulation(chunk)
+    """In closed form; with context-switch costs, other tasks, earliest deadline first or several corrections on their
+    way, which have none, by simulation."""
+    return _in_closed_form(chunk) if chunk.has_closed_form else _by_simulation(chunk)
 
 
 def _in_closed_form(chunk: Chunk) -> Analysis:
@@ -121,8 +121,15 @@ def _by_simulation(chunk: Chunk) -> Analysis:
     result = Analysis(least, [])
     per_design = max(len(chunk.speeds), 1)
     for position in chunk.positions:
-        timing, speed = timings[position // per_design], result.speed(chunk, position)
-        result.outcomes.append(_simulated(costs, timing, speed, options, tasks))
+        design = position // per_design
+        timing, speed = timings[design], result.speed(chunk, position)
+        if has_closed_form(options, tasks, costs, timing):
+            landed = achieved_l(costs, timing, speed, options)
+            enough = speed >= least_speeds[design].speed
+            outcome = Outcome(enough and landed is not None and landed <= timing.L, landed)
+        else:
+            outcome = _simulated(costs, timing, speed, options, tasks)
+        result.outcomes.append(outcome)
     return result
 
 

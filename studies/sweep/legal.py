@@ -47,7 +47,8 @@ class _Pairs(NamedTuple):
 class Legal:
     """The legal designs of an N, an M and an L axis under one law, in order of N, M, L.
 
-    The axes are sorted; None instead of M or L stands for every legal value.
+    The axes are sorted; None instead of M or L stands for every legal value, with several measurements on their way at
+    once for every M with which there need not be, and for every L up to `Law.latest`.
     size: how many there are. left_out: how many combinations of the given values have none.
     Raises InputError for what has too many.
     """
@@ -87,12 +88,16 @@ class Legal:
 
     def _pairs(self, begin: int, end: int) -> _Pairs:
         """The pairs of N[begin:end] that have at least one legal L."""
-        after = self.law.after
+        after, before, several = self.law.after, self.law.before, self.law.several
         N = self.N[begin:end]
-        last = N - self.law.before
-        if self.L is not None:
+        last = N - before
+        if self.L is not None and several:
+            last = np.minimum(last, self.L[-1]) if self.M is None else np.full_like(N, self.L[-1])
+        elif self.L is not None:
             below = np.searchsorted(self.L, last, "right")
             last = np.where(below > 0, self.L[below - 1], -1)
+        elif several and self.M is not None:
+            last = np.full_like(N, self.M[-1] + after)
         largest_M = last - after
         per_n = np.maximum(largest_M + 1, 0) if self.M is None else np.searchsorted(self.M, largest_M, "right")
         within = np.arange(per_n.sum()) - np.repeat(np.cumsum(per_n) - per_n, per_n)
@@ -100,11 +105,14 @@ class Legal:
         first = M + after
         if self.L is not None:
             first = np.searchsorted(self.L, first, "left")
-            count = np.repeat(np.searchsorted(self.L, last, "right"), per_n) - first
+            up_to = self.L.size if several else np.repeat(np.searchsorted(self.L, last, "right"), per_n)
+            count = up_to - first
         elif self.law.only_first:
             count = np.ones_like(first)
         else:
-            count = np.repeat(last, per_n) - first + 1
+            N_of_pair = np.repeat(N, per_n)
+            latest = (M // N_of_pair + 1) * N_of_pair if several else N_of_pair
+            count = latest - before - first + 1
         return _Pairs(np.repeat(N, per_n), M, first, count, per_n)
 
     def _kept(self, pairs: _Pairs, N: Ints) -> int:
@@ -114,6 +122,8 @@ class Legal:
         if self.L is None:
             return int(np.count_nonzero(pairs.per_n))
         below = np.searchsorted(self.L, N - self.law.before, "right")
+        if self.law.several:
+            below = np.where(pairs.per_n > 0, self.L.size, 0)
         return int(np.maximum(below - np.searchsorted(self.L, self.law.after, "left"), 0).sum())
 
 

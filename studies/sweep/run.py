@@ -49,7 +49,7 @@ class Sweep:
         """All that the rows depend on, for the results file: equal for two sweeps only if all their rows are."""
         grid = self.grid
         return {
-            "format": 4,
+            "format": 5,
             "N": list(grid.N),
             "M": "all legal" if grid.M is None else list(grid.M),
             "L": "all legal" if grid.L is None else list(grid.L),
@@ -114,7 +114,7 @@ def _computed(sweep: Sweep, missing: list[range], workers: int, stopped: Callabl
         if stopped():
             return
         chunk = chunk_of(span)
-        if cycles is None and chunk.block.has_closed_form:
+        if cycles is None and chunk.has_closed_form:
             yield rows_of(chunk, None)
         else:
             simulated.append(span)
@@ -124,7 +124,7 @@ def _computed(sweep: Sweep, missing: list[range], workers: int, stopped: Callabl
     def size(first: Chunk) -> int:
         N = int(first.designs.N[0])
         steps = N * (cycles or 0)
-        if not first.block.has_closed_form:
+        if cycles is None or not first.has_closed_form:
             steps += SEARCH_RUNS * (STEPS_TO_START + hyperperiod_steps(Timing(N, 0, N), first.block.tasks))
         return min(SIMULATED_STEPS // steps, LARGEST_TASK)
 

@@ -24,7 +24,7 @@ from tests.strategies import problem
 KINDS = {
     "standard": ["propagate", "update"],
     "recalculate": ["propagate", "update", "replay"],
-    "larsen": ["propagate", "propagate_accumulate", "update"],
+    "larsen": ["propagate", "propagate_accumulate", "update", "gain", "correct", "compensate"],
     "dual-rate": [
         "hr_restart", "hr_propagate", "hr_propagate_sum", "hr_propagate_euler", "hr_update",
         "lr_propagate", "lr_propagate_euler", "lr_update", "lr_gain", "lr_correct",
@@ -229,6 +229,9 @@ def test_operations_of_the_jobs_in_textbook_form(n: int, u: int, p: int) -> None
         ("larsen", "propagate_accumulate"): f + quadratic + cube,
         ("larsen", "update"): gain + error + product(n, n, 1) + vector
         + product(n, n, p) + product(n, p, n) + cube + cube + square,
+        ("larsen", "gain"): gain + covariance,
+        ("larsen", "correct"): error + product(n, n, 1) + vector,
+        ("larsen", "compensate"): product(n, n, 1) + vector,
         ("dual-rate", "hr_restart"): f,
         ("dual-rate", "hr_propagate"): f + cube + quadratic,
         ("dual-rate", "hr_propagate_sum"): f + cube + square,

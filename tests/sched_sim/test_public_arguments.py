@@ -96,8 +96,8 @@ BAD: dict[str, tuple[Callable[[], Any], str]] = {
     "one task": (lambda: least_speed(COSTS, TIMING, tasks=CONTROL), "give a list of Task"),
     "two tasks": (lambda: least_speed(COSTS, TIMING, tasks=[CONTROL, CONTROL]), "'control' is used twice"),
     "priority": (lambda: Task("a", 1, 1, "5"), "task 'a': priority is '5': give a whole number"),
-    "staircase": (lambda: sched_sim.staircase(COSTS, 10, 11), "M=11 must be <= N=10"),
-    "no stair": (lambda: sched_sim.staircase(COSTS, 10, 10), "L=10 must be > M=10"),
+    "staircase": (lambda: sched_sim.staircase(COSTS, 10, -1), "M=-1 must be at least 0"),
+    "no stair": (lambda: sched_sim.staircase(COSTS, 0, 0), "N=0 must be at least 1"),
     "another cpu": (
         lambda: simulate(COSTS, TIMING, 1, tasks=[Task("a", 2, 1, 5, cpu=2)]),
         "give cpus 2",

@@ -78,6 +78,13 @@ CASES: dict[str, Callable[[], list[Panel]]] = {
     "tasks": lambda: [panel("dual-rate", 10, 4, 8, "1.1", 2, tasks=TASKS)],
     "3 cycles": lambda: [panel("dual-rate", 10, 4, 8, "0.78", 3), panel("larsen", 10, 4, 8, "1.47", 3)],
     "30 cycles": lambda: [panel("dual-rate", 10, 4, 8, "0.78", 30)],
+    "several in flight": lambda: [
+        *(
+            method_panel(COUNTED, name, Timing(6, 14, 18), speed, 3)
+            for name, speed in (("larsen", 9000), ("dual-rate", 5500))
+        ),
+        panel("dual-rate", 10, 4, 14, "0.66", 3),
+    ],
 }
 
 
@@ -172,6 +179,18 @@ def test_steps_are_named_as_in_the_paper(
     timing: Timing, cycles: int, landings: dict[int, int], expected: dict[int, str]
 ) -> None:
     assert {mark.step: mark.text for mark in cycle_marks(timing, cycles, landings)} == expected
+
+
+def test_marks_of_several_in_flight_go_on_until_the_last_has_landed() -> None:
+    """N = 6, M = 14: one that is taken in step 6 lands in 20, in the fourth cycle."""
+    flight = method_panel(COUNTED, "larsen", Timing(6, 14, 14), 10_000, cycles=2)
+    assert flight.end == 21
+    assert {mark.step: mark.text for mark in flight.marks} == {
+        0: "k", 6: "k+N", 12: "k+2N", 14: "m = l", 18: "k+3N", 20: "m+N = l+N"
+    }  # fmt: skip
+    labels = {bar.step: bar.style for bar in bars(flight.schedule) if bar.style in "GU"}
+    assert labels == {0: "G", 6: "G", 12: "G", 14: "U", 18: "G", 20: "U"}
+    assert flight.notes[1] == "lands at $l = m = k+14$"
 
 
 def test_too_many_steps_are_refused() -> None:

@@ -280,12 +280,9 @@ def test_help_and_version(sched_sim: Run) -> None:
 @pytest.mark.parametrize(
     ("line", "said"),
     [
-        ("minimum -N 10 -M 4 -L 4", ["L=4", "M=4", "give L from 5 to N=10"]),
+        ("minimum -N 10 -M 4 -L 4", ["L=4", "M=4", "give L from 5 on"]),
         ("minimum -N 10 -M 4 -L 3", ["L=3", "M=4", "give L from 5"]),
-        ("minimum -N 10 -M 4 -L 11", ["L=11", "N=10"]),
-        ("minimum -N 10 -M 11", ["M=11", "N=10", "simulate --scenario", "`every = 10` and `delay = 11`"]),
-        ("minimum -N 10 -M 10 --method dual-rate", ["L=10", "M=10", "--method recalculate or larsen"]),
-        ("minimum -N 10 -M 4 -L 10 --feedback same-step", ["L=10", "N=10", "give L from 4 to 9"]),
+        ("minimum -N 10 -M 11 --method larsen", ["[costs.larsen] gain, correct, compensate", "counted-9-3-3"]),
         ("minimum -N 0 -M 0", ["N=0", "at least 1"]),
         ("minimum -N 10 -M -1", ["M=-1", "at least 0"]),
         ("minimum -N ten -M 4", ["-N", "ten"]),

@@ -87,7 +87,7 @@ DESIGN = "-N 10 -M 4 --method larsen"
         (f"simulate {DESIGN} --trace a.json --trace folder", ["--trace 'folder'"]),
         (f"simulate {DESIGN} --trace a.json --gantt none/p.svg", ["none/p.svg"]),
         (f"simulate {DESIGN} --trace a.json --costs none.toml", ["none.toml"]),
-        ("simulate -N 10 -M 40 --trace a.json", ["M=40"]),
+        ("simulate -N 10 -M 40 -L 39 --trace a.json", ["M=40"]),
         (f"simulate {DESIGN} --trace a.json --trace b.json", ["--trace a.json and --trace b.json", "one file"]),
         (f"simulate {DESIGN} --trace a.json --trace folder/../a.json", ["one file"]),
         (f"simulate {DESIGN} --costs mine.toml --trace mine.csv", ["--trace mine.csv", "what --costs mine.toml reads"]),

@@ -133,12 +133,16 @@ def test_the_load_with_context_switches_is_the_simulated_one(sched_sim: Run) -> 
 
 
 def test_without_a_method_named_those_that_are_possible_are_shown(sched_sim: Run) -> None:
-    """IMU 400 Hz, GPS 10 Hz, 100 ms late: M = N, and the dual-rate filter has no step left."""
+    """IMU 400 Hz, GPS 10 Hz, 100 ms late: M = N, and the dual-rate filter lands by 2N; 150 ms late, and a table has no
+    costs of Larsen's method for several on their way."""
     result = sched_sim("minimum -N 40 -M 40 --processor cortex-m7 --hr-hz 400 --format json")
-    shown = [row["method"] for row in json.loads(result.out)]
-    assert shown == [method for method in DELAYED_METHODS if method not in ("dual-rate", "delayed-horizon")]
-    assert "no dual-rate" in result.err
+    found = {row["method"]: row["L"] for row in json.loads(result.out)}
+    assert [*found] == [method for method in DELAYED_METHODS if method != "delayed-horizon"]
+    assert (found["larsen"], found["dual-rate"]) == (40, 80)
     assert "no delayed-horizon" in result.err
+    result = sched_sim("minimum -N 40 -M 60 --hr-hz 400 --format json")
+    assert [row["method"] for row in json.loads(result.out)] == ["standard", "recalculate", "dual-rate"]
+    assert "no larsen" in result.err
 
 
 def test_processors_csv_has_a_column_for_each_figure(sched_sim: Run) -> None:

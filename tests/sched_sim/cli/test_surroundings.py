@@ -60,7 +60,7 @@ def test_standard_error_is_closed(tmp_path: Path) -> None:
     result = shell(f"$S {DESIGN} 2>&-", tmp_path)
     assert result.returncode == 0
     assert "larsen" in result.stdout
-    assert shell(f"$S {DESIGN} -L 99 2>&-", tmp_path).returncode == 2
+    assert shell(f"$S {DESIGN} -L 3 2>&-", tmp_path).returncode == 2
 
 
 @pytest.mark.parametrize("command", [DESIGN, "simulate -N 4 -M 1 --speed 2 --cycles 9999 --format json"])

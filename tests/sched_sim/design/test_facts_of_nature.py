@@ -4,59 +4,38 @@ from __future__ import annotations
 
 import json
 import re
+from fractions import Fraction
 from pathlib import Path
 
 import pytest
 
+from sched_sim.design.time_limits import check_times
+from sched_sim.design.times import Steps, Times
+from sched_sim.errors import InputError
 from tests.command_line import Run, is_refused
 
-SCENARIO = ["simulate --scenario", "`every = 25`", "`delay = 200`"]
-WAITS = "these methods wait for one measurement at a time"
-OTHER_METHOD = ["choose --method recalculate or larsen"]
 ADVICE = re.compile(r"(larger|smaller|longer|shorter|lower|higher|fewer) (N\b|M\b|-N\b|-M\b|delay|rate|period|every)")
 
 
 @pytest.mark.parametrize(
     ("line", "said"),
     [
-        ("minimum -N 25 -M 200", SCENARIO),
-        ("minimum -N 25 -M 200 -L 210 --method dual-rate --tasks control.toml", SCENARIO),
-        ("minimum -N 25 -M 200 --processor cortex-m7 --hr-hz 100", SCENARIO),
-        ("simulate -N 25 -M 200 --speed 1", SCENARIO),
-        ("gantt -N 25 -M 200", SCENARIO),
-        ("processors -N 25 -M 200 --hr-hz 100", SCENARIO),
-        ("sweep -N 25 -M 200", SCENARIO),
-        ("sweep -N 5:25:5 -M 200:300:50", SCENARIO),
+        (
+            "minimum -N 25 -M 200 --method larsen",
+            ["[costs.larsen] gain, correct, compensate", "--method recalculate or"],
+        ),
+        ("simulate -N 25 -M 200 --speed 1 --method larsen", ["use --costs counted-9-3-3 or a table that"]),
+        ("minimum -N 10 -L 12 --method multirate --costs counted-9-3-3", ["L=12", "give L from 1 to N=10"]),
         ("sweep -N 25 -M 4 --method multirate --costs counted-9-3-3", ["without -M for the multirate"]),
-        ("minimum -N 4 -M 4 --method dual-rate", OTHER_METHOD),
-        ("minimum -N 4 -M 4 --method dual-rate --feedback same-step", OTHER_METHOD),
-        ("processors -N 4 -M 4 --hr-hz 100", OTHER_METHOD),
-        ("minimum -N 4 -M 4 -L 3", ["give L of N=4"]),
-        ("minimum -N 10 -M 4 -L 12", ["L=12", "give L from 5 to N=10"]),
+        ("minimum -N 4 -M 4 -L 4 --method dual-rate", ["L=4 must be > M=4", "give L from 5 on"]),
+        ("minimum -N 4 -M 4 -L 3", ["give L from 5 on"]),
+        ("minimum -N 25 -M 200 -L 210 --method dual-rate --tasks control.toml", ["periods (control 7.12346) down"]),
         (
-            "minimum --hr-hz 400 --measurement-hz 30 --delay-ms 33.3",
-            [
-                "--delay-ms 33.3 and --measurement-hz 30 are at --hr-hz 400 M = 14 steps, rounded up, of N = 13,",
-                WAITS,
-                "at most 32.5 ms there; choose --hr-hz 390 or 420",
-                "`hz = 30` and `delay_ms = 33.3`",
-            ],
+            "minimum -N 25 -M 200 -L 210 --method dual-rate --tasks any.toml",
+            ["several corrections are on", "an offset"],
         ),
         (
-            "simulate --hr-hz 400 --measurement-hz 5 --delay-ms 250 --method larsen",
-            ["--delay-ms 250 is longer than the 200 ms", "(--measurement-hz 5)", WAITS, "at most 200 ms"],
-        ),
-        ("gantt --hr-hz 400 --measurement-hz 30 -M 14", ["-M 14 (35 ms)", "`hz = 30` and `delay = 14`"]),
-        (
-            "gantt --hr-hz 400 -N 13 --delay-ms 33.3",
-            ["than the 32.5 ms", "(-N 13)", "`every = 13` and `delay_ms = 33.3`"],
-        ),
-        (
-            "processors --hr-hz 400 --measurement-hz 30 --delay-ms 32",
-            [*OTHER_METHOD, "at most 30 ms", "choose --hr-hz 750, at which 32 ms can be"],
-        ),
-        (
-            "minimum --hr-hz 400 --measurement-hz 5 --delay-ms 100 --land-within-ms 210",
+            "minimum --hr-hz 400 --measurement-hz 5 --land-within-ms 210 --method multirate --costs counted-9-3-3",
             ["--land-within-ms 210 is later", "--measurement-hz 5 within 200 ms", "give 200 or less"],
         ),
         (
@@ -78,6 +57,7 @@ def test_no_message_asks_for_other_facts(sched_sim: Run, tmp_path: Path, line: s
     (tmp_path / "control.toml").write_text(
         '[[task]]\nname = "control"\nperiod = 7.123457\noffset = 0\ncost = 0.1\npriority = 5\n'
     )
+    (tmp_path / "any.toml").write_text('[[task]]\nname = "a"\nperiod = 5\noffset = "any"\ncost = 0.1\npriority = 5\n')
     (tmp_path / "larsen.toml").write_text(scenario('late = "larsen"\n'))
     (tmp_path / "short.toml").write_text(scenario().replace("steps = 4000", "steps = 100"))
     result = sched_sim(line)
@@ -88,16 +68,49 @@ def test_no_message_asks_for_other_facts(sched_sim: Run, tmp_path: Path, line: s
 @pytest.mark.parametrize(
     "line",
     [
-        "minimum --hr-hz 390 --measurement-hz 30 --delay-ms 33.3",
-        "minimum --hr-hz 420 --measurement-hz 30 --delay-ms 33.3",
-        "minimum --hr-hz 400 --measurement-hz 30 --delay-ms 32.5",
-        "simulate --hr-hz 750 --measurement-hz 30 --delay-ms 32",
+        "minimum -N 25 -M 200",
+        "minimum -N 25 -M 60 -L 90 --processor cortex-m7 --hr-hz 100",
+        "simulate -N 25 -M 200 --speed 1",
+        "gantt -N 5 -M 12",
+        "processors -N 25 -M 60 --hr-hz 100 --processor leon3",
+        "sweep -N 25 -M 60 --method dual-rate",
+        "sweep -N 5:15:5 -M 20:30:10 --costs counted-9-3-3",
+        "minimum -N 4 -M 4 --method dual-rate",
+        "minimum -N 4 -M 4 --method dual-rate --feedback same-step",
+        "minimum -N 10 -M 4 -L 12",
+        "minimum --hr-hz 400 --measurement-hz 30 --delay-ms 33.3",
+        "simulate --hr-hz 400 --measurement-hz 5 --delay-ms 250 --method larsen --costs counted-9-3-3",
+        "gantt --hr-hz 400 --measurement-hz 30 -M 14",
+        "gantt --hr-hz 400 -N 13 --delay-ms 33.3",
+        "minimum --hr-hz 400 --measurement-hz 5 --delay-ms 100 --land-within-ms 210",
         "minimum --hr-hz 400 --measurement-hz 5 --delay-ms 100 --land-within-ms 200",
         "simulate --hr-hz 400 --measurement-hz 30 --delay-ms 20 --land-within-ms 24.167",
     ],
 )
 def test_what_the_messages_say_can_be_can_be(sched_sim: Run, line: str) -> None:
     assert sched_sim(line).code == 0
+
+
+@pytest.mark.parametrize(
+    ("steps", "said"),
+    [
+        (
+            Steps(80, 120, None),
+            [
+                "choose method recalculate, larsen, carried-gain or dual-rate",
+                "delay_ms 300 is longer than the 200 ms",
+            ],
+        ),
+        (Steps(80, 80, None), ["at most 197.5 ms", "choose method recalculate or larsen"]),
+    ],
+)
+def test_times_of_a_method_with_one_measurement_at_a_time(steps: Steps, said: list[str]) -> None:
+    """That it can be late at all is a matter of methods to come."""
+    times = Times.of(5, Fraction(5, 2) * (steps.M or 0))
+    with pytest.raises(InputError) as found:
+        check_times(times, steps, Fraction(400), after=1)
+    for part in said:
+        assert part in str(found.value)
 
 
 def test_what_the_message_says_to_write_runs(sched_sim: Run, tmp_path: Path) -> None:

@@ -48,7 +48,7 @@ def test_achieved_l_agrees_at_random_speeds(design: Design, share: Fraction) -> 
     speed = least_speed(*design).speed * share
     landings: list[int] = []
     schedule = simulate(costs, timing, speed, CYCLES, options, on_landing=lambda _cycle, L: landings.append(L))
-    last_legal = timing.N - 1 if options.feedback == "same-step" else timing.N
+    last_legal = timing.N - 1 if options.feedback == "same-step" else max(timing.N, timing.M)
     in_time = len(landings) == CYCLES and max(landings) <= last_legal
     overruns = schedule.responses["hr"].misses > 0
     assert achieved_l(costs, timing, speed, options) == (landings[-1] if in_time and not overruns else None)

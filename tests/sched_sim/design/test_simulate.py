@@ -10,7 +10,7 @@ import pytest
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import DualRateCosts, LarsenCosts, MultirateCosts, RecalculateCosts, StandardCosts
 from sched_sim.design.simulate import simulate
-from sched_sim.design.timing import Feedback, Timing
+from sched_sim.design.timing import Timing
 from sched_sim.errors import InputError
 from sched_sim.schedule.jobs import Job
 from sched_sim.schedule.processor import Platform, Processor
@@ -260,10 +260,17 @@ def test_memory_does_not_grow_with_the_cycles_and_slices_are_kept_only_on_demand
     assert list(schedule.slices) == seen
 
 
-@pytest.mark.parametrize(("feedback", "L"), [("next-step", 4), ("same-step", 10)])
-def test_an_l_that_dual_rate_cannot_have_is_refused(feedback: Feedback, L: int) -> None:
-    with pytest.raises(InputError, match=f"L={L} must be"):
-        simulate(DUAL_RATE, Timing(10, 4, L), Fraction(10), 1, Options(feedback=feedback))
+def test_an_l_that_dual_rate_cannot_have_is_refused() -> None:
+    with pytest.raises(InputError, match=r"L=4 must be > M=4.*give L from 5 on"):
+        simulate(DUAL_RATE, Timing(10, 4, 4), Fraction(10), 1)
+
+
+@pytest.mark.parametrize(("timing", "said"), [
+    (Timing(10, 0, 12), "L=12 must be <= N=10 with this method.*give L from 1 to N=10"),
+])  # fmt: skip
+def test_a_method_with_one_measurement_at_a_time_cannot_land_after_the_next(timing: Timing, said: str) -> None:
+    with pytest.raises(InputError, match=said):
+        simulate(MultirateCosts(4, 8), timing, Fraction(6), cycles=1)
 
 
 def test_a_task_on_a_processor_that_is_not_there_is_refused() -> None:

@@ -16,7 +16,7 @@ from sched_sim.errors import InputError
 from studies.sweep.grid import Grid
 from studies.sweep.legal import Legal
 
-STEFFES = load_costs("steffes2014")
+STEFFES, COUNTED = load_costs("steffes2014"), load_costs("counted-9-3-3")
 
 METHOD = st.sampled_from([*METHODS])
 FEEDBACK = st.sampled_from(["next-step", "same-step"])
@@ -32,15 +32,18 @@ def is_legal(method, feedback, N, M, L):
         METHODS[method].check(timing, feedback)
     except InputError:
         return False
+    if max(M, L) > N and not METHODS[method].law(feedback).several:
+        return False
     return M == 0 or method not in TWO_RATE_METHODS
 
 
 def legal_designs(method, feedback, Ns, Ms, Ls):
     """One by one, by the rules of `sched_sim.design.timing`."""
+    only_m = method in DELAYED_METHODS and method not in ("dual-rate", "delayed-horizon")
     for N in Ns:
-        for M in Ms or range(N + 1):
-            only_m = method in DELAYED_METHODS and method not in ("dual-rate", "delayed-horizon")
-            latest = N - 1 if method == "dual-rate" and feedback == "same-step" else N
+        for M in Ms or range(N + only_m):
+            latest = (M // N + 1) * N if method == "dual-rate" else N
+            latest -= method == "dual-rate" and feedback == "same-step"
             every_L = [M] if only_m else range(latest + 1)
             for L in Ls or every_L:
                 if is_legal(method, feedback, N, M, L):
@@ -91,16 +94,16 @@ def test_the_index_counts_the_legal_points(Ns, Ms, Ls, speeds, methods, feedback
     paces = tuple(Fraction(number, 10) for number in range(1, speeds + 1))
     options = tuple(Options(feedback=feedback) for feedback in feedbacks)
     expected = [
-        ("steffes2014", method, option, N, M, L, speed)
+        ("counted-9-3-3", method, option, N, M, L, speed)
         for method, option in product(methods, options)
         for N, M, L in legal_designs(method, option.feedback, Ns, Ms, Ls)
         for speed in paces or [None]
     ]
     if not expected:
         with pytest.raises(InputError, match="the grid is empty"):
-            Grid(Ns, Ms, Ls, paces, tuple(methods), (STEFFES,), options)
+            Grid(Ns, Ms, Ls, paces, tuple(methods), (COUNTED,), options)
         return
-    grid = Grid(Ns, Ms, Ls, paces, tuple(methods), (STEFFES,), options)
+    grid = Grid(Ns, Ms, Ls, paces, tuple(methods), (COUNTED,), options)
     assert grid.size == len(expected)
     assert list(points(grid, 0, grid.size)) == expected
     start = data.draw(st.integers(0, grid.size - 1))
@@ -117,9 +120,18 @@ def test_a_grid_far_larger_than_memory_is_only_counted():
 
 
 def test_an_empty_grid_says_what_was_given():
-    said = r"none of the 4 combinations of N=5, M=6, L=all is legal: .*--scenario .*`every = 5` and `delay = 6`"
+    said = r"none of the 1 combinations of N=5, M=6, L=3 is legal: .*M <= L for standard"
     with pytest.raises(InputError, match=said):
-        Grid((5,), (6,), None, (), PAPER_METHODS, (STEFFES,), (Options(),))
+        Grid((5,), (6,), (3,), (), ("recalculate",), (STEFFES,), (Options(),))
+
+
+def test_what_a_table_cannot_tell_the_cost_of_is_left_out():
+    grid = Grid((5,), (6,), None, (), PAPER_METHODS, (STEFFES,), (Options(),))
+    assert [block.method for block in grid.blocks] == list(PAPER_METHODS)
+    assert {found[1] for found in points(grid, 0, grid.size)} == {"standard", "recalculate", "dual-rate"}
+    assert (grid.size, grid.left_out) == (1 + 1 + 4, 1)
+    with pytest.raises(InputError, match=r"is legal: .*no \[costs.larsen\] gain, correct, compensate"):
+        Grid((5,), (6,), None, (), ("larsen",), (STEFFES,), (Options(),))
 
 
 def test_tables_of_one_name_are_refused():

@@ -131,3 +131,27 @@ def test_context_switches_go_through_the_simulation(method):
         assert row["achieved_l_min"] <= row["achieved_l"] <= row["L"]
     (slow,) = steffes(6, 2, 4, method, speeds=(Fraction(1, 2),), context_switch=switch)
     assert (slow["feasible"], slow["achieved_l"]) == (False, None)
+
+
+@pytest.mark.parametrize("method", ["recalculate", "larsen", "dual-rate"])
+@pytest.mark.parametrize("L", [None, (4, 9)])
+def test_rows_of_several_in_flight(method, L):
+    table = load_costs("counted-9-3-3")
+    (slow,) = (least_speed(block.costs, Timing(3, 4, 6)).speed for block in blocks(method, table))
+    for speeds in ((), (slow, 2 * slow)):
+        grid = Grid((3, 5), (2, 4), L, speeds, (method,), (table,), (Options(),))
+        found = list(rows(grid, CYCLES))
+        assert any(row["M"] > row["N"] for row in found)
+        for row, (block, timing, speed) in zip(found, points(grid), strict=True):
+            least = least_speed(block.costs, timing)
+            assert (row["min_speed_exact"], row["binding"]) == (str(least.speed), least.binding)
+            at = least.speed if speed is None else speed
+            if at >= least.speed:
+                assert row["feasible"]
+                assert row["misses"] == 0
+                assert row["achieved_l"] == achieved_l(block.costs, timing, at) <= max(timing.L, timing.M)
+            assert row["landed"] <= CYCLES
+
+
+def blocks(method, table):
+    return Grid((3,), (2,), None, (), (method,), (table,), (Options(),)).blocks

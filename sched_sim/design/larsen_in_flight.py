@@ -1,0 +1,68 @@
+"""Larsen's method where others are measured before one arrives, M > N: one product for each that is on its way.
+
+At k the HR job also computes gain and covariance, which need no measurement; at m it corrects the state, and what was
+known at each k since, whose measurements are on their way.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Hashable
+from fractions import Fraction
+
+from sched_sim.design.hr_loop import HrSource, OnLanding
+from sched_sim.design.method import CycleWork
+from sched_sim.design.pieces import LarsenCosts
+from sched_sim.design.timing import Timing
+from sched_sim.errors import option
+from sched_sim.schedule.jobs import HR, Job, Parts, step_at
+
+
+class LarsenInFlight(HrSource):
+    """An HR job each step: propagation and products; at m the corrections; at k gain and covariance."""
+
+    def __init__(self, costs: LarsenCosts[int], timing: Timing, period: int, on_landing: OnLanding) -> None:
+        super().__init__(timing, period, on_landing)
+        self.costs = costs
+        self.correction = costs.correct + (timing.M - 1) // timing.N * costs.compensate
+
+    def release(self) -> tuple[Job, ...]:
+        step, start = self.step, self.next_release
+        self.step, self.next_release = step + 1, start + self.period
+        parts: Parts = (("P", self.costs.propagate + self._products(step) * self.costs.product),)
+        lands = step >= self.M and (step - self.M) % self.N == 0
+        if lands:
+            parts = (*parts, ("U", self.correction))
+        if step % self.N == 0:
+            parts = (*parts, ("G", self.costs.gain))
+        work = sum(work for _, work in parts)
+        return (Job("hr", step, HR, start, self.next_release, work, parts, self._landed if lands else None),)
+
+    def state(self, now: int) -> Hashable:
+        return super().state(now), min(self.step, self.M)
+
+    def _products(self, step: int) -> int:
+        """Of the k in step - M .. step - 2: at k + 1 the product is Phi itself."""
+        first = max(step - self.M, 0)
+        return max((step - 2) // self.N - (first - 1) // self.N, 0)
+
+    def _landed(self, job: Job, now: int) -> tuple[Job, ...]:
+        k = job.step - self.M
+        self.on_landing(k // self.N, step_at(now, self.period) - k)
+        return ()
+
+
+def work(costs: LarsenCosts[Fraction], timing: Timing) -> CycleWork:
+    N, M = timing.N, timing.M
+    products = (M - 1) * costs.product
+    at_k_and_m = costs.gain + costs.correct + (M - 1) // N * costs.compensate
+    return CycleWork(N * costs.propagate + products + at_k_and_m)
+
+
+def lacking(costs: LarsenCosts[Fraction], timing: Timing) -> str | None:
+    if timing.M <= timing.N or all((costs.gain, costs.correct, costs.compensate)):
+        return None
+    return (
+        f"where M is more than N, others are measured before one arrives, and for that the cost table has no "
+        f"[costs.larsen] gain, correct, compensate: use {option('costs')} counted-9-3-3 or a table that `sched-sim "
+        f"measure` writes, or choose {option('method')} recalculate or dual-rate"
+    )
