@@ -11,7 +11,7 @@ import typer
 from sched_sim.cli import options as opt
 from sched_sim.cli.design_flags import with_options
 from sched_sim.cli.output import lines, print_csv, print_json, print_table
-from sched_sim.cli.parts import MEANING, TASKS_ON_PARTS
+from sched_sim.cli.parts import MEANING, TASKS_ON_PARTS, highest_note
 from sched_sim.costs.methods import METHODS
 from sched_sim.costs.table import COUNTED
 from sched_sim.design.options import Options
@@ -122,7 +122,7 @@ def processors(
         rows, shown, remarks = _verdicts(parts, timings, costs, statistic, rate, options, others, design.times)
         title = f"{', '.join(methods)}, HR loop at {hr_hz} Hz, {design.shown} (operations: {costs or COUNTED})"
         same = TASKS_ON_PARTS if others and len(parts) > 1 else ""
-        note = lines(MEANING, same, design.words, *remarks)
+        note = lines(MEANING, highest_note(others), same, design.words, *remarks)
     if format == "json":
         print_json(rows)
     elif format == "csv":

@@ -29,7 +29,7 @@ from sched_sim.design.times import Times
 from sched_sim.design.timing import Timing
 from sched_sim.errors import InputError
 from sched_sim.schedule.tasks import Task, phases_matter
-from sched_sim.ticks import ticks_per_unit, to_ticks
+from sched_sim.ticks import common_multiple, ticks_per_unit, to_ticks
 
 DIGITS = 4
 """To so many the rate is rounded down, where that fits as well; else to the next number of digits that does."""
@@ -42,6 +42,10 @@ LOOKS = 24
 
 STEPS_LOOKED_AT = 50_000
 """Of all looks together, at the most, but for four of them."""
+
+LOCKED_LOOKS = 96
+"""So many rates at which the phases of tasks are locked are looked at, spread over those between; fewer where
+measurements are many steps apart. Most that do not fit miss a deadline soon."""
 
 
 def landing(costs: Costs, timing: Timing, pace: Fraction, options: Options, tasks: Sequence[Task]) -> int | None:
@@ -72,7 +76,10 @@ def highest_rate(
 
     The rate of measurements, the delay, the time by which corrections land and the periods of the tasks stay what they
     are in seconds. costs: in seconds. hr_hz: the rate of which the tasks are in HR periods; what is found does not hang
-    on it. The tasks' phases may be any, for a given offset would be another part of the HR period at each rate.
+    on it. The tasks' phases may be any, for at most rates they drift through the HR period; but at rates at which the
+    period of each task of given offset is a whole number of HR periods the phases are locked, and tasks have there the
+    offsets that are given, in seconds: of these rates `LOCKED_LOOKS` above what fits at any phase are looked at, from
+    the top, spread over all where there are more.
 
     It is exact where there is a closed form (`has_closed_form`). With tasks, context switches or earliest deadline
     first it is found by bisection from above, which takes for granted that a lower rate fits where a higher one does;
@@ -275,10 +282,11 @@ class _Search(NamedTuple):
     hr_hz: Fraction
 
     def fits(self, rate: Fraction) -> bool:
+        """At any phase."""
         timing = self.pieces.timing(rate * self.pieces.per_hz)
         if timing is None:
             return False
-        costs, options, tasks = self.pieces.costs, self.pieces.options, _at(self.tasks, rate / self.hr_hz)
+        costs, options, tasks = self.pieces.costs, self.pieces.options, _of_any_phase(self._tasks_at(rate))
         try:
             if not tasks:
                 return landing(costs, timing, 1 / rate, options, ()) is not None
@@ -288,12 +296,46 @@ class _Search(NamedTuple):
         except InputError:
             return False
 
+    def _tasks_at(self, rate: Fraction) -> list[Task]:
+        return _at(self.tasks, rate / self.hr_hz)
+
     def highest(self) -> Fraction | None:
         least, most = self.pieces.range
         top = next(self.pieces.pieces(least, most), None)
         if top is None:
             return None
         above = self._not_too_much(self.pieces.hz(top[1]))
+        drifting = self._at_any_phase(above)
+        locked = self._locked(drifting or self.pieces.hz(least), above)
+        return next(filter(self._fits_as_given, locked), drifting)
+
+    def _locked(self, low: Fraction, high: Fraction) -> Iterator[Fraction]:
+        """Rates between, from the top, which may fit, and at which the period of each task of given offset is a whole
+        number of HR periods."""
+        of_tasks = [self.hr_hz / task.period for task in self.tasks if task.offset != "any"]
+        if not of_tasks:
+            return
+        common = common_multiple(of_tasks)
+        N = int(high * self.pieces.per_hz) // self.pieces.by_N
+        looks = max(min(LOCKED_LOOKS, 4 * STEPS_LOOKED_AT // (N + 1)), 4)
+        numbers = range(int(high // common), int(low // common), -1)
+        for number in numbers[:: -(-len(numbers) // looks) or 1]:
+            units = number * common * self.pieces.per_hz
+            if self.pieces.timing(units) and self.pieces.possible(units, units):
+                yield number * common
+
+    def _fits_as_given(self, rate: Fraction) -> bool:
+        """With the offsets that are given."""
+        timing = self.pieces.timing(rate * self.pieces.per_hz)
+        try:
+            return timing is not None and (
+                landing(self.pieces.costs, timing, 1 / rate, self.pieces.options, self._tasks_at(rate)) is not None
+            )
+        except InputError:
+            return False
+
+    def _at_any_phase(self, above: Fraction) -> Fraction | None:
+        least = self.pieces.range[0]
         found = self._bisected(above)
         between = int((found or self.pieces.hz(least)) * self.pieces.per_hz), int(above * self.pieces.per_hz)
         for change in self._changes(*between):
@@ -308,10 +350,8 @@ class _Search(NamedTuple):
 
         def too_much(rate: Fraction) -> bool:
             timing = self.pieces.timing(rate * self.pieces.per_hz)
-            tasks = _at(self.tasks, rate / self.hr_hz)
-            return (
-                timing is not None and max(loads(self.pieces.costs, timing, 1 / rate, self.pieces.options, tasks)) > 1
-            )
+            costs, options = self.pieces.costs, self.pieces.options
+            return timing is not None and max(loads(costs, timing, 1 / rate, options, self._tasks_at(rate))) > 1
 
         low, high = Fraction(0), rate
         while high - low > high / 100:
@@ -330,8 +370,9 @@ class _Search(NamedTuple):
         return self._between(rate, min(2 * rate, above))
 
     def _between(self, fitting: Fraction, above: Fraction) -> Fraction:
-        """Near the last rate that fits, where a higher one is not looked at, or does not."""
-        unit = last_digit(above) / 2
+        """Near the last rate that fits, where a higher one is not looked at, or does not: to half of its last digit,
+        which counts less than that of the rate above where that has more digits before the point."""
+        unit = last_digit(fitting) / 2
         low, high = fitting // unit, -(-above // unit)
         while high - low > 1:
             middle = (low + high) // 2
@@ -370,7 +411,11 @@ def _at(tasks: Sequence[Task], scale: Fraction) -> list[Task]:
             period=scale * task.period,
             jitter=scale * task.jitter,
             deadline=None if task.deadline is None else scale * task.deadline,
-            offset="any",
+            offset=task.offset if task.offset == "any" else scale * task.offset,
         )
         for task in tasks
     ]
+
+
+def _of_any_phase(tasks: Sequence[Task]) -> list[Task]:
+    return [replace(task, offset="any") for task in tasks]
