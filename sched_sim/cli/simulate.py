@@ -237,6 +237,7 @@ def released_together(
 ) -> str | None:
     """At which step tasks of any phase are released together in a simulation, what that is the worst for, and what it
     does not show, in words; None if there are none."""
+    from sched_sim.design.load import loads
     from sched_sim.design.simulate import worst_start
 
     start = worst_start(costs, timing, speed, options, tasks)
@@ -246,7 +247,16 @@ def released_together(
     worst = ", the worst for the job with the least slack, not for the landing" if options.policy == "fixed" else ""
     names = ", ".join(task.name for task in tasks if _would_block(task, tasks, options))
     block = f"; {names}: not preemptive, and would block more if released just before" if names else ""
-    return f"tasks of any phase are released together at step {step}{worst}{block}"
+    waiting = ", ".join(task.name for task in tasks if _waits(task, start))
+    load = sum(loads(costs, timing, speed, options, tasks)) / options.cpus
+    busy = "" if options.context_switch else f": the processor is busy for less than the load, {float(100 * load):.3g} %"
+    idle = f"; {waiting}: with jitter, and not released before{busy}" if waiting else ""
+    return f"tasks of any phase are released together at step {step}{worst}{block}{idle}"
+
+
+def _waits(task: Task, start: Fraction) -> bool:
+    """Whether a task of any phase is released less often in a simulation than it would be, see `at_worst_phase`."""
+    return task.offset == "any" and task.jitter > 0 and start - task.jitter >= task.period
 
 
 def _would_block(task: Task, tasks: Sequence[Task], options: Options) -> bool:

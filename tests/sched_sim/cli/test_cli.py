@@ -183,6 +183,12 @@ def test_a_simulation_says_where_tasks_of_any_phase_are_released_and_what_may_be
     late = sched_sim(line.format("dual-rate --speed 1.25")).err.splitlines()
     assert late[0].startswith("Note: tasks of any phase are released together at step ")
     assert late[1:] == ["Note: at another phase of the tasks one HR job may be late"]
+    (tmp_path / "tasks.toml").write_text(task + "jitter = 1\n")
+    waits = sched_sim(line.format("larsen --format json"))
+    load = (0.45 * 40 + 0.21 * 12 + 0.81) / 40 + 0.6 / 4
+    speed = json.loads(waits.out)["speed"]
+    assert "; control: with jitter, and not released before: the processor is busy for less than the load" in waits.err
+    assert waits.err.endswith(f", {100 * load / speed:.3g} %\n")
 
 
 @pytest.mark.parametrize(("priority", "blocks"), [(30, True), (10, False), (5, False)])
