@@ -83,8 +83,8 @@ def gantt(
         start, end = stretch(first, until, rate, min(panel.end for panel in panels))
         panels = [zoomed(panel, start, end) for panel in panels]
     save(draw(panels, width_mm=across, hr_hz=rate), output, "--output")
-    if design.words:
-        say(design.words)
+    for words in design.words.splitlines():
+        say(words)
     say(f"Wrote {output}")
 
 

@@ -177,7 +177,7 @@ def simulate(
     elif format == "csv":
         print_csv([about | {"kind": kind} | figures for kind, figures in responses(schedule, rate).items()])
     else:
-        delay = "" if design.M is None else f" M={design.M}"
+        delay = "" if design.M is None else f" M={timing.M}"
         where = f"at speed {float(pace):.6g}" if part is None else f"on {part.title}"
         if part is not None and rate is None:
             where += f", as fast as it can: HR period {1e6 * float(pace):.6g} us"

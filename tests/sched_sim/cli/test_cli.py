@@ -191,6 +191,17 @@ def test_a_simulation_says_where_tasks_of_any_phase_are_released_and_what_may_be
     assert waits.err.endswith(f", {100 * load / speed:.3g} %\n")
 
 
+def test_nothing_is_late_to_the_standard_filter(sched_sim: Run) -> None:
+    for line in ("minimum -N 10 -M 4 {}", "simulate -N 10 -M 4 --method standard {}"):
+        for more in ("", "-L 8"):
+            found = json.loads(sched_sim(f"{line.format(more)} --format json").out)
+            row = found[0] if isinstance(found, list) else found
+            assert (row["method"], row["N"], row["M"], row["L"]) == ("standard", 10, 0, 0)
+    line = "processors --hr-hz 400 --measurement-hz 5 --delay-ms 110 --method standard --format csv"
+    rows = list(csv.DictReader(io.StringIO(sched_sim(line).out)))
+    assert {(row["N"], row["M"], row["L"]) for row in rows} == {("80", "0", "0")}
+
+
 @pytest.mark.parametrize(("priority", "blocks"), [(30, True), (10, False), (5, False)])
 def test_a_task_that_nothing_interrupts_would_block_from_just_before(
     sched_sim: Run, tmp_path: Path, priority: int, blocks: bool
