@@ -35,8 +35,8 @@ class Design(NamedTuple):
 
     def timing(self, method: str, options: Options, *, asked: bool = True) -> Timing:
         """With the latest L that the method can have, if none was said. Raises InputError for a delay or a landing that
-        it cannot have; for M = N, where it needs a step more, only if it was asked for. Of the standard filter, to which
-        nothing is late, M and L are 0."""
+        it cannot have; for M = N, where it needs a step more, only if it was asked for. Of the standard filter, to
+        which nothing is late, M and L are 0."""
         from sched_sim.design.methods import METHODS
         from sched_sim.design.time_limits import check_times
         from sched_sim.design.timing import Timing

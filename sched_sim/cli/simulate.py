@@ -249,7 +249,9 @@ def released_together(
     block = f"; {names}: not preemptive, and would block more if released just before" if names else ""
     waiting = ", ".join(task.name for task in tasks if _waits(task, start))
     load = sum(loads(costs, timing, speed, options, tasks)) / options.cpus
-    busy = "" if options.context_switch else f": the processor is busy for less than the load, {float(100 * load):.3g} %"
+    busy = (
+        "" if options.context_switch else f": the processor is busy for less than the load, {float(100 * load):.3g} %"
+    )
     idle = f"; {waiting}: with jitter, and not released before{busy}" if waiting else ""
     return f"tasks of any phase are released together at step {step}{worst}{block}{idle}"
 

@@ -157,7 +157,7 @@ class _Pieces(NamedTuple):
         timing = self.timing(rate * self.per_hz)
         return timing is not None and landing(self.costs, timing, 1 / rate, self.options, ()) is not None
 
-    def possible(self, low: int, high: int, rate: int | None = None) -> bool:
+    def possible(self, low: int | Fraction, high: int | Fraction, rate: int | Fraction | None = None) -> bool:
         """Whether a rate with the steps of one from low to high may fit, which is at least `rate`, by default low."""
         least_N, least_M, _ = self.steps(low)
         most_N, most_M, _ = self.steps(high)

@@ -90,7 +90,7 @@ def simulate(
 def at_worst_phase(
     costs: Costs, timing: Timing, speed: Fraction, options: Options, tasks: Sequence[Task]
 ) -> tuple[Task, ...]:
-    """The tasks, each with an offset; those that may have any are released together, those without jitter before too."""
+    """The tasks, each with an offset: those that may have any are released together, without jitter before too."""
     start = worst_start(costs, timing, speed, options, tasks)
 
     def placed(task: Task) -> Task:

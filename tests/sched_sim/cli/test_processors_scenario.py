@@ -119,9 +119,7 @@ def test_parts_without_a_time_stand_in_one_line(sched_sim: Run) -> None:
         Path(f"{other}.toml").write_text(PART.format(other).replace("divide = 9\n", ""))
     line = "processors --scenario late.toml --processor leon3 --processor mine.toml --processor other.toml"
     out = sched_sim(line).out
-    said = (
-        "no time for divide and sqrt on mine, other: add it to a copy of the file, see `reason` in --format"
-    )
+    said = "no time for divide and sqrt on mine, other: add it to a copy of the file, see `reason` in --format"
     assert said in out
     assert sum("no time" in text for text in out.splitlines()) == 1
     rows = json.loads(sched_sim(f"{line} --format json").out)
