@@ -349,7 +349,7 @@ def test_help_and_version(sched_sim: Run) -> None:
             "minimum -N 10 -M 4 --tasks timed-tasks.toml",
             [
                 "task 's': cost_ms = 1 is a time; task 't': cost_ms = 1 is a time: the unit of the cost table, "
-                "standard step, is no time: give cost = ... in that unit, or a table in seconds (--processor, or --costs with"
+                "standard step, is no time: give cost = ... in that unit, or a table in seconds (--processor, or"
             ],
         ),
         ("processors --scenario nothing.toml", ["'nothing.toml': name: is missing", "sensor: there is none"]),

@@ -17,13 +17,13 @@ DOCUMENTS = {
 }
 
 
-@pytest.mark.parametrize(("wanted", "given"), permutations(KINDS, 2))
+@pytest.mark.parametrize(("wanted", "given"), [*permutations(KINDS, 2)])
 def test_it_is_refused_with_the_argument_that_takes_it(wanted: str, given: str) -> None:
     with pytest.raises(InputError, match=rf"^file: this is {KINDS[given][0]}, and .* needed; give it to {given}$"):
         refuse_other_kind(DOCUMENTS[given], "file", wanted)
 
 
-@pytest.mark.parametrize("wanted", KINDS)
+@pytest.mark.parametrize("wanted", [*KINDS])
 def test_what_is_none_of_them_is_left_to_the_check_of_its_keys(wanted: str) -> None:
     refuse_other_kind(DOCUMENTS[wanted], "file", wanted)
     refuse_other_kind({}, "file", wanted)
