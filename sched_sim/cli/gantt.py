@@ -59,6 +59,7 @@ def gantt(
     from reports.charts.panels import zoomed
     from reports.drawing.picture import check_picture
     from sched_sim.cli.design_times import make_design
+    from sched_sim.cli.measured_note import say_of_statistic
     from sched_sim.cli.simulate import released_together
     from sched_sim.design.least_speed import least_speed
     from sched_sim.design.methods import select
@@ -71,6 +72,7 @@ def gantt(
     table, rate = opt.costs_on(costs, part), opt.hr_rate(hr_hz)
     others = opt.make_tasks(tasks, table.unit, rate)
     design = make_design(N, M, L, rate, measurement_hz, delay_ms, land_within_ms)
+    say_of_statistic(statistic, [table])
     panels = []
     for name in opt.wanted_methods(method or _usual(table), table):
         timing = design.timing(name, options)

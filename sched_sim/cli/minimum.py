@@ -42,7 +42,7 @@ def minimum(
     sched-sim minimum -N 40 -M 4 --hr-hz 400 --costs my-costs.toml --method dual-rate
     """
     from sched_sim.cli.design_times import make_design
-    from sched_sim.cli.measured_note import measured_row, range_note
+    from sched_sim.cli.measured_note import measured_row, range_note, say_of_statistic
     from sched_sim.cli.parts import MEANING, fit_row, fit_words, fixed_by, highest_note, least_row, no_less
     from sched_sim.cli.update_form import update_form, update_note
     from sched_sim.costs.table import COUNTED
@@ -106,6 +106,7 @@ def minimum(
         scale = second if timed else Fraction(1)
         rows.append(row | measured_row(table, name, timing, options, others, scale))
         shown.append(person)
+    say_of_statistic(statistic, [table])
     timings = {row["method"]: design.timing(row["method"], options) for row in rows}
     note = lines(design.words, update_note(table, [*timings]), range_note(table, timings, options, others))
     if format == "json":

@@ -204,7 +204,7 @@ def _verdicts(
 ) -> tuple[list[dict[str, Any]], list[dict[str, Any]], list[str]]:
     """A row for each processor and method; the same in words, in the order of `_by_slack`; and remarks: which
     covariance update the operations are of, the ground, and why some processors cannot be told of."""
-    from sched_sim.cli.measured_note import measured_row
+    from sched_sim.cli.measured_note import measured_row, say_of_statistic
     from sched_sim.cli.no_time import no_time_note
     from sched_sim.cli.parts import fit_row, fit_words, fixed_by, least_row
     from sched_sim.cli.progress import simulations
@@ -219,8 +219,9 @@ def _verdicts(
     lacking: dict[str, list[str]] = {}
     verdicts: list[Fit | None] = []
     counts = load_costs(COUNTED if costs is None else costs)
-    for part in parts:
-        table = on_part(counts, part)
+    tables = [on_part(counts, part) for part in parts]
+    say_of_statistic(statistic, tables)
+    for part, table in zip(parts, tables, strict=True):
         for method, timing in timings.items():
             verdict, reason = None, None
             try:

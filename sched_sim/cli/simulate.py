@@ -112,7 +112,7 @@ def simulate(
     from contextlib import ExitStack
 
     from sched_sim.cli.design_times import make_design
-    from sched_sim.cli.measured_note import busy_row
+    from sched_sim.cli.measured_note import busy_row, say_of_statistic
     from sched_sim.cli.simulated import of_run, outcome, responses, show
     from sched_sim.cli.update_form import update_form, update_note
     from sched_sim.costs.methods import MULTIRATE_METHODS
@@ -164,6 +164,7 @@ def simulate(
 
         panel = method_panel(table, method, timing, pace, cycles, options, others, statistic=statistic)
         save(draw([panel], hr_hz=rate), gantt, "--gantt")
+    say_of_statistic(statistic, [table])
     if together := released_together(work, timing, pace, options, others):
         say(f"Note: {together}")
     if not schedule.misses and (note := unseen(work, timing, pace, cycles, options, others)):
