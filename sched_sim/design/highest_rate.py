@@ -14,8 +14,6 @@ from fractions import Fraction
 from itertools import islice, pairwise
 from typing import NamedTuple
 
-import numpy as np
-
 from sched_sim.bounds import MOST_STEPS
 from sched_sim.design.demand import DualRateDemand
 from sched_sim.design.least_speed import achieved_l, has_closed_form, least_speed
@@ -243,6 +241,8 @@ def _paces(costs: JobCosts[int], per_cost: int, timing: Timing, options: Options
         yield Fraction(job + costs.hr_update, per_cost)
     if options.feedback == "next-step":
         return
+    import numpy as np
+
     separate = options.cpus == 2
     end = np.arange(timing.M + 1, min(timing.L + 2, timing.N) + 1, dtype=object)
     demand = DualRateDemand(costs, 0 * end + timing.N, 0 * end + timing.M, separate)
