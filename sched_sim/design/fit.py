@@ -28,7 +28,8 @@ class Fit:
     load: the share of its time that it works at its own speed, mean of the processors where there are two; with context
         switches that of the simulated time, where it is at most 1 and which ends at a miss.
     fits: whether every deadline holds at its own speed. landed: the L at which corrections land then, None if not.
-    highest_hz: the highest HR rate at which it fits, with all else held in seconds, see `highest_rate`; None if none.
+    highest_hz: the highest HR rate at which it fits, with all else held in seconds, see `highest_rate`, or the rate
+    that was asked about, where that is higher and fits; None if none.
     """
 
     least: LeastSpeed

@@ -192,7 +192,7 @@ def read_tasks(
 
     hr_hz: rate of the HR loop, which times in ms and rates in Hz need. unit_s: seconds in a unit of the cost table,
     which costs in us, ms or s need, 1 for the table of a part (`on_part`); None if that is no time. cost_unit: what
-    messages call that unit, `table.unit`.
+    messages call that unit.
     Raises InputError that lists every wrong entry with its value.
     """
     what = f"{option('tasks')} {str(path)!r}"
