@@ -9,7 +9,7 @@ import re
 from collections.abc import Iterable
 from decimal import Decimal
 from fractions import Fraction
-from math import gcd, lcm
+from math import lcm
 from typing import TypeAlias
 
 from sched_sim.bounds import check_digits, check_size, short
@@ -97,11 +97,3 @@ def to_ticks(value: Fraction, resolution: int) -> int:
     if ticks.denominator != 1:
         raise ValueError(f"{value} is no whole number of ticks at {resolution} ticks per unit")
     return ticks.numerator
-
-
-def common_multiple(values: Iterable[Fraction]) -> Fraction:
-    """The least number that is a whole multiple of each, as 6 is of 3/2 and 2."""
-    first, *others = values
-    for value in others:
-        first = Fraction(lcm(first.numerator, value.numerator), gcd(first.denominator, value.denominator))
-    return first

@@ -147,10 +147,10 @@ def highest_note(tasks: Sequence[Task]) -> str:
     named = [task.name for task in tasks if task.offset != "any"]
     if not named:
         return ""
-    periods = "its period is" if len(named) == 1 else "their periods are"
+    period = "its period is" if len(named) == 1 else "the period of one is"
     return (
-        f"{HIGHEST_HR_HZ}: with the offset of {', '.join(named)} where {periods} whole HR periods; at other rates the "
-        f"phase drifts, and may be any"
+        f"{HIGHEST_HR_HZ}: with the offset of {', '.join(named)} at rates at which {period} whole HR periods; at "
+        f"others the phase drifts, and may be any"
     )
 
 

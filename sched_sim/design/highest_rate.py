@@ -26,8 +26,9 @@ from sched_sim.design.pieces import Costs, DualRateCosts, JobCosts, converted, w
 from sched_sim.design.times import Times
 from sched_sim.design.timing import Timing
 from sched_sim.errors import InputError
+from sched_sim.schedule.jobs import HR
 from sched_sim.schedule.tasks import Task, phases_matter
-from sched_sim.ticks import common_multiple, ticks_per_unit, to_ticks
+from sched_sim.ticks import ticks_per_unit, to_ticks
 
 DIGITS = 4
 """To so many the rate is rounded down, where that fits as well; else to the next number of digits that does."""
@@ -75,7 +76,7 @@ def highest_rate(
     The rate of measurements, the delay, the time by which corrections land and the periods of the tasks stay what they
     are in seconds. costs: in seconds. hr_hz: the rate of which the tasks are in HR periods; what is found does not hang
     on it. The tasks' phases may be any, for at most rates they drift through the HR period; but at rates at which the
-    period of each task of given offset is a whole number of HR periods the phases are locked, and tasks have there the
+    period of a task of given offset is a whole number of HR periods its phase is locked, and tasks have there the
     offsets that are given, in seconds: of these rates `LOCKED_LOOKS` above what fits at any phase are looked at, from
     the top, spread over all where there are more.
 
@@ -310,19 +311,22 @@ class _Search(NamedTuple):
         return next(filter(self._fits_as_given, locked), drifting)
 
     def _locked(self, low: Fraction, high: Fraction) -> Iterator[Fraction]:
-        """Rates between, from the top, which may fit, and at which the period of each task of given offset is a whole
-        number of HR periods."""
-        of_tasks = [self.hr_hz / task.period for task in self.tasks if task.offset != "any"]
-        if not of_tasks:
-            return
-        common = common_multiple(of_tasks)
+        """Rates between, from the top, which may fit, and at which the period of one task of given offset is a whole
+        number of HR periods. The shortest first, which have the fewest: all together at most `LOCKED_LOOKS`."""
+        if self.pieces.options.policy == "fixed":  # a more urgent job must leave something of each HR period
+            high = min([high, *(2 / task.cost for task in self.tasks if _is_ahead(task))])
         N = int(high * self.pieces.per_hz) // self.pieces.by_N
-        looks = max(min(LOCKED_LOOKS, 4 * STEPS_LOOKED_AT // (N + 1)), 4)
-        numbers = range(int(high // common), int(low // common), -1)
-        for number in numbers[:: -(-len(numbers) // looks) or 1]:
-            units = number * common * self.pieces.per_hz
+        looks = max(min(LOCKED_LOOKS, LOCKED_LOOKS * STEPS_LOOKED_AT // (N + 1)), 4)
+        rates: set[Fraction] = set()
+        for hz in sorted({self.hr_hz / task.period for task in self.tasks if task.offset != "any"}, reverse=True):
+            numbers = range(int(high // hz), int(low // hz), -1)
+            if rates and len(rates) + len(numbers) > looks:
+                break
+            rates.update(number * hz for number in numbers[:: -(-len(numbers) // looks) or 1])
+        for rate in sorted(rates, reverse=True):
+            units = rate * self.pieces.per_hz
             if self.pieces.timing(units) and self.pieces.possible(units, units):
-                yield number * common
+                yield rate
 
     def _fits_as_given(self, rate: Fraction) -> bool:
         """With the offsets that are given."""
@@ -415,6 +419,11 @@ def _at(tasks: Sequence[Task], scale: Fraction) -> list[Task]:
         )
         for task in tasks
     ]
+
+
+def _is_ahead(task: Task) -> bool:
+    """Of the HR jobs, always."""
+    return task.priority < HR and task.cpu == 1
 
 
 def _of_any_phase(tasks: Sequence[Task]) -> list[Task]:

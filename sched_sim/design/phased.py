@@ -19,7 +19,7 @@ from sched_sim.design.pieces import Costs, converted, works
 from sched_sim.design.timing import Timing
 from sched_sim.design.whole import Ints
 from sched_sim.schedule.tasks import Task
-from sched_sim.ticks import common_multiple, ticks_per_unit, to_ticks
+from sched_sim.ticks import ticks_per_unit, to_ticks
 
 LONGEST_BUSY = 2**16
 """HR periods; a busy period that is longer is taken for one without end."""
@@ -204,4 +204,7 @@ def _denominator(above: int, below: int) -> int:
 
 def common_period(N: int, periods: Sequence[Fraction]) -> int:
     """HR steps after which measurements and tasks of these periods are released together again as they were."""
-    return common_multiple([Fraction(N), *periods]).numerator
+    common = Fraction(N)
+    for period in periods:
+        common = Fraction(lcm(common.numerator, period.numerator), gcd(common.denominator, period.denominator))
+    return common.numerator

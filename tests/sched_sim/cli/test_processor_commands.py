@@ -193,7 +193,7 @@ def test_beside_tasks_whose_seconds_are_given_no_clock_is_named(sched_sim: Run, 
 
 def test_the_highest_rate_says_where_it_has_the_offset_that_is_given(sched_sim: Run, tmp_path: Path) -> None:
     task = '[[task]]\nname = "control"\nperiod_ms = 5\ncost_ms = 0.6\npriority = 5\n'
-    said = "highest HR Hz: with the offset of control where its period is whole HR periods; at other rates the phase"
+    said = "highest HR Hz: with the offset of control at rates at which its period is whole HR periods; at others"
     for command in ("minimum", "processors"):
         line = f"{command} --hr-hz 400 --measurement-hz 5 --delay-ms 110 --method larsen --processor cortex-m7"
         for more, given in (("", False), ("offset_ms = 2.5\n", True)):

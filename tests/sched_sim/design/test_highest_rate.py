@@ -169,3 +169,14 @@ def test_of_tasks_of_any_phase_beside_those_of_given_offset_the_phase_is_any() -
     assert found == 600
     assert at_any is not None
     assert at_any < 500
+
+
+@pytest.mark.parametrize("asked", [400, 600, 800])
+def test_one_task_whose_phase_is_locked_will_do(asked: int) -> None:
+    """Telemetry is never in the way of the HR loop, and its period whole HR periods at multiples of 3 Hz only."""
+    costs, times = LarsenCosts(*(Fraction(us, 10**6) for us in (400, 600, 550))), Times.of(5, 110)
+    tasks = [
+        Task("control", Fraction(asked, 200), Fraction(6, 10**4), 5, Fraction(asked, 400)),
+        Task("telemetry", Fraction(asked, 3), Fraction(4, 10**4), 30, Fraction(asked, 1000)),
+    ]
+    assert highest_rate(costs, times, Fraction(asked), Options(), tasks) == 800
