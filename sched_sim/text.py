@@ -9,6 +9,8 @@ would compute has an apostrophe before it.
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
+from difflib import get_close_matches
 from typing import Any
 
 FORMULA = ("=", "+", "-", "@")
@@ -36,6 +38,12 @@ def csv_cell(value: Any) -> Any:
 def json_text(document: Any, indent: int | None = None) -> str:
     """ASCII that every parser takes: what is no character, a surrogate alone, is written as its escape."""
     return json.dumps(_encodable(document), indent=indent)
+
+
+def did_you_mean(word: str, known: Sequence[str]) -> str:
+    """The beginning of a remedy, where a known word is close to the one that was given; else nothing."""
+    close = get_close_matches(word, known, 1)
+    return f"did you mean {close[0]}? " if close else ""
 
 
 def _visible(character: str) -> str:

@@ -5,6 +5,7 @@ One tick of work takes one tick of time, so a faster processor is a longer high-
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from decimal import Decimal
 from fractions import Fraction
@@ -36,9 +37,30 @@ def exact(value: Number, what: str) -> Fraction:
             raise InputError(f'{what} is {value}: give a finite number such as 0.78 or "77/100"') from None
         if hasattr(value, what):
             raise InputError(f"{what} is {short(value)}: give its .{what}") from None
-        raise InputError(f"{what} is {short(value)!r}: give a finite number such as 0.78 or 77/100") from None
+        remedy = _without_unit(str(value), what) or "give a finite number such as 0.78 or 77/100"
+        raise InputError(f"{what} is {short(value)!r}: {remedy}") from None
     check_size(number, what, value)
     return number
+
+
+UNITS = {"hz": "Hz", "ms": "ms", "us": "us", "s": "s", "mhz": "MHz"}
+"""By the last word of an argument's name, what it is in."""
+
+_WITH_UNIT = re.compile(r"([+-]?[\d.]+(?:e[+-]?\d+)?)\s*([a-z]+)", re.IGNORECASE)
+
+
+def _without_unit(text: str, what: str) -> str:
+    """What to say of a number with a unit behind it; empty for anything else."""
+    found = _WITH_UNIT.fullmatch(text.strip())
+    if found is None:
+        return ""
+    number, unit = found[1], found[2].lower()
+    word = re.split(r"[^A-Za-z]", what)[-1]
+    if wanted := UNITS.get(word):
+        return f"give it in {wanted}, without the unit{f': {number}' if unit == wanted.lower() else ''}"
+    if word == "switch":
+        return "give it in units of the cost table, which are seconds on a processor, without the unit"
+    return ""
 
 
 def _written(value: int | str | float | Decimal, what: str) -> int | str | Decimal:

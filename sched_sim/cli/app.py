@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Annotated, Any
@@ -11,7 +12,7 @@ from typer.core import TyperCommand, TyperGroup
 
 from sched_sim.cli import accuracy, design, gantt, measure, minimum, processors, report, simulate, sweep
 from sched_sim.errors import InputError
-from sched_sim.text import visible_lines
+from sched_sim.text import did_you_mean, visible_lines
 
 
 @contextmanager
@@ -22,15 +23,45 @@ def _shown_safely() -> Iterator[None]:
     except Exception as error:
         usage: Any = error
         if hasattr(usage, "format_message"):
-            usage.message = visible_lines(usage.message.removeprefix("Value error, "))
+            usage.message = visible_lines(_with_meant(usage.message.removeprefix("Value error, ")))
         raise
+
+
+def _with_meant(message: str) -> str:
+    """The message; where a value is none of an option's choices but close to one, with that one behind."""
+    given = re.fullmatch(r"'(.*)' is not one of (.*)", message)
+    meant = did_you_mean(given[1], re.findall("'([^']*)'", given[2])).strip() if given else ""
+    return f"{message} {meant[0].upper()}{meant[1:]}" if meant else message
+
+
+def _elsewhere(context: Any, flag: str) -> str:
+    """What takes the place of an option that is one of other commands, in words; empty where it is of none."""
+    if context.info_name == "sweep" and flag in IN_STEPS:
+        return f"a sweep is in HR steps: give {IN_STEPS[flag]}"
+    commands = [] if context.parent is None else context.parent.command.commands.items()
+    others = [name for name, command in commands if any(flag in parameter.opts for parameter in command.params)]
+    return f"it is one of {', '.join(f'`sched-sim {name}`' for name in others)}" if others else ""
+
+
+IN_STEPS = {
+    "--measurement-hz": "-N, the steps from one measurement to the next: 80 for 5 Hz at --hr-hz 400",
+    "--delay-ms": "-M, the steps until a measurement arrives, rounded up: 44 for 110 ms at --hr-hz 400",
+    "--land-within-ms": "-L, the step by which the correction must land: 48 for 120 ms at --hr-hz 400",
+}
+"""What a sweep has in place of times."""
 
 
 class Command(TyperCommand):
     """A command none of whose values is empty: typer would make the current folder of an empty path."""
 
     def parse_args(self, context: Any, arguments: list[str]) -> list[str]:
-        values, _, _ = self.make_parser(context).parse_args(list(arguments))
+        try:
+            values, _, _ = self.make_parser(context).parse_args(list(arguments))
+        except Exception as error:  # typer does not say where the class of its own error is
+            flag = getattr(error, "option_name", "")
+            if isinstance(flag, str) and (instead := _elsewhere(context, flag)):
+                raise InputError(f"{flag} is no option of `{context.command_path}`: {instead}") from None
+            raise
         for parameter in self.params:
             value = values.get(parameter.name)
             if value == "" or (isinstance(value, list | tuple) and "" in value):

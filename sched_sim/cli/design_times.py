@@ -36,9 +36,11 @@ class Design(NamedTuple):
     def timing(self, method: str, options: Options, *, asked: bool = True) -> Timing:
         """With the latest L that the method can have, if none was said. Raises InputError for a delay or a landing that
         it cannot have; for M = N, where it needs a step more, only if it was asked for. Some methods can have several
-        measurements on their way, so that M and L may be more than N."""
+        measurements on their way, so that M and L may be more than N. Of the standard filter, to which nothing is late,
+        M and L are 0."""
         from sched_sim.design.methods import METHODS
         from sched_sim.design.time_limits import check_times
+        from sched_sim.design.timing import Timing
 
         law = METHODS[method].law(options.feedback)
         delay = None if self.said.delay_ms is None else f"--delay-ms {float(self.said.delay_ms):g}"
@@ -47,7 +49,8 @@ class Design(NamedTuple):
             skipped = not asked and M <= self.N and law.why_none(self.N, M)
             needs = (0, 0) if skipped else (law.after, None if law.several else law.before)
             check_times(self.said, Steps(self.N, M, self.L), self.rate, *needs)
-        return opt.make_timing(self.N, self.M, self.L, method, options, delay)
+        timing = opt.make_timing(self.N, self.M, self.L, method, options, delay)
+        return Timing(timing.N, 0, 0) if method == "standard" else timing
 
 
 def make_design(

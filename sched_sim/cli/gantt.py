@@ -60,6 +60,7 @@ def gantt(
     from reports.drawing.picture import check_picture
     from sched_sim.cli.caveats import caveat_note
     from sched_sim.cli.design_times import make_design
+    from sched_sim.cli.measured_note import say_of_statistic
     from sched_sim.cli.simulate import released_together
     from sched_sim.design.least_speed import least_speed
     from sched_sim.design.methods import METHODS, select
@@ -72,6 +73,7 @@ def gantt(
     table, rate = opt.costs_on(costs, part), opt.hr_rate(hr_hz)
     others = opt.make_tasks(tasks, table.unit, rate)
     design = make_design(N, M, L, rate, measurement_hz, delay_ms, land_within_ms)
+    say_of_statistic(statistic, [table])
     panels, methods = [], opt.wanted_methods(method or _usual(table), table)
     for name in methods:
         timing = design.timing(name, options)
@@ -87,8 +89,8 @@ def gantt(
         start, end = stretch(first, until, rate, min(panel.end for panel in panels))
         panels = [zoomed(panel, start, end) for panel in panels]
     save(draw(panels, width_mm=across, hr_hz=rate), output, "--output")
-    if note := lines(design.words, caveat_note(methods)):
-        say(note)
+    for words in lines(design.words, caveat_note(methods)).splitlines():
+        say(words)
     say(f"Wrote {output}")
 
 

@@ -3,7 +3,7 @@ reach."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
@@ -27,6 +27,14 @@ def say_busy(name: str, provenance: Mapping[str, Any]) -> None:
     """The same on standard error, where there is no table for people; name: of the cost table."""
     if note := busy_note(provenance):
         say(f"Note: {name} was {note}")
+
+
+def say_of_statistic(statistic: Statistic, tables: Iterable[CostTable]) -> None:
+    """A line on standard error, if another figure than the least was asked for and changes nothing."""
+    costs = [cost for table in tables for kinds in table.costs.values() for cost in kinds.values()]
+    if statistic == "minimum" or not costs or any(getattr(cost, statistic) != cost.minimum for cost in costs):
+        return
+    say(f"Note: --statistic {statistic} changes nothing: each cost is one figure, counted or stated, not measured")
 
 
 BUSY = "measured_on_busy_machine"

@@ -43,8 +43,8 @@ def minimum(
     """
     from sched_sim.cli.caveats import caveat_note, with_caveats
     from sched_sim.cli.design_times import make_design
-    from sched_sim.cli.measured_note import measured_row, range_note
-    from sched_sim.cli.parts import MEANING, fit_row, fit_words, fixed_by, least_row, no_less
+    from sched_sim.cli.measured_note import measured_row, range_note, say_of_statistic
+    from sched_sim.cli.parts import MEANING, fit_row, fit_words, fixed_by, highest_note, least_row, no_less
     from sched_sim.cli.update_form import update_form, update_note
     from sched_sim.costs.table import COUNTED
     from sched_sim.design.fit import fit
@@ -111,6 +111,7 @@ def minimum(
         scale = second if timed else Fraction(1)
         rows.append(row | measured_row(table, name, timing, options, others, scale))
         shown.append(person)
+    say_of_statistic(statistic, [table])
     timings = {row["method"]: design.timing(row["method"], options) for row in rows}
     note = lines(
         design.words,
@@ -126,7 +127,7 @@ def minimum(
     elif rate is not None and timed:
         where = f"{part.title} (operations: {costs or COUNTED})" if part else f"the machine of {table.name}"
         title = f"On {where}, HR loop at {float(rate):g} Hz, {design.shown}"
-        print_table(title, shown, lines(MEANING, note))
+        print_table(title, shown, lines(MEANING, highest_note(others), note))
     else:
         unit = f"{units(table.unit)} per HR period" if part is None else f"an HR period, on {part.title}"
         print_table(f"Least speed, {design.shown}, in {unit} (costs: {table.name})", shown, note)

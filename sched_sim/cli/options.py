@@ -19,6 +19,7 @@ from sched_sim.design.pieces import Statistic
 from sched_sim.design.timing import Timing
 from sched_sim.errors import InputError
 from sched_sim.schedule.tasks import Task
+from sched_sim.text import did_you_mean
 from sched_sim.ticks import positive
 
 if TYPE_CHECKING:
@@ -223,7 +224,7 @@ def make_tasks(path: Path | None, unit: str, rate: Fraction | None) -> Sequence[
         return ()
     from sched_sim.schedule.task_file import read_tasks
 
-    return read_tasks(path, hr_hz=rate, unit_s=SECONDS.get(unit))
+    return read_tasks(path, hr_hz=rate, unit_s=SECONDS.get(unit), cost_unit=unit)
 
 
 @contextmanager
@@ -286,5 +287,7 @@ def known_methods(methods: Sequence[str], known: Sequence[str] = NAMES) -> Seque
     """Each once; raises InputError for one that is none of the known."""
     for method in methods:
         if method not in known:
-            raise InputError(f"--method {method!r} is unknown here: choose from {', '.join(known)}")
+            raise InputError(
+                f"--method {method!r} is unknown here: {did_you_mean(method, known)}choose from {', '.join(known)}"
+            )
     return list(dict.fromkeys(methods))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from sched_sim.design.times import Times
     from sched_sim.design.timing import Timing
     from sched_sim.processors.part import Part
+    from sched_sim.schedule.tasks import Task
 
 
 def least_row(method: str, timing: Timing, least: LeastSpeed | None) -> dict[str, Any]:
@@ -139,6 +140,18 @@ WORDS: dict[str, tuple[str, Callable[[Any], str]]] = {
 MEANING = (
     "of its speed: what the tightest deadline takes of the part; slack: the rest; load: the share of time it is busy"
 )
+
+
+def highest_note(tasks: Sequence[Task]) -> str:
+    """What the highest rate means where tasks have given offsets; empty where none has."""
+    named = [task.name for task in tasks if task.offset != "any"]
+    if not named:
+        return ""
+    period = "its period is" if len(named) == 1 else "the period of one is"
+    return (
+        f"{HIGHEST_HR_HZ}: with the offset of {', '.join(named)} at rates at which {period} whole HR periods; at "
+        f"others the phase drifts, and may be any"
+    )
 
 
 TASKS_ON_PARTS = "the tasks of --tasks take the same seconds on every processor"

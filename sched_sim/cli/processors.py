@@ -11,7 +11,7 @@ import typer
 from sched_sim.cli import options as opt
 from sched_sim.cli.design_flags import with_options
 from sched_sim.cli.output import lines, print_csv, print_json, print_table
-from sched_sim.cli.parts import MEANING, TASKS_ON_PARTS
+from sched_sim.cli.parts import MEANING, TASKS_ON_PARTS, highest_note
 from sched_sim.costs.methods import METHODS
 from sched_sim.costs.table import COUNTED
 from sched_sim.design.options import Options
@@ -122,7 +122,7 @@ def processors(
         rows, shown, remarks = _verdicts(parts, timings, costs, statistic, rate, options, others, design.times)
         title = f"{', '.join(methods)}, HR loop at {hr_hz} Hz, {design.shown} (operations: {costs or COUNTED})"
         same = TASKS_ON_PARTS if others and len(parts) > 1 else ""
-        note = lines(MEANING, same, design.words, *remarks)
+        note = lines(MEANING, highest_note(others), same, design.words, *remarks)
     if format == "json":
         print_json(rows)
     elif format == "csv":
@@ -205,7 +205,7 @@ def _verdicts(
     """A row for each processor and method; the same in words, in the order of `_by_slack`; and remarks: which
     covariance update the operations are of, the ground, and why some processors cannot be told of."""
     from sched_sim.cli.caveats import caveat_note, with_caveats
-    from sched_sim.cli.measured_note import measured_row
+    from sched_sim.cli.measured_note import measured_row, say_of_statistic
     from sched_sim.cli.no_time import no_time_note
     from sched_sim.cli.parts import fit_row, fit_words, fixed_by, least_row
     from sched_sim.cli.progress import simulations
@@ -220,8 +220,9 @@ def _verdicts(
     lacking: dict[str, list[str]] = {}
     verdicts: list[Fit | None] = []
     counts = load_costs(COUNTED if costs is None else costs)
-    for part in parts:
-        table = on_part(counts, part)
+    tables = [on_part(counts, part) for part in parts]
+    say_of_statistic(statistic, tables)
+    for part, table in zip(parts, tables, strict=True):
         for method, timing in timings.items():
             verdict, reason = None, None
             try:

@@ -30,16 +30,15 @@ def verdicts(path: Path, processors: Sequence[str], format: Format) -> None:
     from sched_sim.scenario.run import run_scenario
     from sched_sim.scenario.scenario_file import read_scenario
 
-    for name in processors:
-        load_part(name)
+    parts = {path: load_part(path).name for path in processors}
     rows: list[dict[str, Any]] = []
     lacking: dict[str, Sequence[str]] = {}
     scenario: Scenario | None = None
     read: list[Scenario] = []
     accuracies: dict[str, ScenarioAccuracy] = {}
-    for name in processors:
+    for file, name in parts.items():
         try:
-            scenario = read_scenario(path, describe, processor=name)
+            scenario = read_scenario(path, describe, processor=file)
         except NoTimeError as error:
             if len(processors) == 1:
                 raise
@@ -63,9 +62,7 @@ def verdicts(path: Path, processors: Sequence[str], format: Format) -> None:
     if format == "json":
         print_json(rows)
     elif format == "csv":
-        print_csv(
-            [{key: value for key, value in row.items() if key not in ("latest_l", "correction_ms")} for row in rows]
-        )
+        print_csv([_flat(row, scenario) for row in rows])
     else:
         title = f"{scenario.name}: {scenario.steps} steps at {float(scenario.hr_hz or 0):g} Hz, seed {scenario.seed}"
         note = (
@@ -90,6 +87,8 @@ def verdicts(path: Path, processors: Sequence[str], format: Format) -> None:
 DEVIATIONS = ("output", "output_unit", "median_std", "p95_std", "worst_std")
 KEYS = ("processor", "fits", "jobs", "misses", "miss_share", "slack", "slack_of", "utilization", "latest_l",
         "correction_ms", "reason")  # fmt: skip
+OF_SENSORS = ("latest_l", "correction_ms")
+"""The keys of these that hold a figure for each sensor."""
 
 
 def _same(scenarios: Sequence[Scenario]) -> str:
@@ -136,6 +135,17 @@ def _row(name: str, scenario: Scenario, outcome: Outcome) -> dict[str, Any]:
 def _longest_ms(scenario: Scenario, sensor: Sensor, outcome: Outcome) -> float | None:
     longest = outcome.sensors[sensor.name].longest
     return None if longest is None else float(longest * 1000 / (scenario.hr_hz or 1))
+
+
+def _flat(row: dict[str, Any], scenario: Scenario) -> dict[str, Any]:
+    """A column for each sensor, the same for every processor: correction_ms_gps."""
+    columns: dict[str, Any] = {}
+    for key, value in row.items():
+        if key in OF_SENSORS:
+            columns |= {f"{key}_{sensor.name}": (value or {}).get(sensor.name) for sensor in scenario.sensors}
+        else:
+            columns[key] = value
+    return columns
 
 
 def _in_words(row: dict[str, Any], scenario: Scenario) -> dict[str, Any]:

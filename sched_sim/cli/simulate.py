@@ -127,7 +127,7 @@ def simulate(
 
     from sched_sim.cli.caveats import caveat_note, with_caveats
     from sched_sim.cli.design_times import make_design
-    from sched_sim.cli.measured_note import busy_row
+    from sched_sim.cli.measured_note import busy_row, say_of_statistic
     from sched_sim.cli.simulated import of_run, outcome, responses, show
     from sched_sim.cli.update_form import update_form, update_note
     from sched_sim.costs.methods import MULTIRATE_METHODS
@@ -179,6 +179,7 @@ def simulate(
 
         panel = method_panel(table, method, timing, pace, cycles, options, others, statistic=statistic)
         save(draw([panel], hr_hz=rate), gantt, "--gantt")
+    say_of_statistic(statistic, [table])
     if together := released_together(work, timing, pace, options, others):
         say(f"Note: {together}")
     if not schedule.misses and (note := unseen(work, timing, pace, cycles, options, others)):
@@ -191,7 +192,7 @@ def simulate(
     elif format == "csv":
         print_csv([about | {"kind": kind} | figures for kind, figures in responses(schedule, rate).items()])
     else:
-        delay = "" if design.M is None else f" M={design.M}"
+        delay = "" if design.M is None else f" M={timing.M}"
         where = f"at speed {float(pace):.6g}" if part is None else f"on {part.title}"
         if part is not None and rate is None:
             where += f", as fast as it can: HR period {1e6 * float(pace):.6g} us"
@@ -251,6 +252,7 @@ def released_together(
 ) -> str | None:
     """At which step tasks of any phase are released together in a simulation, what that is the worst for, and what it
     does not show, in words; None if there are none."""
+    from sched_sim.design.load import loads
     from sched_sim.design.simulate import worst_start
 
     start = worst_start(costs, timing, speed, options, tasks)
@@ -260,7 +262,18 @@ def released_together(
     worst = ", the worst for the job with the least slack, not for the landing" if options.policy == "fixed" else ""
     names = ", ".join(task.name for task in tasks if _would_block(task, tasks, options))
     block = f"; {names}: not preemptive, and would block more if released just before" if names else ""
-    return f"tasks of any phase are released together at step {step}{worst}{block}"
+    waiting = ", ".join(task.name for task in tasks if _waits(task, start))
+    load = sum(loads(costs, timing, speed, options, tasks)) / options.cpus
+    busy = (
+        "" if options.context_switch else f": the processor is busy for less than the load, {float(100 * load):.3g} %"
+    )
+    idle = f"; {waiting}: with jitter, and not released before{busy}" if waiting else ""
+    return f"tasks of any phase are released together at step {step}{worst}{block}{idle}"
+
+
+def _waits(task: Task, start: Fraction) -> bool:
+    """Whether a task of any phase is released less often in a simulation than it would be, see `at_worst_phase`."""
+    return task.offset == "any" and task.jitter > 0 and start - task.jitter >= task.period
 
 
 def _would_block(task: Task, tasks: Sequence[Task], options: Options) -> bool:

@@ -155,6 +155,7 @@ def sweep(
     sched-sim sweep -N 40 -M 20 --processor cortex-m4f --processor leon3 --hr-hz 100:800:100 --tasks tasks.toml
     sched-sim sweep grid.toml --simulate --results designs.sqlite
     """
+    from sched_sim.cli.measured_note import say_of_statistic
     from studies.sweep.export import check_export
     from studies.sweep.export import export as write
     from studies.sweep.run import Outcome, run
@@ -179,6 +180,7 @@ def sweep(
     }
     wanted = settings(flags, grid)
     asked = wanted.sweep()
+    say_of_statistic(asked.grid.statistic, asked.grid.tables)
     path = results or Path(f"{grid.stem if grid else 'sweep'}-{asked.digest[:8]}.sqlite")
     exports = export or []
     for file in exports:

@@ -16,10 +16,12 @@ from sched_sim.costs.methods import KINDS
 from sched_sim.costs.operations import ARITHMETIC, OPERATION_KINDS, arithmetic
 from sched_sim.costs.table import Cost, CostTable, positive_cost
 from sched_sim.errors import InputError
+from sched_sim.files.kinds import refuse_other_kind
 from sched_sim.files.toml_problems import problems
 from sched_sim.files.toml_reader import read_toml
 from sched_sim.files.toml_writer import toml_number, toml_tables, toml_value
 from sched_sim.files.writable import write
+from sched_sim.text import did_you_mean
 
 TABLES = Path(__file__).parent / "tables"
 
@@ -138,7 +140,8 @@ def load_costs(name_or_path: str | Path) -> CostTable:
     check_kind(name_or_path, (str, Path), "name_or_path", "the name of a shipped cost table, or the path of a file")
     name, shipped = str(name_or_path), shipped_tables()
     if name not in shipped:
-        return _read(Path(name), name, f"give one of {', '.join(shipped)}, or the path of a TOML file")
+        remedy = f"{did_you_mean(name, shipped)}give one of {', '.join(shipped)}, or the path of a TOML file"
+        return _read(Path(name), name, remedy)
     return replace(read_costs(TABLES / f"{name}.toml", shown=name), found_in=_shipped_with)
 
 
@@ -158,6 +161,7 @@ def read_costs(path: str | Path, shown: str = "") -> CostTable:
 def _read(path: Path, shown: str, remedy: str) -> CostTable:
     document = read_toml(path, f"cost table {shown!r}", remedy)
     refuse_samples(document, f"cost table {shown!r}")
+    refuse_other_kind(document, f"cost table {shown!r}", "costs")
     try:
         checked = _CostFile.model_validate(document)
     except ValidationError as error:

@@ -30,7 +30,8 @@ class Fit:
         switches that of the simulated time, where it is at most 1 and which ends at a miss. Of several corrections on
         their way, as if they landed as soon as measurements arrive: later ones take a few HR updates more.
     fits: whether every deadline holds at its own speed. landed: the L at which corrections land then, None if not.
-    highest_hz: the highest HR rate at which it fits, with all else held in seconds, see `highest_rate`; None if none.
+    highest_hz: the highest HR rate at which it fits, with all else held in seconds, see `highest_rate`, or the rate
+    that was asked about, where that is higher and fits; None if none.
     """
 
     least: LeastSpeed

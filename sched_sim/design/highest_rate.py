@@ -14,8 +14,6 @@ from fractions import Fraction
 from itertools import islice, pairwise
 from typing import NamedTuple
 
-import numpy as np
-
 from sched_sim.bounds import MOST_STEPS
 from sched_sim.design.demand import DualRateDemand
 from sched_sim.design.least_speed import achieved_l, has_closed_form, least_speed
@@ -28,6 +26,7 @@ from sched_sim.design.pieces import Costs, DualRateCosts, JobCosts, converted, w
 from sched_sim.design.times import Times
 from sched_sim.design.timing import Timing
 from sched_sim.errors import InputError
+from sched_sim.schedule.jobs import HR
 from sched_sim.schedule.tasks import Task, phases_matter
 from sched_sim.ticks import ticks_per_unit, to_ticks
 
@@ -42,6 +41,10 @@ LOOKS = 24
 
 STEPS_LOOKED_AT = 50_000
 """Of all looks together, at the most, but for four of them."""
+
+LOCKED_LOOKS = 96
+"""So many rates at which the phases of tasks are locked are looked at, spread over those between; fewer where
+measurements are many steps apart. Most that do not fit miss a deadline soon."""
 
 
 def landing(costs: Costs, timing: Timing, pace: Fraction, options: Options, tasks: Sequence[Task]) -> int | None:
@@ -72,7 +75,10 @@ def highest_rate(
 
     The rate of measurements, the delay, the time by which corrections land and the periods of the tasks stay what they
     are in seconds. costs: in seconds. hr_hz: the rate of which the tasks are in HR periods; what is found does not hang
-    on it. The tasks' phases may be any, for a given offset would be another part of the HR period at each rate.
+    on it. The tasks' phases may be any, for at most rates they drift through the HR period; but at rates at which the
+    period of a task of given offset is a whole number of HR periods its phase is locked, and tasks have there the
+    offsets that are given, in seconds: of these rates `LOCKED_LOOKS` above what fits at any phase are looked at, from
+    the top, spread over all where there are more.
 
     It is exact where there is a closed form (`has_closed_form`). With several dual-rate corrections on their way,
     tasks, context switches or earliest deadline first it is found by bisection from above, which takes for granted that
@@ -163,7 +169,7 @@ class _Pieces(NamedTuple):
         timing = self.timing(rate * self.per_hz)
         return timing is not None and landing(self.costs, timing, 1 / rate, self.options, ()) is not None
 
-    def possible(self, low: int, high: int, rate: int | None = None) -> bool:
+    def possible(self, low: int | Fraction, high: int | Fraction, rate: int | Fraction | None = None) -> bool:
         """Whether a rate with the steps of one from low to high may fit, which is at least `rate`, by default low."""
         least_N, least_M, _ = self.steps(low)
         most_N, most_M, _ = self.steps(high)
@@ -250,6 +256,8 @@ def _paces(costs: JobCosts[int], per_cost: int, timing: Timing, options: Options
         yield Fraction(job + costs.hr_update, per_cost)
     if options.feedback == "next-step":
         return
+    import numpy as np
+
     separate = options.cpus == 2
     end = np.arange(timing.M + 1, min(timing.L + 2, timing.N) + 1, dtype=object)
     demand = DualRateDemand(costs, 0 * end + timing.N, 0 * end + timing.M, separate)
@@ -289,10 +297,11 @@ class _Search(NamedTuple):
     hr_hz: Fraction
 
     def fits(self, rate: Fraction) -> bool:
+        """At any phase."""
         timing = self.pieces.timing(rate * self.pieces.per_hz)
         if timing is None:
             return False
-        costs, options, tasks = self.pieces.costs, self.pieces.options, _at(self.tasks, rate / self.hr_hz)
+        costs, options, tasks = self.pieces.costs, self.pieces.options, _of_any_phase(self._tasks_at(rate))
         try:
             if not tasks:
                 return landing(costs, timing, 1 / rate, options, ()) is not None
@@ -302,12 +311,49 @@ class _Search(NamedTuple):
         except InputError:
             return False
 
+    def _tasks_at(self, rate: Fraction) -> list[Task]:
+        return _at(self.tasks, rate / self.hr_hz)
+
     def highest(self) -> Fraction | None:
         least, most = self.pieces.range
         top = next(self.pieces.pieces(least, most), None)
         if top is None:
             return None
         above = self._not_too_much(self.pieces.hz(top[1]))
+        drifting = self._at_any_phase(above)
+        locked = self._locked(drifting or self.pieces.hz(least), above)
+        return next(filter(self._fits_as_given, locked), drifting)
+
+    def _locked(self, low: Fraction, high: Fraction) -> Iterator[Fraction]:
+        """Rates between, from the top, which may fit, and at which the period of one task of given offset is a whole
+        number of HR periods. The shortest first, which have the fewest: all together at most `LOCKED_LOOKS`."""
+        if self.pieces.options.policy == "fixed":  # a more urgent job must leave something of each HR period
+            high = min([high, *(2 / task.cost for task in self.tasks if _is_ahead(task))])
+        N = int(high * self.pieces.per_hz) // self.pieces.by_N
+        looks = max(min(LOCKED_LOOKS, LOCKED_LOOKS * STEPS_LOOKED_AT // (N + 1)), 4)
+        rates: set[Fraction] = set()
+        for hz in sorted({self.hr_hz / task.period for task in self.tasks if task.offset != "any"}, reverse=True):
+            numbers = range(int(high // hz), int(low // hz), -1)
+            if rates and len(rates) + len(numbers) > looks:
+                break
+            rates.update(number * hz for number in numbers[:: -(-len(numbers) // looks) or 1])
+        for rate in sorted(rates, reverse=True):
+            units = rate * self.pieces.per_hz
+            if self.pieces.timing(units) and self.pieces.possible(units, units):
+                yield rate
+
+    def _fits_as_given(self, rate: Fraction) -> bool:
+        """With the offsets that are given."""
+        timing = self.pieces.timing(rate * self.pieces.per_hz)
+        try:
+            return timing is not None and (
+                landing(self.pieces.costs, timing, 1 / rate, self.pieces.options, self._tasks_at(rate)) is not None
+            )
+        except InputError:
+            return False
+
+    def _at_any_phase(self, above: Fraction) -> Fraction | None:
+        least = self.pieces.range[0]
         found = self._bisected(above)
         between = int((found or self.pieces.hz(least)) * self.pieces.per_hz), int(above * self.pieces.per_hz)
         for change in self._changes(*between):
@@ -322,10 +368,8 @@ class _Search(NamedTuple):
 
         def too_much(rate: Fraction) -> bool:
             timing = self.pieces.timing(rate * self.pieces.per_hz)
-            tasks = _at(self.tasks, rate / self.hr_hz)
-            return (
-                timing is not None and max(loads(self.pieces.costs, timing, 1 / rate, self.pieces.options, tasks)) > 1
-            )
+            costs, options = self.pieces.costs, self.pieces.options
+            return timing is not None and max(loads(costs, timing, 1 / rate, options, self._tasks_at(rate))) > 1
 
         low, high = Fraction(0), rate
         while high - low > high / 100:
@@ -344,8 +388,9 @@ class _Search(NamedTuple):
         return self._between(rate, min(2 * rate, above))
 
     def _between(self, fitting: Fraction, above: Fraction) -> Fraction:
-        """Near the last rate that fits, where a higher one is not looked at, or does not."""
-        unit = last_digit(above) / 2
+        """Near the last rate that fits, where a higher one is not looked at, or does not: to half of its last digit,
+        which counts less than that of the rate above where that has more digits before the point."""
+        unit = last_digit(fitting) / 2
         low, high = fitting // unit, -(-above // unit)
         while high - low > 1:
             middle = (low + high) // 2
@@ -384,7 +429,16 @@ def _at(tasks: Sequence[Task], scale: Fraction) -> list[Task]:
             period=scale * task.period,
             jitter=scale * task.jitter,
             deadline=None if task.deadline is None else scale * task.deadline,
-            offset="any",
+            offset=task.offset if task.offset == "any" else scale * task.offset,
         )
         for task in tasks
     ]
+
+
+def _is_ahead(task: Task) -> bool:
+    """Of the HR jobs, always."""
+    return task.priority < HR and task.cpu == 1
+
+
+def _of_any_phase(tasks: Sequence[Task]) -> list[Task]:
+    return [replace(task, offset="any") for task in tasks]

@@ -14,7 +14,7 @@ from typing import Literal, get_args, get_type_hints
 
 from sched_sim.bounds import short
 from sched_sim.design.timing import Feedback
-from sched_sim.errors import InputError
+from sched_sim.errors import InputError, option
 from sched_sim.schedule.policy import Policy
 from sched_sim.ticks import exact
 
@@ -90,9 +90,11 @@ class Options:
             value = getattr(self, name)
             if known and value not in known:
                 raise InputError(f"{name} is {short(repr(value))}: choose from {', '.join(map(repr, known))}")
-        object.__setattr__(self, "context_switch", exact(self.context_switch, "context switch"))
+        object.__setattr__(self, "context_switch", exact(self.context_switch, option("context_switch")))
         if self.context_switch < 0:
-            raise InputError(f"context switch is {float(self.context_switch):g}: it must be 0 or more cost units")
+            raise InputError(
+                f"{option('context_switch')} is {float(self.context_switch):g}: it must be 0 or more cost units"
+            )
 
 
 @cache

@@ -45,7 +45,8 @@ def simulate(
     costs: from `select`; speed: cost units the processor does per HR period.
     keep_slices: return every `Slice`; without it memory does not grow with `cycles`.
     Tasks whose offset may be any are released together, the first time as late as their jitter allows, where that
-    delays the job with the least slack most (`worst_phase.critical_start`).
+    delays the job with the least slack most (`worst_phase.critical_start`); those without jitter before too, from the
+    start on.
     on_slice, on_landing: called as slices end and as corrections land, with a `Slice` and with
     (cycle, achieved L). on_progress: called about a hundred times.
     Raises InputError for a speed that is not positive, an L the method cannot have, a task on a missing CPU, and more
@@ -98,14 +99,13 @@ def simulated_steps(costs: Costs, timing: Timing, cycles: int, options: Options)
 def at_worst_phase(
     costs: Costs, timing: Timing, speed: Fraction, options: Options, tasks: Sequence[Task]
 ) -> tuple[Task, ...]:
-    """The tasks, each with an offset; those that may have any are released together, those without jitter before too
-    where that is not in the first cycle."""
+    """The tasks, each with an offset: those that may have any are released together, without jitter before too."""
     start = worst_start(costs, timing, speed, options, tasks)
 
     def placed(task: Task) -> Task:
         if start is None or task.offset != "any":
             return task
-        before = start // task.period * task.period if start >= timing.N and not task.jitter else 0
+        before = 0 if task.jitter else start // task.period * task.period
         return replace(task, offset=start - task.jitter - before)
 
     return tuple(map(placed, tasks))

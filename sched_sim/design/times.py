@@ -14,6 +14,7 @@ from fractions import Fraction
 from math import ceil, floor
 from typing import NamedTuple
 
+from sched_sim.bounds import MOST_STEPS, short
 from sched_sim.errors import InputError, option
 from sched_sim.ticks import Number, exact, positive
 
@@ -65,7 +66,7 @@ class Times:
         return times
 
     def steps(self, hr_hz: Fraction) -> Steps:
-        """At this rate. Raises InputError for measurements that come more often than steps."""
+        """At this rate. Raises InputError for measurements that come more often than steps, and for too many steps."""
         N = None if self.measurement_hz is None else floor(hr_hz / self.measurement_hz)
         if N == 0:
             raise InputError(
@@ -74,6 +75,12 @@ class Times:
             )
         M = None if self.delay_ms is None else ceil(self.delay_ms * hr_hz / 1000)
         L = None if self.land_within_ms is None else floor(self.land_within_ms * hr_hz / 1000 - self.wait(hr_hz))
+        for name, steps in (("measurement_hz", N), ("delay_ms", M), ("land_within_ms", L)):
+            if steps is not None and steps > MOST_STEPS:
+                raise InputError(
+                    f"{option('hr_hz')} {float(hr_hz):g} and {option(name)} {float(getattr(self, name)):g} make "
+                    f"{short(steps)} HR steps: give values that make at most {MOST_STEPS:,}"
+                )
         return Steps(N, M, L)
 
     def wait(self, hr_hz: Fraction) -> Fraction:

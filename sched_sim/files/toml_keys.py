@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from difflib import get_close_matches
 from types import UnionType
 from typing import Annotated, Any, Union, get_args, get_origin
 
 from pydantic import BaseModel
+
+from sched_sim.text import did_you_mean
 
 
 def table_at(model: type[BaseModel], path: Sequence[int | str]) -> type[BaseModel] | None:
@@ -30,11 +31,12 @@ def required_keys(table: type[BaseModel]) -> list[str]:
     return [*required, *getattr(table, "one_of", ())]
 
 
-def no_such_key(key: str, table: type[BaseModel]) -> str:
-    """What to say of a key that the table may not have."""
+def no_such_key(key: str, table: type[BaseModel], *, listed: bool = False) -> str:
+    """What to say of a key that the table may not have. listed: its keys have been said."""
     keys = keys_of(table)
-    close = get_close_matches(key, keys, 1)
-    meant = f"did you mean {close[0]}? " if close else ""
+    meant = did_you_mean(key, keys)
+    if listed:
+        return f"this key is not permitted{meant and f'; {meant.strip()}'}"
     return f"this key is not permitted; {meant}the keys here are {', '.join(keys)}"
 
 

@@ -25,22 +25,24 @@ def problems(error: ValidationError, model: type[BaseModel], document: Mapping[s
     """Every error of a file checked by `model` on one line: where, what was there, what is wrong. With the document, an
     entry of a list is named if it has a name: "sensor 'gps'.every" instead of "sensor.0.every"."""
     lines = []
+    tables: set[type[BaseModel]] = set()
     for item in error.errors():
         path = [part for part in item["loc"] if not str(part).startswith("function-")]
         where = _where(path, document)
-        message = problem(item, path, model)
+        message = problem(item, path, model, tables)
         lines.append(f"{where}: {message}" if where else message)
     if len(lines) > MOST_PROBLEMS:
         lines[MOST_PROBLEMS:] = [f"and {len(lines) - MOST_PROBLEMS} more"]
     return "; ".join(lines)
 
 
-def problem(item: ErrorDetails, path: At, model: type[BaseModel]) -> str:
-    """One error, without its place: what is wrong and what was there."""
-    return _message(item, path, model) + (_given(item) if path else "")
+def problem(item: ErrorDetails, path: At, model: type[BaseModel], listed: set[type[BaseModel]] | None = None) -> str:
+    """One error, without its place: what is wrong and what was there. listed: tables whose keys have been said; is
+    added to."""
+    return _message(item, path, model, set() if listed is None else listed) + (_given(item) if path else "")
 
 
-def _message(item: ErrorDetails, path: At, model: type[BaseModel]) -> str:
+def _message(item: ErrorDetails, path: At, model: type[BaseModel], listed: set[type[BaseModel]]) -> str:
     limits = item.get("ctx", {})
     match item["type"]:
         case "missing":
@@ -54,7 +56,9 @@ def _message(item: ErrorDetails, path: At, model: type[BaseModel]) -> str:
         case "model_type" | "dict_type":
             return _no_table(item["input"], path, model)
         case "extra_forbidden" if table := table_at(model, path[:-1]):
-            return no_such_key(str(path[-1]), table)
+            said = table in listed
+            listed.add(table)
+            return no_such_key(str(path[-1]), table, listed=said)
         case "string_type":
             return f'must be text: write {path[-1]} = "..."'
         case "int_type":

@@ -11,9 +11,11 @@ from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Fie
 
 from sched_sim.costs.operations import OPERATION_KINDS
 from sched_sim.errors import InputError
+from sched_sim.files.kinds import refuse_other_kind
 from sched_sim.files.toml_problems import problems
 from sched_sim.files.toml_reader import read_toml
 from sched_sim.processors.part import Calibration, Part
+from sched_sim.text import did_you_mean
 from sched_sim.ticks import exact, positive
 
 SHIPPED = Path(__file__).parent
@@ -153,8 +155,10 @@ def read_part(path: Path, shown: str = "") -> Part:
     Raises InputError that lists every wrong entry of the file with its value.
     """
     shown = shown or str(path)
-    remedy = f"give one of {', '.join(shipped_parts())}, or the path of a TOML file"
+    shipped = shipped_parts()
+    remedy = f"{did_you_mean(shown, shipped)}give one of {', '.join(shipped)}, or the path of a TOML file"
     document = read_toml(path, f"processor {shown!r}", remedy)
+    refuse_other_kind(document, f"processor {shown!r}", "processor")
     try:
         checked = _ProcessorFile.model_validate(document)
     except ValidationError as error:

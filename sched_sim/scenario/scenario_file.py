@@ -15,6 +15,7 @@ from sched_sim.bounds import MOST_STEPS, check_sensors, short
 from sched_sim.costs.sample_file import SampledCosts, read_sampled_costs
 from sched_sim.costs.table import SECONDS
 from sched_sim.errors import InputError, option
+from sched_sim.files.kinds import refuse_other_kind
 from sched_sim.files.toml_numbers import Positive, Whole, above_zero, whole
 from sched_sim.files.toml_problems import problems
 from sched_sim.files.toml_reader import read_toml
@@ -29,6 +30,8 @@ from sched_sim.scenario.scenario import Late, Samples, Scenario, carried, needed
 from sched_sim.schedule.length import check_simulation
 from sched_sim.schedule.task_file import TaskEntry, TaskUnits, tasks_of
 from sched_sim.schedule.tasks import Task
+
+NO_TIME = "without hr_hz no period has one: give hr_hz (steps per second) instead of speed, or cost = ... in cost units"
 
 
 def _file(value: Any, what: str) -> str:
@@ -175,7 +178,7 @@ class _ScenarioFile(Entry):
     def tasks(self, units: Units) -> list[Task]:
         """The [[task]] entries, their costs as all others; raises InputError for one whose unit is not said."""
         second = None if units.hr_hz is None else Fraction(1)
-        return tasks_of(self.task, TaskUnits(units.hr_hz, second, units.unit))
+        return tasks_of(self.task, TaskUnits(units.hr_hz, second, units.unit, NO_TIME))
 
 
 def read_scenario(path: str | Path, describe: Describe | None = None, *, processor: str | None = None) -> Scenario:
@@ -191,6 +194,7 @@ def read_scenario(path: str | Path, describe: Describe | None = None, *, process
     """
     what, path = f"{option('scenario')} {str(path)!r}", Path(path)
     document = read_toml(path, what, "give the path of a TOML file with [predictor] and [[sensor]] entries")
+    refuse_other_kind(document, what, "scenario")
     try:
         composition = _composition(document.get("filter"), describe, path.parent)
         if processor is not None:
@@ -198,7 +202,7 @@ def read_scenario(path: str | Path, describe: Describe | None = None, *, process
             document = {**document, "processor": processor if shipped else str(Path(processor).resolve())}
         if composition is not None:
             document = with_its_sensors(document, composition)
-        if processor is not None:
+        if processor is not None and "sensor" in document:  # else that is what is missing
             _check_it_depends_on_one(document)
         units = Units.of(document, composition)
         return _scenario(_ScenarioFile.model_validate(document, context=units), units, path.parent)

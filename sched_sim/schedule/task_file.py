@@ -10,6 +10,7 @@ from typing import Annotated, Any, Literal, NamedTuple, Self
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, model_validator
 
 from sched_sim.errors import InputError, option
+from sched_sim.files.kinds import refuse_other_kind
 from sched_sim.files.toml_numbers import Number, Positive, Whole, number
 from sched_sim.files.toml_problems import problems
 from sched_sim.files.toml_reader import read_toml
@@ -25,12 +26,14 @@ class TaskUnits(NamedTuple):
     """What the figures of tasks are turned into.
 
     hr_hz: HR periods in a second, None if it is not given. unit_s: seconds in a cost unit, None if it is no time.
-    unit: of plain costs, one of `COST_UNITS`, where the file says it.
+    unit: of plain costs, one of `COST_UNITS`, where the file says it. no_time: what to do about costs that are times
+    where unit_s is None.
     """
 
     hr_hz: Fraction | None = None
     unit_s: Fraction | None = None
     unit: str | None = None
+    no_time: str = "give cost = ... in cost units"
 
 
 def _offset(value: Any) -> Any:
@@ -158,10 +161,7 @@ class TaskEntry(BaseModel):
                 f'or unit = "us", "ms" or "s" at the top of the file for all'
             )
         elif unit is not None and units.unit_s is None:
-            wrong.append(
-                f"{key} = {_shown(value)} is a time, and the unit of the cost table is none: give cost = ... in that "
-                f"unit, or a table in seconds ({option('costs')}, {option('processor')})"
-            )
+            wrong.append(f"{key} = {_shown(value)} is a time: {units.no_time}")
         if unit is None or units.unit_s is None:
             return value
         return value * COST_UNITS[unit] / units.unit_s
@@ -181,15 +181,23 @@ class _TaskFile(BaseModel):
     task: Annotated[list[TaskEntry], Field(min_length=1)]
 
 
-def read_tasks(path: str | Path, *, hr_hz: AnyNumber | None = None, unit_s: AnyNumber | None = None) -> list[Task]:
+def read_tasks(
+    path: str | Path,
+    *,
+    hr_hz: AnyNumber | None = None,
+    unit_s: AnyNumber | None = None,
+    cost_unit: str | None = None,
+) -> list[Task]:
     """The tasks in `path`, in HR periods and cost units.
 
     hr_hz: rate of the HR loop, which times in ms and rates in Hz need. unit_s: seconds in a unit of the cost table,
-    which costs in us, ms or s need; None if that is no time.
+    which costs in us, ms or s need, 1 for the table of a part (`on_part`); None if that is no time. cost_unit: what
+    messages call that unit.
     Raises InputError that lists every wrong entry with its value.
     """
     what = f"{option('tasks')} {str(path)!r}"
     document = read_toml(Path(path), what, "give the path of a TOML file with [[task]] entries")
+    refuse_other_kind(document, what, "tasks")
     try:
         checked = _TaskFile.model_validate(document)
     except ValidationError as error:
@@ -203,6 +211,7 @@ def read_tasks(path: str | Path, *, hr_hz: AnyNumber | None = None, unit_s: AnyN
         None if hr_hz is None else positive(hr_hz, "hr_hz"),
         None if unit_s is None else positive(unit_s, "unit_s"),
         checked.unit,
+        _no_time(cost_unit),
     )
     try:
         tasks = tasks_of(checked.task, units)
@@ -211,6 +220,19 @@ def read_tasks(path: str | Path, *, hr_hz: AnyNumber | None = None, unit_s: AnyN
     if together := wrong_together(tasks):
         raise InputError(f"{what}: {'; '.join(together)}")
     return tasks
+
+
+def _no_time(cost_unit: str | None) -> str:
+    """cost_unit: None where it is a Python program that reads the file."""
+    if cost_unit is None:
+        return (
+            f"give {option('unit_s')}, the seconds in a unit of the cost table (1 for one in seconds, as `on_part` "
+            f"makes it), or cost = ... in that unit"
+        )
+    return (
+        f"the unit of the cost table, {cost_unit}, is no time: give cost = ... in that unit, or a table in seconds "
+        f"({option('processor')}, or {option('costs')} with a measured one)"
+    )
 
 
 def tasks_of(entries: list[TaskEntry], units: TaskUnits) -> list[Task]:
@@ -222,5 +244,11 @@ def tasks_of(entries: list[TaskEntry], units: TaskUnits) -> list[Task]:
         except InputError as error:
             wrong.append(str(error))
     if wrong:
-        raise InputError("; ".join(wrong))
+        raise InputError("; ".join(_said_once(wrong, f": {units.no_time}")))
     return tasks
+
+
+def _said_once(messages: list[str], remedy: str) -> list[str]:
+    """The same, the remedy only after the last of those that end with it."""
+    with_it = [message for message in messages if message.endswith(remedy)]
+    return [message.removesuffix(remedy) if message in with_it[:-1] else message for message in messages]

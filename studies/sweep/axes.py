@@ -9,6 +9,7 @@ from typing import Any, TypeVar
 
 from sched_sim.bounds import short, whole
 from sched_sim.errors import InputError
+from sched_sim.text import did_you_mean
 from sched_sim.ticks import exact
 
 LONGEST_RANGE = 1_000_000
@@ -60,7 +61,8 @@ def words(entry: Scalar | Sequence[Scalar], what: str, known: Sequence[str]) -> 
     if not names:
         raise InputError(f"{what} is empty: give at least one of {', '.join(known)}")
     for word in sorted(names.difference(known)):
-        raise InputError(f"{what} {short(word)!r} is unknown: choose from {', '.join(known)}")
+        meant = did_you_mean(word, known)
+        raise InputError(f"{what} {short(word)!r} is unknown: {meant}choose from {', '.join(known)}")
     return tuple(word for word in known if word in names)
 
 

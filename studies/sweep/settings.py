@@ -168,7 +168,8 @@ class _Settings(BaseModel):
         if self.tasks is None:
             return ()
         rate = self.hr_hz[0] if len(self.hr_hz) == 1 else None
-        return tuple(read_tasks(Path(self.tasks), hr_hz=rate, unit_s=SECONDS.get(tables[0].unit)))
+        unit = tables[0].unit
+        return tuple(read_tasks(Path(self.tasks), hr_hz=rate, unit_s=SECONDS.get(unit), cost_unit=unit))
 
     def _tables(self) -> tuple[CostTable, ...]:
         """Each of them on each of the processors, if there are any."""

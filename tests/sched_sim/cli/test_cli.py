@@ -183,6 +183,23 @@ def test_a_simulation_says_where_tasks_of_any_phase_are_released_and_what_may_be
     late = sched_sim(line.format("dual-rate --speed 1.25")).err.splitlines()
     assert late[0].startswith("Note: tasks of any phase are released together at step ")
     assert late[1:] == ["Note: at another phase of the tasks one HR job may be late"]
+    (tmp_path / "tasks.toml").write_text(task + "jitter = 1\n")
+    waits = sched_sim(line.format("larsen --format json"))
+    load = (0.45 * 40 + 0.21 * 12 + 0.81) / 40 + 0.6 / 4
+    speed = json.loads(waits.out)["speed"]
+    assert "; control: with jitter, and not released before: the processor is busy for less than the load" in waits.err
+    assert waits.err.endswith(f", {100 * load / speed:.3g} %\n")
+
+
+def test_nothing_is_late_to_the_standard_filter(sched_sim: Run) -> None:
+    for line in ("minimum -N 10 -M 4 {}", "simulate -N 10 -M 4 --method standard {}"):
+        for more in ("", "-L 8"):
+            found = json.loads(sched_sim(f"{line.format(more)} --format json").out)
+            row = found[0] if isinstance(found, list) else found
+            assert (row["method"], row["N"], row["M"], row["L"]) == ("standard", 10, 0, 0)
+    line = "processors --hr-hz 400 --measurement-hz 5 --delay-ms 110 --method standard --format csv"
+    rows = list(csv.DictReader(io.StringIO(sched_sim(line).out)))
+    assert {(row["N"], row["M"], row["L"]) for row in rows} == {("80", "0", "0")}
 
 
 @pytest.mark.parametrize(("priority", "blocks"), [(30, True), (10, False), (5, False)])
@@ -270,6 +287,12 @@ def test_costs_beyond_64_bits_stay_exact(sched_sim: Run, tmp_path: Path) -> None
     assert row["min_speed_exact"] == str(10**17)
 
 
+def test_a_value_that_is_close_to_a_choice_is_said_with_it(sched_sim: Run) -> None:
+    said = " ".join(sched_sim("simulate -N 10 -M 4 --method larson").err.replace("│", " ").split())
+    assert "'robust-closed'. Did you mean larsen?" in said
+    assert "Did you mean" not in sched_sim("simulate -N 10 -M 4 --method kalman").err
+
+
 def test_help_and_version(sched_sim: Run) -> None:
     assert all(
         name in sched_sim("--help").out for name in ("minimum", "simulate", "gantt", "sweep", "measure", "report")
@@ -291,7 +314,42 @@ def test_help_and_version(sched_sim: Run) -> None:
         ("minimum -N 10 -M 4 --costs bad.toml", ["bad.toml", "costs.larsen.update", "-1"]),
         ("minimum -N 10 -M 4 --costs short.toml", ["short.toml", "[costs.larsen] propagate_accumulate", "measure"]),
         ("minimum -N 10 -M 4 --gain precomputed", ["steffes2014", "lr_gain", "measure"]),
-        ("minimum -N 10 -M 4 --context-switch -1", ["context switch", "-1"]),
+        ("minimum -N 10 -M 4 --context-switch -1", ["--context-switch is -1: it must be 0 or more cost units"]),
+        ("minimum -N 10 -M 4 --context-switch 5us", ["--context-switch is '5us': give it in units of the cost table"]),
+        ("minimum -N 10 -M 4 --hr-hz 400Hz", ["--hr-hz is '400Hz': give it in Hz, without the unit: 400\n"]),
+        ("minimum -N 10 --hr-hz 400 --delay-ms '5 ms'", ["--delay-ms is '5 ms': give it in ms, without the unit: 5\n"]),
+        ("minimum -N 10 --hr-hz 400 --delay-ms 0.1s", ["--delay-ms is '0.1s': give it in ms, without the unit\n"]),
+        (
+            "minimum --hr-hz 1e9 --measurement-hz 5 --delay-ms 110",
+            ["--hr-hz 1e+09 and --measurement-hz 5 make 200000000 HR steps: give values that make at most 10,000,000"],
+        ),
+        ("minimum --hr-hz 1e9 -N 10 --delay-ms 110", ["--hr-hz 1e+09 and --delay-ms 110 make 110000000 HR steps"]),
+        ("sweep --measurement-hz 5", ["--measurement-hz is no option of `sched-sim sweep`", "HR steps: give -N"]),
+        ("sweep -N 10 --delay-ms=5", ["--delay-ms is no option of `sched-sim sweep`", "HR steps: give -M"]),
+        ("minimum --scenario s.toml", ["no option of", "it is one of `sched-sim simulate`, `sched-sim processors`"]),
+        ("minimum -N 10 -M 4 --method larson", ["'larson'", "did you mean larsen?"]),
+        ("sweep -N 10 -M 4 --method larson", ["'larson'", "did you mean larsen?"]),
+        ("minimum -N 10 -M 4 --processor cortexm4f", ["'cortexm4f' not found: did you mean cortex-m4f? give one of"]),
+        ("minimum -N 10 -M 4 --costs stefes", ["'stefes' not found: did you mean steffes2014? give one of"]),
+        (
+            "minimum -N 10 -M 4 --processor table.toml",
+            ["'table.toml': this is a cost table, and a processor's file is needed; give it to --costs\n"],
+        ),
+        (
+            "minimum -N 10 -M 4 --costs part.toml",
+            ["'part.toml': this is a processor's file, and a cost table is needed; give it to --processor\n"],
+        ),
+        ("minimum -N 10 -M 4 --tasks table.toml", ["this is a cost table, and a file of tasks is needed"]),
+        ("minimum -N 10 -M 4 --costs timed-tasks.toml", ["this is a file of tasks", "give it to --tasks\n"]),
+        ("simulate --scenario table.toml", ["this is a cost table, and a scenario is needed; give it to --costs\n"]),
+        (
+            "minimum -N 10 -M 4 --tasks timed-tasks.toml",
+            [
+                "task 's': cost_ms = 1 is a time; task 't': cost_ms = 1 is a time: the unit of the cost table, "
+                "standard step, is no time: give cost = ... in that unit, or a table in seconds (--processor, or"
+            ],
+        ),
+        ("processors --scenario nothing.toml", ["'nothing.toml': name: is missing", "sensor: there is none"]),
         ("minimum -N 10 -M 4 --context-switch nan", ["--context-switch", "nan"]),
         ("minimum -N 10 -M 4 --hr-hz 0", ["--hr-hz", "0", "greater than 0"]),
         ("minimum -N 10 -M 4 --hr-hz 1e400", ["--hr-hz", "1e400", "1e18"]),
@@ -335,6 +393,11 @@ def test_wrong_input_ends_with_code_2_and_one_message(
     (tmp_path / "bad.toml").write_text('name = "b"\nunit = "s"\n[costs.larsen]\npropagate = 1\nupdate = -1\n')
     (tmp_path / "short.toml").write_text('name = "short"\nunit = "s"\n[costs.larsen]\npropagate = 1\n')
     (tmp_path / "bad-tasks.toml").write_text('[[task]]\nname = "t"\nperiod = -2\ncost = 1\npriority = 5\n')
+    timed = '[[task]]\nname = "{}"\nperiod = 2\ncost_ms = 1\npriority = 5\n'
+    (tmp_path / "timed-tasks.toml").write_text(timed.format("s") + timed.format("t"))
+    (tmp_path / "table.toml").write_text('name = "t"\nunit = "operation"\n[operations.larsen]\nupdate = { add = 5 }\n')
+    (tmp_path / "part.toml").write_text('name = "p"\nclock_mhz = 100\n[cycles]\nadd = 1\n')
+    (tmp_path / "nothing.toml").write_text("")
     (tmp_path / "file").write_text("in the way of a folder")
     before = {path: path.read_bytes() for path in tmp_path.iterdir()}
     is_refused(sched_sim(line), said)

@@ -81,3 +81,8 @@ def test_what_cannot_be_drawn_is_refused(sched_sim: Run, tmp_path: Path, options
     is_refused(result, words)
     assert result.err.count("Error:") == 1
     assert not list(tmp_path.iterdir())
+
+
+def test_what_times_became_in_steps_is_said_line_by_line(sched_sim: Run) -> None:
+    result = sched_sim("gantt --hr-hz 400 --measurement-hz 5 --delay-ms 110 --method larsen -o g.svg")
+    assert result.err == "5 Hz: N = 80 steps\n110 ms late: M = 44 steps\nWrote g.svg\n"

@@ -143,3 +143,27 @@ def test_a_row_without_a_range_has_the_columns_all_the_same(sched_sim: Run, tmp_
     timed(tmp_path, IDLE)
     (row,) = json.loads(sched_sim(f"minimum -N 10 -M 4 {line} --method larsen --format json").out)
     assert row["min_speed_least"] is row["min_speed_most"] is None
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "minimum -N 10 -M 4",
+        "minimum -N 10 -M 4 --processor cortex-m7",
+        "simulate -N 10 -M 4",
+        "gantt -N 10 -M 4",
+        "processors -N 10 -M 4 --hr-hz 10",
+        "sweep -N 10 -M 4",
+    ],
+)
+def test_a_figure_that_is_none_of_its_own_is_said_to_change_nothing(sched_sim: Run, line: str) -> None:
+    said = "Note: --statistic p95 changes nothing: each cost is one figure, counted or stated, not measured\n"
+    assert said in sched_sim(f"{line} --statistic p95").err
+    assert "--statistic" not in sched_sim(line).err
+
+
+def test_of_measured_costs_it_changes_something(sched_sim: Run, tmp_path: Path) -> None:
+    write_costs(spread(PAPER), tmp_path / "c.toml")
+    for line in ("minimum -N 10 -M 4 --costs c.toml", "sweep -N 10 -M 4 --costs c.toml"):
+        assert "changes nothing" not in sched_sim(f"{line} --statistic p95").err
+        assert "changes nothing" in sched_sim(f"{line} --statistic median").err

@@ -196,3 +196,14 @@ def test_beside_tasks_whose_seconds_are_given_no_clock_is_named(sched_sim: Run, 
     line = "minimum --hr-hz 400 --measurement-hz 5 --delay-ms 110 --processor cortex-m4f --tasks tasks.toml"
     assert "MHz  " not in sched_sim(line).out
     assert all(row["needed_mhz"] is None for row in json.loads(sched_sim(f"{line} --format json").out))
+
+
+def test_the_highest_rate_says_where_it_has_the_offset_that_is_given(sched_sim: Run, tmp_path: Path) -> None:
+    task = '[[task]]\nname = "control"\nperiod_ms = 5\ncost_ms = 0.6\npriority = 5\n'
+    said = "highest HR Hz: with the offset of control at rates at which its period is whole HR periods; at others"
+    for command in ("minimum", "processors"):
+        line = f"{command} --hr-hz 400 --measurement-hz 5 --delay-ms 110 --method larsen --processor cortex-m7"
+        for more, given in (("", False), ("offset_ms = 2.5\n", True)):
+            (tmp_path / "tasks.toml").write_text(task + more)
+            assert (said in sched_sim(f"{line} --tasks tasks.toml").out) is given
+        assert "the offset of" not in sched_sim(line).out

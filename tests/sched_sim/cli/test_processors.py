@@ -171,7 +171,7 @@ def test_parts_that_can_do_no_job_of_a_table_are_listed_with_the_reason(sched_si
         ("processors -N 10 -M 4 --hr-hz 400 --gain early", ["--gain", "early", "precomputed"]),
         ("processors -N 10 -M 4 --hr-hz 400 --tasks none.toml", ["--tasks", "none.toml"]),
         ("processors -N 10 -M 4 --hr-hz 400 --tasks two.toml", ["task 'control'", "cpu 2", "--cpus 2"]),
-        ("processors -N 10 -M 4 --hr-hz 400 --context-switch -1", ["context switch", "-1"]),
+        ("processors -N 10 -M 4 --hr-hz 400 --context-switch -1", ["--context-switch is -1"]),
         ("processors -N 10 -M 4 --hr-hz 400 --method larson", ["--method 'larson'", "larsen"]),
         ("processors -N 10 -M 4 --hr-hz 400 --costs steffes2014", ["steffes2014", "no operation counts", "counted"]),
         ("processors -N 10 --hr-hz 400 --method robust-lu", ["[operations.robust-lu]", "erkf-attitude"]),

@@ -35,6 +35,17 @@ predict = { multiply = 900, add = 800 }
 [operations.correct]
 gps = { multiply = 2500, add = 2300, divide = 9 }
 """
+PART = """\
+name = "{}"
+title = "t"
+precision = "double"
+logic_per_arithmetic = 0
+clock_mhz = 100
+[cycles]
+multiply = 2
+add = 1
+divide = 9
+"""
 TASK = '[[task]]\nname = "control"\nhz = 200\ncost_us = 100\npriority = 15\n'
 
 
@@ -105,19 +116,39 @@ def test_parts_without_a_time_stand_in_one_line(sched_sim: Run) -> None:
     counts = Path("counts.toml")
     counts.write_text(counts.read_text().replace("divide = 9", "divide = 9, sqrt = 2"))
     for other in ("mine", "other"):
-        Path(f"{other}.toml").write_text(
-            f'name = "{other}"\ntitle = "t"\nprecision = "double"\nlogic_per_arithmetic = 0\nclock_mhz = 100\n'
-            f"[cycles]\nmultiply = 2\nadd = 1\n"
-        )
+        Path(f"{other}.toml").write_text(PART.format(other).replace("divide = 9\n", ""))
     line = "processors --scenario late.toml --processor leon3 --processor mine.toml --processor other.toml"
     out = sched_sim(line).out
-    said = (
-        "no time for divide and sqrt on mine.toml, other.toml: add it to a copy of the file, see `reason` in --format"
-    )
+    said = "no time for divide and sqrt on mine, other: add it to a copy of the file, see `reason` in --format"
     assert said in out
     assert sum("no time" in text for text in out.splitlines()) == 1
     rows = json.loads(sched_sim(f"{line} --format json").out)
     assert ["gives no time for divide and sqrt" in (row["reason"] or "") for row in rows] == [False, True, True]
+
+
+def test_a_table_for_scripts_has_the_landings_of_each_sensor_in_columns(sched_sim: Run) -> None:
+    """Also where one of the parts has no time for an operation."""
+    Path("late.toml").write_text(SCENARIO + '[[sensor]]\nname = "camera"\nhz = 20\ncost_us = 20\n')
+    counts = Path("counts.toml")
+    counts.write_text(counts.read_text().replace("divide = 9", "divide = 9, sqrt = 2"))
+    Path("mine.toml").write_text(PART.format("mine"))
+    line = "processors --scenario late.toml --processor leon3 --processor mine.toml --format"
+    rows = list(csv.DictReader(io.StringIO(sched_sim(f"{line} csv").out)))
+    known, unknown = json.loads(sched_sim(f"{line} json").out)
+    for key in ("latest_l", "correction_ms"):
+        for sensor in ("gps", "camera"):
+            assert float(rows[0][f"{key}_{sensor}"]) == known[key][sensor]
+            assert rows[1][f"{key}_{sensor}"] == ""
+        assert unknown[key] is None
+    assert not {"latest_l", "correction_ms"} & rows[0].keys()
+
+
+def test_a_processor_of_ones_own_has_the_name_that_its_file_gives_it(sched_sim: Run) -> None:
+    Path("board.toml").write_text(PART.format("mine"))
+    line = "--processor cortex-m7 --processor board.toml --format json"
+    for command in ("processors --scenario late.toml", "processors -N 40 -M 20 --hr-hz 100", "processors"):
+        rows = json.loads(sched_sim(f"{command} {line}").out)
+        assert {row["processor"] for row in rows} == {"cortex-m7", "mine"}
 
 
 def test_what_the_file_states_is_the_same_on_every_part_and_is_named(sched_sim: Run) -> None:

