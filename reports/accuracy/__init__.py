@@ -1,0 +1,1 @@
+"""The report on what late measurements cost at the output."""
