@@ -35,7 +35,7 @@ run: $(STAMP) ## measure, simulate, analyse and write the report to build/report
 	$(BIN)/sched-sim report
 
 publish: $(STAMP) ## write all reports anew where they are kept, in reports/published
-	for name in steffes2014 patent-multirate erkf modular; do \
+	for name in steffes2014 patent-multirate erkf modular accuracy; do \
 		$(BIN)/sched-sim report $$name --output reports/published || exit 1; done
 
 docs: $(STAMP) ## the documentation as a site, in build/docs; needs no network

@@ -8,14 +8,14 @@ from typing import Any
 from reports.accuracy import tables
 from reports.accuracy.figures import front_figure, landing_figure, slow_figure
 from reports.accuracy.results import EXAMPLE, Results
-from reports.accuracy.words import MODELS, deviation, percents, plain_name
+from reports.accuracy.words import MODELS, deviation, percents, plain_name, unbroken
 from reports.charts.chart import image
 from reports.pages.numbers import significant
 from reports.pages.render import csv_bytes, render
 from studies.accuracy.approximations import TAU_S
 from studies.accuracy.given import MOTIONS
 from studies.accuracy.landing import SEARCHED
-from studies.accuracy.scale import EVERY, EXACT, cheapest
+from studies.accuracy.scale import EVERY, EXACT, Placed, cheapest
 
 TITLE = "Accuracy along the schedule: land later rather than skip fixes"
 SPEED = Fraction(6)
@@ -44,7 +44,7 @@ def build(results: Results) -> dict[str, bytes]:
         "accuracy",
         TITLE,
         figures,
-        **{name.replace("-", "_"): table for name, table in rows.items()},
+        **{name.replace("-", "_"): unbroken(table) for name, table in rows.items()},
         cost=_cost(results),
         power=_power(results),
         wrong=_wrong(results),
@@ -81,18 +81,22 @@ def _power(results: Results) -> dict[str, Any]:
     skipping = [place for placed in results.placed.values() for place in placed if place.every > 1 and place.on_front]
     if skipping:
         raise ValueError("a design that skips measurements is best for its power, which the report denies")
-    best = {
-        name: sorted({plain_name(place.method) for place in placed if place.on_front})
-        for name, placed in results.placed.items()
-    }
+    best: dict[str, list[str]] = {}
+    for name, placed in results.placed.items():
+        methods = list(dict.fromkeys(place.method for place in sorted(placed, key=_speed) if place.on_front))
+        best.setdefault(" and ".join(map(plain_name, methods)), []).append(MODELS[name].name)
     return {
         "of": {method: tables.operations(place.speed) for method, place in least.items()},
         "share": {method: significant(100 * place.speed / least["standard"].speed) for method, place in least.items()},
         "lands": {method: place.lands for method, place in least.items()},
-        "best": {MODELS[name].name: methods for name, methods in best.items()},
+        "best": best,
         "fewest": max(EVERY),
         "exact": len(EXACT),
     }
+
+
+def _speed(place: Placed) -> Fraction:
+    return place.speed
 
 
 def _wrong(results: Results) -> dict[str, Any]:
@@ -114,9 +118,16 @@ def _wrong(results: Results) -> dict[str, Any]:
         "fresh": deviation(EXAMPLE, found[EXAMPLE].fresh.total),
         "exact": deviation(EXAMPLE, found[EXAMPLE].exact.worst),
         "believed": deviation(EXAMPLE, found[EXAMPLE].fresh.believed or 0.0),
-        "motions": [f"{MODELS[name].name}: {motion.what}" for name, motion in MOTIONS.items()],
+        "motions": _motions(),
         "unstable": [MODELS[name].name for name, of in found.items() if of.uncompensated.verdict == "unstable"],
     }
+
+
+def _motions() -> list[str]:
+    by_text: dict[str, list[str]] = {}
+    for name, motion in MOTIONS.items():
+        by_text.setdefault(motion.what, []).append(MODELS[name].name)
+    return [f"{' and '.join(names)}: {text}" for text, names in by_text.items()]
 
 
 def _at_most(share: float) -> str:

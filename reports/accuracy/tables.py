@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
+from math import ceil
 
 from filters.accuracy import Accuracy, lossless
 from reports.accuracy.results import EXAMPLE, Results
-from reports.accuracy.words import MODELS, deviation, more, ordinal, percents, plain_name, verdict
+from reports.accuracy.words import MODELS, deviation, ordinal, percents, plain_name, verdict
 from reports.pages.numbers import significant
 from reports.pages.stored import Rows
 from sched_sim.costs.table import COUNTED
@@ -27,11 +28,11 @@ SPEEDS = tuple(map(Fraction, (2, 3, 4, 5, 6, 7, 8, 11, 21)))
 
 def models(results: Results) -> Rows:
     """What each is, in steps and in ms."""
-    rows: Rows = [["Model", "what", "loop, Hz", "a fix every, ms", "late, ms", "N", "M", "sizes"]]
+    rows: Rows = [["Model", "loop, Hz", "a fix every, ms", "late, ms", "N", "M", "sizes"]]
     for name, found in results.landings.items():
         of = found.given
         row = [f"{of.hr_hz:g}", f"{of.ms(of.N):g}", f"{of.ms(of.M):g}", str(of.N), str(of.M), _sizes(results, name)]
-        rows.append([MODELS[name].name, MODELS[name].what, *row])
+        rows.append([MODELS[name].name, *row])
     return rows
 
 
@@ -77,8 +78,8 @@ def methods(results: Results) -> Rows:
     """All of them in the example, by least power."""
     rows: Rows = [
         [
-            "Method", "least power", "of the standard filter's, %", "lands at L", "after, ms", "worst, m",
-            "textbook update", "first at L", "for that", "verdict",
+            "Method", "lands at L", "after, ms", "worst, m", "least power", "of the standard filter's, %", "verdict",
+            "textbook update", "first at L", "for that",
         ]
     ]  # fmt: skip
     of, approximated = given(EXAMPLE), results.approximations[EXAMPLE]
@@ -87,17 +88,12 @@ def methods(results: Results) -> Rows:
     standard = least["standard"].speed
     for method, place in sorted(least.items(), key=lambda item: item[1].speed):
         accuracy, early = place.accuracy, first[method]
-        row = [plain_name(method), operations(place.speed), significant(100 * place.speed / standard)]
-        row += [
-            str(place.lands),
-            f"{of.ms(place.lands):g}",
-            significant(accuracy.total, 4),
-            operations(textbook[method]),
-        ]
-        row += [str(early.lands), operations(early.speed), verdict(method, accuracy, exact_at(of, place.lands))]
-        rows.append(row)
+        row = [plain_name(method), str(place.lands), f"{of.ms(place.lands):g}", significant(accuracy.total, 4)]
+        row += [operations(place.speed), significant(100 * place.speed / standard)]
+        row += [verdict(method, accuracy, exact_at(of, place.lands)), operations(textbook[method])]
+        rows.append([*row, str(early.lands), operations(early.speed)])
     nothing = approximated.discarded
-    rows.append(["Discard what is late", "-", "-", "-", "-", "no bound", "-", "-", "-", nothing.verdict])
+    rows.append(["Discard what is late", "-", "-", "no bound", "-", "-", nothing.verdict, "-", "-", "-"])
     return rows
 
 
@@ -125,10 +121,7 @@ def powers(results: Results) -> Rows:
     rows: Rows = [["Method", *(f"{MODELS[name].name}, {_sizes(results, name)}" for name in results.placed)]]
     by_model = {name: cheapest(placed) for name, placed in results.placed.items()}
     for method in sorted(by_model[EXAMPLE], key=lambda method: by_model[EXAMPLE][method].speed):
-        cells = [
-            f"{operations(of[method].speed)} (L = {of[method].lands}, {more(of[method].accuracy.over_no_delay)})"
-            for of in by_model.values()
-        ]
+        cells = [f"{operations(of[method].speed)} ({of[method].lands})" for of in by_model.values()]
         rows.append([plain_name(method), *cells])
     return rows
 
@@ -138,8 +131,10 @@ def _sizes(results: Results, name: str) -> str:
 
 
 def operations(power: Fraction) -> str:
-    """Whole numbers from 100 on, else one decimal where there is one."""
-    return f"{float(power):,.0f}" if power >= 100 or power.denominator == 1 else f"{float(power):.1f}"
+    """Rounded up, for it is the least: whole numbers from 100 on, else one decimal where there is one."""
+    if power >= 100 or power.denominator == 1:
+        return f"{ceil(power):,}"
+    return f"{ceil(10 * power) / 10:.1f}"
 
 
 def approximate(results: Results) -> Rows:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from typing import NamedTuple
 
 from filters.accuracy import Accuracy
 from reports.charts.panels import METHOD_NAMES
 from reports.pages.numbers import significant
+from reports.pages.stored import Rows
 from studies.accuracy.given import Given
 from studies.accuracy.scale import SUMMED
 
@@ -15,19 +17,18 @@ ROUNDING, LEAST_PERCENT = 1e-12, 1e-3
 
 
 class Shown(NamedTuple):
-    """How a model and its output are written. scale: of its unit in one of the model's."""
+    """How a model's output is written. scale: of its unit in one of the model's."""
 
     name: str
-    what: str
     unit: str
     scale: float
 
 
 MODELS = {
-    "ins-gps": Shown("INS, GPS 0.5 m", "position in a turn, GPS", "m", 1.0),
-    "ins-rtk": Shown("INS, RTK 2 cm", "position in a turn, RTK", "mm", 1e3),
-    "star-tracker": Shown("Star tracker", "attitude about one axis", "µrad", 1e6),
-    "camera": Shown("Camera", "position along one axis", "mm", 1e3),
+    "ins-gps": Shown("INS, GPS 0.5 m", "m", 1.0),
+    "ins-rtk": Shown("INS, RTK 2 cm", "mm", 1e3),
+    "star-tracker": Shown("Star tracker", "µrad", 1e6),
+    "camera": Shown("Camera", "mm", 1e3),
 }
 
 
@@ -62,7 +63,7 @@ def method_name(method: str) -> str:
 
 
 def plain_name(method: str) -> str:
-    return method_name(method).replace("$", "")
+    return "Dual-rate with Q'" if method == SUMMED else METHOD_NAMES[method]
 
 
 def verdict(method: str, accuracy: Accuracy, exact: Accuracy) -> str:
@@ -80,3 +81,8 @@ def verdict(method: str, accuracy: Accuracy, exact: Accuracy) -> str:
 
 def ordinal(n: int) -> str:
     return {1: "every", 2: "every 2nd", 3: "every 3rd"}.get(n, f"every {n}th")
+
+
+def unbroken(rows: Rows) -> Rows:
+    """For a page: a line may not end between a number and its unit."""
+    return [[re.sub(r"(?<=[\d<>]) (?=[\d%a-zµ(])", "\N{NO-BREAK SPACE}", str(cell)) for cell in row] for row in rows]

@@ -11,20 +11,24 @@ import typer
 from sched_sim.cli.measured_note import say_busy
 from sched_sim.cli.output import say
 
-Name = Annotated[Literal["steffes2014", "patent-multirate", "erkf", "modular"], typer.Argument(help="Which report.")]
+Name = Annotated[
+    Literal["steffes2014", "patent-multirate", "erkf", "modular", "accuracy"], typer.Argument(help="Which report.")
+]
 Folder = Annotated[Path, typer.Option("--output", "-o", help="Folder in which the report's own folder is written.")]
 Thorough = Annotated[
-    bool, typer.Option("--thorough", help="Measure ten times as many rounds; patent-multirate measures nothing.")
+    bool,
+    typer.Option("--thorough", help="Measure ten times as many rounds; patent-multirate and accuracy measure nothing."),
 ]
 
 
 def report(name: Name = "steffes2014", thorough: Thorough = False, output: Folder = Path("build/reports")) -> None:
-    """Regenerate a report: HTML, Markdown, figures (SVG), tables (CSV). All but patent-multirate measure filters here.
+    """Regenerate a report: HTML, Markdown, figures (SVG), tables (CSV). steffes2014, erkf and modular measure here.
 
     sched-sim report --thorough
     sched-sim report patent-multirate
     sched-sim report erkf
     sched-sim report modular --output mine
+    sched-sim report accuracy
     """
     from reports.pages.render import make_folder, write_report
 
@@ -86,9 +90,20 @@ def _modular(thorough: bool) -> dict[str, bytes]:
     return build(figures)
 
 
+def _accuracy(_thorough: bool) -> dict[str, bytes]:
+    from reports.accuracy.report import build
+    from reports.accuracy.results import results
+    from sched_sim.cli.progress import progress_bar
+
+    with progress_bar("Computing") as progress:
+        figures = results(progress)
+    return build(figures)
+
+
 REPORTS: Mapping[str, Callable[[bool], dict[str, bytes]]] = {
     "steffes2014": _steffes,
     "patent-multirate": _patent_multirate,
     "erkf": _erkf,
     "modular": _modular,
+    "accuracy": _accuracy,
 }
