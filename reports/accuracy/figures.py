@@ -128,7 +128,7 @@ def _front(axes: Axes, designs: Sequence[Placed]) -> None:
         [*speeds, edge * 1.55], [*levels, levels[-1]], where="post", color=SHADE, lw=4.0, zorder=1.2,
         solid_capstyle="butt",
     )  # fmt: skip
-    beyond = 0
+    beyond = higher = 0
     for method in dict.fromkeys(place.method for place in shown):
         of_method = sorted((place for place in shown if place.method == method), key=lambda place: place.lands)
         inside = [place for place in of_method if place.speed <= edge]
@@ -138,7 +138,8 @@ def _front(axes: Axes, designs: Sequence[Placed]) -> None:
             beyond += 1
             continue
         if _over(inside[0]) > highest:
-            above = float(inside[0].speed), 0.9 * highest
+            above = float(inside[0].speed), (0.9 - 0.1 * higher) * highest
+            higher += 1
             _sign(axes, inside[0], *above)
             _arrow(axes, inside[0], above, (0, 7.5))
             note = axes.annotate(

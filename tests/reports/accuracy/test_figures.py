@@ -1,0 +1,103 @@
+"""Figures on accuracy: their numbers are those they were given, and they can be read."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+
+from filters.accuracy import lossless
+from reports.accuracy.figures import LINES, SHADE, front_figure, landing_figure, slow_figure
+from reports.pages.numbers import significant
+from sched_sim.costs.methods import DELAYED_METHODS
+from studies.accuracy.given import MODELS, given
+from studies.accuracy.landing import Landing, landing
+from studies.accuracy.scale import SUMMED, Placed, cheapest, counted, scale
+from studies.accuracy.slow_processor import at_speeds, choices
+from tests.reports.layout import flaws, texts
+
+
+@cache
+def landings() -> list[Landing]:
+    return [landing(given(name)) for name in MODELS]
+
+
+@cache
+def placed(name: str) -> list[Placed]:
+    """With a smoothed output that is far off."""
+    of = given(name)
+    exact = lossless(of.model, of.states, of.N, of.M)
+    return scale(of, counted(of), exact._replace(total=20 * exact.total))
+
+
+def test_landings() -> None:
+    figure = landing_figure(landings())
+    assert flaws(figure) == []
+    for axes, found in zip(figure.axes[:4], landings(), strict=True):
+        curves = [line for line in axes.lines if len(line.get_xdata()) > 2]
+        assert len(curves) == len(found.curves)
+        for line, curve in zip(curves, found.curves.values(), strict=True):
+            shown = curve.worst[: 2 * found.given.N - found.given.M + 1]
+            np.testing.assert_allclose(line.get_ydata(), 100 * (shown / found.no_delay - 1))
+            assert line.get_xdata()[0] == found.given.ms(found.given.M)
+            assert line.get_xdata()[-1] == found.given.ms(2 * found.given.N)
+
+
+@cache
+def front() -> Figure:
+    return front_figure({name: placed(name) for name in MODELS})
+
+
+def test_power_against_accuracy() -> None:
+    assert flaws(front()) == []
+    for axes, name in zip(front().axes[:4], MODELS, strict=True):
+        least = cheapest(placed(name))
+        points = {at for line in axes.lines for at in zip(line.get_xdata(), line.get_ydata(), strict=True)}
+        for method in ("clone", "larsen", "dual-rate", SUMMED, "delayed-horizon"):
+            place = least[method]
+            assert (float(place.speed), 100 * place.accuracy.over_no_delay) in points
+        assert any(line.get_xdata()[0] == float(least["standard"].speed) for line in axes.lines)
+
+
+def test_the_designs_that_none_beats_are_a_stair() -> None:
+    for axes, name in zip(front().axes[:4], MODELS, strict=True):
+        (stair,) = [line for line in axes.lines if line.get_color() == SHADE]
+        best = sorted((float(place.speed), place.accuracy.over_no_delay) for place in placed(name) if place.on_front)
+        np.testing.assert_allclose(stair.get_xdata()[:-1], [speed for speed, _ in best])
+        np.testing.assert_allclose(stair.get_ydata()[:-1], [100 * over for _, over in best])
+
+
+def test_what_lies_beyond_the_axes_is_at_the_edge_with_its_number() -> None:
+    shown = {text.get_text() for text, _ in texts(front())}
+    for axes, name in zip(front().axes[:4], MODELS, strict=True):
+        for method in ("px4-predictor", "fuse-as-fresh"):
+            over = 100 * cheapest(placed(name))[method].accuracy.over_no_delay
+            assert (f"{significant(over)} %" in shown) == (over > axes.get_ylim()[1])
+        for line in axes.lines:
+            if line.get_transform() == axes.transData:
+                low, high = axes.get_xlim()
+                assert all(low <= x <= high for x in line.get_xdata())
+
+
+def test_every_method_has_a_line_of_its_own() -> None:
+    assert set(LINES) == {*DELAYED_METHODS, SUMMED}
+    looks = [(line.colour, line.marker) for line in LINES.values()]
+    assert len(set(looks)) == len(looks)
+    assert len({line.marker for line in LINES.values()}) == len(looks)
+
+
+def test_the_slow_processor() -> None:
+    figure = slow_figure(choices())
+    assert flaws(figure) == []
+    axes = figure.axes[0]
+    stairs = [line for line in axes.lines if len(line.get_xdata()) > 2]
+    assert len(stairs) == 2
+    best = {float(speed): pair for speed, pair in at_speeds(choices()).items()}
+    for number, line in enumerate(stairs):
+        drawn = dict(zip(map(float, line.get_xdata()), map(float, line.get_ydata()), strict=True))
+        for speed, pair in best.items():
+            if (choice := pair[number]) is not None:
+                assert drawn[speed] == pytest.approx(1000 * choice.worst)
+    assert {"n=1", "n=2"} <= {text.get_text() for text, _ in texts(figure)}
