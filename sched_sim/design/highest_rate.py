@@ -82,8 +82,8 @@ def highest_rate(
 
     It is exact where there is a closed form (`has_closed_form`). With several dual-rate corrections on their way,
     tasks, context switches or earliest deadline first it is found by bisection from above, which takes for granted that
-    a lower rate fits where a higher one does; then `LOOKS` of the rates above at which N, M or L is another, spread over
-    all where there are more, are looked at from the top. A rate that is higher still may fit.
+    a lower rate fits where a higher one does; then `LOOKS` of the rates above at which N, M or L is another, spread
+    over all where there are more, are looked at from the top. A rate that is higher still may fit.
     """
     pieces = _Pieces.of(costs, times, options)
     if has_closed_form(options, tasks) and pieces.one_in_flight:
