@@ -63,10 +63,11 @@ def test_it_is_what_a_search_of_every_landing_finds(within: float, metric: str) 
             of.variant.options.gain,
         ): (of.L, of.least.speed)
         for of in found.keeping
-        if of.least is not None
+        if of.least is not None and of.variant.method in ("recalculate", "larsen", "dual-rate")
     }
     assert got == expected
-    assert {of.variant.method for of in found.best} == {name for _, _, name, _, _ in expected}
+    best = {of.variant.method for of in found.best}
+    assert best & {"recalculate", "larsen", "dual-rate"} == {name for _, _, name, _, _ in expected}
 
 
 def test_without_delay_the_standard_filter_takes_part() -> None:
