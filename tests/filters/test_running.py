@@ -21,7 +21,10 @@ def R_in_blocks(_k: int, _p: Any) -> FloatArray:
     return np.block([[np.eye(1)]])
 
 
-@pytest.mark.parametrize("method", [*DELAYED_METHODS, "multirate"])
+@pytest.mark.parametrize(
+    "method",
+    ["dual-rate", *(pytest.param(name, marks=pytest.mark.exhaust) for name in (*DELAYED_METHODS, "multirate"))],
+)
 def test_what_numba_cannot_compile(method: str) -> None:
     system = GOOD.system._replace(R=R_in_blocks)
     given = GOOD._replace(system=system)

@@ -102,7 +102,9 @@ PENDULUM = linear_system(  # inverted: angle, rate and the bias of the torque; t
 
 
 @pytest.mark.parametrize("case", [Case("standard", {}, "at-arrival"), *CASES], ids=str)
-@each_form
+@pytest.mark.parametrize(
+    "form", ["short", *(pytest.param(name, marks=pytest.mark.exhaust) for name in ("textbook", "joseph"))]
+)
 def test_an_inverted_pendulum_of_half_a_minute(case: Case, form: str) -> None:
     """At 200 Hz, its angle measured every 10 steps and 4 steps late."""
     M, L = (4, 4) if case.landing == "at-arrival" else (4, 8)

@@ -45,13 +45,18 @@ def errors(run: Any, L: int, believed: FloatArray, true: FloatArray, **options: 
 @pytest.mark.parametrize(
     ("run", "L", "options"),
     [
-        (standard.run, 0, {}),
-        (recalculate.run, 4, {}),
-        (larsen.run, 4, {}),
-        (dual_rate.run, 8, {}),
-        (dual_rate.run, 10, {}),
-        (dual_rate.run, 8, {"low_rate_noise": "sum"}),
         (dual_rate.run, 10, {"low_rate_noise": "euler"}),
+        *(
+            pytest.param(*case, marks=pytest.mark.exhaust)
+            for case in (
+                (standard.run, 0, {}),
+                (recalculate.run, 4, {}),
+                (larsen.run, 4, {}),
+                (dual_rate.run, 8, {}),
+                (dual_rate.run, 10, {}),
+                (dual_rate.run, 8, {"low_rate_noise": "sum"}),
+            )
+        ),
     ],
 )
 def test_the_spread_of_runs_is_what_the_age_says(run: Any, L: int, options: dict[str, str]) -> None:

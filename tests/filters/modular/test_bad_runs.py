@@ -199,6 +199,7 @@ def test_a_wrong_jacobian_is_found_where_states_are_known_exactly() -> None:
         refused(r"jacobian\(x, u, dt, out\) gives 0.14 in \[1, 0\]", filtered(wrong._replace(P0=known), "recalculate"))
 
 
+@pytest.mark.exhaust
 def test_what_numba_cannot_compile_is_said_in_a_line() -> None:
     def unheard(x: FloatArray, out: FloatArray) -> None:
         out[0] = x[0] + Rotation.identity().magnitude()

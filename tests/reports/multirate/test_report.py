@@ -18,6 +18,8 @@ from studies.multirate.accuracy import largest_good
 from tests.command_line import Run
 from tests.reports import published
 
+pytestmark = pytest.mark.exhaust  # the study takes 20 s; `studies/multirate` has its tests
+
 TOLD: list[tuple[int, int]] = []
 """(done, total), as `found` went on."""
 

@@ -72,7 +72,7 @@ def test_no_message_asks_for_other_facts(sched_sim: Run, tmp_path: Path, line: s
     "line",
     [
         "minimum -N 25 -M 200",
-        "minimum -N 25 -M 60 -L 90 --processor cortex-m7 --hr-hz 100",
+        pytest.param("minimum -N 25 -M 60 -L 90 --processor cortex-m7 --hr-hz 100", marks=pytest.mark.exhaust),
         "simulate -N 25 -M 200 --speed 1",
         "gantt -N 5 -M 12",
         "processors -N 25 -M 60 --hr-hz 100 --processor leon3",
