@@ -81,6 +81,7 @@ def errors(system: System, n: int, seeds: range) -> tuple[FloatArray, FloatArray
 
 
 @pytest.mark.parametrize("n", [1, 5])
+@pytest.mark.exhaust
 def test_errors_are_as_large_as_the_true_covariance_says(n: int) -> None:
     """NEES: the mean over flights times their number is chi-square with 8 degrees of freedom each."""
     flights = 40

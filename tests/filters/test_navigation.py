@@ -50,6 +50,7 @@ def distance_from_standard(method: str, drive: Drive) -> float:
 
 
 @pytest.mark.parametrize("method", ["recalculate", "larsen", "dual-rate"])
+@pytest.mark.exhaust
 def test_errors_are_within_their_covariance(method: str) -> None:
     """The normalised estimation error squared at k, where the state is a prediction, is 6 on average."""
     squares = []

@@ -7,6 +7,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 CONSTANTS = """
 import enum
 from typing import NamedTuple
@@ -110,6 +112,7 @@ def run(folder: Path, *arguments: str) -> list[str]:
     return subprocess.run(command, env=environment, check=True, capture_output=True, text=True).stdout.splitlines()
 
 
+@pytest.mark.exhaust
 def test_a_constant_that_changes_is_never_stale(tmp_path: Path) -> None:
     (tmp_path / "package").mkdir()
     (tmp_path / "package" / "__init__.py").write_text("")

@@ -29,6 +29,8 @@ from studies.robust.costs import HR_HZ, SYSTEMS, N, between_fixes
 from tests.command_line import Run
 from tests.reports import published
 
+pytestmark = pytest.mark.exhaust  # the study takes a quarter of a minute; `studies/robust` has its tests
+
 PUBLISHED = published.FOLDER / "erkf"
 
 

@@ -181,6 +181,7 @@ def test_the_stored_counts_are_those_of_the_code() -> None:
         assert (row["mean"], row["longest"]) == (f"{work.mean:.1f}", str(work.longest))
 
 
+@pytest.mark.exhaust
 def test_another_machine_changes_only_what_is_marked_as_measured() -> None:
     """Other times: in tables and text only what has the mark changes, and no figure but the one that shows times."""
     tables = dict(stored().tables)

@@ -125,6 +125,7 @@ def test_response_figure_shows_them(runs: list[Run]) -> None:
             np.testing.assert_allclose(curve(line), [found[f"{job}, {way.name}, {urgency}"], 100 * found["share"]])
 
 
+@pytest.mark.exhaust
 def test_landings_are_shares_of_all_that_arrived() -> None:
     found = landings([chosen(COSTS, WAYS[2], "preempted", 1000)])
     np.testing.assert_allclose(found[f"GPS, {WAYS[2].name}, preempted"], found["arrivals"], atol=0.3)

@@ -118,6 +118,7 @@ def test_history_is_one_run() -> None:
 # -------------------------------------------------------------------- the claim, by three readings of "residual"
 
 
+@pytest.mark.exhaust
 def test_error_from_the_truth_is_more_than_doubled_at_80_percent_however_fast_one_samples() -> None:
     """The mean of so many times fewer measurements is as much worse; more than that comes from the gaps."""
     least = np.sqrt((1 - LOWEST) / (1 - CLAIMED))

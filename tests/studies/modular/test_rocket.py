@@ -99,6 +99,7 @@ def test_the_nose_does_not_mind_roll() -> None:
     assert READINGS["nose / turn of the nose"](roll_only)[1] == pytest.approx(0.0, abs=1e-12)
 
 
+@pytest.mark.exhaust
 def test_a_quaternion_and_its_negative_have_the_same_residual() -> None:
     one = early()
     flipped = one._replace(x=one.x * np.where(np.arange(16) < 12, 1.0, -1.0))

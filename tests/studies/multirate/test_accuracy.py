@@ -145,6 +145,7 @@ def test_skipped_measurements_have_no_gain() -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("scenario", scenarios(), ids=lambda scenario: scenario.name)
+@pytest.mark.exhaust
 def test_all_scenarios_settle_within_their_steps(scenario: Scenario) -> None:
     for row in accuracies(scenario, (1, 5, 20)):
         assert row.steady_mean >= 1 - 1e-9

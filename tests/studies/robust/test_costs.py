@@ -42,6 +42,7 @@ def test_all_ways_take_the_same_step(system: SystemName) -> None:
 
 @pytest.mark.parametrize("method", ROBUST_METHODS)
 @pytest.mark.parametrize("system", SYSTEMS)
+@pytest.mark.exhaust
 def test_spread_over_a_cycle_the_step_needs_a_fraction_of_what_it_needs_in_one_period(
     system: SystemName, method: str
 ) -> None:
@@ -56,6 +57,7 @@ def test_spread_over_a_cycle_the_step_needs_a_fraction_of_what_it_needs_in_one_p
     assert simulate(costs, Timing(N, 0, N), spread * Fraction(9999, 10000), cycles=3).misses > 0
 
 
+@pytest.mark.exhaust
 def test_a_parallel_device_buys_less_and_less() -> None:
     work = [parallel_costs("position", units).costs["robust-givens"]["robust_step"].minimum for units in (1, 4, 16, 64)]
     ratios = [float(work[0] / each) for each in work[1:]]

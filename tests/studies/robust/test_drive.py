@@ -26,6 +26,8 @@ from filters.systems.position import position, position_scaling
 from studies.robust import drive as study
 from studies.robust.drive import AttitudeMethod, AttitudeResult, PositionMethod, PositionResult
 
+pytestmark = pytest.mark.exhaust  # flights of half a minute
+
 SEEDS = (0, 1, 2)
 
 

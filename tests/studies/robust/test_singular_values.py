@@ -49,6 +49,7 @@ def test_of_a_stack() -> None:
 
 
 @pytest.mark.parametrize("case", [*LIMITS, *FINITE], ids=NAME)
+@pytest.mark.exhaust
 def test_givens_agrees_with_the_inverse(case: Case) -> None:
     agrees(agreement(compared(case), "givens"))
 

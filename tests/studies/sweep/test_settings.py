@@ -62,6 +62,7 @@ def test_flags_take_precedence_over_the_file(grid_file):
     assert sweep.grid.speeds[0] == Fraction(7, 10)
 
 
+@pytest.mark.exhaust
 def test_every_option_is_an_axis():
     grid = (
         settings(
