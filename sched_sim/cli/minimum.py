@@ -48,7 +48,7 @@ def minimum(
     from sched_sim.cli.update_form import update_form, update_note
     from sched_sim.costs.table import COUNTED
     from sched_sim.design.fit import fit
-    from sched_sim.design.highest_rate import landing
+    from sched_sim.design.landing import landing
     from sched_sim.design.least_speed import least_speed
     from sched_sim.design.methods import METHODS, select
     from sched_sim.design.pieces import converted

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from sched_sim.design.arguments import checked
-from sched_sim.design.highest_rate import highest_rate, landing
+from sched_sim.design.highest_rate import highest_rate
+from sched_sim.design.landing import landing
 from sched_sim.design.least_speed import LeastSpeed, least_speed
 from sched_sim.design.load import loads
 from sched_sim.design.methods import method_of

@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import Any
 
 from sched_sim.costs.table import CostTable
-from sched_sim.design.highest_rate import landing
+from sched_sim.design.landing import landing
 from sched_sim.design.least_speed import least_speed
 from sched_sim.design.methods import METHODS as SCHEDULED
 from sched_sim.design.methods import select

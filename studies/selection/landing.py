@@ -7,7 +7,7 @@ from fractions import Fraction
 from typing import NamedTuple
 
 from sched_sim.costs.table import CostTable
-from sched_sim.design.highest_rate import landing
+from sched_sim.design.landing import landing
 from sched_sim.design.methods import METHODS as SCHEDULED
 from sched_sim.design.methods import select
 from sched_sim.design.options import Options

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from sched_sim.costs.table import CostTable
-from sched_sim.design.highest_rate import landing
+from sched_sim.design.landing import landing
 from sched_sim.design.least_speed import least_speed
 from sched_sim.design.load import loads
 from sched_sim.design.methods import select

@@ -12,7 +12,8 @@ from hypothesis import strategies as st
 
 from sched_sim.costs.table_file import load_costs
 from sched_sim.design.fit import fit
-from sched_sim.design.highest_rate import highest_rate, landing
+from sched_sim.design.highest_rate import highest_rate
+from sched_sim.design.landing import landing
 from sched_sim.design.least_speed import least_speed
 from sched_sim.design.methods import method_of, select
 from sched_sim.design.necessary import Range, demands
