@@ -192,7 +192,7 @@ def _words(of: Candidate, found: Choice) -> dict[str, Any]:
 
     assert of.least is not None
     row: dict[str, Any] = {
-        "method": of.variant.method,
+        "method": "standard (no delay)" if of.variant.method == "standard" else of.variant.method,
         "how": of.variant.how or None,
         "every": of.variant.every,
         "land by L": of.L,

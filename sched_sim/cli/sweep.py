@@ -23,6 +23,7 @@ from sched_sim.costs.table import COUNTED, PAPERS
 from sched_sim.design.pieces import Statistic
 
 if TYPE_CHECKING:
+    from sched_sim.costs.table import CostTable
     from studies.sweep.run import Outcome, Sweep
     from studies.sweep.store import Store
 
@@ -47,7 +48,7 @@ GridFile = Annotated[
 Ns = Annotated[Axis, _values("-N", "HR steps between measurements: 10 or 1,2,5 or 10:90:10 (end included).")]
 Ms = Annotated[
     Axis,
-    _values("-M", "Delay of the measurement in HR steps, at most N (longer: simulate --scenario); by default all."),
+    _values("-M", "Delay of the measurement in HR steps; by default all up to N."),
 ]
 Ls = Annotated[Axis, _values("-L", "Step by which the correction must land; by default all that are legal.")]
 MethodNames = Annotated[Axis, _values("--method", "Repeatable; by default those for a delayed measurement.")]
@@ -181,6 +182,8 @@ def sweep(
     wanted = settings(flags, grid)
     asked = wanted.sweep()
     say_of_statistic(asked.grid.statistic, asked.grid.tables)
+    if asked.grid.accuracy is not None:
+        _say_of_sizes(asked.grid.accuracy.linear.states, asked.grid.tables)
     path = results or Path(f"{grid.stem if grid else 'sweep'}-{asked.digest[:8]}.sqlite")
     exports = export or []
     for file in exports:
@@ -249,6 +252,17 @@ def _progress(total: int) -> Iterator[Callable[[int], None]]:
             known = True
 
         yield show
+
+
+def _say_of_sizes(states: int, tables: Sequence[CostTable]) -> None:
+    """Whether the costs are of a filter of another size than the model."""
+    for table in tables:
+        counted = table.provenance.get("states")
+        if counted not in (None, states):
+            say(
+                f"Note: the costs of {table.name} are of {counted} states, and --model has {states}: give --costs of "
+                f"its size, as `sched-sim measure --backend counted` writes them"
+            )
 
 
 def _report(asked: Sweep, store: Store, outcome: Outcome, exports: Sequence[Path], format: opt.Format) -> None:

@@ -52,6 +52,10 @@ class Law(NamedTuple):
         """Why no L is left, although other methods have one; None if one is."""
         if self.several or M + self.after <= N - self.before:
             return None
+        if M > N:
+            return (
+                f"it waits for one measurement at a time, and with M={M} and N={N} others are taken before one arrives"
+            )
         return f"with M=N={N} no step is left to it between the measurement's arrival and the next one"
 
 

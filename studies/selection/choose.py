@@ -138,6 +138,9 @@ def chosen(question: Question, methods: Sequence[str] | None = None, every: Sequ
     if all(candidate.allowed is None for candidate in looked):
         raise InputError(_out_of_reach(question, looked, no_delay))
     keeping = [candidate for candidate in looked if candidate.least is not None]
+    if not keeping:
+        reasons = dict.fromkeys(f"{of.variant.method}: {of.reason}" for of in looked if of.allowed is not None)
+        raise InputError(f"{option('method')}: none of these can be had: {'; '.join(reasons)}")
     best = [_least(keeping, name) for name in names if any(of.variant.method == name for of in keeping)]
     parts = Parts(question.parts, question.statistic)
     best = sorted((_on_parts(question, accuracy, parts, candidate) for candidate in best), key=_rank)
@@ -238,6 +241,9 @@ def ordinal(number: int) -> str:
 
 
 def _out_of_reach(question: Question, looked: Sequence[Candidate], no_delay: float) -> str:
+    possible = [of for of in looked if _can_be_had(question, of)] or looked
+    known = [of for of in possible if not METHODS[of.variant.method].floored]
+    looked = known or [_in_full(question, of) for of in possible]
     best = min(looked, key=lambda of: of.best)
     unit = f" {question.outputs.unit}" if question.outputs.unit else ""
     asked = f"{option('within')} {question.within:g}"
@@ -252,6 +258,18 @@ def _out_of_reach(question: Question, looked: Sequence[Candidate], no_delay: flo
         f"{', '.join(names)}, landing at {when}, with {using} (without delay it would be {no_delay:.6g}{unit}); allow "
         f"{option('within')} {_up(best.best)}, measure more often, shorten the delay, or take a better sensor"
     )
+
+
+def _can_be_had(question: Question, candidate: Candidate) -> bool:
+    """Whether the method can have such a delay at all."""
+    law = SCHEDULED[candidate.variant.method].law(candidate.variant.options.feedback)
+    return law.undelayed or law.several or law.why_none(candidate.N, question.sampling.M) is None
+
+
+def _in_full(question: Question, candidate: Candidate) -> Candidate:
+    """With the figure itself, where so far it is only known that it is more than that of a lossless method."""
+    curve = Accuracies(question, whole=True).of(candidate.variant)
+    return replace(candidate, best=curve.at(candidate.first))
 
 
 def _up(value: float) -> str:

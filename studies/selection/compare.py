@@ -149,7 +149,9 @@ def compared(
             of, remark = _accuracy(model, outputs, using, name, at, options, conditions)
             rows.append(_row(name, number, using, of, remark, no_delay, metric))
     if all(row.accuracy is None for row in rows):
-        raise InputError(f"{rows[0].method}: {rows[0].remark}")
+        reasons = dict.fromkeys(row.remark for row in rows)
+        named = (f"{', '.join(row.method for row in rows if row.remark == reason)}: {reason}" for reason in reasons)
+        raise InputError(f"no correction lands: {'; '.join(named)}")
     return Comparison(model, outputs, sampling, metric, no_delay, tuple(rows), chosen.left_out)
 
 

@@ -37,19 +37,24 @@ class Landed(NamedTuple):
 
 
 def landed(method: str, N: int, M: int, L: int | None, options: Options, processor: Processor | None) -> Landed:
-    """L: as asked for, None for what the processor gives, or without one the latest before the next measurement.
+    """L: as asked for, None for what the processor gives, or without one the latest before the next measurement that is
+    taken after the delayed one has arrived.
 
     Raises InputError for an L before the earliest that the method can have.
     """
     rule = METHODS[method].landing
     first = earliest(method, M, options)
+    law = None if method not in SCHEDULED else SCHEDULED[method].law(options.feedback)
+    if law is not None and rule != "at once" and (reason := law.why_none(N, M)):
+        return Landed(None, reason)
     if processor is not None:
         found = _scheduled(method, N, M, processor)
         if found is not None:
             return found
     if rule == "later":
         if L is None:
-            L = max(first, N - 1 if options.feedback == "same-step" else N)
+            assert law is not None
+            L = law.latest(N, M)
         if first > L:
             raise InputError(
                 f"{option('L')} {L} is before a correction of {method} can land: its measurement arrives at M={M}; "

@@ -37,13 +37,22 @@ def outputs_of(model: Model, asked: Any = None, unit: str | None = None) -> Outp
     except ValueError as error:
         remedy = "" if model.system is None else f"; where it is seen in motion, give {option('trajectory')}"
         raise InputError(f"{said}: {error}{remedy}") from None
-    return found if unit is None else found._replace(unit=unit)
+    return _in_unit(found, unit)
 
 
 def rows_of(model: Model, asked: Any, unit: str | None = None) -> Outputs:
     """`outputs_of` without a look at whether their variance has a bound."""
     found = _outputs(model, asked)
-    return found if unit is None else found._replace(unit=unit)
+    return _in_unit(found, unit)
+
+
+def _in_unit(found: Outputs, unit: str | None) -> Outputs:
+    """Raises InputError for another unit than the one that is known."""
+    if unit is None:
+        return found
+    if found.unit and unit != found.unit:
+        raise InputError(f"{option('unit')} {short(unit)}: {found.name} is in {found.unit}; leave {option('unit')} out")
+    return found._replace(unit=unit)
 
 
 def _outputs(model: Model, asked: Any) -> Outputs:

@@ -249,3 +249,9 @@ def test_a_trajectory_that_is_none(sched_sim: Run, tmp_path: Path, text: str, sa
     (tmp_path / "path.csv").write_text(text, encoding="utf-8")
     line = "accuracy --model mine:cv_system -N 10 -M 4 --output 0 --trajectory path.csv -L 5"
     is_refused(sched_sim(line), ["--trajectory", *said])
+
+
+def test_a_sweep_says_where_its_costs_are_of_another_size(sched_sim: Run) -> None:
+    line = "sweep -N 50 -M 20 -L 50 --model star-tracker --costs counted-9-3-3 --method dual-rate --format json"
+    assert "are of 9 states, and --model has 2" in sched_sim(line).err
+    assert "--model has" not in sched_sim(line.replace("star-tracker", "ins-gps")).err

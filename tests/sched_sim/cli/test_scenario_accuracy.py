@@ -129,8 +129,8 @@ R = [[0.25, 0, 0], [0, 0.25, 0], [0, 0, 1]]
     )
     found = json.loads(sched_sim("simulate --scenario s.toml --format json").out)["accuracy"]
     assert (found["output"], found["unit"]) == ("velocity", "m/s")
-    other = json.loads(sched_sim("simulate --scenario s.toml --output position --unit yd --format json").out)
-    assert (other["accuracy"]["output"], other["accuracy"]["unit"]) == ("position", "yd")
+    other = json.loads(sched_sim("simulate --scenario s.toml --output position --unit m --format json").out)
+    assert (other["accuracy"]["output"], other["accuracy"]["unit"]) == ("position", "m")
 
 
 def test_a_model_of_the_file_is_looked_for_beside_it(sched_sim: Run, tmp_path: Path) -> None:
