@@ -120,6 +120,7 @@ def test_a_track_at_constant_velocity_with_two_on_their_way() -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.exhaust
 def test_compiled_it_is_the_same() -> None:
     of = problem(example_system(4, 2, 2, seed=5), 2, 5, 5, 17, seed=2)
     for found, value in zip(carried_gain.run(*of, backend="compiled"), carried_gain.run(*of), strict=True):

@@ -10,6 +10,7 @@ from tests.filters.modular.cases import H_POSITION, R_POSITION, linear_case, mea
 
 
 @pytest.mark.slow
+@pytest.mark.exhaust
 def test_compiled_equals_reference() -> None:
     """A sensor that measures late at times, so that its corrections are also carried over others of its own."""
     case = linear_case(Sensor("position", linear_corrector(H_POSITION, R_POSITION)))
