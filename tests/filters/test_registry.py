@@ -94,7 +94,15 @@ def test_numpy_does_what_the_loops_do(key: tuple[str, str], form: str) -> None:
         np.testing.assert_allclose(found, expected, rtol=1e-11, atol=1e-13)
 
 
-@each_job
+COMPILED = ("recalculate", "dual-rate", "carried-gain", "delayed-horizon", "multirate-ud")
+"""Whose jobs are compiled in each run of the tests; those of all methods in `make exhaust`."""
+
+
+@pytest.mark.parametrize(
+    "key",
+    [pytest.param(key, marks=() if key[0] in COMPILED else pytest.mark.exhaust) for key in all_jobs()],
+    ids="-".join,
+)
 def test_compiled_does_what_the_loops_do(key: tuple[str, str]) -> None:
     job = all_jobs()[key]
     for found, expected in zip(results("compiled", job), results("reference", job), strict=True):
