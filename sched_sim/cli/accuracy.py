@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
 from dataclasses import fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -11,19 +10,16 @@ import typer
 
 from sched_sim.cli import accuracy_flags as flags
 from sched_sim.cli import options as opt
+from sched_sim.cli.accuracy_shown import show, show_along
 from sched_sim.cli.design_flags import with_options
-from sched_sim.cli.output import lines, print_csv, print_json, print_table
 from sched_sim.design.options import Options
 from sched_sim.errors import InputError
 
 if TYPE_CHECKING:
     from fractions import Fraction
 
-    from studies.selection.along import AlongComparison
-    from studies.selection.compare import AccuracyRow, Comparison
     from studies.selection.landing import Processor
     from studies.selection.model import Model
-    from studies.selection.outputs import Outputs
 
 Trajectory = Annotated[
     Path | None,
@@ -131,10 +127,10 @@ def accuracy(
             options=options,
             processor=runs_on,
         )
-        _show_along(found, asked, format)
+        show_along(found, asked, format)
         return
     outputs = outputs_of(loaded, output, unit)
-    _show(
+    show(
         compared(
             loaded,
             outputs,
@@ -221,185 +217,3 @@ def _processor(
         table = opt.costs_on(costs, None)
         pace, shown = positive(speed or "", "--speed"), f"a processor of speed {speed}"
     return Processor(table, pace, shown, options, statistic, opt.make_tasks(tasks, table.unit, rate))
-
-
-def _show(found: Comparison, asked: flags.Sampled, format: opt.Format) -> None:
-    if format == "json":
-        print_json([_row(row, found) for row in found.rows])
-        return
-    if format == "csv":
-        print_csv([_row(row, found) for row in found.rows])
-        return
-    remarks = [*_remarks((row.method, row.remark) for row in found.rows), *found.left_out]
-    unit = _in_unit(found.outputs)
-    print_table(
-        f"Standard deviation of {found.outputs.name}{unit}, {found.model.name}, {flags.shown(found.sampling)}",
-        [_words(row, found) for row in found.rows],
-        lines(
-            f"over no delay: {found.metric}, over {found.no_delay:.6g}{_unit(found.outputs)} of the filter that uses "
-            f"every measurement without delay",
-            _meaning(found.rows),
-            asked.words,
-            *remarks,
-        ),
-    )
-
-
-def _remarks(of_methods: Iterable[tuple[str, str]]) -> list[str]:
-    """Each once, with the methods that it is of."""
-    named: dict[str, list[str]] = {}
-    for method, remark in dict.fromkeys(of_methods):
-        if remark:
-            named.setdefault(remark, []).append(method)
-    return [f"{', '.join(methods)}: {remark}" for remark, methods in named.items()]
-
-
-MEANING = {
-    "jump": "jump: how far the output moves when a correction lands (1 sigma)",
-    "believed": "believed: what the filter's own covariance says of its worst step, where that is not the truth",
-    "bias": "bias: the mean error, from --motion and the delay; worst and rms are about it",
-}
-
-
-def _meaning(rows: Sequence[AccuracyRow]) -> str:
-    said = [MEANING["jump"]]
-    if any(row.accuracy and row.accuracy.believed is not None for row in rows):
-        said.append(MEANING["believed"])
-    if any(row.accuracy and row.accuracy.bias for row in rows):
-        said.append(MEANING["bias"])
-    return "\n".join(said)
-
-
-def _in_unit(outputs: Outputs) -> str:
-    return f" in {outputs.unit}" if outputs.unit else ""
-
-
-def _unit(outputs: Outputs) -> str:
-    return f" {outputs.unit}" if outputs.unit else ""
-
-
-def _row(row: AccuracyRow, found: Comparison) -> dict[str, Any]:
-    """For scripts."""
-    of = row.accuracy
-
-    def ms(steps: float | None) -> float | None:
-        return found.sampling.using(row.every).ms(steps)
-
-    return {
-        "method": row.method,
-        "every": row.every,
-        "N": row.N,
-        "M": found.sampling.M,
-        "L": None if of is None else of.L,
-        "reaction_ms": row.reaction_ms,
-        "oldest_age_steps": None if of is None else of.oldest,
-        "oldest_age_ms": row.oldest_ms,
-        "mean_age_steps": None if of is None else of.mean_age,
-        "mean_age_ms": None if of is None else ms(of.mean_age),
-        "output": found.outputs.name,
-        "unit": found.outputs.unit or None,
-        "worst_std": None if of is None else _finite(of.worst),
-        "rms_std": None if of is None else _finite(of.rms),
-        "no_delay_std": found.no_delay,
-        "over_no_delay": None if row.over is None else _finite(row.over),
-        "jump_std": None if of is None else _finite(of.jump),
-        "believed_std": None if of is None or of.believed is None else _finite(of.believed),
-        "bias": None if of is None else of.bias,
-        "worst_with_bias": None if of is None else _finite(of.total),
-        "spectral_radius": None if of is None else of.radius,
-        "verdict": None if of is None else of.verdict,
-        "remark": row.remark or None,
-    }
-
-
-def _finite(value: float) -> float | None:
-    return value if value < float("inf") else None
-
-
-def _words(row: AccuracyRow, found: Comparison) -> dict[str, Any]:
-    of = row.accuracy
-    timed = found.sampling.hr_hz is not None
-    age = "oldest age, ms" if timed else "oldest age, steps"
-    oldest = None if of is None else (row.oldest_ms if timed else of.oldest)
-    return {
-        "method": "standard (no delay)" if row.method == "standard" else row.method,
-        "every": row.every,
-        "N": row.N,
-        "lands at L": None if of is None else of.L,
-        age: None if oldest is None else f"{oldest:g}",
-        "worst": _figure(of and of.worst),
-        "rms": _figure(of and of.rms),
-        "over no delay": None if row.over is None else _percent(row.over),
-        "jump": _figure(of and of.jump),
-        "believed": _figure(of and of.believed),
-        "bias": _figure((of and of.bias) or None),
-        "verdict": "does not land" if of is None else of.verdict,
-    }
-
-
-def _figure(value: float | None) -> str | None:
-    if value is None:
-        return None
-    return f"{value:.5g}" if value < float("inf") else "grows"
-
-
-def _percent(over: float) -> str:
-    if not over < float("inf"):
-        return "grows"
-    return f"{100 * over:.3g} %" if over < LARGE else f"{100 * over:.0f} %"
-
-
-LARGE = 9.99
-"""From here on a percentage has no more than three digits before its point."""
-
-
-def _show_along(found: AlongComparison, asked: flags.Sampled, format: opt.Format) -> None:
-    rows = [
-        {
-            "method": row.method,
-            "every": row.every,
-            "N": row.N,
-            "M": found.sampling.M,
-            "L": row.L,
-            "oldest_age_ms": row.oldest_ms,
-            "output": found.outputs.name,
-            "unit": found.outputs.unit or None,
-            "median_std": row.spread and row.spread.median,
-            "p95_std": row.spread and row.spread.p95,
-            "worst_std": row.spread and row.spread.worst,
-            "over_no_delay": row.over,
-            "remark": row.remark or None,
-        }
-        for row in found.rows
-    ]
-    if format == "json":
-        print_json(rows)
-        return
-    if format == "csv":
-        print_csv(rows)
-        return
-    shown = [
-        {
-            "method": "standard (no delay)" if row.method == "standard" else row.method,
-            "every": row.every,
-            "N": row.N,
-            "lands at L": row.L,
-            **({} if found.sampling.hr_hz is None else {"oldest age, ms": f"{row.oldest_ms:g}"}),
-            "median": _figure(row.spread and row.spread.median),
-            "95 %": _figure(row.spread and row.spread.p95),
-            "worst": _figure(row.spread and row.spread.worst),
-            "over no delay": None if row.over is None else _percent(row.over),
-        }
-        for row in found.rows
-    ]
-    remarks = [*_remarks((row.method, row.remark) for row in found.rows), *found.left_out]
-    print_table(
-        f"Standard deviation of {found.outputs.name}{_in_unit(found.outputs)}, {found.model.name}, "
-        f"{flags.shown(found.sampling)}, over steps {found.first} to {found.steps} of the trajectory",
-        shown,
-        lines(
-            "over no delay: worst, over that of the filter that uses every measurement without delay",
-            asked.words,
-            *remarks,
-        ),
-    )
