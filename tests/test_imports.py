@@ -7,7 +7,6 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
-exhaust = pytest.mark.exhaust
 
 IMPORT_EACH = """
 import os, sys, traceback
@@ -25,10 +24,8 @@ for name in sys.argv[1:]:
 """
 
 
-@pytest.mark.parametrize(
-    "package",
-    ["filters", *(pytest.param(name, marks=exhaust) for name in ("reports", "sched_sim", "studies"))],
-)
+@pytest.mark.exhaust
+@pytest.mark.parametrize("package", ["filters", "reports", "sched_sim", "studies"])
 def test_each_module_alone(package: str) -> None:
     files = [file.relative_to(ROOT).with_suffix("") for file in (ROOT / package).rglob("*.py")]
     names = sorted(".".join(file.parts).removesuffix(".__init__") for file in files if file.name != "__main__")

@@ -219,7 +219,9 @@ def test_augmentation_has_one_form_and_names_a_method_that_has_others() -> None:
 
 @each_method
 @each_form
-@pytest.mark.parametrize("P0", [1.0, 1e4, 1e7, 1e8, 1e9, 1e10, 1e12])
+@pytest.mark.parametrize(
+    "P0", [1.0, 1e8, 1e10, *(pytest.param(P0, marks=pytest.mark.exhaust) for P0 in (1e4, 1e7, 1e9, 1e12))]
+)
 @pytest.mark.parametrize("R", [1e-8, pytest.param(1e-4, marks=pytest.mark.exhaust)])
 def test_no_covariance_is_returned_that_is_none(method: str, form: str, P0: float, R: float) -> None:
     """A breakdown, or no eigenvalue below zero but by rounding, where the diagonal is scaled to one."""
@@ -240,7 +242,7 @@ def test_compiled_breaks_down_too() -> None:
 
 @each_case
 @each_form
-@settings(max_examples=8)
+@settings(max_examples=5)
 @given(data=st.data())
 def test_a_singular_covariance_is_one(case: Case, form: str, data: st.DataObject) -> None:
     """States that are known exactly, that go together, and that no noise moves."""

@@ -20,7 +20,7 @@ each_form = pytest.mark.parametrize(
     "form", [pytest.param(factored_form(name, "short"), id=name) for name in FACTORED_FORMS]
 )
 each_backend = pytest.mark.parametrize(
-    "backend", [pytest.param(name, marks=pytest.mark.slow if name == "compiled" else ()) for name in BACKENDS]
+    "backend", [pytest.param(name, marks=pytest.mark.exhaust if name == "compiled" else ()) for name in BACKENDS]
 )
 
 

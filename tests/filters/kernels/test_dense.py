@@ -16,7 +16,9 @@ from filters.kernels import dense, solve
 
 lengths = st.integers(1, 7)
 seeds = st.integers(0, 2**31 - 1)
-each_backend = pytest.mark.parametrize("backend", BACKENDS)
+each_backend = pytest.mark.parametrize(
+    "backend", [pytest.param(name, marks=pytest.mark.exhaust if name == "compiled" else ()) for name in BACKENDS]
+)
 
 
 def close(found: Any, expected: Any) -> None:

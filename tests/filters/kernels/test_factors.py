@@ -16,7 +16,7 @@ from filters.kernels import sequential, triangular, u_d
 lengths = st.integers(1, 7)
 seeds = st.integers(0, 2**31 - 1)
 each_backend = pytest.mark.parametrize(
-    "backend", [pytest.param(name, marks=pytest.mark.slow if name == "compiled" else ()) for name in BACKENDS]
+    "backend", [pytest.param(name, marks=pytest.mark.exhaust if name == "compiled" else ()) for name in BACKENDS]
 )
 
 

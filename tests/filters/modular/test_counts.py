@@ -239,7 +239,7 @@ def test_what_is_counted_is_the_filter_itself(job: Job) -> None:
     np.testing.assert_allclose(counted, left_by(job), rtol=1e-13, atol=1e-15)
 
 
-@pytest.mark.slow
+@pytest.mark.exhaust
 def test_what_is_compiled_is_the_filter_itself() -> None:
     job = modular_jobs(UNSCENTED.composed, UNSCENTED.x0, UNSCENTED.P0, UNSCENTED.u)["correct.height"]
     arguments = job.arguments(1)

@@ -114,17 +114,8 @@ def test_of_all_kinds(seed: int, predictor: str, corrector: str, late: Late) -> 
     check_is_steady(Plant(seed), history(Plant(seed), predictor, corrector, late, "reference"))
 
 
-QUICK = ("linear", "dual-rate")
-
-
-@pytest.mark.parametrize(
-    ("kind", "late"),
-    [
-        pytest.param(one, late, marks=() if (one, late) == QUICK else pytest.mark.exhaust)
-        for one, other, late in kinds()
-        if one == other
-    ],
-)
+@pytest.mark.exhaust
+@pytest.mark.parametrize(("kind", "late"), [(one, late) for one, other, late in kinds() if one == other])
 def test_of_all_kinds_compiled(kind: str, late: Late) -> None:
     check_is_steady(Plant(5), history(Plant(5), kind, kind, late, "compiled"))
 

@@ -119,6 +119,7 @@ def test_it_holds_from_the_last_time_above(residuals: list[float], from_s: float
 # ------------------------------------------------------------------------------------------------------- one flight
 
 
+@pytest.mark.exhaust
 def test_a_flight_is_the_same_for_all_cases() -> None:
     np.testing.assert_array_equal(early().truth, early(EXTENDED).truth)
     np.testing.assert_array_equal(early().x[0, :12], early(EXTENDED).x[0, :12])
