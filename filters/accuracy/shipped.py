@@ -1,4 +1,4 @@
-"""Models that come with the project: typical sensors, each figure with its public source."""
+"""Models that come with the project: typical sensors, each figure with its public source, or said to be assumed."""
 
 from __future__ import annotations
 
@@ -30,7 +30,8 @@ class Output(NamedTuple):
 class ShippedModel(NamedTuple):
     """model(hr_hz): at that high rate. N, M: at `hr_hz`, of a measurement every interval_s that is delay_s late.
 
-    outputs: by name; the first is the one that is meant if none is named. source: where the figures are from.
+    outputs: by name; the first is the one that is meant if none is named. source: which figures are from where, and
+    which are this project's assumptions.
     """
 
     name: str
@@ -86,7 +87,11 @@ def _inertial(position_sigma: float) -> Callable[[float], LinearModel]:
 
 
 def _star_tracker(hr_hz: float) -> LinearModel:
-    """One axis: Farrenkopf's model of an attitude and the drift of its gyro."""
+    """One axis: an attitude and the drift of its gyro.
+
+    R. L. Farrenkopf, Analytic steady-state accuracy solutions for two common spacecraft attitude estimators, Journal of
+    Guidance and Control 1, 1978.
+    """
     walk, drift, tracker = sqrt(10.0) * 1e-7, sqrt(10.0) * 1e-10, radians(0.005)
     Phi, Q = discretised(np.array([[0.0, -1.0], [0.0, 0.0]]), np.diag([walk**2, drift**2]), _period_s(hr_hz))
     return linear_model(Phi, Q, [[1.0, 0.0]], [[tracker**2]], ["attitude", "gyro drift"])
@@ -112,9 +117,11 @@ def _cross(v: FloatArray) -> FloatArray:
 _INERTIAL_OUTPUTS = {"position": Output(0, 3, "m"), "velocity": Output(3, 6, "m/s"), "tilt": Output(6, 9, "rad")}
 
 _AUTOPILOT = (
-    "PX4-Autopilot, src/modules/ekf2: EKF2_ACC_NOISE 0.35 m/s^2 and EKF2_GYR_NOISE 0.015 rad/s of each 10 ms of "
-    "EKF2_PREDICT_US are 0.035 m/s/sqrt(s) and 0.0015 rad/sqrt(s); EKF2_GPS_DELAY 110 ms"
+    "defaults of PX4-Autopilot, src/modules/ekf2: EKF2_ACC_NOISE 0.35 m/s^2 and EKF2_GYR_NOISE 0.015 rad/s in each "
+    "10 ms of EKF2_PREDICT_US (module.yaml), so 0.035 m/s/sqrt(s) and 0.0015 rad/sqrt(s); EKF2_GPS_DELAY 110 ms "
+    "(params_gnss.yaml)"
 )
+_TURN = "assumed: 400 Hz, 5 Hz, the turn of 15 m/s at 0.2 rad/s"
 
 SHIPPED_MODELS: Mapping[str, ShippedModel] = MappingProxyType(
     {
@@ -123,7 +130,7 @@ SHIPPED_MODELS: Mapping[str, ShippedModel] = MappingProxyType(
             ShippedModel(
                 "ins-gps",
                 "inertial navigation in a turn, with GPS positions at 5 Hz, 110 ms late",
-                f"{_AUTOPILOT}; EKF2_GPS_P_NOISE 0.5 m",
+                f"{_AUTOPILOT}, EKF2_GPS_P_NOISE 0.5 m (there too); {_TURN}, that noise also of the height",
                 _inertial(0.5),
                 MappingProxyType(_INERTIAL_OUTPUTS),
                 400.0,
@@ -133,8 +140,8 @@ SHIPPED_MODELS: Mapping[str, ShippedModel] = MappingProxyType(
             ShippedModel(
                 "ins-rtk",
                 "the same with RTK positions",
-                f"{_AUTOPILOT}; u-blox ZED-F9P data sheet (UBX-17051259): RTK 0.01 m + 1 ppm CEP, taken as 2 cm on "
-                f"each axis",
+                f"{_AUTOPILOT}; u-blox, ZED-F9P integration manual, UBX-18010802 R16, section 2.1.2: RTK to 0.01 m + "
+                f"1 ppm CEP, of which 2 cm on each axis is an assumption, twice as much; {_TURN}",
                 _inertial(0.02),
                 MappingProxyType(_INERTIAL_OUTPUTS),
                 400.0,
@@ -145,9 +152,10 @@ SHIPPED_MODELS: Mapping[str, ShippedModel] = MappingProxyType(
                 "star-tracker",
                 "attitude of a spacecraft about one axis, a gyro of navigation grade and a star tracker at 2 Hz, "
                 "200 ms late",
-                "gyro sqrt(10) 1e-7 rad/sqrt(s) and sqrt(10) 1e-10 rad/s^(3/2), tracker 0.005 deg: the attitude "
-                "examples of J. L. Crassidis and J. L. Junkins, Optimal Estimation of Dynamic Systems, 2nd ed., 2012; "
-                "the delay is this project's choice",
+                "gyro sqrt(10) 1e-7 rad/sqrt(s) and sqrt(10) 1e-10 rad/s^(3/2): J. L. Crassidis and J. L. Junkins, "
+                "Optimal Estimation of Dynamic Systems, 2nd ed., 2012, Examples 3.3 and 7.1, by the authors' programs "
+                "for them; assumed: tracker 0.005 deg, one standard deviation (three in Example 7.1, of each star), "
+                "100 Hz, 2 Hz, the delay",
                 _star_tracker,
                 MappingProxyType({"attitude": Output(0, 1, "rad"), "drift": Output(1, 2, "rad/s")}),
                 100.0,
@@ -158,8 +166,8 @@ SHIPPED_MODELS: Mapping[str, ShippedModel] = MappingProxyType(
                 "camera",
                 "a vehicle that a camera sees, one axis, at 20 Hz, 30 ms late",
                 "acceleration as a Wiener process: Y. Bar-Shalom, X. R. Li and T. Kirubarajan, Estimation with "
-                "Applications to Tracking and Navigation, 2001, section 6.2.3; jerk 50 m^2/s^5, markers to 1 cm and "
-                "the delay are this project's choice",
+                "Applications to Tracking and Navigation, 2001, section 6.2.3; assumed: all figures, namely jerk "
+                "50 m^2/s^5, markers to 1 cm, 200 Hz, 20 Hz, the delay",
                 _camera,
                 MappingProxyType(
                     {

@@ -93,7 +93,7 @@ def transition(dt_s: float) -> FloatArray:
 
 
 def white_jerk(dt_s: float, jerk_noise: float) -> FloatArray:
-    """Q (3, 3) of white jerk over dt, exactly. Bar-Shalom, Li and Kirubarajan, 2001, Eq. (6.2.3-9)."""
+    """Q (3, 3) of white jerk over dt, exactly. Bar-Shalom, Li and Kirubarajan, 2001, section 6.2.3."""
     T = dt_s
     over_density = [[T**5 / 20, T**4 / 8, T**3 / 6], [T**4 / 8, T**3 / 3, T**2 / 2], [T**3 / 6, T**2 / 2, T]]
     return jerk_noise**2 * np.array(over_density)

@@ -3,7 +3,7 @@
 e^T P^-1 e of an error e of length n is chi-square with n degrees of freedom if P is the covariance of e and e is
 normal; the mean over R independent runs is chi-square with R n, over R. Above the bounds a filter is too sure of
 itself, below them it knows more than it says. Bar-Shalom, Li and Kirubarajan, Estimation with applications to tracking
-and navigation, 2001, section 5.4.2.
+and navigation, 2001.
 """
 
 from __future__ import annotations
