@@ -18,7 +18,7 @@ from sched_sim.design.pieces import (
     DualRateCosts,
     FuseAsFreshCosts,
     JobCosts,
-    LarsenCosts,
+    LarsenInFlightCosts,
     MultirateCosts,
     Px4PredictorCosts,
     RecalculateCosts,
@@ -42,7 +42,7 @@ def serial_designs(draw: st.DrawFn) -> Design:
     costs = draw(
         st.builds(StandardCosts, ticks, ticks)
         | st.builds(RecalculateCosts, ticks, ticks, ticks)
-        | st.builds(LarsenCosts, ticks, ticks, ticks, ticks, ticks, ticks)
+        | st.builds(LarsenInFlightCosts, ticks, ticks, ticks, ticks, ticks, ticks)
         | st.builds(CloneCosts, ticks, ticks, ticks, ticks)
         | st.builds(CarriedGainCosts, ticks, ticks, ticks, ticks, ticks, ticks)
         | st.builds(Px4PredictorCosts, ticks, ticks, ticks, ticks, ticks)

@@ -81,6 +81,10 @@ class CostTable:
         }
         object.__setattr__(self, "costs", costs)
 
+    def has(self, method: str, kind: str) -> bool:
+        """Whether there is such an entry."""
+        return kind in self.costs.get(method, {})
+
     def entry(self, method: str, kind: str) -> Cost:
         """Raises InputError that names the missing entry and how to supply it."""
         try:

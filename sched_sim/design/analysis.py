@@ -25,6 +25,7 @@ from sched_sim.design.pieces import (
     FuseAsFreshCosts,
     JobCosts,
     LarsenCosts,
+    LarsenInFlightCosts,
     MultirateCosts,
     Px4PredictorCosts,
     RecalculateCosts,
@@ -33,6 +34,7 @@ from sched_sim.design.pieces import (
     StandardCosts,
     TwoRateCosts,
     converted,
+    product,
     works,
 )
 from sched_sim.design.whole import Flags, Ints, Whole, larger, lesser, where
@@ -163,7 +165,9 @@ def _longest_serial_job(costs: SerialCosts[int], N: Whole, M: Whole) -> Whole:
             return propagate + update + replay * M
         case LarsenCosts(propagate, accumulate, update):
             alone = where(M >= 2, 0 * N + max(accumulate + update, propagate), 0 * N + propagate + update)
-            return where(M <= N, alone, _longest_of_several(costs, N, M))
+            if isinstance(costs, LarsenInFlightCosts):
+                return where(M <= N, alone, _longest_of_several(costs, N, M))
+            return alone
         case CloneCosts(propagate, start, carry, update):
             return propagate + _longest_carried(start, carry, update, N, M)
         case CarriedGainCosts(propagate, update, carry, land, couple, compensate):
@@ -187,15 +191,15 @@ def _longest_carried(at_k: Whole | int, carry: int, at_m: Whole | int, N: Whole,
     return larger(larger(together, zero + at_m), between)
 
 
-def _longest_of_several(costs: LarsenCosts[int], N: Whole, M: Whole) -> Whole:
+def _longest_of_several(costs: LarsenInFlightCosts[int], N: Whole, M: Whole) -> Whole:
     """Of Larsen's method where others are measured before one arrives, M > N: the HR job of step m, where as many
     products are accumulated as in any, or that of step k, which is the same where N divides M."""
     others = (M - 1) // N
     at_m = M % N
     correction = costs.correct + others * costs.compensate + where(at_m == 0, 0 * N + costs.gain, 0)
     products_at_m, products_at_k = M // N - (1 - at_m) // N, M // N - 1 // N
-    at_k = products_at_k * costs.product + costs.gain
-    longest: Whole = costs.propagate + larger(products_at_m * costs.product + correction, at_k)
+    at_k = products_at_k * product(costs) + costs.gain
+    longest: Whole = costs.propagate + larger(products_at_m * product(costs) + correction, at_k)
     return longest
 
 

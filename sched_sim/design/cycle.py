@@ -15,12 +15,14 @@ from sched_sim.design.pieces import (
     DualRateCosts,
     JobCosts,
     LarsenCosts,
+    LarsenInFlightCosts,
     MultirateCosts,
     RecalculateCosts,
     RobustCosts,
     StandardCosts,
     at_m,
     each_step,
+    product,
     works,
 )
 from sched_sim.design.timing import Timing
@@ -63,7 +65,7 @@ def cycle_of(costs: JobCosts[int], timing: Timing, options: Options) -> Cycle:
             high = [propagate] * N
             high[M % N] += update + M * replay
             return Cycle(high)
-        case LarsenCosts() if M > N:
+        case LarsenInFlightCosts() if M > N:
             return _larsen_in_flight(costs, N, M)
         case LarsenCosts(propagate, accumulate, update):
             high = [accumulate if 2 <= step < M else propagate for step in range(N)]
@@ -96,10 +98,10 @@ def cycle_of(costs: JobCosts[int], timing: Timing, options: Options) -> Cycle:
             return Cycle(high)
 
 
-def _larsen_in_flight(costs: LarsenCosts[int], N: int, M: int) -> Cycle:
+def _larsen_in_flight(costs: LarsenInFlightCosts[int], N: int, M: int) -> Cycle:
     """Once as many are on their way as there will be."""
     products = [(M - step) // N - (1 - step) // N for step in range(N)]  # of k that are 2 .. M steps ago
-    high = [costs.propagate + count * costs.product for count in products]
+    high = [costs.propagate + count * product(costs) for count in products]
     high[0] += costs.gain
     high[M % N] += costs.correct + (M - 1) // N * costs.compensate
     return Cycle(high)

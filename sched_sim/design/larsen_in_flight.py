@@ -11,7 +11,7 @@ from fractions import Fraction
 
 from sched_sim.design.hr_loop import HrSource, OnLanding
 from sched_sim.design.method import CycleWork
-from sched_sim.design.pieces import LarsenCosts
+from sched_sim.design.pieces import LarsenCosts, LarsenInFlightCosts, product
 from sched_sim.design.timing import Timing
 from sched_sim.errors import option
 from sched_sim.schedule.jobs import HR, Job, Parts, step_at
@@ -20,7 +20,7 @@ from sched_sim.schedule.jobs import HR, Job, Parts, step_at
 class LarsenInFlight(HrSource):
     """An HR job each step: propagation and products; at m the corrections; at k gain and covariance."""
 
-    def __init__(self, costs: LarsenCosts[int], timing: Timing, period: int, on_landing: OnLanding) -> None:
+    def __init__(self, costs: LarsenInFlightCosts[int], timing: Timing, period: int, on_landing: OnLanding) -> None:
         super().__init__(timing, period, on_landing)
         self.costs = costs
         self.correction = costs.correct + (timing.M - 1) // timing.N * costs.compensate
@@ -28,7 +28,7 @@ class LarsenInFlight(HrSource):
     def release(self) -> tuple[Job, ...]:
         step, start = self.step, self.next_release
         self.step, self.next_release = step + 1, start + self.period
-        parts: Parts = (("P", self.costs.propagate + self._products(step) * self.costs.product),)
+        parts: Parts = (("P", self.costs.propagate + self._products(step) * product(self.costs)),)
         lands = step >= self.M and (step - self.M) % self.N == 0
         if lands:
             parts = (*parts, ("U", self.correction))
@@ -51,15 +51,15 @@ class LarsenInFlight(HrSource):
         return ()
 
 
-def work(costs: LarsenCosts[Fraction], timing: Timing) -> CycleWork:
+def work(costs: LarsenInFlightCosts[Fraction], timing: Timing) -> CycleWork:
     N, M = timing.N, timing.M
-    products = (M - 1) * costs.product
+    products = (M - 1) * product(costs)
     at_k_and_m = costs.gain + costs.correct + (M - 1) // N * costs.compensate
     return CycleWork(N * costs.propagate + products + at_k_and_m)
 
 
 def lacking(costs: LarsenCosts[Fraction], timing: Timing) -> str | None:
-    if timing.M <= timing.N or all((costs.gain, costs.correct, costs.compensate)):
+    if timing.M <= timing.N or isinstance(costs, LarsenInFlightCosts):
         return None
     return (
         f"where M is more than N, others are measured before one arrives, and for that the cost table has no "

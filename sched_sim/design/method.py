@@ -7,13 +7,30 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Generic, NamedTuple, TypeVar
 
+from sched_sim.costs.table import CostTable
 from sched_sim.design.hr_loop import HrSource, OnLanding
 from sched_sim.design.options import Options
+from sched_sim.design.pieces import Statistic
 from sched_sim.design.timing import Feedback, Timing, latest, one_at_a_time
 from sched_sim.errors import InputError
 
-CostOf = Callable[[str], Fraction]
-"""What a job of this kind costs, by a cost table."""
+
+@dataclass(frozen=True)
+class CostOf:
+    """What a job of some kind of one method costs, by a cost table."""
+
+    table: CostTable
+    method: str
+    statistic: Statistic
+
+    def __call__(self, kind: str) -> Fraction:
+        """Raises InputError for an entry that the table lacks."""
+        value: Fraction = getattr(self.table.entry(self.method, kind), self.statistic)
+        return value
+
+    def has(self, kind: str) -> bool:
+        return self.table.has(self.method, kind)
+
 
 Exact = TypeVar("Exact")
 InTicks = TypeVar("InTicks")

@@ -10,7 +10,7 @@ from sched_sim.bounds import check_kind
 from sched_sim.costs.methods import MULTIRATE_METHODS, ROBUST_METHODS
 from sched_sim.costs.table import CostTable
 from sched_sim.design import carried, delayed_horizon, dual_rate, late_serial, serial, two_rate
-from sched_sim.design.method import Exact, InTicks, Method
+from sched_sim.design.method import CostOf, Exact, InTicks, Method
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import (
     AugmentationCosts,
@@ -22,6 +22,7 @@ from sched_sim.design.pieces import (
     FuseAsFreshCosts,
     JobCosts,
     LarsenCosts,
+    LarsenInFlightCosts,
     MultirateCosts,
     Px4PredictorCosts,
     RecalculateCosts,
@@ -43,6 +44,7 @@ _BY_PIECES: Mapping[type, AnyMethod] = {
     StandardCosts: _any(serial.STANDARD),
     RecalculateCosts: _any(serial.RECALCULATE),
     LarsenCosts: _any(serial.LARSEN),
+    LarsenInFlightCosts: _any(serial.LARSEN),
     DualRateCosts: _any(dual_rate.DUAL_RATE),
     CloneCosts: _any(carried.CLONE),
     CarriedGainCosts: _any(carried.CARRIED_GAIN),
@@ -92,10 +94,6 @@ def select(table: CostTable, method: str, options: Options = Options(), statisti
     if statistic not in get_args(Statistic):
         raise InputError(f"statistic is {statistic!r}: choose from {', '.join(get_args(Statistic))}")
 
-    def cost(kind: str) -> Fraction:
-        value: Fraction = getattr(table.entry(method, kind), statistic)
-        return value
-
     if not isinstance(method, str) or method not in METHODS:
         raise InputError(f"method {method!r} is unknown: choose from {', '.join(METHODS)}")
-    return METHODS[method].pieces(cost, options)
+    return METHODS[method].pieces(CostOf(table, method, statistic), options)

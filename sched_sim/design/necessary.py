@@ -20,6 +20,7 @@ from sched_sim.design.pieces import (
     FuseAsFreshCosts,
     JobCosts,
     LarsenCosts,
+    LarsenInFlightCosts,
     MultirateCosts,
     Px4PredictorCosts,
     RecalculateCosts,
@@ -54,7 +55,9 @@ def demands(costs: JobCosts[int], timings: Range, options: Options) -> Iterator[
         case LarsenCosts(propagate, accumulate, update):
             with_product = max(accumulate + update, propagate)
             alone = with_product if timings.least_M >= 2 else min(with_product, propagate + update)
-            yield alone if timings.most_M <= timings.least_N else min(alone, propagate + costs.correct), 1
+            if isinstance(costs, LarsenInFlightCosts) and timings.most_M > timings.least_N:
+                alone = min(alone, propagate + costs.correct)
+            yield alone, 1
         case CloneCosts(propagate, start, carry, update):
             yield propagate + _carried(start, carry, update, timings), 1
         case CarriedGainCosts(propagate, update, carry, land):

@@ -36,23 +36,21 @@ class RecalculateCosts(Generic[Number]):
 
 @dataclass(frozen=True, slots=True)
 class LarsenCosts(Generic[Number]):
-    """Work of the pieces of Larsen's method; accumulate: a propagated step with the product Phi(k->j) in it.
-
-    With several measurements in flight, M > N, in place of update: gain, with the covariance, at k; correct, the state,
-    at m; compensate, for each that is in flight then, at m too. 0 if a table does not have them.
-    """
+    """Work of the pieces of Larsen's method; accumulate: a propagated step with the product Phi(k->j) in it."""
 
     propagate: Number
     accumulate: Number
     update: Number
-    gain: Number = 0  # type: ignore[assignment]  # of either kind
-    correct: Number = 0  # type: ignore[assignment]
-    compensate: Number = 0  # type: ignore[assignment]
 
-    @property
-    def product(self) -> Number:
-        """One more product in a step."""
-        return max(self.accumulate - self.propagate, 0)  # type: ignore[operator, return-value]  # each of one kind
+
+@dataclass(frozen=True, slots=True)
+class LarsenInFlightCosts(LarsenCosts[Number]):
+    """Those of Larsen's method where it can also have several measurements in flight, M > N, and in place of update:
+    gain, with the covariance, at k; correct, the state, at m; compensate, for each that is in flight then, at m too."""
+
+    gain: Number
+    correct: Number
+    compensate: Number
 
 
 @dataclass(frozen=True, slots=True)
@@ -169,6 +167,11 @@ TwoRateCosts: TypeAlias = MultirateCosts[Number] | RobustCosts[Number]
 JobCosts: TypeAlias = SerialCosts[Number] | DualRateCosts[Number] | TwoRateCosts[Number] | DelayedHorizonCosts[Number]
 Costs: TypeAlias = JobCosts[Fraction]
 """The costs of one method, as fractions of the cost table's unit."""
+
+
+def product(costs: LarsenInFlightCosts[Exact]) -> Exact:
+    """Work of one more product in a step."""
+    return max(costs.accumulate, costs.propagate) - costs.propagate
 
 
 def each_step(costs: LateCosts[Exact], M: int) -> Exact:

@@ -10,9 +10,8 @@ from sched_sim.design import larsen_in_flight
 from sched_sim.design.hr_loop import HrSource, OnLanding
 from sched_sim.design.method import CostOf, CycleWork, Law, Method
 from sched_sim.design.options import Options
-from sched_sim.design.pieces import LarsenCosts, RecalculateCosts, StandardCosts
+from sched_sim.design.pieces import LarsenCosts, LarsenInFlightCosts, RecalculateCosts, StandardCosts
 from sched_sim.design.timing import Feedback, Timing
-from sched_sim.errors import InputError
 from sched_sim.schedule.jobs import HR, Job, Parts, step_at
 
 
@@ -95,29 +94,22 @@ def _recalculate_work(costs: RecalculateCosts[Fraction], timing: Timing) -> Cycl
 
 
 def _larsen_pieces(cost: CostOf, _options: Options) -> LarsenCosts[Fraction]:
-    several = (_if_there(cost, kind) for kind in ("gain", "correct", "compensate"))
-    return LarsenCosts(cost("propagate"), cost("propagate_accumulate"), cost("update"), *several)
-
-
-def _if_there(cost: CostOf, kind: str) -> Fraction:
-    """0 for what only some designs need, where a table does not have it."""
-    try:
-        return cost(kind)
-    except InputError:
-        return Fraction(0)
+    alone = cost("propagate"), cost("propagate_accumulate"), cost("update")
+    several = "gain", "correct", "compensate"
+    return LarsenInFlightCosts(*alone, *map(cost, several)) if all(map(cost.has, several)) else LarsenCosts(*alone)
 
 
 def _larsen_source(
     costs: LarsenCosts[int], timing: Timing, _options: Options, period: int, on_landing: OnLanding
 ) -> HrSource:
-    if timing.M > timing.N:
+    if timing.M > timing.N and isinstance(costs, LarsenInFlightCosts):
         return larsen_in_flight.LarsenInFlight(costs, timing, period, on_landing)
     plain, accumulate = (("P", costs.propagate),), (("P", costs.accumulate),)
     return Serial(plain, accumulate, (("U", costs.update),), timing, period, on_landing)
 
 
 def _larsen_work(costs: LarsenCosts[Fraction], timing: Timing) -> CycleWork:
-    if timing.M > timing.N:
+    if timing.M > timing.N and isinstance(costs, LarsenInFlightCosts):
         return larsen_in_flight.work(costs, timing)
     products = max(timing.M - 1, 0)
     return CycleWork((timing.N - products) * costs.propagate + products * costs.accumulate + costs.update)

@@ -10,10 +10,11 @@ from pathlib import Path
 import pytest
 
 from sched_sim.costs.methods import DELAYED_METHODS, PAPER_METHODS
+from sched_sim.costs.table import CostTable
 from sched_sim.costs.table_file import TABLES, costs_text, load_costs, read_costs, shipped_tables
 from sched_sim.design.methods import select
 from sched_sim.design.options import Options
-from sched_sim.design.pieces import DualRateCosts, LarsenCosts, StandardCosts
+from sched_sim.design.pieces import DualRateCosts, LarsenCosts, LarsenInFlightCosts, StandardCosts
 from sched_sim.errors import InputError
 
 BY_HAND = """
@@ -60,6 +61,14 @@ def test_the_counted_table_has_what_every_option_needs() -> None:
     whole = select(load_costs("counted-9-3-3"), "dual-rate", Options())
     assert isinstance(whole, DualRateCosts)
     assert split.lr_gain + split.lr_update == whole.lr_update
+
+
+def test_what_larsen_needs_for_several_in_flight_is_taken_where_a_table_has_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where not, no message is made of it, for which all shipped tables would be read."""
+    assert isinstance(select(load_costs("counted-9-3-3"), "larsen"), LarsenInFlightCosts)
+    papers = load_costs("steffes2014")
+    monkeypatch.setattr(CostTable, "_remedy", lambda *_: pytest.fail("a message was made"))
+    assert type(select(papers, "larsen")) is LarsenCosts
 
 
 def test_a_table_survives_being_written_and_read(tmp_path: Path) -> None:

@@ -20,6 +20,7 @@ from sched_sim.design.pieces import (
     FuseAsFreshCosts,
     JobCosts,
     LarsenCosts,
+    LarsenInFlightCosts,
     MultirateCosts,
     Px4PredictorCosts,
     RecalculateCosts,
@@ -105,8 +106,8 @@ BATCH = 50
 
 def random_costs(random: Random) -> JobCosts:
     """In ticks: small ones, which tie, and larger ones."""
-    others = [StandardCosts, RecalculateCosts, LarsenCosts, CloneCosts, CarriedGainCosts, MultirateCosts, RobustCosts]
-    kinds = [DualRateCosts] * 5 + others
+    kinds = [DualRateCosts] * 5 + [StandardCosts, RecalculateCosts, LarsenInFlightCosts, CloneCosts, CarriedGainCosts]
+    kinds += [MultirateCosts, RobustCosts]
     kinds += [DelayedHorizonCosts] * 3 + [Px4PredictorCosts, AugmentationCosts, FuseAsFreshCosts]
     kind, most = random.choice(kinds), random.choice([2, 5, 12, 100, 1000])
     pieces = [random.randint(1, random.choice([2, most])) for _ in fields(kind)]

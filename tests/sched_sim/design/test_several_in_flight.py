@@ -18,7 +18,7 @@ from sched_sim.design.least_speed import achieved_l, least_speed, staircase
 from sched_sim.design.load import loads
 from sched_sim.design.methods import METHODS, select
 from sched_sim.design.options import Options
-from sched_sim.design.pieces import DualRateCosts, LarsenCosts, RecalculateCosts
+from sched_sim.design.pieces import DualRateCosts, LarsenInFlightCosts, RecalculateCosts
 from sched_sim.design.search import search_resolution
 from sched_sim.design.simulate import simulate
 from sched_sim.design.steady import run_until_steady
@@ -50,7 +50,7 @@ def test_recalculate_replays_more_steps_than_lie_between_measurements() -> None:
 def test_larsen_has_a_product_for_each_that_is_on_its_way() -> None:
     """N = 3, M = 7: in step 12 those of k = 6 and 9; that of k = 3 landed in 10; in step 13, too, which corrects the
     state by that of k = 6, and what was known at k = 9 and 12."""
-    costs = LarsenCosts(10, 13, 99, 20, 4, 1)
+    costs = LarsenInFlightCosts(10, 13, 99, 20, 4, 1)
     found = works(simulate(costs, Timing(3, 7, 7), 100, cycles=5, keep_slices=True), "hr")
     assert found[0] == {"P": 10, "G": 20}
     assert found[1] == {"P": 10}
@@ -293,7 +293,7 @@ def test_the_filter_does_the_products_that_are_scheduled(monkeypatch: pytest.Mon
     counter = Counter(monkeypatch, larsen, larsen_in_flight)
     data = problem(example_system(3, 1, 1), N, M, M, steps, seed=1)
     larsen.run(*data, backend="reference")
-    unit = LarsenCosts(1, 1001, 1, 10, 2, 5)
+    unit = LarsenInFlightCosts(1, 1001, 1, 10, 2, 5)
     schedule = simulate(unit, Timing(N, M, M), 10_000, 8, keep_slices=True)
     found = works(schedule, "hr")
     assert len(found) == steps + 1
