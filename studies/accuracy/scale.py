@@ -17,12 +17,12 @@ from sched_sim.design.options import Options
 from sched_sim.design.timing import Timing
 from studies.accuracy.given import Given
 from studies.measurement.methods import measure
+from studies.selection.unbeaten import unbeaten
 
 EVERY = (1, 2, 3)
 """Every n-th measurement is used."""
 SUMMED = "dual-rate, Q'"
 """The dual rate filter with Steffes' Eq. 23."""
-ROUNDING = 1e-9
 EXACT = tuple(name for name in DELAYED_METHODS if name not in ("standard", "px4-predictor", "fuse-as-fresh"))
 
 
@@ -49,7 +49,7 @@ def counted(of: Given) -> CostTable:
 def scale(of: Given, table: CostTable, px4: Accuracy, every: Sequence[int] = EVERY) -> list[Placed]:
     """Every method wherever it can land, and the filter without delay; every n-th measurement with exact methods.
 
-    px4: what is known of its predictor, for it takes seconds.
+    px4: what its predictor is worth, landing at M.
     """
     placed = [place for n in every for method in (*EXACT, SUMMED) for place in _exact(of, table, method, n)]
     standard = _least(of, table, "standard")
@@ -59,7 +59,8 @@ def scale(of: Given, table: CostTable, px4: Accuracy, every: Sequence[int] = EVE
         Placed("px4-predictor", 1, of.M, of.M, _least(of, table, "px4-predictor"), px4),
         Placed("fuse-as-fresh", 1, of.M, of.M, _least(of, table, "fuse-as-fresh"), fresh),
     ]
-    rated = [place._replace(on_front=_unbeaten(place, placed)) for place in placed]
+    best = unbeaten([(place.speed, place.accuracy.total) for place in placed])
+    rated = [place._replace(on_front=on_front) for place, on_front in zip(placed, best, strict=True)]
     return [Placed("standard", 1, 0, 0, standard, undelayed), *rated]
 
 
@@ -103,14 +104,3 @@ def _least(of: Given, table: CostTable, method: str) -> Fraction:
     options = Options()
     first = of.M + METHODS[method].law(options.feedback).after
     return least_speed(select(table, method, options), Timing(of.N, of.M, first), options).speed
-
-
-def _unbeaten(place: Placed, others: Sequence[Placed]) -> bool:
-    """Two accuracies that differ by rounding are one."""
-    std, speed = place.accuracy.total, place.speed
-    return not any(
-        other.speed <= speed
-        and other.accuracy.total <= std * (1 + ROUNDING)
-        and (other.speed < speed or other.accuracy.total < std * (1 - ROUNDING))
-        for other in others
-    )

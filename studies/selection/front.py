@@ -15,6 +15,7 @@ from studies.selection.compare import undelayed
 from studies.selection.landing import earliest
 from studies.selection.methods import METHODS
 from studies.selection.question import Accuracies, Question
+from studies.selection.unbeaten import unbeaten
 from studies.selection.variants import Variant, variants
 
 if TYPE_CHECKING:
@@ -62,8 +63,9 @@ def front(question: Question, methods: Sequence[str], every: Sequence[int]) -> F
             if key not in least or point.speed < least[key].speed:
                 least[key] = point
     points = sorted(least.values(), key=lambda point: (methods.index(point.method), point.every, point.L))
+    best = unbeaten([(point.speed, point.std) for point in points])
     return Front(
-        tuple(replace(point, on_front=_unbeaten(point, points)) for point in points),
+        tuple(replace(point, on_front=on_front) for point, on_front in zip(points, best, strict=True)),
         question.within,
         undelayed(question.model, question.outputs, question.sampling, question.metric),
         question.metric,
@@ -100,10 +102,3 @@ def _some(first: int, last: int) -> list[int]:
         return list(range(first, last + 1))
     ratio = (last - first) ** (1 / (LANDINGS - 1))
     return sorted({first + round(ratio**number) - 1 for number in range(LANDINGS - 1)} | {last})
-
-
-def _unbeaten(point: FrontPoint, points: Sequence[FrontPoint]) -> bool:
-    return not any(
-        other.std <= point.std and other.speed <= point.speed and (other.std, other.speed) != (point.std, point.speed)
-        for other in points
-    )
