@@ -13,6 +13,8 @@ from types import ModuleType
 from typing import Any, NamedTuple
 
 from sched_sim.errors import InputError
+from sched_sim.text import did_you_mean
+from studies.measurement.failed_line import failed_line, shown_path
 
 
 class Returned(NamedTuple):
@@ -39,7 +41,7 @@ def returned_by(name: str, option: str, how: str) -> Returned:
             module = _imported(module_name, here)
         function: Any = getattr(module, function_name, None)
         if not callable(function):
-            raise InputError(f"{said}: module {module_name!r} has no function {function_name!r}; {how}")
+            raise InputError(f"{said}: {_no_function(module, function_name)}; {how}")
         with explained(f"{said}: {function_name}() failed"):
             return Returned(function_name, function())
 
@@ -71,15 +73,38 @@ def explained(what: str, remedy: str = "") -> Iterator[None]:
 
 
 def _said(error: BaseException) -> str:
-    """Its message on one line, after the kind of error where that does not say enough."""
+    """Its kind, its message on one line, and the line of the user's that it is from; what a check of this project says
+    of what the user gave, is said without its kind."""
+    line = failed_line(error)
+    place = line and f" ({line})"
     if isinstance(error, SystemExit):
-        return f"it ends the program, with sys.exit({error.code!r})"
+        return f"it ends the program, with sys.exit({error.code!r}){place}"
     try:
         message = " ".join(str(error).split())
     except Exception:
         message = ""
-    said_by_itself = message and isinstance(error, ValueError | RuntimeError | ImportError)
-    return message if said_by_itself else f"{type(error).__name__}: {message}"
+    said_by_itself = not line and message and isinstance(error, ValueError | RuntimeError | ImportError)
+    kind = "" if said_by_itself else f"{type(error).__name__}{message and ': '}"
+    return f"{kind}{message}{place}"
+
+
+def _no_function(module: ModuleType, name: str) -> str:
+    """What there is in place of it, and where."""
+    there = [
+        other
+        for other, value in vars(module).items()
+        if not other.startswith("_") and callable(value) and getattr(value, "__module__", None) == module.__name__
+    ]
+    file = getattr(module, "__file__", None)
+    where = f" ({shown_path(Path(file))})" if file else ""
+    what = f"it has {', '.join(there[:MOST_NAMED])}{', ...' if len(there) > MOST_NAMED else ''}" if there else "it has none"
+    if hasattr(module, name):
+        what = f"{name} is a {type(getattr(module, name)).__name__} there, and {what}"
+    return f"module {module.__name__!r}{where} has no function {name!r}: {did_you_mean(name, there)}{what}"
+
+
+MOST_NAMED = 8
+"""Functions of a module."""
 
 
 def _imported(name: str, here: Path) -> ModuleType:

@@ -17,14 +17,24 @@ from studies.measurement.user_function import returned_by
         ("def made(:", "cannot be imported: SyntaxError"),
         ("import sys; sys.exit(3)", r"cannot be imported: it ends the program, with sys.exit\(3\)"),
         ("1 / 0", "cannot be imported: ZeroDivisionError"),
-        ("import absent_library", "cannot be imported: No module named 'absent_library'"),
+        ("import absent_library", r"cannot be imported: ModuleNotFoundError: No module .* \(own_function.py, line 1\)"),
         ("def made(): import sys; sys.exit('bye')", r"made\(\) failed: it ends the program, with sys.exit\('bye'\)"),
-        ("def made(): return made()", r"made\(\) failed: maximum recursion depth"),
-        ("def made(): raise ValueError('a\\nb')", r"made\(\) failed: a b$"),
+        ("def made(): return made()", r"made\(\) failed: RecursionError: maximum recursion depth"),
+        ("def made(): raise ValueError('a\\nb')", r"made\(\) failed: ValueError: a b \(own_function.py, line 1\)$"),
+        (
+            "import numpy\n\ndef made():\n    return numpy.linalg.inv(numpy.zeros((2, 2)))",
+            r"made\(\) failed: LinAlgError: Singular matrix \(own_function.py, line 4\)$",
+        ),
+        (
+            "from filters import linear_system\ndef made():\n    return linear_system([[1]], 3, [[1]], [[1]], [[1]])",
+            r"made\(\) failed: ValueError: .* \(own_function.py, line 3\)$",
+        ),
         ("def made(x): return x", r"made\(\) failed: TypeError"),
         ("class Mute(Exception):\n    def __str__(self): 1 / 0\ndef made(): raise Mute", r"made\(\) failed: Mute"),
         ("class Own(BaseException): ...\ndef made(): raise Own", r"made\(\) failed: Own"),
-        ("made = 3", "has no function 'made'"),
+        ("made = 3", r"\(own_function.py\) has no function 'made': made is a int there, and it has none; how"),
+        ("from math import sin\ndef mode(): ...\ndef _made(): ...\nclass Other: ...",
+         r"\(own_function.py\) has no function 'made': did you mean mode\? it has mode, Other; how"),
     ],
 )
 def test_what_it_does_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, code: str, said: str) -> None:
