@@ -28,16 +28,23 @@ def check_noise(name: str, noise: FloatArray, step: int) -> None:
     check_covariance(f"step {step}: {name} of the system", noise)
 
 
-def check_measurement_noise(R: FloatArray, k: int) -> None:
-    """Raises ValueError unless R (p, p) of step k is finite, symmetric and positive definite beyond rounding."""
-    _check_noise_is_finite("R", R, k)
+def check_measurement_noise(R: FloatArray, k: int | None, name: str = "R") -> None:
+    """Raises ValueError, with this name, unless R (p, p) is finite, symmetric and positive definite beyond rounding.
+
+    k: the step that it is of; None of a constant one.
+    """
+    if k is not None:
+        _check_noise_is_finite(name, R, k)
+    elif not np.isfinite(R).all():
+        raise ValueError(f"{name} holds a value that is not finite; give numbers")
+    said = name if k is None else f"{name} of step {k}"
     if not np.allclose(R, R.T, rtol=1e-9, atol=0.0):
-        raise ValueError(f"R of step {k} is not symmetric; it is the covariance of the measurement noise")
+        raise ValueError(f"{said} is not symmetric; it is the covariance of the measurement noise")
     eigenvalues = np.linalg.eigvalsh(R)
     if not eigenvalues[0] > len(R) * np.finfo(np.float64).eps * abs(eigenvalues[-1]):
         raise ValueError(
-            f"R of step {k} is not positive definite: its smallest eigenvalue is {eigenvalues[0]:.3g}; give each "
-            f"measurement noise of its own (a positive variance), or leave out those that follow from the others"
+            f"{said} is not positive definite: its smallest eigenvalue is {eigenvalues[0]:.3g}; give each measurement "
+            f"noise of its own (a positive variance), or leave out those that follow from the others"
         )
 
 

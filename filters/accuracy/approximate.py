@@ -37,7 +37,7 @@ def with_wrong_noise(model: LinearModel, outputs: ArrayLike, N: int, L: int, R: 
     assumed = as_array("R", R)
     if assumed.shape != model.R.shape:
         raise ValueError(f"R has shape {assumed.shape}, needed is {model.R.shape}, that of the model's own")
-    check_measurement_noise(assumed, 0)
+    check_measurement_noise(assumed, None)
     return _outcome(lossless(model, C, N, 0), L, with_assumed(model, C, N, N + L, R=assumed))
 
 

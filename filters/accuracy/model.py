@@ -47,7 +47,7 @@ def linear_model(Phi: ArrayLike, Q: ArrayLike, H: ArrayLike, R: ArrayLike, names
     if names and len(names) != n:
         raise ValueError(f"names={tuple(names)!r} are {len(names)}, the model has {n} states; give one for each")
     check_covariance("Q", model.Q)
-    check_measurement_noise(model.R, 0)
+    check_measurement_noise(model.R, None)
     return model
 
 

@@ -172,7 +172,7 @@ def _sensor(name: str, H: ArrayLike, R: ArrayLike, n: int) -> _Sensor:
     _check_shape(f"H of {name}", sensor.H, (p, n))
     _check_shape(f"R of {name}", sensor.R, (p, p))
     for k, noise in enumerate(sensor.R):
-        check_measurement_noise(noise, k)
+        check_measurement_noise(noise, None if len(sensor.R) == 1 else k, f"R of {name}")
     return sensor
 
 

@@ -15,7 +15,7 @@ from sched_sim.costs.documents import refuse_samples
 from sched_sim.costs.methods import KINDS
 from sched_sim.costs.operations import ARITHMETIC, OPERATION_KINDS, arithmetic
 from sched_sim.costs.table import Cost, CostTable, positive_cost
-from sched_sim.errors import InputError
+from sched_sim.errors import InputError, option
 from sched_sim.files.kinds import refuse_other_kind
 from sched_sim.files.toml_problems import problems
 from sched_sim.files.toml_reader import read_toml
@@ -159,13 +159,14 @@ def read_costs(path: str | Path, shown: str = "") -> CostTable:
 
 
 def _read(path: Path, shown: str, remedy: str) -> CostTable:
-    document = read_toml(path, f"cost table {shown!r}", remedy)
-    refuse_samples(document, f"cost table {shown!r}")
-    refuse_other_kind(document, f"cost table {shown!r}", "costs")
+    said = f"{option('costs')}: cost table {shown!r}"
+    document = read_toml(path, said, remedy)
+    refuse_samples(document, said)
+    refuse_other_kind(document, said, "costs")
     try:
         checked = _CostFile.model_validate(document)
     except ValidationError as error:
-        raise InputError(f"cost table {shown!r}: {problems(error, _CostFile)}") from None
+        raise InputError(f"{said}: {problems(error, _CostFile)}") from None
     costs = {
         method: {kind: Cost(entry.minimum, entry.median, entry.p95) for kind, entry in entries.items()}
         for method, entries in checked.costs.items()

@@ -10,7 +10,7 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, model_validator
 
 from sched_sim.costs.operations import OPERATION_KINDS
-from sched_sim.errors import InputError
+from sched_sim.errors import InputError, option
 from sched_sim.files.kinds import refuse_other_kind
 from sched_sim.files.toml_problems import problems
 from sched_sim.files.toml_reader import read_toml
@@ -149,20 +149,21 @@ def load_part(name_or_path: str | Path) -> Part:
     return read_part(path, shown=text)
 
 
-def read_part(path: Path, shown: str = "") -> Part:
-    """The processor in `path`; `shown` is what the user called it.
+def read_part(path: Path, shown: str = "", argument: str | None = None) -> Part:
+    """The processor in `path`; `shown` is what the user called it, `argument` what named it, for messages.
 
     Raises InputError that lists every wrong entry of the file with its value.
     """
     shown = shown or str(path)
+    said = f"{argument or option('processor')} {shown!r}"
     shipped = shipped_parts()
     remedy = f"{did_you_mean(shown, shipped)}give one of {', '.join(shipped)}, or the path of a TOML file"
-    document = read_toml(path, f"processor {shown!r}", remedy)
-    refuse_other_kind(document, f"processor {shown!r}", "processor")
+    document = read_toml(path, said, remedy)
+    refuse_other_kind(document, said, "processor")
     try:
         checked = _ProcessorFile.model_validate(document)
     except ValidationError as error:
-        raise InputError(f"processor {shown!r}: {problems(error, _ProcessorFile)}") from None
+        raise InputError(f"{said}: {problems(error, _ProcessorFile)}") from None
     clock_hz = checked.clock_mhz.value * HERTZ_PER_MHZ if checked.clock_mhz else None
     per_second = clock_hz or Fraction(MICROSECONDS_PER_SECOND)
     named = {**checked.figures, "logic_per_arithmetic": checked.logic_per_arithmetic}

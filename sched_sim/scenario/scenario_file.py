@@ -20,7 +20,7 @@ from sched_sim.files.toml_numbers import Positive, Whole, above_zero, whole
 from sched_sim.files.toml_problems import problems
 from sched_sim.files.toml_reader import read_toml
 from sched_sim.processors.part import NoTimeError, seconds_for
-from sched_sim.processors.part_file import load_part, shipped_parts
+from sched_sim.processors.part_file import load_part, read_part, shipped_parts
 from sched_sim.scenario.composition import Composition, Describe, with_its_sensors
 from sched_sim.scenario.fields import ends
 from sched_sim.scenario.file_accuracy import AccuracyEntry
@@ -304,7 +304,7 @@ def _from_file(sampled: SampledCosts, checked: _ScenarioFile, folder: Path) -> S
                 f"`sched-sim measure --filter ... --backend counted`, or leave the processor out"
             )
         shipped = checked.processor in shipped_parts()
-        part = load_part(checked.processor if shipped else folder / checked.processor)
+        part = load_part(checked.processor) if shipped else read_part(folder / checked.processor, argument="processor")
         return {
             name: (seconds_for(counts, part, f"[operations] {name} of costs {sampled.shown}"),)
             for name, counts in sampled.operations.items()

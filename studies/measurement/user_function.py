@@ -97,7 +97,11 @@ def _no_function(module: ModuleType, name: str) -> str:
     ]
     file = getattr(module, "__file__", None)
     where = f" ({shown_path(Path(file))})" if file else ""
-    what = f"it has {', '.join(there[:MOST_NAMED])}{', ...' if len(there) > MOST_NAMED else ''}" if there else "it has none"
+    what = (
+        f"it has {', '.join(there[:MOST_NAMED])}{', ...' if len(there) > MOST_NAMED else ''}"
+        if there
+        else "it has none"
+    )
     if hasattr(module, name):
         what = f"{name} is a {type(getattr(module, name)).__name__} there, and {what}"
     return f"module {module.__name__!r}{where} has no function {name!r}: {did_you_mean(name, there)}{what}"

@@ -67,7 +67,7 @@ def _try_model(said: str, system: System, x: FloatArray) -> None:
         check_turns(system, x, np.zeros(system.inputs))
     try:
         check_covariance("Q(j, p)", values["Q(j, p)"])
-        check_measurement_noise(values["R(k, p)"], 0)
+        check_measurement_noise(values["R(k, p)"], None, "R(k, p)")
     except ValueError as error:
         raise InputError(f"{said}: {error}") from error
 

@@ -19,8 +19,8 @@ from tests.filters.accuracy.cases import CV
         ({"Q": np.eye(3)}, r"Q has shape \(3, 3\), needed is \(2, 2\)"),
         ({"Q": -np.eye(2)}, "Q is no covariance: its smallest eigenvalue is -1"),
         ({"H": [[1, 0, 0]]}, r"H has shape \(1, 3\), needed is \(1, 2\)"),
-        ({"R": [[0]]}, "R of step 0 is not positive definite.*give each measurement noise of its own"),
-        ({"H": np.eye(2), "R": np.ones((2, 2))}, "R of step 0 is not positive definite"),
+        ({"R": [[0]]}, "^R is not positive definite.*give each measurement noise of its own"),
+        ({"H": np.eye(2), "R": np.ones((2, 2))}, "^R is not positive definite"),
         ({"R": [["x"]]}, "R is no array of numbers"),
         ({"names": ["position"]}, r"names=\('position',\) are 1, the model has 2 states; give one for each"),
     ],
@@ -70,7 +70,7 @@ def test_assumed_noises_are_checked() -> None:
         with_low_rate_noise(CV, [0], 10, 4, "none")  # type: ignore[arg-type]
     with pytest.raises(ValueError, match=r"R has shape \(2, 2\), needed is \(1, 1\)"):
         with_wrong_noise(CV, [0], 10, 4, np.eye(2))
-    with pytest.raises(ValueError, match="R of step 0 is not positive definite"):
+    with pytest.raises(ValueError, match=r"^R is not positive definite"):
         with_wrong_noise(CV, [0], 10, 4, [[0]])
 
 

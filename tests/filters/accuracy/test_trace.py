@@ -137,7 +137,8 @@ def test_the_spread_of_a_record() -> None:
         ({"Phi": [1, 2]}, "Phi has shape .*needed is a matrix, or one for each step"),
         ({"Q": np.eye(3)}, r"Q has shape \(3, 3\), needed is \(2, 2\)"),
         ({"sensors": {"radar": ([[1, 0, 0]], [[1]])}}, r"H of radar has shape \(1, 3\), needed is \(1, 2\)"),
-        ({"sensors": {"radar": ([[1, 0]], [[0]])}}, "R of step 0 is not positive definite"),
+        ({"sensors": {"radar": ([[1, 0]], [[0]])}}, "R of radar is not positive definite"),
+        ({"sensors": {"radar": ([[1, 0]], [[[1]], [[0]]])}}, "R of radar of step 1 is not positive definite"),
         ({"outputs": [2]}, "give numbers of states, from 0 to 1"),
     ],
 )

@@ -176,10 +176,17 @@ def test_each_method_can_be_asked_for(sched_sim: Run) -> None:
     [
         ("-N 10 -M 4", ["--model is missing", MODELS]),
         ("--model nix", ["--model 'nix' is unknown", "ins-gps", "package.module:function"]),
-        ("--model mine:gone -N 10 -M 4 --output 0", ["--model 'mine:gone'", "no function 'gone'"]),
+        (
+            "--model mine:gone -N 10 -M 4 --output 0",
+            ["--model 'mine:gone'", "(mine.py) has no function 'gone': it has"],
+        ),
+        ("--model mine:hovers -N 10 -M 4 --output 0", ["no function 'hovers': did you mean hover?"]),
         ("--model mine:nothing -N 10 -M 4 --output 0", ["--model 'mine:nothing'", "returned a int"]),
-        ("--model mine:fails -N 10 -M 4 --output 0", ["--model 'mine:fails'", "the battery is flat"]),
-        ("--model mine:singular -N 10 -M 4 --output 0", ["--model 'mine:singular'", "R", "not positive definite"]),
+        (
+            "--model mine:fails -N 10 -M 4 --output 0",
+            ["--model 'mine:fails'", "RuntimeError: the battery is flat (mine.py, line"],
+        ),
+        ("--model mine:singular -N 10 -M 4 --output 0", ["--model 'mine:singular'", ": R is not positive definite"]),
         ("--model mine:nan -N 10 -M 4 --output 0", ["--model 'mine:nan'", "Phi", "not finite", "give numbers"]),
         ("--model mine:infinite_system -N 10 -M 4 --output 0", ["--model 'mine:infinite_system'", "not finite"]),
         ("--model mine:wrong_shape -N 10 -M 4 --output 0", ["--model 'mine:wrong_shape'", "H has shape (1, 3)"]),

@@ -191,7 +191,7 @@ def test_the_figure_is_the_same_every_time(sched_sim: Run, tmp_path: Path, kind:
         (f"--within 1 {INS} --method kalman", ["--method 'kalman' is unknown"]),
         (f"--within 1 {INS} --method clone-split --costs steffes2014", ["steffes2014", "none of clone-split"]),
         (f"--within 1 {INS} --motion 1,2", ["--motion 1,2", "measures 3"]),
-        (f"--within 1 {INS} --processor nix", ["processor 'nix' not found"]),
+        (f"--within 1 {INS} --processor nix", ["--processor 'nix' not found: give one of"]),
         (f"--within 1 {INS} --costs steffes2014 --processor leon3", ["--processor needs counted", "steffes2014"]),
         (f"--within 1 {INS} --costs steffes2014 --costs counted-9-3-3", ["--costs", "tables of one unit"]),
         ("--within 5 --model mine:cv -N 10 -M 4 --output 0 --processor leon3", ["--processor without --hr-hz"]),

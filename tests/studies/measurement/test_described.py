@@ -91,7 +91,10 @@ def test_sensors_need_no_entry_where_a_file_has_their_costs(folder: Path) -> Non
         (('"gps"\n', '"gps"\ndropout = 0.2\n'), "dropout = 0.2 and the filter's dropout = 0.1 do not agree"),
         (('"gps"', '"gsp"'), "sensor 'gsp': it is none of the filter's, which are gps, camera, radio: give the name"),
         (("hr_hz = 400", "hr_hz = 100"), "hr_hz = 100 and the filter's dt = 0.0025 (400 Hz) do not agree: mend the"),
-        (("craft:vehicle", "craft:car"), "filter 'craft:car': module 'craft' has no function 'car'; name a"),
+        (
+            ("craft:vehicle", "craft:car"),
+            "module 'craft' (craft.py) has no function 'car': it has vehicle, of_any_rate, nothing; name a",
+        ),
         (("craft:vehicle", "craft:nothing"), "filter 'craft:nothing': nothing() returned a NoneType; name a"),
         (("craft:vehicle", "car:car"), "filter 'car:car': module 'car' cannot be imported"),
         (("craft:vehicle", "craft"), 'as in filter = "mymodule:my_filter" for a file mymodule.py in the folder of'),

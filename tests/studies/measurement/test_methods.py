@@ -183,18 +183,18 @@ def test_the_user_may_give_a_typical_state() -> None:
         ("not_there:car", "'not_there' cannot be imported"),
         ("own_system:truck", "has no function 'truck'"),
         ("own_system:number", "returned a int"),
-        ("own_system:raising", r"raising\(\) failed: boom"),
+        ("own_system:raising", r"raising\(\) failed: RuntimeError: boom \(own_system.py, line 13\)"),
         ("own_system:wrong_shape", r"F\(j, x, u, p\) has shape \(3, 3\); needed is \(2, 2\)"),
         ("own_system:returning", r"f\(j, x, u, p, out\) does not write out\[0\]; it must write all of out"),
         ("own_system:of_lists", r"Q\(j, p\) returns a list; needed is an array of numbers of shape \(2, 2\)"),
         ("own_system:not_finite", r"H\(k, x, p\) is not finite.*return \(system, x0\)"),
-        ("own_system:noiseless", "R of step 0 is not positive definite: its smallest eigenvalue is 0; give each"),
+        ("own_system:noiseless", r"R\(k, p\) is not positive definite: its smallest eigenvalue is 0; give each"),
         ("own_system:lopsided", r"Q\(j, p\) is not symmetric, so it is no covariance"),
         ("own_system:negative", r"Q\(j, p\) is no covariance: its smallest eigenvalue is -1"),
-        ("own_system:failing", r"Q\(j, p\) failed: IndexError"),
+        ("own_system:failing", r"Q\(j, p\) failed: IndexError: .* \(own_system.py, line \d+\)"),
         ("own_system:moving", r"h\(k, x, p, out\) changes x, which is not its own"),
         ("own_system:imaginary", "the typical state is no array of numbers: it is complex"),
-        ("own_system:wrong", r"wrong\(\) failed: linear_system: Phi"),
+        ("own_system:wrong", r"wrong\(\) failed: ValueError: linear_system: Phi"),
     ],
 )
 def test_what_is_wrong_with_a_users_system_is_named(name: str, said: str) -> None:
@@ -207,7 +207,7 @@ def test_a_users_system_without_measurement_noise_ends_with_code_2(sched_sim: Ru
     (tmp_path / "own_system.py").write_text(OWN_SYSTEM)
     result = sched_sim("measure --system own_system:noiseless --backend counted")
     assert result.code == 2
-    assert "R of step 0 is not positive definite" in " ".join(result.err.split())
+    assert "R(k, p) is not positive definite" in " ".join(result.err.split())
 
 
 def test_a_system_without_inputs_is_measured(sched_sim: Run, tmp_path: Path) -> None:

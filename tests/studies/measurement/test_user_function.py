@@ -33,8 +33,10 @@ from studies.measurement.user_function import returned_by
         ("class Mute(Exception):\n    def __str__(self): 1 / 0\ndef made(): raise Mute", r"made\(\) failed: Mute"),
         ("class Own(BaseException): ...\ndef made(): raise Own", r"made\(\) failed: Own"),
         ("made = 3", r"\(own_function.py\) has no function 'made': made is a int there, and it has none; how"),
-        ("from math import sin\ndef mode(): ...\ndef _made(): ...\nclass Other: ...",
-         r"\(own_function.py\) has no function 'made': did you mean mode\? it has mode, Other; how"),
+        (
+            "from math import sin\ndef mode(): ...\ndef _made(): ...\nclass Other: ...",
+            r"\(own_function.py\) has no function 'made': did you mean mode\? it has mode, Other; how",
+        ),
     ],
 )
 def test_what_it_does_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, code: str, said: str) -> None:
