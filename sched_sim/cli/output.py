@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import os
 import sys
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal
@@ -18,7 +19,7 @@ Row = Mapping[str, Any]
 Format = Literal["table", "json", "csv"]
 
 UNBOUNDED = 10**6
-"""Columns of a file or a pipe."""
+"""Columns of a file or a pipe, unless COLUMNS says how many."""
 
 PLURALS = {"standard step": "standard steps", "second": "seconds", "operation": "operations"}
 
@@ -45,8 +46,9 @@ def print_csv(rows: Sequence[Row]) -> None:
 
 def print_table(title: str, rows: Sequence[Row], note: str = "") -> None:
     """Columns are the rows' keys; numbers are aligned right. A table that goes into a file or a pipe is as wide as it
-    needs to be. In a terminal that is too narrow, headings wrap, then the least important columns are left out, which a
-    line below says; where that is not enough, each row is a list of its own."""
+    needs to be, or at most as wide as the variable COLUMNS says. Where there is too little room, headings wrap, then
+    the least important columns are left out, which a line below says; where that is not enough, each row is a list of
+    its own."""
     from rich.console import Console
     from rich.text import Text
 
@@ -54,7 +56,7 @@ def print_table(title: str, rows: Sequence[Row], note: str = "") -> None:
 
     console = Console()
     if not console.is_terminal:
-        console.width = UNBOUNDED
+        console.width = asked_width() or UNBOUNDED
     console.print(_text(visible(title), "bold"))
     columns = [_column(key, [row[key] for row in rows]) for key in rows[0]]
     columns[0] = columns[0]._replace(words=False)  # names
@@ -68,11 +70,20 @@ def print_table(title: str, rows: Sequence[Row], note: str = "") -> None:
     else:
         console.print(found.table)
         if found.left_out:
-            note = lines(
-                f"left out, as the terminal is narrow: {', '.join(found.left_out)}; --format json has all", note
-            )
+            narrow = "the terminal is narrow" if console.is_terminal else f"COLUMNS is {console.width}"
+            note = lines(f"left out, as {narrow}: {', '.join(found.left_out)}; --format json has all", note)
     if note:
         console.print(_text("\n".join(map(visible, note.split("\n")))))
+
+
+def asked_width() -> int | None:
+    """What the variable COLUMNS says; None where it says no number of columns."""
+    said = os.environ.get("COLUMNS", "")
+    return int(said) or None if said.isascii() and said.isdigit() and len(said) < MOST_DIGITS else None
+
+
+MOST_DIGITS = 7
+"""Of COLUMNS."""
 
 
 def _column(heading: str, values: Sequence[Any]) -> Column:

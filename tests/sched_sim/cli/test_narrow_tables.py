@@ -71,8 +71,23 @@ def test_each_row_is_a_list_where_no_table_fits(terminal: Run) -> None:
     assert "left out" not in out
 
 
-def test_a_table_into_a_pipe_is_as_wide_as_it_needs_to_be(sched_sim: Run, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("COLUMNS", "40")
+@pytest.mark.parametrize("columns", [None, "", "0", "-80", "wide", "9" * 30])
+def test_a_table_into_a_pipe_is_as_wide_as_it_needs_to_be(
+    sched_sim: Run, monkeypatch: pytest.MonkeyPatch, columns: str | None
+) -> None:
+    monkeypatch.delenv("COLUMNS")
+    if columns is not None:
+        monkeypatch.setenv("COLUMNS", columns)
     out = sched_sim(f"simulate --scenario {ROCKET}").out
     assert "left out" not in out
     assert re.search(r"job +jobs +finished +min +mean +median +p95 +p99 +max +missed +P\(miss\) +95 % interval", out)
+
+
+@pytest.mark.parametrize("columns", [60, 80, 120])
+def test_a_table_into_a_pipe_is_no_wider_than_asked_for(
+    sched_sim: Run, monkeypatch: pytest.MonkeyPatch, columns: int
+) -> None:
+    monkeypatch.setenv("COLUMNS", str(columns))
+    out = sched_sim("simulate -N 10 -M 4 --speed 1.2 --hr-hz 400").out
+    assert max(map(len, out.splitlines())) <= columns
+    assert ("left out, as COLUMNS is 60: preempted" in out) == (columns == 60)
