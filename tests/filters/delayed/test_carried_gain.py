@@ -119,7 +119,6 @@ def test_a_track_at_constant_velocity_with_two_on_their_way() -> None:
     assert np.sqrt(P[-20:, 0, 0].max()) == pytest.approx(8.5345602732, abs=5e-11)
 
 
-@pytest.mark.slow
 @pytest.mark.exhaust
 def test_compiled_it_is_the_same() -> None:
     of = problem(example_system(4, 2, 2, seed=5), 2, 5, 5, 17, seed=2)

@@ -9,7 +9,6 @@ from filters.modular import Sensor, linear_corrector, run
 from tests.filters.modular.cases import H_POSITION, R_POSITION, linear_case, measured
 
 
-@pytest.mark.slow
 @pytest.mark.exhaust
 def test_compiled_equals_reference() -> None:
     """A sensor that measures late at times, so that its corrections are also carried over others of its own."""

@@ -206,7 +206,6 @@ def test_parts_whose_functions_make_new_arrays_are_named() -> None:
     assert parts_note({"allocations": {"predict": 0}}) == parts_note({}) == ""
 
 
-@pytest.mark.slow
 @pytest.mark.exhaust
 def test_a_function_that_cannot_be_compiled_is_named_with_its_line(sched_sim: Run) -> None:
     said = ["predict cannot be compiled by numba", "own_filter.py, line", '"%.3f" % x[0]']
