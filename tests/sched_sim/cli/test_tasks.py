@@ -1,0 +1,120 @@
+"""Tasks beside the filter, on the command line: `--tasks`."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from tests.command_line import Run, is_refused
+
+DESIGN = "-N 10 -M 4 -L 8 --costs steffes2014"
+
+
+def test_user_tasks_take_part(sched_sim: Run, tmp_path: Path) -> None:
+    (tmp_path / "tasks.toml").write_text('[[task]]\nname = "control"\nperiod = 2\ncost = 0.1\npriority = 5\n')
+    alone = json.loads(sched_sim(f"minimum {DESIGN} --format json").out)[-1]
+    shared = json.loads(sched_sim(f"minimum {DESIGN} --format json --tasks tasks.toml").out)[-1]
+    assert shared["min_speed"] == pytest.approx(alone["min_speed"] + 0.2 / 4)  # twice in the four steps from m to l
+
+
+def test_with_tasks_the_landing_is_the_simulated_one_and_too_few_cycles_are_told(
+    sched_sim: Run, tmp_path: Path
+) -> None:
+    """Two tasks that meet the measurements only after 91 cycles: three cycles do not show it all, of misses either."""
+    task = '[[task]]\nname = "{}"\nperiod = {}\ncost = 0.1\npriority = {}\n'
+    task += "offset = 0\n"
+    (tmp_path / "tasks.toml").write_text(task.format("a", 7, 5) + task.format("b", 13, 15))
+    line = "-N 10 -M 4 --method larsen --tasks tasks.toml --format json"
+    assert json.loads(sched_sim(f"minimum {line} --hr-hz 400").out)[0]["correction_ms_at_min_speed"] == 10.0
+    assert "with these tasks all is seen after 91: --cycles 91" in sched_sim(f"simulate {line} --speed 1.8").err
+    (tmp_path / "tasks.toml").write_text(task.format("c", 11, 5))  # first released with the update of m in step 44
+    later = sched_sim(f"simulate {line} --speed 1.56")
+    assert json.loads(later.out)["misses"] == 0
+    assert "a deadline is missed within 7: --cycles 7" in later.err
+
+
+def test_a_simulation_says_where_tasks_of_any_phase_are_released_and_what_may_be_late_elsewhere(
+    sched_sim: Run, tmp_path: Path
+) -> None:
+    """At 1.26 only the step of the correction is full, and at 1.25 late where the task meets it: not at step 0."""
+    task = '[[task]]\nname = "control"\nperiod = 4\ncost = 0.6\npriority = 5\n'
+    (tmp_path / "tasks.toml").write_text(task)
+    line = "simulate -N 40 -M 13 --method {} --tasks tasks.toml"
+    full = sched_sim(line.format("larsen"))
+    assert full.err == (
+        "Note: tasks of any phase are released together at step 13, the worst for the job with the least slack, not "
+        "for the landing\n"
+    )
+    late = sched_sim(line.format("dual-rate --speed 1.25")).err.splitlines()
+    assert late[0].startswith("Note: tasks of any phase are released together at step ")
+    assert late[1:] == ["Note: at another phase of the tasks one HR job may be late"]
+    (tmp_path / "tasks.toml").write_text(task + "jitter = 1\n")
+    waits = sched_sim(line.format("larsen --format json"))
+    load = (0.45 * 40 + 0.21 * 12 + 0.81) / 40 + 0.6 / 4
+    speed = json.loads(waits.out)["speed"]
+    assert "; control: with jitter, and not released before: the processor is busy for less than the load" in waits.err
+    assert waits.err.endswith(f", {100 * load / speed:.3g} %\n")
+
+
+@pytest.mark.parametrize(("priority", "blocks"), [(30, True), (10, False), (5, False)])
+def test_a_task_that_nothing_interrupts_would_block_from_just_before(
+    sched_sim: Run, tmp_path: Path, priority: int, blocks: bool
+) -> None:
+    """At one instant the HR job goes first, and a task that is as urgent, or more, delays it as it is."""
+    task = f'[[task]]\nname = "flash"\nperiod = 40\ncost = 0.6\npriority = {priority}\npreemptive = false\n'
+    (tmp_path / "tasks.toml").write_text(task)
+    line = "-N 40 -M 13 --method larsen --speed 2.07 --tasks tasks.toml"
+    said = "; flash: not preemptive, and would block more if released just before\n"
+    assert sched_sim(f"simulate {line}").err.endswith(said) == blocks
+    drawn = sched_sim("gantt -N 40 -M 13 --speed 2.07 --tasks tasks.toml").err
+    assert drawn.count(said) == (2 if blocks else 0)
+    assert drawn.count("the worst for the job with the least slack, not for the landing") == 2
+
+
+@pytest.mark.parametrize(
+    ("entry", "line", "said"),
+    [
+        ("cost_us = 1\ncpu = 2", "minimum -N 40 -M 13 --processor leon3 --hr-hz 400", "task 't': cpu 2 is not there"),
+        ("cost_us = 1\ncpu = 2", "simulate -N 40 -M 13 --processor leon3 --hr-hz 400", "task 't': cpu 2 is not there"),
+        ("cost_ms = 40", "processors -N 40 -M 13 --hr-hz 400", "task 't' alone needs 400 % of the processor"),
+        (
+            "cost_us = 1\noffset_ms = 1e10",
+            "minimum -N 40 -M 13 --processor leon3 --hr-hz 400",
+            "task 't': offset 4e+09 is more than the 200000 HR periods that are simulated: give one below its period, "
+            "4 (an HR period is 2.5 ms)",
+        ),
+        ("cost_ms = 40\noffset_ms = -1", "processors -N 40 -M 13 --hr-hz 400", "task 't': offset_ms = -1 must be 0"),
+    ],
+)
+def test_what_is_wrong_with_a_task_is_said_with_its_file_once(
+    sched_sim: Run, tmp_path: Path, entry: str, line: str, said: str
+) -> None:
+    (tmp_path / "board.toml").write_text(f'[[task]]\nname = "t"\nhz = 100\npriority = 5\n{entry}\n')
+    result = sched_sim(f"{line} --tasks board.toml")
+    is_refused(result, [f"Error: --tasks 'board.toml': {said}"])
+    assert result.err.count("board.toml") == 1
+
+
+def test_tasks_whose_periods_hardly_ever_meet_the_measurements_can_be_simulated(sched_sim: Run, tmp_path: Path) -> None:
+    """Only the search for the least speed needs the schedule to repeat, and only where their phase is given."""
+    odd = '[[task]]\nname = "odd"\nperiod = 3.141592653\ncost = 0.1\npriority = 30\n'
+    (tmp_path / "odd.toml").write_text(odd)
+    assert sched_sim("minimum -N 10 -M 4 --tasks odd.toml").code == 0
+    assert "not all is seen" not in sched_sim("simulate -N 10 -M 4 --speed 0.9 --tasks odd.toml").err
+    (tmp_path / "odd.toml").write_text(f"{odd}offset = 0\n")
+    simulated = sched_sim("simulate -N 10 -M 4 --speed 0.9 --tasks odd.toml")
+    assert simulated.code == 0
+    assert "not all is seen" in simulated.err
+    refused = sched_sim("minimum -N 10 -M 4 --tasks odd.toml")
+    assert refused.code == 2
+    assert "odd 3.14159" in refused.err
+
+
+def test_a_job_that_is_not_due_yet_is_not_said_to_be_missed(sched_sim: Run, tmp_path: Path) -> None:
+    (tmp_path / "t.toml").write_text('[[task]]\nname = "slow"\nperiod = 1000\ncost = 300\npriority = 30\n')
+    result = sched_sim("simulate -N 4 -M 0 --method larsen --speed 1.5 --tasks t.toml")
+    slow = next(line for line in result.out.splitlines() if "task:slow" in line)
+    assert slow.split()[:5] == ["task:slow", "1", "-", "-", "0"]
+    assert "past their deadline they are missed" in result.out
