@@ -218,7 +218,7 @@ def test_a_function_that_cannot_be_compiled_is_named_with_its_line(sched_sim: Ru
         ("own_filter", "name a function"),
         ("not_there:cart", "'not_there' cannot be imported"),
         ("own_filter:truck", "has no function 'truck'"),
-        ("own_filter:raising", r"raising\(\) failed: boom"),
+        ("own_filter:raising", r"raising\(\) failed: RuntimeError: boom \(.*own_filter\.py, line \d+\)"),
         ("own_filter:number", r"number\(\) returned a int; name a function"),
         ("own_filter:too_many", r"returned \(ModularFilter, NoneType, NoneType, NoneType, NoneType\)"),
         ("own_filter:radar", r"sensor 'radar': h\(x, out\).*finite.*x = \[0.0, 0.0\].*return \(filter, x0, P0, u\)"),
