@@ -170,7 +170,10 @@ def test_parts_are_compared(sched_sim: Run, tmp_path: Path) -> None:
         ("--model models:hidden --output x=1:5", ["--output x=1:5", "not of this model, which has the states 0 to 1"]),
         ("--model models:hidden", ["--output is missing", "states 0 to 1"]),
         ("--model models:nothing --output 0", ["nothing() returned a NoneType", "SensorsModel"]),
-        ("--model models:fails --output 0", ["--model 'models:fails': fails() failed: ValueError: no file (models.py, line "]),
+        (
+            "--model models:fails --output 0",
+            ["--model 'models:fails': fails() failed: ValueError: no file (models.py, line "],
+        ),
         ("--model models:none --output 0", ["has no function 'none'"]),
         ("--model nope --output 0", ["--model 'nope' is unknown", "ins-gps"]),
         ("--output 0", ["--model is missing"]),
