@@ -29,3 +29,8 @@ def test_the_table_of_least_speeds_is_what_the_analysis_gives() -> None:
         assert by_counts == f"{float(least_speeds(counted, timing)[method].speed):.2f}"
         checked += 1
     assert checked == 7
+
+
+def test_it_is_a_front_door() -> None:
+    """Under 150 lines: what is longer has a page of its own."""
+    assert len((ROOT / "README.md").read_text(encoding="utf-8").splitlines()) < 150
