@@ -61,7 +61,9 @@ def check_history(
     if broken is None:
         if x_reference is not None:
             reference = Estimate(x_reference, history.P_reference)
-            check_rounding(problem.system, history.x, reference, history.gains, problem.inputs, every, 1, remedy)
+            check_rounding(
+                problem.system, history.x, reference, history.gains, problem.inputs, every, 1, remedy, backend
+            )
         lost = ~problem.measured.present[: len(history.innovations)]
         return history._replace(innovations=np.where(lost, np.nan, history.innovations))
     since = range(max(0, broken - 2 * every), broken + 1)

@@ -189,7 +189,7 @@ def run(
         recorder.state(x)
     remedy = sturdier(update, form)
     history = check_history(recorder.history(), None, problem, n, remedy, backend, coarse)
-    check_rounding(coarse, history.x, recorder.references(), n * np.array(gains), moves, n, n, remedy)
+    check_rounding(coarse, history.x, recorder.references(), n * np.array(gains), moves, n, n, remedy, backend)
     return history
 
 

@@ -9,10 +9,16 @@ Automatic Control 16, 1971).
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Any
+
 import numpy as np
 
 from filters.arrays import FloatArray
-from filters.records import Estimate
+from filters.backends.choose import BackendName, arguments_for, function_for
+from filters.kernels.dense import copy, matmul_transposed_narrow
+from filters.kernels.solve import cholesky
+from filters.records import Estimate, Workspace, new_workspace
 from filters.system import System
 from filters.systems.linear import is_linear
 
@@ -38,6 +44,7 @@ def check_rounding(
     every: int,
     stride: int,
     remedy: str,
+    backend: BackendName,
 ) -> None:
     """Raises ValueError, naming the step k, where P_{k^-} or the gain is no better than rounding.
 
@@ -48,7 +55,8 @@ def check_rounding(
     x (steps + 1, n): at the end of every step. reference: x_{k^-} (cycles, n) and P_{k^-} (cycles, n, n) of every so
     many steps. gains (updates, n, p): those of k. stride: steps over which F and Q of the system reach.
     """
-    if not _is_sharp(system, reference, every, len(gains)):
+    functions = (arguments_for(backend, part) for part in (system.H, system.R, system.parameters))
+    if not function_for(backend, is_sharp)(*functions, every, reference, len(gains), new_workspace(system)):
         return
     k = _first_outgrown(system, x, reference, gains, inputs, every, stride)
     if k is not None:
@@ -88,17 +96,34 @@ def _first_outgrown(
     return None
 
 
-def _is_sharp(system: System, reference: Estimate, every: int, updates: int) -> bool:
-    """Whether the noise of some combination of measurements is next to nothing beside what was expected of it."""
-    if updates == 0:
-        return False
-    steps = range(0, updates * every, every)
-    H = np.array([system.H(k, x, system.parameters) for k, x in zip(steps, reference.x, strict=False)])
-    R = np.array([system.R(k, system.parameters) for k in steps])
-    S = H @ reference.P[:updates] @ H.transpose(0, 2, 1) + R
-    deviations = np.sqrt(np.maximum(np.diagonal(S, axis1=1, axis2=2), np.finfo(np.float64).tiny))
-    noise = R / (deviations[:, :, np.newaxis] * deviations[:, np.newaxis])
-    return bool((np.linalg.eigvalsh(noise)[:, 0] < SHARP).any())
+def is_sharp(
+    H_at: Callable[..., FloatArray],
+    R_at: Callable[..., FloatArray],
+    parameters: Any,
+    every: int,
+    reference: Estimate,
+    updates: int,
+    work: Workspace,
+) -> bool:
+    """Whether the noise of some combination of measurements is next to nothing beside what was expected of it.
+
+    That is where R - SHARP diag(H P H^T + R) is not positive definite. Shapes as in `check_rounding`.
+    """
+    for c in range(updates):
+        k = c * every
+        H, R = H_at(k, reference.x[c], parameters), R_at(k, parameters)
+        matmul_transposed_narrow(reference.P[c], H, work.PHt)
+        copy(R, work.S)
+        for i in range(H.shape[0]):
+            expected = R[i, i]
+            for e in range(H.shape[1]):
+                expected += H[i, e] * work.PHt[e, i]
+            work.S[i, i] -= SHARP * expected
+        cholesky(work.S, work.S_inverse)
+        for i in range(H.shape[0]):
+            if not work.S_inverse[i, i] > 0.0:
+                return True
+    return False
 
 
 def _root(P: FloatArray) -> FloatArray:

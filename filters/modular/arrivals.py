@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from operator import attrgetter
-from typing import Literal, NamedTuple, TypeAlias
+from typing import Any, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -18,6 +18,7 @@ from filters.modular.space import Space, numbers_of_errors
 
 UNIT = 1e-2
 """How much the length of a quaternion may differ from one."""
+WHOLE = (int, np.integer)
 LAST = 2**62
 """Steps are kept in 64 bits."""
 
@@ -97,11 +98,6 @@ def arrivals(
     return chosen(Arrivals(sensor, taken, arrives, y, lost), here & ~old), dropped
 
 
-def last_arrival(measurements: Iterable[Measurement]) -> int:
-    """The step of the last arrival; 0 if there is none."""
-    return max((int(measurement.arrives) for measurement in in_order(measurements)), default=0)
-
-
 def in_order(measurements: Iterable[Measurement]) -> list[Measurement]:
     """By arrival. Raises ValueError unless they are measurements with whole steps."""
     wanted = "give a list of Measurement(sensor, taken, arrives, y)"
@@ -112,7 +108,7 @@ def in_order(measurements: Iterable[Measurement]) -> list[Measurement]:
         if type(item) is not Measurement:
             raise ValueError(f"measurements holds {item!r:.60}; {wanted}")
         for step in item[1:3]:
-            if not (isinstance(step, int | np.integer) and abs(int(step)) <= LAST):
+            if not (isinstance(step, WHOLE) and -LAST <= step <= LAST):
                 raise _unfit(item, f"steps must be whole numbers below {LAST}")
     return sorted(items, key=attrgetter("arrives"))
 
@@ -120,11 +116,11 @@ def in_order(measurements: Iterable[Measurement]) -> list[Measurement]:
 def _read(measurements: list[Measurement], sensor: Sensor) -> tuple[FloatArray, Flags]:
     """The y (any, numbers) of one sensor's measurements, without gaps, and what their errors have no number of."""
     observed = sensor.corrector.observed
-    measurements = [measurement._replace(y=without_mask(measurement.y)) for measurement in measurements]
-    values = _stacked(measurements, observed.numbers)
+    numbers = [without_mask(measurement.y) for measurement in measurements]
+    values = _stacked(measurements, numbers, observed.numbers)
     gone = np.zeros(values.shape, dtype=np.bool_)
     for row in np.flatnonzero(~np.isfinite(values).all(axis=1)):
-        gone[row] = [value is None for value in measurements[row].y]
+        gone[row] = [value is None for value in numbers[row]]
     values[gone] = 0.0
     wrong = ~np.isfinite(values).all(axis=1)
     _refuse(
@@ -145,24 +141,24 @@ def _read(measurements: list[Measurement], sensor: Sensor) -> tuple[FloatArray, 
     return values, gone[:, numbers_of_errors(observed)]
 
 
-def _stacked(measurements: list[Measurement], needed: int) -> FloatArray:
-    """Their y (any, needed), nan for None; raises ValueError, naming the first that is not as many numbers."""
+def _stacked(measurements: list[Measurement], numbers: list[Any], needed: int) -> FloatArray:
+    """Their numbers (any, needed), nan for None; raises ValueError, naming the first that has another count."""
     try:
-        values = as_floats([measurement.y for measurement in measurements])
+        values = as_floats(numbers)
     except (TypeError, ValueError, OverflowError):
         values = np.empty(0)
     if values.shape != (len(measurements), needed) and measurements:
-        raise _misshapen(measurements, needed)
+        raise _misshapen(measurements, numbers, needed)
     return values.reshape(len(measurements), needed)
 
 
-def _misshapen(measurements: list[Measurement], needed: int) -> ValueError:
-    """Names the first of them whose y is not as many numbers."""
-    for measurement in measurements:
+def _misshapen(measurements: list[Measurement], numbers: list[Any], needed: int) -> ValueError:
+    """Names the first of them that is not as many numbers."""
+    for measurement, y in zip(measurements, numbers, strict=True):
         try:
-            shape = as_floats(measurement.y).shape
+            shape = as_floats(y).shape
         except (TypeError, ValueError, OverflowError):
-            return _unfit(measurement, f"y is {measurement.y!r:.60}; its corrector needs an array of {needed} numbers")
+            return _unfit(measurement, f"y is {y!r:.60}; its corrector needs an array of {needed} numbers")
         if shape != (needed,):
             return _unfit(measurement, f"y has shape {shape}, its corrector needs {(needed,)}")
     raise AssertionError("all are as they should be")

@@ -43,6 +43,13 @@ def keep(composed: ModularFilter, estimate: Estimate) -> Estimate:
     return Estimate(estimate.x, kept)
 
 
+def restore(covariance: Callable[..., None], kept: FloatArray, scratch: FloatArray) -> None:
+    """In place of what was kept (any, n, n), the covariances; scratch is (n, n)."""
+    for i in range(kept.shape[0]):
+        copy(kept[i], scratch)
+        covariance(scratch, kept[i])
+
+
 def with_covariance(composed: ModularFilter, kept: Estimate) -> Estimate:
     """The estimate that is kept so."""
     P = np.empty_like(kept.P)

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from filters.backends.choose import BackendName
 from filters.choice import check_choice
 from filters.modular import carried_gain, dual_rate, larsen, recalculate
-from filters.modular.arrivals import TooOld, in_order, last_arrival
+from filters.modular.arrivals import TooOld, in_order
 from filters.modular.composition import ModularFilter, check_composed
 from filters.modular.history import ModularHistory
 from filters.modular.measurements import Measurement
@@ -63,9 +63,9 @@ def run(
         raise ValueError(f"L={L} goes with late='dual-rate'; late={late!r} corrects on arrival, leave it out")
     if too_old != "refuse" and late in ("larsen", "carried-gain"):
         raise ValueError(f"too_old={too_old!r}: for late={late!r} no measurement is too old, leave it out")
-    measurements = in_order(measurements)
     if inputs is None:
-        inputs = np.zeros((last_arrival(measurements), 0))
+        measurements = in_order(measurements)
+        inputs = np.zeros((max((int(each.arrives) for each in measurements), default=0), 0))
     if late == "larsen":
         return larsen.run(composed, x0, P0, inputs, measurements, backend=backend)
     if late == "carried-gain":

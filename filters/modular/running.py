@@ -15,7 +15,7 @@ from filters.modular.chain import chain
 from filters.modular.composition import ModularFilter
 from filters.modular.correctors import Corrector
 from filters.modular.history import Estimates, new_estimates
-from filters.modular.kept import kept_by
+from filters.modular.kept import kept_by, restore
 from filters.modular.prediction import prediction
 from filters.modular.space import NOTHING
 from filters.modular.workspace import new_workspace
@@ -61,7 +61,7 @@ def run_kernel(
         )
     if culprit != SOUND:
         raise breakdown(composed, culprit, step, failure, inputs[step - 1] if culprit == PREDICTOR else np.empty(0))
-    covariance = function_for(backend, kept.covariance)
-    for P in estimates.P:
-        covariance(P.copy(), P)
+    function_for(backend, restore)(
+        arguments_for(backend, kept.covariance), estimates.P, np.empty(estimates.P.shape[1:])
+    )
     return estimates
