@@ -44,11 +44,20 @@ def landing(costs: JobCosts, timing: Timing, speed: Fraction, options: Options) 
     """The L at which corrections come to land in the simulation, NOT_LANDED as `achieved_l` means it."""
     landings: list[int] = []
     schedule = simulate(costs, timing, speed, CYCLES, options, on_landing=lambda _cycle, L: landings.append(L))
-    last_legal = timing.N - 1 if options.feedback == "same-step" else timing.N
+    last_legal = timing.N - 1 if options.feedback == "same-step" else max(timing.N, timing.M)
     in_time = len(landings) == CYCLES and max(landings) <= last_legal
-    kinds = ("hr", "lr_propagate") if isinstance(costs, DelayedHorizonCosts) else ("hr",)
-    late = any(schedule.responses[kind].misses for kind in kinds if kind in schedule.responses)
-    return landings[-1] if in_time and not late else NOT_LANDED
+    if not in_time or schedule.responses["hr"].misses:
+        return NOT_LANDED
+    piles_up = isinstance(costs, DelayedHorizonCosts) and later_and_later(costs, timing, speed, options)
+    return NOT_LANDED if piles_up else landings[-1]
+
+
+def later_and_later(costs: JobCosts, timing: Timing, speed: Fraction, options: Options) -> bool:
+    """Whether what a cycle of the delayed horizon leaves undone grows from cycle to cycle."""
+    some, more = (
+        simulate(costs, timing, speed, cycles, options).responses.get("lr_propagate") for cycles in (CYCLES, 2 * CYCLES)
+    )
+    return some is not None and more is not None and more.worst_lateness > some.worst_lateness
 
 
 def legal_timings(costs: JobCosts, N: int, options: Options) -> list[Timing]:

@@ -47,10 +47,13 @@ class HorizonDemand(Generic[Whole]):
         """The update and c replayed steps, from m on."""
         return quotient(self._to_land + self.costs.replay * c, c - self.M, code)
 
+    def low_work(self, c: Whole) -> Whole:
+        """All LR work of a cycle that lands after c steps: more than N steps leave piles up."""
+        return self.costs.update + self.costs.replay * c + self.costs.propagate * self.N
+
     def cycle(self, c: Whole, code: int) -> Quotient[Whole]:
-        """All LR work of a cycle that lands after c steps."""
-        work = self.after_high + self.costs.update + self.costs.replay * c + self.costs.propagate * self.N
-        return quotient(work, self.N, code)
+        """That work, due N steps after m."""
+        return quotient(self.after_high + self.low_work(c), self.N, code)
 
     def crossing(self, L: Whole) -> Whole:
         """The first c from M + 1 on in which a cycle asks for no less than landing does; L if none before it."""
@@ -74,13 +77,14 @@ class HorizonDemand(Generic[Whole]):
         return largest(quotient(self.costs.predict + 0 * self.N, 1, hr), least)
 
     def landed(self, period: Whole, nowhere: int) -> Whole:
-        """The step, from k, in which corrections land at this HR period; `nowhere` if something is late, or none."""
+        """The step, from k, in which corrections land at this HR period; `nowhere` if an HR job is late, LR jobs pile
+        up, or none lands by N."""
         spare = period - self.beside
         slack = spare - self.costs.replay
-        c = larger(-(-(self._to_land + spare * self.M) // larger(slack, 1)), self.M + 1)
-        cycle = self.cycle(c, 0)
-        in_time = (slack > 0) & (period >= self.costs.predict) & (cycle.numerator <= spare * cycle.denominator)
-        return where(in_time & (c <= self.N), c, nowhere)
+        behind = self._to_land + spare * self.M
+        c = larger(-(-behind // larger(slack, 1)), self.M + 1)
+        keeps_up = (period >= self.costs.predict) & (self.low_work(c) <= spare * self.N)
+        return where(keeps_up & (c * slack >= behind) & (c <= self.N), c, nowhere)
 
 
 def _any(flags: bool | Flags) -> bool:

@@ -8,18 +8,22 @@ from itertools import pairwise
 from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
+from sched_sim.design.analysis import NOT_LANDED
 from sched_sim.design.least_speed import achieved_l, least_speed, staircase
 from sched_sim.design.options import Options
-from sched_sim.design.pieces import DualRateCosts
+from sched_sim.design.pieces import DelayedHorizonCosts, DualRateCosts
 from sched_sim.design.search import least_speed_by_simulation
 from sched_sim.design.simulate import simulate
 from sched_sim.design.timing import Timing
+from tests.agreement import landing
 from tests.designs import Design, designs, dual_rate_designs
 
 CYCLES = 4
 
 lands_at_once_or_later = Design(DualRateCosts(6, 1, 5, 1, 0, 1), Timing(6, 0, 6), Options())
 feedback_spills = Design(DualRateCosts(40, 40, 30, 5, 0, 20), Timing(9, 2, 6), Options(feedback="same-step"))
+horizon_piles_up = Design(DelayedHorizonCosts(1, 1, 1, 1), Timing(2, 0, 2), Options())
+horizon_is_late_and_keeps_up = horizon_piles_up._replace(options=Options(cpus=2))
 
 
 @settings(max_examples=400)
@@ -42,16 +46,29 @@ def test_no_speed_below_the_least_meets_every_deadline(design: Design, share: Fr
 
 
 @settings(max_examples=400)
+@example(horizon_piles_up, Fraction(33, 34))
+@example(horizon_is_late_and_keeps_up, Fraction(33, 34))
 @given(designs, st.fractions(Fraction(1, 4), 4, max_denominator=64))
 def test_achieved_l_agrees_at_random_speeds(design: Design, share: Fraction) -> None:
     costs, timing, options = design
     speed = least_speed(*design).speed * share
-    landings: list[int] = []
-    schedule = simulate(costs, timing, speed, CYCLES, options, on_landing=lambda _cycle, L: landings.append(L))
-    last_legal = timing.N - 1 if options.feedback == "same-step" else max(timing.N, timing.M)
-    in_time = len(landings) == CYCLES and max(landings) <= last_legal
-    overruns = schedule.responses["hr"].misses > 0
-    assert achieved_l(costs, timing, speed, options) == (landings[-1] if in_time and not overruns else None)
+    simulated = landing(costs, timing, speed, options)
+    assert achieved_l(costs, timing, speed, options) == (None if simulated == NOT_LANDED else simulated)
+
+
+def test_a_delayed_horizon_that_is_late_on_its_own_processor_lands_if_the_next_cycle_finds_nothing_left() -> None:
+    """LR work of 1 + 2 + 2 at 99/34 a step begins when the HR job of k, 1, is done: late by 6/99 of a step, before
+    the HR job of the next k is done. On one processor each cycle leaves more."""
+    costs, timing, shared, separate = *horizon_piles_up, Options(cpus=2)
+    speed = Fraction(99, 34)
+    schedule = simulate(costs, timing, speed, 100, separate)
+    assert schedule.achieved == {2: 100}
+    assert schedule.responses["lr_propagate"].misses == 100
+    assert Fraction(schedule.responses["lr_propagate"].worst_lateness, schedule.period) == Fraction(6, 99)
+    assert achieved_l(costs, timing, speed, separate) == 2
+    slower = least_speed(costs, timing, shared).speed * Fraction(33, 34)
+    assert max(simulate(costs, timing, slower, 100, shared).achieved) > 2
+    assert achieved_l(costs, timing, slower, shared) is None
 
 
 def every_faster_processor_does(design: Design) -> bool:
