@@ -7,12 +7,13 @@ from dataclasses import replace
 from fractions import Fraction
 from itertools import count
 from math import ceil
+from typing import NamedTuple
 
 from sched_sim.design.load import loads
 from sched_sim.design.methods import method_of
 from sched_sim.design.options import Options
 from sched_sim.design.phased import Phased, ceiling, phased
-from sched_sim.design.pieces import Costs, DelayedHorizonCosts, StandardCosts
+from sched_sim.design.pieces import Costs, DelayedHorizonCosts, DualRateCosts, StandardCosts
 from sched_sim.design.search import search_resolution
 from sched_sim.design.timing import Timing
 from sched_sim.design.worst_demand import overloaded
@@ -66,6 +67,23 @@ def late_job(costs: Costs, timing: Timing, speed: Fraction, options: Options, ta
 
     Raises InputError for earliest deadline first on two processors, and for tasks that release too many jobs.
     """
+    return _settled(costs, timing, speed, options, tasks).late
+
+
+def worst_landing(costs: Costs, timing: Timing, speed: Fraction, options: Options, tasks: Sequence[Task]) -> int | None:
+    """The L at which corrections have landed at any phase; None where something may be late. Raises as `late_job`."""
+    settled = _settled(costs, timing, speed, options, tasks)
+    return _landed(costs, timing, settled.design) if settled.late is None else None
+
+
+class Settled(NamedTuple):
+    """A design whose work is that of where it lands; late: as `late_job` says it."""
+
+    design: Phased
+    late: str | None
+
+
+def _settled(costs: Costs, timing: Timing, speed: Fraction, options: Options, tasks: Sequence[Task]) -> Settled:
     if options.policy == "edf" and options.cpus == 2:
         name = next(task.name for task in tasks if phases_matter([task]))
         raise InputError(
@@ -73,37 +91,59 @@ def late_job(costs: Costs, timing: Timing, speed: Fraction, options: Options, ta
             f"two processors: give each task an offset, and no jitter, or choose {option('policy')} fixed"
         )
     check_simulation(timing.N, tasks, f"the {timing.N} HR periods of a measurement cycle", MOST_JOBS_OF_A_CYCLE)
-    return _late_of_all(_settled(costs, timing, speed, options, tasks), timing, speed, options, tasks)
+    if isinstance(costs, DelayedHorizonCosts):
+        return _replayed(costs, timing, speed, options, tasks)
+    if isinstance(costs, DualRateCosts) and options.policy == "fixed":
+        return _corrected(costs, timing, speed, options, tasks)
+    design = phased(costs, timing, speed, options, tasks)
+    return Settled(design, _late_of_all(costs, timing, speed, options, tasks, design))
 
 
-def worst_landing(costs: Costs, timing: Timing, speed: Fraction, options: Options, tasks: Sequence[Task]) -> int | None:
-    """The L at which corrections have landed at any phase; None where something may be late."""
-    if late_job(costs, timing, speed, options, tasks) is not None:
-        return None
-    costs = _settled(costs, timing, speed, options, tasks)
-    return _landed(costs, timing, phased(costs, timing, speed, options, tasks))
-
-
-def _settled(costs: Costs, timing: Timing, speed: Fraction, options: Options, tasks: Sequence[Task]) -> Costs:
+def _replayed(
+    costs: DelayedHorizonCosts[Fraction], timing: Timing, speed: Fraction, options: Options, tasks: Sequence[Task]
+) -> Settled:
     """Of a delayed horizon, which replays the longer the later it lands, as much in the update as its first landing
     needs that is no later than what is replayed for it."""
-    if not isinstance(costs, DelayedHorizonCosts):
-        return costs
     landed = timing.M + 1
     while True:
         replayed = replace(costs, update=costs.update + landed * costs.replay, replay=Fraction(0))
-        if _late_of_all(replayed, timing, speed, options, tasks) is not None:
-            return replayed
-        lands = _landed(replayed, timing, phased(replayed, timing, speed, options, tasks))
-        if lands <= landed:
-            return replayed
+        design = phased(replayed, timing, speed, options, tasks)
+        late = _late_of_all(replayed, timing, speed, options, tasks, design)
+        if late is not None or (lands := _landed(replayed, timing, design)) <= landed:
+            return Settled(design, late)
         landed = lands
 
 
-def _late_of_all(costs: Costs, timing: Timing, speed: Fraction, options: Options, tasks: Sequence[Task]) -> str | None:
+def _corrected(
+    costs: DualRateCosts[Fraction], timing: Timing, speed: Fraction, options: Options, tasks: Sequence[Task]
+) -> Settled:
+    """Of the dual-rate filter with fixed priorities: corrections come in no step before that in which they do with
+    nothing beside the filter, and in none after the first in which none comes later if they come no later (K. Tindell
+    and J. Clark, Holistic schedulability analysis for distributed hard real-time systems, 1994)."""
+    design = phased(costs, timing, speed, options, tasks)
+    first = last = _first_correction(costs, timing, speed, options)
+    while True:
+        between = design._replace(cycle=design.cycle._replace(first=first, last=last))
+        late = _late_of_all(costs, timing, speed, options, tasks, between)
+        if late is not None or (lands := _landed(costs, timing, between)) <= last:
+            return Settled(between, late)
+        last = lands
+
+
+def _first_correction(costs: DualRateCosts[Fraction], timing: Timing, speed: Fraction, options: Options) -> int:
+    """The step, after k, in which it comes where neither tasks nor corrections nor context switches delay it; L if that
+    is too late."""
+    uncorrected, at_once = replace(costs, hr_update=Fraction(0)), replace(options, context_switch=Fraction(0))
+    alone = phased(uncorrected, timing, speed, at_once, ())
+    return timing.L if _late(alone)[0] else _step_done(alone, alone.cycle.low[-1].kind)
+
+
+def _late_of_all(
+    costs: Costs, timing: Timing, speed: Fraction, options: Options, tasks: Sequence[Task], design: Phased
+) -> str | None:
     if max(loads(costs, timing, speed, options, tasks)) > 1:
         return LOAD
-    kind, held = _late(phased(costs, timing, speed, options, tasks))
+    kind, held = _late(design)
     if kind is None or kind == LOAD or kind.startswith("task:"):
         return kind
     return method_of(costs).binding(kind, held, timing, options)
@@ -115,10 +155,14 @@ def _landed(costs: Costs, timing: Timing, design: Phased) -> int:
         return 0 if isinstance(costs, StandardCosts) else timing.M
     if design.options.policy == "edf":
         return timing.L
-    low = design.cycle.low[design.cycle.landing]
-    found = [each for each in finishes(design) if each.kind in (low.kind, "hr_update")][-1]
-    steps = int((ceiling(found.at - found.due, design.period) + low.due).max())
-    return steps - design.cycle.apart
+    return _step_done(design, "hr_update" if design.cycle.apart else design.cycle.low[design.cycle.landing].kind)
+
+
+def _step_done(design: Phased, kind: str) -> int:
+    """The step, after k, in which what these jobs compute is in the state."""
+    found = next(each for each in finishes(design) if each.kind == kind)
+    due = design.cycle.low[design.cycle.landing].due
+    return int((ceiling(found.at - found.due, design.period) + due).max()) - design.cycle.apart
 
 
 def _late(design: Phased) -> tuple[str | None, bool]:

@@ -10,7 +10,7 @@ from math import ceil
 from random import Random
 
 import pytest
-from hypothesis import given, seed, settings
+from hypothesis import example, given, seed, settings
 from hypothesis import strategies as st
 
 from sched_sim.costs.table_file import load_costs
@@ -195,17 +195,32 @@ def test_something_is_on_two_thousand_designs(number: int, record_property: Call
     assert found[False] <= 0.15 * examples + 1
 
 
+restart_is_no_landing = Design(DualRateCosts(1, 2, 1, 1, 0, 1), Timing(2, 0, 2), Options(cpus=2))
+lands_before_l = Design(DualRateCosts(1, 3, 2, 1, 0, 2), Timing(3, 0, 3), Options())
+
+
 @settings(max_examples=200)
+@example(restart_is_no_landing)
+@example(lands_before_l)
 @given(designs)
 def test_without_tasks_it_is_the_closed_form(design: Design) -> None:
-    """With next-step feedback, but where it lands before L and M = 0 or L = N: there a correction in another step than
-    its own may take more, and it counts in every step up to L."""
+    """With next-step feedback; a correction that is its own job counts from the start of its step on."""
     costs, timing, options = design
     speed = least_speed(costs, timing, options).speed
     assert late_job(costs, timing, speed * Fraction(9999, 10000), options, ()) is not None
-    elsewhere = achieved_l(costs, timing, speed, options) != timing.L and (timing.M == 0 or timing.L == timing.N)
-    if options.feedback == "next-step" and not (elsewhere and isinstance(costs, DualRateCosts)):
+    if options.feedback == "next-step":
         assert late_job(costs, timing, speed, options, ()) is None
+        assert worst_landing(costs, timing, speed, options, ()) == achieved_l(costs, timing, speed, options)
+
+
+def test_corrections_count_in_no_step_but_those_in_which_they_may_come() -> None:
+    """They land in step k + 2 = k, of 1 + 1; the HR job of step k + 1 is 2 alone. A task of 1
+    and of the least priority, on the other processor, changes nothing."""
+    costs, timing, options = restart_is_no_landing
+    task = Task("log", Fraction(4), Fraction(1), 30, cpu=2)
+    assert least_speed(costs, timing, options).speed == 2
+    assert late_job(costs, timing, Fraction(2), options, [task]) is None
+    assert worst_landing(costs, timing, Fraction(2), options, [task]) == 2
 
 
 CONTROL = Task("control", Fraction(4), Fraction("0.6"), 5)
