@@ -67,7 +67,7 @@ class Carried(HrSource):
 
     def _landed(self, job: Job, now: int) -> tuple[Job, ...]:
         k = job.step - self.M
-        self.on_landing(k // self.N, step_at(now, self.period) - k)
+        self.on_landing(k // self.N, max(step_at(now, self.period), job.step) - k)
         return ()
 
 

@@ -138,7 +138,7 @@ class DualRate(HrSource):
 
     def _landed(self, job: Job, now: int) -> tuple[Job, ...]:
         self.in_state += 1
-        self.on_landing(job.step // self.N, step_at(now, self.period) - job.step)
+        self.on_landing(job.step // self.N, max(step_at(now, self.period) - job.step, self.M))
         return ()
 
     def _enqueue(self) -> tuple[Job, ...]:

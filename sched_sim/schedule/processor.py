@@ -1,8 +1,9 @@
 """The simulated preemptive processor: immediate preemption, exact integer time.
 
 At one instant, finishes come first, then releases, then dispatch: a job that finishes exactly at its deadline has met
-it, and an LR update that finishes exactly at the start of step j is applied in step j. The ready queues are our own,
-because SimPy's `PreemptiveResource` lets a release preempt a job that finishes at that same instant.
+it, and an LR update that finishes exactly at the start of step j is applied in step j. A job without work finishes as
+it is dispatched, and where a finish makes it the next, that is before the releases of the instant. The ready queues
+are our own, because SimPy's `PreemptiveResource` lets a release preempt a job that finishes at that same instant.
 """
 
 from __future__ import annotations
@@ -129,7 +130,7 @@ class Processor:
         order_of_release = now = instants = 0
         next_finish = -1
         while True:
-            if now == next_finish:  # 1. finishes
+            while now == next_finish:  # 1. finishes
                 for cpu in cpus:
                     job = cpu.running
                     if job is None or cpu.finish != now:
@@ -157,6 +158,12 @@ class Processor:
                     for new in following:
                         order_of_release += 1
                         heappush(cpus[new.cpu].ready, (rank(new), order_of_release, new))
+                next_finish = -1
+                for cpu in cpus:  # jobs without work that are next
+                    if cpu.running is None and cpu.ready and not (context_switch or cpu.ready[0][2].remaining):
+                        cpu.entry = heappop(cpu.ready)
+                        cpu.running = cpu.entry[2]
+                        cpu.since = cpu.finish = next_finish = now
             if now == horizon:
                 self._ended.succeed()
                 break
@@ -169,7 +176,6 @@ class Processor:
                 until, order, source = releases[0]
             if until > horizon:
                 until = horizon
-            next_finish = -1
             for cpu in cpus:  # 3. dispatch
                 ready, running = cpu.ready, cpu.running
                 if ready and (running is None or (running.preemptive and ready[0][0] < cpu.entry[0])):

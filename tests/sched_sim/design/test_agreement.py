@@ -68,6 +68,19 @@ HORIZON = [
     DelayedHorizonCosts(30, 1, 2, 2),  # HR jobs are the longest, on two processors
 ]
 TWO_RATE = [MultirateCosts(3, 7), RobustCosts(5, 1), MultirateCosts(1, 1), RobustCosts(2, 40)]
+WITHOUT_WORK = [
+    DualRateCosts(1, 1, 0, 0, 0, 2),  # a loop and a long LR job
+    DualRateCosts(1, 1, 0, 0, 0, 0),  # LR jobs take no time, and come when the next step begins
+    DualRateCosts(2, 3, 1, 3, 3, 0),  # corrects at once what was computed before
+    DualRateCosts(0, 2, 3, 1, 0, 0),
+    MultirateCosts(2, 0),
+    DelayedHorizonCosts(2, 0, 0, 0),
+    DelayedHorizonCosts(2, 0, 2, 0),
+    DelayedHorizonCosts(0, 1, 0, 0),
+    LarsenCosts(2, 0, 0),  # the HR job of step m
+    CloneCosts(0, 1, 0, 0),
+    LarsenInFlightCosts(1, 0, 0, 1, 0, 0),
+]
 
 
 def every_option(costs: JobCosts) -> list[Options]:
@@ -91,7 +104,7 @@ def all_timings(costs: JobCosts, N: int, options: Options) -> list[Timing]:
     return legal_timings(costs, N, options)
 
 
-@pytest.mark.parametrize("costs", [*DUAL_RATE, *SERIAL, *TWO_RATE, *HORIZON], ids=str)
+@pytest.mark.parametrize("costs", [*DUAL_RATE, *SERIAL, *TWO_RATE, *HORIZON, *WITHOUT_WORK], ids=str)
 def test_they_agree_on_every_design_of_up_to_six_steps(costs: JobCosts) -> None:
     for options in every_option(costs):
         timings = [timing for N in range(1, 7) for timing in all_timings(costs, N, options)]
@@ -105,14 +118,18 @@ BATCH = 50
 
 
 def random_costs(random: Random) -> JobCosts:
-    """In ticks: small ones, which tie, and larger ones."""
+    """In ticks: small ones, which tie, and larger ones; sometimes of some pieces none, but of each HR job a part."""
     kinds = [DualRateCosts] * 5 + [StandardCosts, RecalculateCosts, LarsenInFlightCosts, CloneCosts, CarriedGainCosts]
     kinds += [MultirateCosts, RobustCosts]
     kinds += [DelayedHorizonCosts] * 3 + [Px4PredictorCosts, AugmentationCosts, FuseAsFreshCosts]
     kind, most = random.choice(kinds), random.choice([2, 5, 12, 100, 1000])
-    pieces = [random.randint(1, random.choice([2, most])) for _ in fields(kind)]
+    least = random.choice([0, 1, 1])
+    pieces = [random.randint(least, random.choice([2, most])) for _ in fields(kind)]
+    pieces[0] = max(pieces[0], 1)
     if kind is DualRateCosts and random.random() < 0.7:
         pieces[4] = 0  # no precomputed gain
+    if kind is DualRateCosts:
+        pieces[1] = max(pieces[1], 1)
     return kind(*pieces)
 
 
