@@ -55,7 +55,7 @@ def check_problem(
         raise ValueError(f"N={N} must be at least 1: it is the number of steps between measurements")
     if not 0 <= M <= L or (L > N and not several):
         rule = "0 <= M <= L" if several else "0 <= M <= L <= N"
-        other = "; with more than N, use recalculate, larsen, carried_gain or dual_rate" if 0 <= M <= L else ""
+        other = "; with more than N, use recalculate, larsen, clone, carried_gain or dual_rate" if 0 <= M <= L else ""
         raise ValueError(f"M={M}, L={L}, N={N} must satisfy {rule}{other}")
     start, moves = _start_and_inputs(system, x0, P0, inputs)
     readings = measured(system.measurements, N, measurements)

@@ -13,7 +13,8 @@ from sched_sim.design.options import Options
 from sched_sim.design.pieces import (
     AugmentationCosts,
     CarriedGainCosts,
-    CloneCosts,
+    CloneInFlightCosts,
+    CloneSplitCosts,
     DelayedHorizonCosts,
     DualRateCosts,
     FuseAsFreshCosts,
@@ -43,7 +44,8 @@ def serial_designs(draw: st.DrawFn) -> Design:
         st.builds(StandardCosts, ticks, ticks)
         | st.builds(RecalculateCosts, ticks, ticks, ticks)
         | st.builds(LarsenInFlightCosts, ticks, ticks, ticks, ticks, ticks, ticks)
-        | st.builds(CloneCosts, ticks, ticks, ticks, ticks)
+        | st.builds(CloneInFlightCosts, ticks, ticks, ticks, ticks, ticks, ticks)
+        | st.builds(CloneSplitCosts, ticks, ticks, ticks, ticks)
         | st.builds(CarriedGainCosts, ticks, ticks, ticks, ticks, ticks, ticks)
         | st.builds(Px4PredictorCosts, ticks, ticks, ticks, ticks, ticks)
         | st.builds(AugmentationCosts, ticks, ticks, ticks, ticks, ticks)

@@ -39,6 +39,8 @@ class CovarianceForm(NamedTuple):
     is expected of the measurement, and S (p, p), the innovation covariance:
     cross(P, H, W, work): writes P H^T, which is W at k.
     factor(S, out, work): writes what divides by S, (p, p): its inverse, or factors.
+    cross_share(C, factor, G, work): writes C S^-1, for the covariance C (p, p) of what is expected of another
+    measurement with what is expected of this one; C may be work.S.
     cross_gain(W, S, K, work): writes W S^-1, which is K_k at k.
     cross_update(before, W, S, factor, z, after, work): writes x + W S^-1 z and P - W S^-1 W^T, for the innovation z.
     """
@@ -50,5 +52,6 @@ class CovarianceForm(NamedTuple):
     delayed_covariance: DelayedCovariance
     cross: Cross
     factor: Factor
+    cross_share: Cross
     cross_gain: Cross
     cross_update: CrossUpdate

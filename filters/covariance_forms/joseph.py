@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from filters.arrays import FloatArray
 from filters.covariance_forms.form import CovarianceForm
-from filters.covariance_forms.textbook import cross, cross_gain, factor, gain, propagation
+from filters.covariance_forms.textbook import cross, cross_gain, cross_share, factor, gain, propagation
 from filters.kernels.dense import (
     add,
     add_vectors,
@@ -75,5 +75,5 @@ def cross_update(
 
 
 FORM = CovarianceForm(
-    matmul, propagation, gain, covariance, delayed_covariance, cross, factor, cross_gain, cross_update
+    matmul, propagation, gain, covariance, delayed_covariance, cross, factor, cross_share, cross_gain, cross_update
 )

@@ -23,7 +23,12 @@ from filters.kernels.dense import (
     subtract_lower_product,
     transpose,
 )
-from filters.kernels.sequential import solve_unit_lower, solve_unit_lower_vector, unit_lower_factors
+from filters.kernels.sequential import (
+    solve_unit_lower,
+    solve_unit_lower_transposed,
+    solve_unit_lower_vector,
+    unit_lower_factors,
+)
 from filters.kernels.solve import cholesky, solve_cholesky
 from filters.records import Estimate, Workspace
 
@@ -84,6 +89,15 @@ def factor(S: FloatArray, out: FloatArray, work: Workspace) -> None:
     place_diagonal(work.p1, out)
 
 
+def cross_share(C: FloatArray, L_D: FloatArray, G: FloatArray, work: Workspace) -> None:
+    """G^T = L^-T D^-1 L^-1 C^T."""
+    transpose(C, work.pp1)
+    solve_unit_lower(L_D, work.pp1, work.pp1)
+    divide_rows(work.pp1, L_D, work.pp1)
+    solve_unit_lower_transposed(L_D, work.pp1, work.pp1)
+    transpose(work.pp1, G)
+
+
 def cross_gain(W: FloatArray, S: FloatArray, K: FloatArray, work: Workspace) -> None:
     """K^T = S^-1 W^T, from the Cholesky factor of S."""
     transpose(W, work.HP)
@@ -111,5 +125,14 @@ def cross_update(
 
 
 FORM = CovarianceForm(
-    matmul_blocked, propagation, gain, covariance, delayed_covariance, cross, factor, cross_gain, cross_update
+    matmul_blocked,
+    propagation,
+    gain,
+    covariance,
+    delayed_covariance,
+    cross,
+    factor,
+    cross_share,
+    cross_gain,
+    cross_update,
 )

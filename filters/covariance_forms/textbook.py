@@ -74,6 +74,11 @@ def factor(S: FloatArray, out: FloatArray, work: Workspace) -> None:
     inverse(S, out, work.pp1)
 
 
+def cross_share(C: FloatArray, S_inverse: FloatArray, G: FloatArray, _work: Workspace) -> None:
+    """C S^-1."""
+    matmul_narrow(C, S_inverse, G)
+
+
 def cross_gain(W: FloatArray, S: FloatArray, K: FloatArray, work: Workspace) -> None:
     """K = W S^-1."""
     inverse(S, work.S_inverse, work.pp1)
@@ -99,5 +104,5 @@ def cross_update(
 
 
 FORM = CovarianceForm(
-    matmul, propagation, gain, covariance, delayed_covariance, cross, factor, cross_gain, cross_update
+    matmul, propagation, gain, covariance, delayed_covariance, cross, factor, cross_share, cross_gain, cross_update
 )

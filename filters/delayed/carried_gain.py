@@ -27,11 +27,12 @@ from filters.backends.choose import BackendName, arguments_for, function_for
 from filters.breakdown import check_history, sturdier
 from filters.covariance_forms import CovarianceFormName, covariance_form
 from filters.covariance_forms.form import CovarianceForm
-from filters.delayed.clone import CARRY, carry
+from filters.delayed.clone import CARRY
+from filters.delayed.cloned import carry, compensate
 from filters.delayed.standard import PROPAGATE, propagate
 from filters.history import History, HistoryRecorder
 from filters.jobs import JobKind
-from filters.kernels.dense import add_matvec, add_vectors, copy, copy_vector, matmul_narrow, matvec, subtract_vectors
+from filters.kernels.dense import add_vectors, copy, matmul_narrow, matvec, subtract_vectors
 from filters.measured import Measurements
 from filters.problem import Problem, check_problem
 from filters.records import Correction, Estimate, Sample, Workspace, new_correction, new_workspace
@@ -87,12 +88,6 @@ def land(
     subtract_vectors(y, expected, z)
     matvec(B, z, x_corrected)
     add_vectors(x, x_corrected, x_corrected)
-
-
-def compensate(expected: FloatArray, C: FloatArray, z: FloatArray, now_expected: FloatArray) -> None:
-    """Job of step m, for each later measurement that is on its way: what it is expected to be, with z in the state."""
-    copy_vector(expected, now_expected)
-    add_matvec(C, z, now_expected)
 
 
 class OnItsWay:

@@ -4,6 +4,9 @@ Of k only W = P_{k^-} H_k^T and h(x_{k^-}) are needed at k; the steps to m - 1 c
 `clone`), so there is room for S. P - W S^-1 W^T is then p rank-one terms v v^T, of which half is computed, for P is
 symmetric. To put terms off to the steps after m would not pay: to carry one takes 2 n^2 - n operations, to subtract it
 n^2 + n.
+
+One measurement is on its way at a time, M <= N. Where others are taken before one arrives, S is needed at the first of
+them, N steps after k, and cannot wait for m: that is `clone`.
 """
 
 from __future__ import annotations
@@ -14,13 +17,17 @@ import numpy as np
 
 from filters.arrays import FloatArray
 from filters.backends.choose import BackendName
+from filters.breakdown import check_history, sturdier
 from filters.covariance_forms import CovarianceFormName, covariance_form, short
 from filters.covariance_forms.form import CovarianceForm
-from filters.delayed.clone import CARRY, Clone, correct, cross, divide, run_jobs, sampled, start_arguments
+from filters.delayed.clone import CARRY, sampled, start_arguments
+from filters.delayed.clone_loop import Jobs, steps
+from filters.delayed.cloned import Clone, correct, cross, divide
 from filters.delayed.standard import PROPAGATE
-from filters.history import History
+from filters.history import History, HistoryRecorder
 from filters.jobs import JobKind
 from filters.measured import Measurements
+from filters.problem import check_problem
 from filters.records import Estimate, Sample, Workspace, new_estimate, new_workspace
 from filters.running import running
 from filters.system import System
@@ -34,6 +41,7 @@ def split_form(name: CovarianceFormName) -> CovarianceForm:
     return form._replace(
         cross=by_terms.cross,
         factor=by_terms.factor,
+        cross_share=by_terms.cross_share,
         cross_gain=by_terms.cross_gain,
         cross_update=by_terms.cross_update,
     )
@@ -85,7 +93,11 @@ def run(
 
     Arguments, results and errors as in `standard.run`. The correction is in the state of step m, whatever L is.
     """
-    return run_jobs(start, late_update, split_form, system, N, M, L, x0, P0, inputs, measurements, update, backend)
+    problem = check_problem(system, N, M, L, x0, P0, inputs, measurements)
+    recorder = HistoryRecorder(system)
+    for estimate in steps(problem, system, N, M, split_form(update), Jobs(start, late_update), backend, recorder):
+        recorder.state(estimate.x)
+    return check_history(recorder.history(), recorder.references().x, problem, N, sturdier(update), backend)
 
 
 def _late_update(system: System, form: CovarianceForm, at: Sample) -> tuple[Any, ...]:

@@ -69,7 +69,7 @@ Delay = Annotated[
     typer.Option(
         "-M",
         help="Delay of the measurement in HR steps; more than N, so that others are taken before it arrives, with "
-        "recalculate, larsen and dual-rate; multirate and robust methods have none.",
+        "recalculate, larsen, clone, carried-gain and dual-rate; multirate and robust methods have none.",
         parser=whole,
         metavar="STEPS",
         rich_help_panel=DESIGN,
@@ -205,7 +205,7 @@ def make_timing(
             said = delay or f"-M {M}"
             raise InputError(
                 f"{said}: {method} has no delay, it uses each measurement in its step: for a late one choose --method "
-                f"recalculate, larsen, carried-gain or dual-rate; without delay leave {said.split()[0]} out"
+                f"recalculate, larsen, clone, carried-gain or dual-rate; without delay leave {said.split()[0]} out"
             )
         M = 0
     if M is None:

@@ -33,6 +33,7 @@ from sched_sim.design.pieces import (
     SerialCosts,
     StandardCosts,
     TwoRateCosts,
+    beside_others,
     converted,
     product,
     works,
@@ -168,12 +169,11 @@ def _longest_serial_job(costs: SerialCosts[int], N: Whole, M: Whole) -> Whole:
             if isinstance(costs, LarsenInFlightCosts):
                 return where(M <= N, alone, _longest_of_several(costs, N, M))
             return alone
-        case CloneCosts(propagate, start, carry, update):
-            return propagate + _longest_carried(start, carry, update, N, M)
-        case CarriedGainCosts(propagate, update, carry, land, couple, compensate):
+        case CloneCosts(propagate, at_k, carry, landing) | CarriedGainCosts(propagate, at_k, carry, landing):
+            couple, compensate = beside_others(costs)
             others = larger(M - 1, 0) // N
-            at_k, at_m = update + others * couple, land + others * compensate
-            return propagate + others * carry + _longest_carried(at_k, carry, at_m, N, M)
+            beside_k, beside_m = others * couple, others * compensate
+            return propagate + others * carry + _longest_carried(at_k + beside_k, carry, landing + beside_m, N, M)
         case Px4PredictorCosts(predict, propagate, update, pull, shift):
             return predict + propagate + update + pull + shift * (M + 1)
         case AugmentationCosts(predict, predict_more, update, update_more, bend):

@@ -1,7 +1,8 @@
 """Stochastic cloning and the carried gain: work at k and at m, and between them little, in an HR job each step.
 
 A measurement of step k is carried in steps k + 1 .. m - 1; the HR job of m corrects before it propagates, so it has
-nothing of it to carry. With M > N several are carried at once.
+nothing of it to carry. With M > N several are carried at once: at k they are coupled with the one that is taken, and
+what is expected of those that were taken since is compensated at m.
 """
 
 from __future__ import annotations
@@ -10,9 +11,17 @@ from collections.abc import Hashable
 from fractions import Fraction
 
 from sched_sim.design.hr_loop import HrSource, OnLanding
-from sched_sim.design.method import CostOf, CycleWork, Method
+from sched_sim.design.method import CostOf, CycleWork, Method, lacks_for_several
 from sched_sim.design.options import Options
-from sched_sim.design.pieces import CarriedGainCosts, CloneCosts
+from sched_sim.design.pieces import (
+    CarriedCosts,
+    CarriedGainCosts,
+    CloneCosts,
+    CloneInFlightCosts,
+    CloneSplitCosts,
+    beside_others,
+    works,
+)
 from sched_sim.design.serial import law, law_with_several
 from sched_sim.design.timing import Timing
 from sched_sim.schedule.jobs import HR, Job, step_at
@@ -22,34 +31,28 @@ CLONE_LABELS, CARRIED_GAIN_LABELS = ("ST", "U"), ("U", "LA")
 
 
 class Carried(HrSource):
-    """An HR job each step. labels: of the work at k and of that at m."""
+    """An HR job each step."""
 
-    def __init__(
-        self,
-        costs: CarriedGainCosts[int],
-        labels: tuple[str, str],
-        timing: Timing,
-        period: int,
-        on_landing: OnLanding,
-    ) -> None:
+    def __init__(self, costs: CarriedCosts[int], timing: Timing, period: int, on_landing: OnLanding) -> None:
         super().__init__(timing, period, on_landing)
-        self.costs = costs
-        self.labels = labels
+        self.propagate, self.at_k, self.carry, self.at_m = works(costs)[:4]
+        self.couple, self.compensate = beside_others(costs)
+        self.labels = CLONE_LABELS if isinstance(costs, CloneCosts) else CARRIED_GAIN_LABELS
 
     def release(self) -> tuple[Job, ...]:
         step, start = self.step, self.next_release
         self.step, self.next_release = step + 1, start + self.period
         k = step - self.M
         lands = k >= 0 and k % self.N == 0
-        costs, (at_k, at_m) = self.costs, self.labels
+        at_k, at_m = self.labels
         others = max(0, self.taken_before(step) - self.taken_before(k + 1)) if lands else 0
         work = [
-            (at_m, costs.land + others * costs.compensate if lands else 0),
-            ("P", costs.propagate),
-            ("CA", self.carried(step) * costs.carry),
+            (at_m, self.at_m + others * self.compensate if lands else 0),
+            ("P", self.propagate),
+            ("CA", self.carried(step) * self.carry),
         ]
         if step % self.N == 0:
-            work.append((at_k, costs.update + self.carried(step) * costs.couple))
+            work.append((at_k, self.at_k + self.carried(step) * self.couple))
         parts = tuple((label, part) for label, part in work if part)
         total = sum(part for _, part in parts)
         return (Job("hr", step, HR, start, self.next_release, total, parts, self._landed if lands else None),)
@@ -71,20 +74,32 @@ class Carried(HrSource):
         return ()
 
 
-def _clone_pieces(cost: CostOf, _options: Options) -> CloneCosts[Fraction]:
-    return CloneCosts(cost("propagate"), cost("start"), cost("carry"), cost("update"))
+def _source(costs: CarriedCosts[int], timing: Timing, _options: Options, period: int, on_landing: OnLanding) -> Carried:
+    return Carried(costs, timing, period, on_landing)
 
 
-def _clone_source(
-    costs: CloneCosts[int], timing: Timing, _options: Options, period: int, on_landing: OnLanding
-) -> Carried:
-    alone = CarriedGainCosts(costs.propagate, costs.start, costs.carry, costs.update, 0, 0)
-    return Carried(alone, CLONE_LABELS, timing, period, on_landing)
-
-
-def _clone_work(costs: CloneCosts[Fraction], timing: Timing) -> CycleWork:
+def _work(costs: CarriedCosts[Fraction], timing: Timing) -> CycleWork:
+    propagate, at_k, carry, at_m = works(costs)[:4]
+    couple, compensate = beside_others(costs)
     carried = max(timing.M - 1, 0)
-    return CycleWork(timing.N * costs.propagate + costs.start + carried * costs.carry + costs.update)
+    once = at_k + at_m + carried // timing.N * (couple + compensate)
+    return CycleWork(timing.N * propagate + carried * carry + once)
+
+
+def _clone_pieces(cost: CostOf, _options: Options) -> CloneCosts[Fraction]:
+    alone = map(cost, ("propagate", "start", "carry", "update"))
+    several = "couple", "compensate"
+    return CloneInFlightCosts(*alone, *map(cost, several)) if all(map(cost.has, several)) else CloneCosts(*alone)
+
+
+def _clone_lacking(costs: CloneCosts[Fraction], timing: Timing) -> str | None:
+    if timing.M <= timing.N or isinstance(costs, CloneInFlightCosts):
+        return None
+    return lacks_for_several("[costs.clone] couple, compensate")
+
+
+def _clone_split_pieces(cost: CostOf, _options: Options) -> CloneSplitCosts[Fraction]:
+    return CloneSplitCosts(cost("propagate"), cost("start"), cost("carry"), cost("update"))
 
 
 def _carried_gain_pieces(cost: CostOf, _options: Options) -> CarriedGainCosts[Fraction]:
@@ -92,19 +107,6 @@ def _carried_gain_pieces(cost: CostOf, _options: Options) -> CarriedGainCosts[Fr
     return CarriedGainCosts(*map(cost, kinds))
 
 
-def _carried_gain_source(
-    costs: CarriedGainCosts[int], timing: Timing, _options: Options, period: int, on_landing: OnLanding
-) -> Carried:
-    return Carried(costs, CARRIED_GAIN_LABELS, timing, period, on_landing)
-
-
-def _carried_gain_work(costs: CarriedGainCosts[Fraction], timing: Timing) -> CycleWork:
-    carried = max(timing.M - 1, 0)
-    once = costs.update + costs.land + carried // timing.N * (costs.couple + costs.compensate)
-    return CycleWork(timing.N * costs.propagate + carried * costs.carry + once)
-
-
-CLONE = Method(_clone_pieces, _clone_source, _clone_work, law, lands_in_step_m=True)
-CARRIED_GAIN = Method(
-    _carried_gain_pieces, _carried_gain_source, _carried_gain_work, law_with_several, lands_in_step_m=True
-)
+CLONE = Method(_clone_pieces, _source, _work, law_with_several, lands_in_step_m=True, lacking=_clone_lacking)
+CLONE_SPLIT = Method(_clone_split_pieces, _source, _work, law, lands_in_step_m=True)
+CARRIED_GAIN = Method(_carried_gain_pieces, _source, _work, law_with_several, lands_in_step_m=True)

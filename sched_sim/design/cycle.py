@@ -21,6 +21,7 @@ from sched_sim.design.pieces import (
     RobustCosts,
     StandardCosts,
     at_m,
+    beside_others,
     each_step,
     product,
     works,
@@ -72,17 +73,13 @@ def cycle_of(costs: JobCosts[int], timing: Timing, options: Options) -> Cycle:
             updated = update + (accumulate if M >= 2 else propagate)
             high[M % N] = max(updated, propagate) if M == N else updated  # the first step has no measurement yet
             return Cycle(high)
-        case CloneCosts(propagate, start, carry, update):
-            high = [propagate + carry * (1 <= step < M) for step in range(N)]
-            high[0] += start
-            high[M % N] += update
-            return Cycle(high)
-        case CarriedGainCosts(propagate, update, carry, land, couple, compensate):
+        case CloneCosts(propagate, at_k, carry, landing) | CarriedGainCosts(propagate, at_k, carry, landing):
+            couple, compensate = beside_others(costs)
             high = [propagate] * N
             for age in range(1, M):
                 high[age % N] += carry + couple * (age % N == 0)
-            high[0] += update
-            high[M % N] += land + sum(compensate for age in range(1, M) if age % N == 0)
+            high[0] += at_k
+            high[M % N] += landing + sum(compensate for age in range(1, M) if age % N == 0)
             return Cycle(high)
         case MultirateCosts() | RobustCosts():
             always, once = works(costs)

@@ -10,10 +10,9 @@ from collections.abc import Hashable
 from fractions import Fraction
 
 from sched_sim.design.hr_loop import HrSource, OnLanding
-from sched_sim.design.method import CycleWork
+from sched_sim.design.method import CycleWork, lacks_for_several
 from sched_sim.design.pieces import LarsenCosts, LarsenInFlightCosts, product
 from sched_sim.design.timing import Timing
-from sched_sim.errors import option
 from sched_sim.schedule.jobs import HR, Job, Parts, step_at
 
 
@@ -61,8 +60,4 @@ def work(costs: LarsenInFlightCosts[Fraction], timing: Timing) -> CycleWork:
 def lacking(costs: LarsenCosts[Fraction], timing: Timing) -> str | None:
     if timing.M <= timing.N or isinstance(costs, LarsenInFlightCosts):
         return None
-    return (
-        f"where M is more than N, others are measured before one arrives, and for that the cost table has no "
-        f"[costs.larsen] gain, correct, compensate: use {option('costs')} counted-9-3-3 or a table that `sched-sim "
-        f"measure` writes, or choose {option('method')} recalculate or dual-rate"
-    )
+    return lacks_for_several("[costs.larsen] gain, correct, compensate")

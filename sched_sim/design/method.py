@@ -12,7 +12,7 @@ from sched_sim.design.hr_loop import HrSource, OnLanding
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import Statistic
 from sched_sim.design.timing import Feedback, Timing, latest, one_at_a_time
-from sched_sim.errors import InputError
+from sched_sim.errors import InputError, option
 
 
 @dataclass(frozen=True)
@@ -81,6 +81,15 @@ class CycleWork(NamedTuple):
 
     high: Fraction
     low: Fraction = Fraction(0)
+
+
+def lacks_for_several(entries: str) -> str:
+    """That a cost table does not have these, which are needed where M is more than N, and what can be done."""
+    return (
+        f"where M is more than N, others are measured before one arrives, and for that the cost table has no "
+        f"{entries}: use {option('costs')} counted-9-3-3 or a table that `sched-sim measure` writes, or choose "
+        f"{option('method')} recalculate or dual-rate"
+    )
 
 
 def kind_missed(kind: str, _held: bool, _timing: Timing, _options: Options) -> str:

@@ -27,6 +27,7 @@ from sched_sim.design.pieces import (
     RobustCosts,
     StandardCosts,
     at_m,
+    beside_others,
     each_step,
     works,
 )
@@ -58,10 +59,11 @@ def demands(costs: JobCosts[int], timings: Range, options: Options) -> Iterator[
             if isinstance(costs, LarsenInFlightCosts) and timings.most_M > timings.least_N:
                 alone = min(alone, propagate + costs.correct)
             yield alone, 1
-        case CloneCosts(propagate, start, carry, update):
-            yield propagate + _carried(start, carry, update, timings), 1
-        case CarriedGainCosts(propagate, update, carry, land):
-            yield propagate + _carried(update, carry, land, timings), 1
+        case CloneCosts(propagate, at_k, carry, landing) | CarriedGainCosts(propagate, at_k, carry, landing):
+            couple, compensate = beside_others(costs)
+            others = max(timings.least_M - 1, 0) // timings.most_N
+            beside_k, beside_m = others * couple, others * compensate
+            yield propagate + others * carry + _carried(at_k + beside_k, carry, landing + beside_m, timings), 1
         case MultirateCosts() | RobustCosts():
             each, once = works(costs)
             yield each, 1

@@ -64,6 +64,20 @@ class CloneCosts(Generic[Number]):
 
 
 @dataclass(frozen=True, slots=True)
+class CloneInFlightCosts(CloneCosts[Number]):
+    """Those of stochastic cloning where it can also have several measurements in flight, M > N; couple, compensate: for
+    each other that is on its way at k, at k and when that one lands."""
+
+    couple: Number
+    compensate: Number
+
+
+@dataclass(frozen=True, slots=True)
+class CloneSplitCosts(CloneCosts[Number]):
+    """Those of stochastic cloning where S is formed at m: one measurement is on its way at a time."""
+
+
+@dataclass(frozen=True, slots=True)
 class CarriedGainCosts(Generic[Number]):
     """Work of the pieces of the carried gain.
 
@@ -172,6 +186,13 @@ Costs: TypeAlias = JobCosts[Fraction]
 def product(costs: LarsenInFlightCosts[Exact]) -> Exact:
     """Work of one more product in a step."""
     return max(costs.accumulate, costs.propagate) - costs.propagate
+
+
+def beside_others(costs: CarriedCosts[Exact]) -> tuple[Exact, Exact]:
+    """Work for each other measurement that is on its way, at k and at m; none where there can be no other."""
+    if isinstance(costs, CloneInFlightCosts | CarriedGainCosts):
+        return costs.couple, costs.compensate
+    return 0 * costs.propagate, 0 * costs.propagate
 
 
 def each_step(costs: LateCosts[Exact], M: int) -> Exact:

@@ -57,8 +57,9 @@ def _too_late_to_wait(times: Times, N: int, M: int, hr_hz: Fraction, left: int) 
         delay = f"{option('delay_ms')} {_shown(delay_ms)}"
     one = "this method waits for one measurement at a time"
     other = (
-        f"choose {option('method')} recalculate, larsen, carried-gain or dual-rate, or simulate several on their way "
-        f"with `sched-sim simulate --scenario FILE.toml`, and write in it under [[sensor]] `{every}` and `{late}`"
+        f"choose {option('method')} recalculate, larsen, clone, carried-gain or dual-rate, or simulate several on "
+        f"their way with `sched-sim simulate --scenario FILE.toml`, and write in it under [[sensor]] `{every}` and "
+        f"`{late}`"
     )
     if M <= N:
         one = "this method needs a step from a measurement's arrival to the next one"

@@ -76,9 +76,9 @@ def one_at_a_time(timing: Timing) -> str | None:
     if M > N:
         return (
             f"M={M} must be <= N={N} with this method: it waits for one measurement at a time, and here others are "
-            f"taken before one arrives; choose {option('method')} recalculate, larsen, carried-gain or dual-rate, or "
-            f"simulate several on their way with `sched-sim simulate --scenario FILE.toml`, and write in it under "
-            f"[[sensor]] `every = {N}` and `delay = {M}`"
+            f"taken before one arrives; choose {option('method')} recalculate, larsen, clone, carried-gain or "
+            f"dual-rate, or simulate several on their way with `sched-sim simulate --scenario FILE.toml`, and write in "
+            f"it under [[sensor]] `every = {N}` and `delay = {M}`"
         )
     first = min(M + 1, N)
     return (

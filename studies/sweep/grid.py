@@ -150,9 +150,9 @@ class Grid:
         if lacking and self.M is not None and self.M[0] > self.N[-1]:
             return lacking[0]
         return (
-            "legal are M <= L for standard, recalculate, larsen and carried-gain, M < L for dual-rate (M <= L with "
-            "same-step feedback), M < L <= N for delayed-horizon, M <= L <= N for other methods of late measurements, "
-            f"and 1 <= L <= N without {option('M')} for the multirate and robust methods: choose "
+            "legal are M <= L for standard, recalculate, larsen, clone and carried-gain, M < L for dual-rate (M <= L "
+            "with same-step feedback), M < L <= N for delayed-horizon, M <= L <= N for other methods of late "
+            f"measurements, and 1 <= L <= N without {option('M')} for the multirate and robust methods: choose "
             f"{option('L')} and {option('method')} so"
         )
 

@@ -103,7 +103,8 @@ def test_arguments_of_a_run(change: dict[str, Any], message: str) -> None:
 @pytest.mark.parametrize("change", [{"L": 6}, {"M": 6, "L": 6}])
 def test_a_filter_with_one_measurement_at_a_time_names_those_with_several(change: dict[str, Any]) -> None:
     with pytest.raises(
-        ValueError, match="must satisfy 0 <= M <= L <= N; with more than N, use recalculate, larsen, carried_gain or"
+        ValueError,
+        match="must satisfy 0 <= M <= L <= N; with more than N, use recalculate, larsen, clone, carried_gain",
     ):
         check_problem(*GOOD._replace(**change))
 

@@ -29,7 +29,7 @@ KINDS = {
         "hr_restart", "hr_propagate", "hr_propagate_sum", "hr_propagate_euler", "hr_update",
         "lr_propagate", "lr_propagate_euler", "lr_update", "lr_gain", "lr_correct",
     ],
-    "clone": ["propagate", "start", "carry", "update"],
+    "clone": ["propagate", "start", "carry", "update", "couple", "compensate"],
     "clone-split": ["propagate", "start", "carry", "update"],
     "carried-gain": ["propagate", "update", "carry", "land", "couple", "compensate"],
     "delayed-horizon": ["predict", "update", "replay", "propagate_covariance"],
@@ -45,7 +45,7 @@ SYSTEM = example_system(9, 3, 3)
 
 OF_A_FORM = [
     ("standard", "propagate"), ("standard", "update"), ("larsen", "propagate_accumulate"), ("larsen", "update"),
-    ("clone", "start"), ("clone", "update"),
+    ("clone", "start"), ("clone", "update"), ("clone", "couple"),
 ]  # fmt: skip
 """Jobs that call every function of a covariance form between them."""
 
@@ -256,11 +256,13 @@ def test_operations_of_the_jobs_in_textbook_form(n: int, u: int, p: int) -> None
         ("clone", "start"): cross + S + inverse + h,
         ("clone", "carry"): product(n, n, p),
         ("clone", "update"): product(n, p, p) + subtracted + product(n, p, 1) + vector + product(n, p, n) + square,
+        ("clone", "couple"): product(p, n, p) + product(p, p, p) + product(n, p, p) + Operations(add=n * p),
         ("clone-split", "start"): cross + h,
         ("clone-split", "update"): S + factor + by_terms,
         ("carried-gain", "update"): gain + covariance + h,
         ("carried-gain", "land"): subtracted + product(n, p, 1) + vector,
         ("carried-gain", "couple"): product(p, n, p),
+        ("clone", "compensate"): Operations(multiply=p * p, add=p * p),
         ("carried-gain", "compensate"): Operations(multiply=p * p, add=p * p),
         ("multirate", "state_update"): f + error + vector,
         ("multirate", "covariance_gain"): quadratic + gain + covariance + Operations(multiply=n * p),
@@ -298,7 +300,8 @@ def test_operations_of_the_updates_in_short_form(n: int, u: int, p: int) -> None
     error = product(p, n, 1) + Operations(add=p) + product(n, p, 1)
     covariance = Operations(multiply=n * n * p, add=n * n * p)
     kinds = [("standard", "update"), ("larsen", "update"), ("dual-rate", "lr_update"), ("clone", "start"),
-             ("clone", "update"), ("clone-split", "update"), ("carried-gain", "update")]  # fmt: skip
+             ("clone", "update"), ("clone", "couple"), ("clone-split", "update"),
+             ("carried-gain", "update")]  # fmt: skip
     found = {key: count(job.function, *job.arguments(0)) for key in kinds for job in [jobs[key[0]][key[1]]]}
     assert found == {
         ("standard", "update"): S + factor + solve + error + covariance + Operations(add=n),
@@ -307,6 +310,8 @@ def test_operations_of_the_updates_in_short_form(n: int, u: int, p: int) -> None
         ("dual-rate", "lr_update"): S + factor + solve + error + covariance,
         ("clone", "start"): S + unit_lower(p) + h,
         ("clone", "update"): terms_update(n, p),
+        ("clone", "couple"): product(p, n, p) + Operations(p * p * p, p * p * (p - 1), p)
+        + product(n, p, p) + Operations(add=n * p),
         ("clone-split", "update"): product(p, n, p) + Operations(add=p * p) + unit_lower(p) + terms_update(n, p),
         ("carried-gain", "update"): S + factor + solve + covariance + h,
     }  # fmt: skip
@@ -319,7 +324,7 @@ def test_counts_of_cloning_are_those_of_its_prototype_or_less() -> None:
         for name in ("clone", "clone-split", "carried-gain")
     }
     assert found == {
-        "clone": [3042, 683, 459, 417],
+        "clone": [3042, 683, 459, 417, 363, 18],
         "clone-split": [3042, 510, 459, 590],
         "carried-gain": [3042, 1340, 459, 57, 153, 18],
     }

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from filters.arrays import FloatArray
 from filters.covariance_forms import COVARIANCE_FORMS
-from filters.delayed import carried_gain, clone, larsen
+from filters.delayed import carried_gain, clone, clone_split, larsen
 from filters.systems.example import example_system
 from filters.systems.linear import linear_system
 from tests.filters.cases import relative_difference, standard_run
@@ -131,4 +131,4 @@ def test_where_measurements_cannot_arrive() -> None:
     with pytest.raises(ValueError, match=r"M=5, L=4, N=2 must satisfy 0 <= M <= L$"):
         carried_gain.run(*of._replace(L=4))
     with pytest.raises(ValueError, match="M=5, L=5, N=2 must satisfy 0 <= M <= L <= N"):
-        clone.run(*of)
+        clone_split.run(*of)

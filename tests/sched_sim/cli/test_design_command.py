@@ -171,8 +171,14 @@ def test_the_figure_is_the_same_every_time(sched_sim: Run, tmp_path: Path, kind:
         (f"{INS}", ["--within is missing", "--within 0.38"]),
         ("--within 0.38", ["--model is missing"]),
         (f"--within 0 {INS}", ["--within is 0", "greater than 0"]),
-        ("--within 0.5 --model ins-gps -N 80 -M 200 --method clone", ["none of these can be had: clone: M=200"]),
-        ("--within 0.3 --model ins-gps -N 80 -M 200", ["0.436685 m, by recalculate, larsen, carried-gain, landing"]),
+        (
+            "--within 0.5 --model ins-gps -N 80 -M 200 --method clone-split",
+            ["none of these can be had: clone-split: M=200"],
+        ),
+        (
+            "--within 0.3 --model ins-gps -N 80 -M 200",
+            ["0.436685 m, by recalculate, larsen, clone, carried-gain, landing"],
+        ),
         (f"--within 0.36 {INS}", ["0.372935 m", "carried-gain, augmentation, landing at L=44"]),
         (f"--within 0.36 {INS} --method px4-predictor", ["0.382359 m, by px4-predictor", "allow --within 0.382359"]),
         ("--within 0.38 --model ins-gps --unit km", ["--unit km: position is in m"]),

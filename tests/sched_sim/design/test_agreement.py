@@ -15,6 +15,8 @@ from sched_sim.design.pieces import (
     AugmentationCosts,
     CarriedGainCosts,
     CloneCosts,
+    CloneInFlightCosts,
+    CloneSplitCosts,
     DelayedHorizonCosts,
     DualRateCosts,
     FuseAsFreshCosts,
@@ -53,6 +55,9 @@ SERIAL = [
     CloneCosts(3, 4, 2, 1),  # the start is the longest
     CloneCosts(3, 1, 2, 4),  # the update
     CloneCosts(3, 1, 5, 2),  # what is carried
+    CloneInFlightCosts(3, 4, 2, 4, 3, 1),
+    CloneInFlightCosts(3, 1, 5, 2, 7, 7),
+    CloneSplitCosts(3, 2, 2, 3),
     CarriedGainCosts(3, 4, 2, 1, 1, 1),
     CarriedGainCosts(3, 1, 5, 2, 7, 7),
     Px4PredictorCosts(2, 7, 5, 3, 1),
@@ -119,7 +124,13 @@ BATCH = 50
 
 def random_costs(random: Random) -> JobCosts:
     """In ticks: small ones, which tie, and larger ones; sometimes of some pieces none, but of each HR job a part."""
-    kinds = [DualRateCosts] * 5 + [StandardCosts, RecalculateCosts, LarsenInFlightCosts, CloneCosts, CarriedGainCosts]
+    kinds = [DualRateCosts] * 5 + [
+        StandardCosts,
+        RecalculateCosts,
+        LarsenInFlightCosts,
+        CloneInFlightCosts,
+        CarriedGainCosts,
+    ]
     kinds += [MultirateCosts, RobustCosts]
     kinds += [DelayedHorizonCosts] * 3 + [Px4PredictorCosts, AugmentationCosts, FuseAsFreshCosts]
     kind, most = random.choice(kinds), random.choice([2, 5, 12, 100, 1000])

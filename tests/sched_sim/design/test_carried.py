@@ -13,12 +13,11 @@ from sched_sim.costs.methods import DELAYED_METHODS, PAPER_METHODS
 from sched_sim.costs.table import CostTable
 from sched_sim.costs.table_file import load_costs
 from sched_sim.design.analysis import least_period
-from sched_sim.design.carried import CARRIED_GAIN
 from sched_sim.design.cycle import cycle_of
 from sched_sim.design.least_speed import achieved_l, least_speed
-from sched_sim.design.methods import select
+from sched_sim.design.methods import method_of, select
 from sched_sim.design.options import Options
-from sched_sim.design.pieces import CarriedGainCosts
+from sched_sim.design.pieces import CarriedGainCosts, CloneInFlightCosts
 from sched_sim.design.timing import Timing
 from studies.steffes import cases
 from tests.designs import ticks
@@ -69,28 +68,31 @@ def test_the_carried_gain_needs_the_standard_filters_power() -> None:
         assert achieved_l(select(normalised, "carried-gain"), timing, standard) == timing.M
 
 
+@pytest.mark.parametrize("pieces", [CarriedGainCosts, CloneInFlightCosts])
 @given(N=st.integers(1, 6), M=st.integers(0, 20), work=st.tuples(*[ticks] * 6))
-def test_with_m_beyond_n_jobs_are_those_of_the_timeline(N: int, M: int, work: tuple[int, ...]) -> None:
+def test_with_m_beyond_n_jobs_are_those_of_the_timeline(pieces: type, N: int, M: int, work: tuple[int, ...]) -> None:
     """Of each measurement: work at k and at m, carried between; for two of which one is taken while the other is on
     its way, once `couple` and once `compensate`. Closed form, cycle and work of a cycle say what the source does."""
-    costs, timing = CarriedGainCosts(*work), beyond(N, M)
+    costs, timing = pieces(*work), beyond(N, M)
+    propagate, at_k, carry, at_m, couple, compensate = work
     steps = 2 * M + 3 * N
-    expected = [costs.propagate] * steps
+    expected = [propagate] * steps
     for k in range(0, steps, N):
-        for step, at_it in ((k, costs.update), (k + M, costs.land), *((j, costs.carry) for j in range(k + 1, k + M))):
+        for step, at_it in ((k, at_k), (k + M, at_m), *((j, carry) for j in range(k + 1, k + M))):
             if step < steps:
                 expected[step] += at_it
         for later in range(k + N, k + M, N):
-            for step, at_it in ((later, costs.couple), (k + M, costs.compensate)):
+            for step, at_it in ((later, couple), (k + M, compensate)):
                 if step < steps:
                     expected[step] += at_it
-    source = CARRIED_GAIN.source(costs, timing, Options(), 1, lambda _cycle, _L: None)
+    method = method_of(costs)
+    source = method.source(costs, timing, Options(), 1, lambda _cycle, _L: None)
     assert [source.release()[0].remaining for _ in range(steps)] == expected
     first = -(-M // N) * N + N
     last_cycle = expected[first : first + N]
     assert max(last_cycle) == least_period(costs, *np.array([[N], [M], [M]]), Options()).numerator[0]
     assert cycle_of(costs, timing, Options()).high == last_cycle
-    assert CARRIED_GAIN.work(costs, timing).high == sum(last_cycle)
+    assert method.work(costs, timing).high == sum(last_cycle)
 
 
 def beyond(N: int, M: int) -> Timing:

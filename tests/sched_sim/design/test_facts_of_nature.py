@@ -48,7 +48,7 @@ ADVICE = re.compile(r"(larger|smaller|longer|shorter|lower|higher|fewer) (N\b|M\
         ),
         (
             "minimum -N 10 -M 4 --method multirate --costs counted-9-3-3",
-            ["-M 4", "--method recalculate, larsen, carried-gain or"],
+            ["-M 4", "--method recalculate, larsen, clone, carried-gain or"],
         ),
         ("minimum -N 300000 -M 4 --context-switch 0.01", ["leave out --context-switch", "simulate --speed"]),
         ("minimum -N 10 -M 4 --tasks control.toml", ["periods (control 7.12346) down", "simulate --speed"]),
@@ -100,7 +100,7 @@ def test_what_the_messages_say_can_be_can_be(sched_sim: Run, line: str) -> None:
         (
             Steps(80, 120, None),
             [
-                "choose method recalculate, larsen, carried-gain or dual-rate",
+                "choose method recalculate, larsen, clone, carried-gain or dual-rate",
                 "delay_ms 300 is longer than the 200 ms",
             ],
         ),

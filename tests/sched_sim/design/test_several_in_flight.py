@@ -9,16 +9,23 @@ from typing import Any
 import numpy as np
 import pytest
 from hypothesis import example, given, settings
+from hypothesis import strategies as st
 
+from filters.delayed import clone, clone_loop, high_rate_task, larsen, larsen_in_flight, low_rate_task
 from filters.delayed import dual_rate as dual_rate_filter
-from filters.delayed import high_rate_task, larsen, larsen_in_flight, low_rate_task
 from filters.systems.example import example_system
 from sched_sim.costs.table_file import load_costs
 from sched_sim.design.least_speed import achieved_l, least_speed, staircase
 from sched_sim.design.load import loads
 from sched_sim.design.methods import METHODS, select
 from sched_sim.design.options import Options
-from sched_sim.design.pieces import DualRateCosts, LarsenInFlightCosts, RecalculateCosts
+from sched_sim.design.pieces import (
+    CloneCosts,
+    CloneInFlightCosts,
+    DualRateCosts,
+    LarsenInFlightCosts,
+    RecalculateCosts,
+)
 from sched_sim.design.search import search_resolution
 from sched_sim.design.simulate import simulate
 from sched_sim.design.steady import run_until_steady
@@ -182,7 +189,7 @@ def test_at_the_least_speed_nothing_is_ever_missed_and_a_tick_less_is_too_slow(d
     assert not run_until_steady(costs, timing, slower, options).repeats
 
 
-@pytest.mark.parametrize("method", ["recalculate", "larsen", "dual-rate"])
+@pytest.mark.parametrize("method", ["recalculate", "larsen", "clone", "dual-rate"])
 def test_a_camera_that_is_later_than_its_next_frame(method: str) -> None:
     """30 Hz, 33.3 ms late, a loop of 400 Hz: N = 13, M = 14."""
     timing = Timing.at(400, 30, "33.3")
@@ -234,7 +241,7 @@ def test_a_table_without_the_entries_of_larsen_in_flight_says_which() -> None:
             asked(costs, Timing(13, 14, 14))
 
 
-@pytest.mark.parametrize("method", ["recalculate", "larsen"])
+@pytest.mark.parametrize("method", ["recalculate", "larsen", "clone"])
 def test_tasks_of_any_phase_beside_measurements_in_flight(method: str) -> None:
     costs, timing = select(COUNTED, method), Timing(6, 14, 14)
     tasks = [Task("control", Fraction(3), Fraction(20_000), priority=5)]
@@ -251,6 +258,45 @@ def test_of_dual_rate_they_are_refused() -> None:
         least_speed(select(COUNTED, "dual-rate"), Timing(6, 4, 9), tasks=tasks)
     fixed = [Task("control", Fraction(3), Fraction(1), priority=5, offset=Fraction(1))]
     assert least_speed(select(COUNTED, "dual-rate"), Timing(6, 4, 9), tasks=fixed).speed > 0
+
+
+def test_clone_is_coupled_with_each_that_is_on_its_way() -> None:
+    """N = 3, M = 7: at k = 12 those of 6 and 9 are on their way, for that of 3 landed in 10. In 13 that of 6 lands, and
+    what is expected of 9 and 12 is compensated."""
+    costs = CloneInFlightCosts(100, 20, 1, 30, 5, 3)
+    found = works(simulate(costs, Timing(3, 7, 7), 1000, cycles=5, keep_slices=True), "hr")
+    assert found[0] == {"P": 100, "ST": 20}
+    assert found[3] == {"P": 100, "CA": 1, "ST": 25}
+    assert found[12] == {"P": 100, "CA": 2, "ST": 30}
+    assert found[13] == {"U": 36, "P": 100, "CA": 2}
+    assert found[14] == {"P": 100, "CA": 2}
+    assert least_speed(costs, Timing(3, 7, 7)).speed == 138
+
+
+@given(N=st.integers(1, 200), data=st.data())
+def test_clone_needs_less_than_larsen_and_than_the_carried_gain_with_few_in_flight(N: int, data: st.DataObject) -> None:
+    """Counted at 9 states and 3 measurements: than the carried gain with up to seven others on their way."""
+    M = data.draw(st.integers(N + 1, 8 * N))
+    clone, larsen_, carried = (
+        least_speed(select(COUNTED, method), Timing(N, M, M)).speed for method in ("clone", "larsen", "carried-gain")
+    )
+    assert clone < larsen_
+    assert clone < carried
+
+
+def test_clone_split_has_one_on_its_way_and_names_clone() -> None:
+    costs = select(COUNTED, "clone-split")
+    for asked in (least_speed, lambda *design: simulate(*design, 2)):
+        with pytest.raises(InputError, match=r"M=14 must be <= N=13 with this method.* larsen, clone, carried-gain"):
+            asked(costs, Timing(13, 14, 14))
+
+
+def test_a_table_without_the_entries_of_clone_in_flight_says_which() -> None:
+    costs = CloneCosts(*map(Fraction, (100, 20, 1, 30)))
+    assert least_speed(costs, Timing(10, 10, 10)).speed == 150
+    for asked in (least_speed, lambda *design: simulate(*design, 2)):
+        with pytest.raises(InputError, match=r"where M is more than N, .*\[costs.clone\] couple, compensate"):
+            asked(costs, Timing(13, 14, 14))
 
 
 class Counter:
@@ -302,3 +348,18 @@ def test_the_filter_does_the_products_that_are_scheduled(monkeypatch: pytest.Mon
     corrections = 2 * counter.calls["correct"] + 5 * counter.calls["hr_update"]
     assert sum(parts.get("U", 0) for parts in found.values()) == corrections
     assert np.isfinite(counter.calls["correct"])
+
+
+def test_the_filter_does_the_cloning_that_is_scheduled(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each kind of job as often as its parts say; a start is what is crossed, coupled apart, and divided."""
+    N, M, steps = 4, 11, 39
+    counter = Counter(monkeypatch, clone_loop)
+    clone.run(*problem(example_system(3, 1, 1), N, M, M, steps, seed=1), backend="reference")
+    starts = counter.calls["start"] + counter.calls["divide"]
+    assert counter.calls["divide"] == counter.calls["cross"]
+    done = starts, counter.calls["carry"], counter.calls["cloned_update"], counter.calls["couple"]
+    for at, expected in enumerate((*done, counter.calls["compensate"]), start=1):
+        unit = CloneInFlightCosts(1, *(1000 if piece == at else 1 for piece in range(1, 6)))
+        schedule = simulate(unit, Timing(N, M, M), 10_000, 8, keep_slices=True)
+        assert schedule.horizon // schedule.period == steps + 1
+        assert sum(sum(parts.values()) for parts in works(schedule, "hr").values()) // 1000 == expected
