@@ -195,17 +195,17 @@ def run(
 
 def _state_update(system: System, _form: FactoredForm, at: Sample) -> tuple[Any, ...]:
     correction = new_correction(system)._replace(K=at.correction.K)
-    return system, at.m + 1, at.now.x, at.u, at.y, correction, np.empty_like(at.now.x)
+    return system, at.m + 1, at.now.x, at.u, at.y, correction, np.zeros_like(at.now.x)
 
 
 def _covariance_gain(system: System, form: FactoredForm, at: Sample) -> tuple[Any, ...]:
     """From k to m, with the system itself in place of the coarse one, for that has the same shapes."""
     P = at.P_posterior
     factors, predicted, posterior, K = (
-        np.empty_like(P),
-        np.empty_like(P),
-        np.empty_like(P),
-        np.empty_like(at.correction.K),
+        np.zeros_like(P),
+        np.zeros_like(P),
+        np.zeros_like(P),
+        np.zeros_like(at.correction.K),
     )
     form.factor(P, factors)
     x_last = at.reference.x + at.correction.delta_x

@@ -236,23 +236,23 @@ def _steps(
 
 
 def _take(system: System, form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
-    P_posterior, work = np.empty_like(at.P_posterior), new_workspace(system)
+    P_posterior, work = np.zeros_like(at.P_posterior), new_workspace(system)
     return system, form, at.k, at.reference, P_posterior, new_flight(system), work
 
 
 def _couple(system: System, _form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
-    C = np.empty((system.measurements, system.measurements))
+    C = np.zeros((system.measurements, system.measurements))
     return system.H(at.m, at.now.x, system.parameters), _carried(at), C
 
 
 def _land(system: System, _form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
     expected = at.y - at.correction.z
-    return at.y, expected, _carried(at), at.now.x, np.empty(system.states), np.empty(system.measurements)
+    return at.y, expected, _carried(at), at.now.x, np.zeros(system.states), np.zeros(system.measurements)
 
 
 def _compensate(system: System, _form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
     C = system.H(at.m, at.now.x, system.parameters) @ _carried(at)
-    return at.y - at.correction.z, C, at.correction.z, np.empty(system.measurements)
+    return at.y - at.correction.z, C, at.correction.z, np.zeros(system.measurements)
 
 
 def _carried(at: Sample) -> FloatArray:

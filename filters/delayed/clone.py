@@ -108,12 +108,12 @@ def start_arguments(system: System, form: CovarianceForm, at: Sample) -> tuple[A
 
 def _carry(system: System, _form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
     _, clone, _ = sampled(system, at)
-    return at.transition.Phi, clone.W, np.empty_like(clone.W)
+    return at.transition.Phi, clone.W, np.zeros_like(clone.W)
 
 
 def _cloned_update(system: System, form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
     H, clone, W = sampled(system, at)
-    work, z = new_workspace(system), np.empty(system.measurements)
+    work, z = new_workspace(system), np.zeros(system.measurements)
     divide(system, form, at.k, H, clone, work)
     return system, form, at.k, at.y, H, clone, W, at.now, new_estimate(system), z, work
 

@@ -102,7 +102,7 @@ def run(
 
 def _late_update(system: System, form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
     H, clone, W = sampled(system, at)
-    z = np.empty(system.measurements)
+    z = np.zeros(system.measurements)
     return system, form, at.k, at.y, H, clone, W, at.now, new_estimate(system), z, new_workspace(system)
 
 

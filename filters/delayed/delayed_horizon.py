@@ -108,11 +108,11 @@ def run(
 
 
 def _predict(system: System, _form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
-    return system, at.m, at.now.x, at.u, np.empty_like(at.now.x)
+    return system, at.m, at.now.x, at.u, np.zeros_like(at.now.x)
 
 
 def _propagate_covariance(system: System, form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
-    return system, form, at.m, at.now, at.u, np.empty_like(at.now.P), new_workspace(system)
+    return system, form, at.m, at.now, at.u, np.zeros_like(at.now.P), new_workspace(system)
 
 
 PREDICT: JobKind[CovarianceForm] = ("predict", predict, _predict)

@@ -116,39 +116,39 @@ def run(
 
 
 def _hr_restart(system: System, _form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
-    return system, at.m, at.now.x, at.u, np.empty_like(at.now.x)
+    return system, at.m, at.now.x, at.u, np.zeros_like(at.now.x)
 
 
 def _hr_propagate(system: System, form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
-    x_next, following = np.empty_like(at.now.x), new_transition(system)
+    x_next, following = np.zeros_like(at.now.x), new_transition(system)
     return system, form, at.m, at.now.x, at.transition, at.u, x_next, following, new_workspace(system)
 
 
 def _hr_propagate_euler(system: System, form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
-    x_next, following = np.empty_like(at.now.x), _halved(new_transition(system), at)
+    x_next, following = np.zeros_like(at.now.x), _halved(new_transition(system), at)
     return system, form, at.m, at.now.x, _halved(at.transition, at), at.u, x_next, following, new_workspace(system)
 
 
 def _hr_update(system: System, _form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
-    return at.now.x, at.transition.Phi, at.correction.delta_x, np.empty_like(at.now.x), new_workspace(system)
+    return at.now.x, at.transition.Phi, at.correction.delta_x, np.zeros_like(at.now.x), new_workspace(system)
 
 
 def _lr_propagate(system: System, form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
-    return form, at.P_posterior, at.transition, np.empty_like(at.P_posterior), new_workspace(system)
+    return form, at.P_posterior, at.transition, np.zeros_like(at.P_posterior), new_workspace(system)
 
 
 def _lr_propagate_euler(system: System, form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
-    P_next = np.empty_like(at.P_posterior)
+    P_next = np.zeros_like(at.P_posterior)
     return form, at.P_posterior, _halved(at.transition, at), P_next, new_workspace(system)
 
 
 def _lr_update(system: System, form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
-    P_posterior, correction = np.empty_like(at.P_posterior), new_correction(system)
+    P_posterior, correction = np.zeros_like(at.P_posterior), new_correction(system)
     return system, form, at.k, at.y, at.reference, P_posterior, correction, new_workspace(system)
 
 
 def _lr_gain(system: System, form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
-    P_posterior, correction = np.empty_like(at.P_posterior), new_correction(system)
+    P_posterior, correction = np.zeros_like(at.P_posterior), new_correction(system)
     return system, form, at.k, at.reference, P_posterior, correction, new_workspace(system)
 
 

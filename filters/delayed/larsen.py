@@ -132,7 +132,7 @@ def run(
 
 
 def _propagate_accumulate(system: System, form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
-    after, Phi_next = new_estimate(system), np.empty_like(at.transition.Phi)
+    after, Phi_next = new_estimate(system), np.zeros_like(at.transition.Phi)
     return system, form, at.m, at.now, at.transition.Phi, at.u, after, Phi_next, new_workspace(system)
 
 
@@ -142,19 +142,19 @@ def _extrapolated_update(system: System, form: CovarianceForm, at: Sample) -> tu
 
 
 def _gain(system: System, form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
-    P_posterior, correction = np.empty_like(at.P_posterior), new_correction(system)
+    P_posterior, correction = np.zeros_like(at.P_posterior), new_correction(system)
     return system, form, at.k, at.reference, P_posterior, correction, new_workspace(system)
 
 
 def _correct(system: System, _form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
-    correction, x_corrected = new_correction(system), np.empty_like(at.now.x)
+    correction, x_corrected = new_correction(system), np.zeros_like(at.now.x)
     correction.K[:] = at.correction.K
     transition, work = at.transition, new_workspace(system)
     return system, at.k, at.y, at.reference.x, transition.Phi, at.now.x, x_corrected, correction, work
 
 
 def _compensate(system: System, _form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
-    return at.now.x, at.transition.Phi, at.correction.delta_x, np.empty_like(at.now.x), new_workspace(system)
+    return at.now.x, at.transition.Phi, at.correction.delta_x, np.zeros_like(at.now.x), new_workspace(system)
 
 
 JOBS: tuple[JobKind[CovarianceForm], ...] = (

@@ -148,12 +148,12 @@ def run(
 
 def _pull(_system: System, _form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
     x = at.reference.x + at.correction.delta_x
-    memory = np.empty_like(x), np.empty_like(x)
+    memory = np.zeros_like(x), np.zeros_like(x)
     return x, at.reference.x, at.correction.delta_x.copy(), pull_gains(TAU_S, STEP_S), *memory
 
 
 def _shift_output(_system: System, _form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
-    return at.now.x, at.correction.delta_x, np.empty_like(at.now.x)
+    return at.now.x, at.correction.delta_x, np.zeros_like(at.now.x)
 
 
 JOBS: tuple[JobKind[CovarianceForm], ...] = (

@@ -61,7 +61,7 @@ def _step_job(case: RobustCase, way: WayName, seed: int) -> Job:
 
 
 def _inertial(case: RobustCase, at: Start) -> tuple[Any, ...]:
-    return case.system, at.x, at.u, np.full_like(at.x, 1e-9), np.empty_like(at.x)
+    return case.system, at.x, at.u, np.full_like(at.x, 1e-9), np.zeros_like(at.x)
 
 
 def _robust_step(case: RobustCase, way: WayName, at: Start) -> tuple[Any, ...]:
@@ -69,8 +69,8 @@ def _robust_step(case: RobustCase, way: WayName, at: Start) -> tuple[Any, ...]:
     model = prepared(linearised(system, scaling, case.uncertainty, at.x, at.u), case.mu)
     n, p = len(at.x), len(at.y)
     before = Predicted((at.x - scaling.origin) / scaling.unit, at.P)
-    after = Predicted(np.empty(n), np.empty((n, n)))
-    work = ExtendedWorkspace(np.empty(n), np.empty(p), np.empty(p), np.empty(0), np.empty(n))
+    after = Predicted(np.zeros(n), np.zeros((n, n)))
+    work = ExtendedWorkspace(np.zeros(n), np.zeros(p), np.zeros(p), np.zeros(0), np.zeros(n))
     job = JOBS[way]
     setting = Setting(model, weights(model, case.mu), job.workspace(model))
     return system, scaling, job.function, at.y, at.x, at.u, before, setting, after, work

@@ -139,6 +139,14 @@ def test_argument_sets_differ_and_are_reproducible(key: tuple[str, str]) -> None
     assert not any(np.shares_memory(a, b) for a in first[10:] for b in other[10:])
 
 
+@each_job
+def test_argument_sets_hold_no_memory_as_it_comes(key: tuple[str, str], monkeypatch: pytest.MonkeyPatch) -> None:
+    """It may hold anything, and two sets of one index would differ by it."""
+    monkeypatch.setattr(np, "empty", lambda shape, dtype=float: np.full(shape, np.nan, dtype))
+    monkeypatch.setattr(np, "empty_like", lambda like: np.full_like(like, np.nan))
+    assert all(np.isfinite(array).all() for array in arrays_in(all_jobs()[key].arguments(0)))
+
+
 @pytest.mark.slow
 def test_repeating_in_compiled_code_gives_the_same_as_once() -> None:
     job = all_jobs()["larsen", "update"]
