@@ -233,6 +233,7 @@ def _steps(
         if arrives and M == 0:
             recorder.correction(filtered.land(y[k // N]))
         yield filtered
+    recorder.keep_known(len(y))
 
 
 def _take(system: System, form: CovarianceForm, at: Sample) -> tuple[Any, ...]:

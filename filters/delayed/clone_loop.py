@@ -129,5 +129,4 @@ def steps(
         if arrives and M == 0:
             recorder.correction(filtered.land(y[k // N]))
         yield filtered.now
-    if M > N:
-        recorder.keep_known(len(y))
+    recorder.keep_known(len(y))

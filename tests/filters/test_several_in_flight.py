@@ -21,7 +21,7 @@ from tests.filters.cases import CASES, Case, relative_difference, standard_run
 from tests.strategies import Problem, problem, seeds, sizes
 
 RELATIVE = 1e-10
-CAN = [case for case in CASES if case.method in ("recalculate", "larsen", "clone", "dual-rate")]
+CAN = [case for case in CASES if case.method in ("recalculate", "larsen", "clone", "carried-gain", "dual-rate")]
 each_case = pytest.mark.parametrize("case", CAN, ids=lambda case: "-".join([case.method, *case.options.values()]))
 
 
