@@ -81,7 +81,7 @@ CASES: dict[str, Callable[[], list[Panel]]] = {
     "several in flight": lambda: [
         *(
             method_panel(COUNTED, name, Timing(6, 14, 18), speed, 3)
-            for name, speed in (("larsen", 9000), ("dual-rate", 5500))
+            for name, speed in (("larsen", 9000), ("clone", 6000), ("dual-rate", 5500))
         ),
         panel("dual-rate", 10, 4, 14, "0.66", 3),
     ],

@@ -52,6 +52,13 @@ def test_the_golden_values_of_constant_velocity(sched_sim: Run, L: int, worst: f
     assert row["oldest_age_ms"] is None
 
 
+@pytest.mark.parametrize("method", ["recalculate", "larsen", "clone", "carried-gain"])
+def test_the_golden_value_of_two_on_their_way(sched_sim: Run, method: str) -> None:
+    (row,) = rows_of(sched_sim, f"accuracy --model mine:cv -N 10 -M 14 --output 0 --method {method}")
+    assert (row["L"], row["verdict"]) == (14, "exact")
+    assert row["worst_std"] == pytest.approx(8.5345602732, abs=5e-11)
+
+
 @pytest.mark.parametrize(("L", "worst"), [(44, 0.37293412), (60, 0.37905887), (80, 0.38684844)])
 def test_the_golden_values_of_inertial_navigation(sched_sim: Run, L: int, worst: float) -> None:
     method = "recalculate" if L == 44 else "delayed-horizon"

@@ -14,7 +14,14 @@ from sched_sim.costs.table import CostTable
 from sched_sim.costs.table_file import TABLES, costs_text, load_costs, read_costs, shipped_tables
 from sched_sim.design.methods import select
 from sched_sim.design.options import Options
-from sched_sim.design.pieces import DualRateCosts, LarsenCosts, LarsenInFlightCosts, StandardCosts
+from sched_sim.design.pieces import (
+    CloneCosts,
+    CloneInFlightCosts,
+    DualRateCosts,
+    LarsenCosts,
+    LarsenInFlightCosts,
+    StandardCosts,
+)
 from sched_sim.errors import InputError
 
 BY_HAND = """
@@ -63,12 +70,19 @@ def test_the_counted_table_has_what_every_option_needs() -> None:
     assert split.lr_gain + split.lr_update == whole.lr_update
 
 
-def test_what_larsen_needs_for_several_in_flight_is_taken_where_a_table_has_it(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize(
+    ("method", "alone", "several"),
+    [("larsen", LarsenCosts, LarsenInFlightCosts), ("clone", CloneCosts, CloneInFlightCosts)],
+)
+def test_what_several_in_flight_need_is_taken_where_a_table_has_it(
+    monkeypatch: pytest.MonkeyPatch, method: str, alone: type, several: type
+) -> None:
     """Where not, no message is made of it, for which all shipped tables would be read."""
-    assert isinstance(select(load_costs("counted-9-3-3"), "larsen"), LarsenInFlightCosts)
-    papers = load_costs("steffes2014")
+    counted = load_costs("counted-9-3-3")
+    assert type(select(counted, method)) is several
+    without = {kind: cost for kind, cost in counted.costs[method].items() if kind != "compensate"}
     monkeypatch.setattr(CostTable, "_remedy", lambda *_: pytest.fail("a message was made"))
-    assert type(select(papers, "larsen")) is LarsenCosts
+    assert type(select(CostTable("mine", "operation", {method: without}), method)) is alone
 
 
 def test_a_table_survives_being_written_and_read(tmp_path: Path) -> None:

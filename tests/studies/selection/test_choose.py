@@ -87,6 +87,18 @@ def test_without_delay_the_standard_filter_takes_part() -> None:
     assert "standard" not in [of.variant.method for of in choice(9.0).best]
 
 
+def test_with_several_in_flight_those_that_bear_it_take_part() -> None:
+    """Counted at 9 states: 14 steps late and measured every 10, one other is on its way at k."""
+    found = choose_filter(9.0, CV, [0], N=10, M=14, methods=["larsen", "clone", "clone-split"], costs=["counted-9-3-3"])
+    assert {of.variant.method: of.least.speed for of in found.best if of.least} == {
+        "larsen": 3042 + 1377 + 3171,
+        "clone": 3042 + 459 + 765 + 360,
+    }
+    (other,) = found.others
+    assert other.variant.method == "clone-split"
+    assert "one measurement at a time" in other.reason
+
+
 def test_parts_as_they_are() -> None:
     found = choice(9.0, hr_hz=100, processors=[load_part("leon3"), "cortex-m4f"])
     assert {on.part.name for of in found.best for on in of.parts} == {"leon3", "cortex-m4f"}

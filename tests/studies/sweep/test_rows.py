@@ -133,7 +133,7 @@ def test_context_switches_go_through_the_simulation(method):
     assert (slow["feasible"], slow["achieved_l"]) == (False, None)
 
 
-@pytest.mark.parametrize("method", ["recalculate", "larsen", "dual-rate"])
+@pytest.mark.parametrize("method", ["recalculate", "larsen", "clone", "dual-rate"])
 @pytest.mark.parametrize("L", [None, (4, 9)])
 def test_rows_of_several_in_flight(method, L):
     table = load_costs("counted-9-3-3")

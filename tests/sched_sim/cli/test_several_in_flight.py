@@ -1,0 +1,74 @@
+"""The commands with M > N, where others are measured before one arrives, for each method that corrects at arrival.
+
+N = 3, M = 7, counted at 9 states and 3 measurements: two others are on their way at each k.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+
+import pytest
+
+from tests.command_line import Run, is_refused
+
+DESIGN = "-N 3 -M 7 --costs counted-9-3-3"
+LEAST = {
+    "recalculate": 3042 + 3279 + 7 * 3042,  # propagate, update at k, replay; in the step of m
+    "larsen": 3042 + 2 * 1377 + 3171,  # propagate, two products, gain; in that of k
+    "clone": 3042 + 2 * 459 + 765 + 2 * 360,  # propagate, carry two, start, couple with two
+    "carried-gain": 3042 + 2 * 459 + 3222 + 2 * 153,  # propagate, carry two, update, couple with two
+}
+each_method = pytest.mark.parametrize("method", LEAST)
+
+
+@each_method
+def test_minimum_says_what_the_longest_job_takes(sched_sim: Run, method: str) -> None:
+    (row,) = json.loads(sched_sim(f"minimum {DESIGN} --method {method} --format json").out)
+    assert (row["min_speed_exact"], row["binding"]) == (str(LEAST[method]), "hr")
+    assert (row["L"], row["achieved_l_at_min_speed"]) == (7, 7)
+
+
+@each_method
+def test_simulate_misses_nothing_at_that_speed_and_something_just_below(sched_sim: Run, method: str) -> None:
+    at, below = (
+        json.loads(sched_sim(f"simulate {DESIGN} --method {method} --speed {speed} --format json").out)
+        for speed in (LEAST[method], LEAST[method] - 1)
+    )
+    assert (at["misses"], at["achieved_l"]) == (0, [7, 7, 7])
+    assert below["misses"] > 0
+
+
+@each_method
+def test_gantt_draws_it_at_that_speed(sched_sim: Run, tmp_path: Path, method: str) -> None:
+    assert sched_sim(f"gantt {DESIGN} --method {method} -o g.svg").code == 0
+    texts = " ".join(re.findall(r"<!-- (.*?) -->", (tmp_path / "g.svg").read_text()))
+    for words in (f"speed {LEAST[method]}", "k+7", "no deadline missed"):
+        assert words in texts
+
+
+@each_method
+def test_processors_says_what_a_part_does_with_it(sched_sim: Run, method: str) -> None:
+    line = f"processors {DESIGN} --hr-hz 100 --processor leon3 --method {method} --format json"
+    (row,) = json.loads(sched_sim(line).out)
+    assert (row["fits"], row["achieved_l"]) == (True, 7)
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "minimum -N 10 -M 14",
+        "simulate -N 10 -M 14",
+        "gantt -N 10 -M 14 -o g.svg",
+        "sweep -N 10 -M 14",
+        "design --within 0.5 --model ins-gps -N 80 -M 200",
+    ],
+)
+def test_a_table_without_what_clone_needs_for_it_is_said_to_lack_it(sched_sim: Run, tmp_path: Path, line: str) -> None:
+    entries = "[costs.clone]\npropagate = 10\nstart = 3\ncarry = 2\nupdate = 3\n"
+    (tmp_path / "mine.toml").write_text(f'name = "mine"\nunit = "us"\n{entries}')
+    alone = sched_sim("minimum -N 10 -M 4 --method clone --costs mine.toml --format json")
+    assert json.loads(alone.out)[0]["min_speed"] == 13
+    words = ["where M is more than N", "no [costs.clone] couple, compensate", "--costs counted-9-3-3"]
+    is_refused(sched_sim(f"{line} --method clone --costs mine.toml"), words)
