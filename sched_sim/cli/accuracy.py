@@ -180,7 +180,10 @@ def _refuse_contradictions(
     if trajectory is None:
         given = opt.given_options(context, lambda name: name == "initial_std")
         if given:
-            raise InputError("--initial-std without --trajectory: without one, the covariance is what it settles to")
+            raise InputError(
+                "--initial-std without --trajectory: without one, the covariance is what it settles to; give "
+                "--trajectory FILE.csv, or leave --initial-std out"
+            )
     else:
         given = opt.given_options(context, lambda name: name in ("motion", "tau", "metric", "low_rate_noise"))
         if given:

@@ -24,20 +24,24 @@ MOST_NUMBERS = 30_000_000
 
 
 class Conditions(NamedTuple):
-    """displacement, pull: as in `methods.Asked`."""
+    """displacement, pull: as in `methods.Asked`; measured: so many quantities."""
 
     displacement: FloatArray | None = None
     pull: float | None = None
+    measured: int = 1
 
     def lacks(self, method: str) -> str:
         """What the method needs that was not said; empty if nothing."""
         if METHODS[method].needs == "motion" and self.displacement is None:
             return (
-                f"{method}: {option('motion')} says how fast the measured quantity moves, in its units a second, and "
-                f"its error is that times the delay"
+                f"{method}: its error is how far the measured quantities move during the delay: give "
+                f"{option('motion')} {_example(self.measured)}, how fast each of them moves, in its unit a second"
             )
         if METHODS[method].needs == "hr_hz" and self.pull is None:
-            return f"{method}: {option('hr_hz')} says how many steps its time constant {option('tau')} is"
+            return (
+                f"{method}: its time constant {option('tau')} is in seconds: give {option('hr_hz')} 400, or what else "
+                f"the rate of the HR loop is"
+            )
         return ""
 
 
@@ -49,7 +53,7 @@ def conditions_of(
     tau = positive(tau_s, option("tau"))
     pull = None if sampling.hr_hz is None else float(1 / (sampling.hr_hz * tau))
     if motion is None:
-        return Conditions(None, pull)
+        return Conditions(None, pull, len(model.linear.H))
     said = f"{option('motion')} {short(motion)}"
     parts = motion.split(",") if isinstance(motion, str) else list(motion)
     speeds = [float(exact(part, said)) for part in parts]
@@ -57,11 +61,16 @@ def conditions_of(
     if len(speeds) != needed:
         raise InputError(
             f"{said}: {len(speeds)} number{'' if len(speeds) == 1 else 's'}, and the model measures {needed}: give one "
-            f"for each, in its unit a second, such as {option('motion')} {','.join(['15'] + ['0'] * (needed - 1))}"
+            f"for each, in its unit a second, such as {option('motion')} {_example(needed)}"
         )
     if sampling.delay_s is None:
         raise InputError(f"{said} without {option('hr_hz')}: give the rate of the HR loop, for the delay in seconds")
-    return Conditions(np.array(speeds) * sampling.delay_s, pull)
+    return Conditions(np.array(speeds) * sampling.delay_s, pull, needed)
+
+
+def _example(measured: int) -> str:
+    """A motion of so many quantities."""
+    return ",".join(["15"] + ["0"] * (measured - 1))
 
 
 class Chosen(NamedTuple):

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from filters.accuracy.model import output_rows
+from filters.accuracy.model import LinearModel, output_rows
 from filters.accuracy.visible import visible
 from filters.arrays import FloatArray
 from sched_sim.bounds import MOST_STATES, short
@@ -63,7 +63,7 @@ def _outputs(model: Model, asked: Any) -> Outputs:
             raise InputError(f"{option('output')} is missing: {HOW}; the model has the states 0 to {n - 1}")
         asked = model.shipped.output
     if not isinstance(asked, str):
-        return Outputs("output", _rows(asked, f"{option('output')} of shape {np.shape(asked)}", n), "")
+        return Outputs("output", _rows(asked, f"{option('output')} of shape {np.shape(asked)}", model.linear), "")
     if asked in named:
         return Outputs(asked, output_rows(named[asked].states, n), named[asked].unit)
     said = f"{option('output')} {short(asked)}"
@@ -71,7 +71,7 @@ def _outputs(model: Model, asked: Any) -> Outputs:
     if equals and not name.strip():
         raise InputError(f"{said} has no name before the = sign: {HOW}")
     numbers = _states(states, said, tuple(named))
-    rows = _rows(numbers, said, n)
+    rows = _rows(numbers, said, model.linear)
     unit = next((output.unit for output in named.values() if set(numbers) <= set(output.states)), "")
     return Outputs(name.strip() or f"states {states}", rows, unit)
 
@@ -93,7 +93,9 @@ def _states(text: str, said: str, named: tuple[str, ...]) -> list[int]:
     return numbers
 
 
-def _rows(asked: Any, said: str, states: int) -> FloatArray:
+def _rows(asked: Any, said: str, model: LinearModel) -> FloatArray:
+    states = model.states
+    _refuse_repeats(asked, said, model)
     try:
         rows = output_rows(asked, states)
     except (ValueError, TypeError):
@@ -104,3 +106,20 @@ def _rows(asked: Any, said: str, states: int) -> FloatArray:
     if not np.any(rows, axis=1).all():
         raise InputError(f"{said}: a row of zeros is no output: give rows with a number in them")
     return rows
+
+
+def _refuse_repeats(asked: Any, said: str, model: LinearModel) -> None:
+    """Raises InputError for a row that is there twice: it would count twice in the standard deviation of all."""
+    try:
+        rows = np.atleast_1d(np.asarray(asked, dtype=float)).tolist()
+    except (ValueError, TypeError):
+        return
+    for at, row in enumerate(rows):
+        first = rows.index(row)
+        if first == at:
+            continue
+        if isinstance(row, list):
+            raise InputError(f"{said}: rows {first} and {at} are the same and would count twice: give each row once")
+        state = int(row) if np.isfinite(row) else 0
+        named = f" ({model.names[state]})" if 0 <= state < len(model.names) else ""
+        raise InputError(f"{said}: state {row:g}{named} is there twice and would count twice: give each state once")

@@ -81,6 +81,8 @@ def test_an_exact_low_rate_noise_is_no_other_method() -> None:
 def test_outputs_by_number_are_rows() -> None:
     np.testing.assert_array_equal(output_rows([1, 0], 3), [[0, 1, 0], [1, 0, 0]])
     np.testing.assert_array_equal(output_rows([[1, 2, 3]], 3), [[1, 2, 3]])
+    with pytest.raises(ValueError, match=r"outputs \[0, 2, 0\]: state 0 is there twice: give each state once"):
+        output_rows([0, 2, 0], 3)
 
 
 def test_a_system_is_taken_as_it_is_in_step_0() -> None:

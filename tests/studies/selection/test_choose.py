@@ -154,6 +154,8 @@ def test_each_scheduled_method_of_a_late_measurement_has_an_accuracy() -> None:
         ({"output": [5]}, "output of shape \\(1,\\) is not of this model"),
         ({"output": [[0.0, 0.0]]}, "a row of zeros is no output"),
         ({"output": [[1.0, 0.0, 0.0]]}, "output of shape \\(1, 3\\)"),
+        ({"output": [0, 1, 0]}, "state 0 is there twice"),
+        ({"output": [[1.0, 0.0], [0.0, 1.0], [1.0, 0.0]]}, "rows 0 and 2 are the same"),
         ({"N": 0}, "N is 0"),
         ({"N": 2.5}, "N is 2.5: give a whole number"),
         ({"M": -1}, "M is -1"),
