@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from sched_sim.cli import accuracy_flags as flags
@@ -16,13 +16,15 @@ if TYPE_CHECKING:
 
 
 def show(found: Comparison, asked: flags.Sampled, format: opt.Format) -> None:
+    from studies.selection.methods import by_reason
+
     if format == "json":
         print_json([_row(row, found) for row in found.rows])
         return
     if format == "csv":
         print_csv([_row(row, found) for row in found.rows])
         return
-    remarks = [*_remarks((row.method, row.remark) for row in found.rows), *found.left_out]
+    remarks = [*by_reason((row.method, row.remark) for row in found.rows), *found.left_out]
     unit = _in_unit(found.outputs)
     print_table(
         f"Standard deviation of {found.outputs.name}{unit}, {found.model.name}, {flags.shown(found.sampling)}",
@@ -35,15 +37,6 @@ def show(found: Comparison, asked: flags.Sampled, format: opt.Format) -> None:
             *remarks,
         ),
     )
-
-
-def _remarks(of_methods: Iterable[tuple[str, str]]) -> list[str]:
-    """Each once, with the methods that it is of."""
-    named: dict[str, list[str]] = {}
-    for method, remark in dict.fromkeys(of_methods):
-        if remark:
-            named.setdefault(remark, []).append(method)
-    return [f"{', '.join(methods)}: {remark}" for remark, methods in named.items()]
 
 
 MEANING = {
@@ -146,6 +139,8 @@ LARGE = 9.99
 
 
 def show_along(found: AlongComparison, asked: flags.Sampled, format: opt.Format) -> None:
+    from studies.selection.methods import by_reason
+
     rows = [
         {
             "method": row.method,
@@ -184,7 +179,7 @@ def show_along(found: AlongComparison, asked: flags.Sampled, format: opt.Format)
         }
         for row in found.rows
     ]
-    remarks = [*_remarks((row.method, row.remark) for row in found.rows), *found.left_out]
+    remarks = [*by_reason((row.method, row.remark) for row in found.rows), *found.left_out]
     print_table(
         f"Standard deviation of {found.outputs.name}{_in_unit(found.outputs)}, {found.model.name}, "
         f"{flags.shown(found.sampling)}, over steps {found.first} to {found.steps} of the trajectory",

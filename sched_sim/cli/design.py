@@ -163,6 +163,7 @@ def _draw(path: Path, question: Question, found: Choice, every: Sequence[int]) -
 
 def _show(found: Choice, ways: Sequence[Candidate], question: Question, words: str) -> None:
     from sched_sim.cli.update_form import ground_note
+    from studies.selection.methods import by_reason
 
     unit = found.outputs.unit and f" {found.outputs.unit}"
     title = (
@@ -176,7 +177,7 @@ def _show(found: Choice, ways: Sequence[Candidate], question: Question, words: s
         [_words(of, found) for of in ways],
         lines(
             *found.remarks,
-            *(f"not {of.variant.method}: {of.reason}" for of in found.others),
+            *(f"not {words}" for words in by_reason((of.variant.method, of.reason) for of in found.others)),
             *found.left_out,
             f"without delay: {found.no_delay:.6g}{unit}; least speed: {units(found.unit)} per HR period, to land by L",
             "part: the cheapest where prices are known, else the one with the least to spare" if question.parts else "",

@@ -19,12 +19,13 @@ from sched_sim.design.options import Options
 from sched_sim.errors import InputError, option
 from sched_sim.html_table import html_table
 from sched_sim.ticks import Number, exact
-from studies.selection.landing import Processor, landed
-from studies.selection.methods import COMPARED, METHODS
+from studies.selection.landing import Landed, Processor, landed
+from studies.selection.methods import COMPARED, METHODS, by_reason
 from studies.selection.model import Model
 from studies.selection.outputs import Outputs
 from studies.selection.sampling import Sampling
 from studies.selection.trajectory import Linearised, Trajectory, linearised_along
+from studies.selection.waiting import too_late
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,11 +86,12 @@ def compared_along(
     chosen, left_out = _lossless(methods)
     at_each = linearised_along(model.system, path)
     P0 = _initial(model, sampling, at_each, initial_std)
-    designs = {
-        (number, name): landed(name, sampling.N * number, sampling.M, L, options, processor)
-        for number in every
-        for name in ("standard", *chosen)
-    }
+
+    def lands(name: str, number: int) -> Landed:
+        late = too_late(name, sampling, number, options)
+        return Landed(None, late) if late else landed(name, sampling.N * number, sampling.M, L, options, processor)
+
+    designs = {(number, name): lands(name, number) for number in every for name in ("standard", *chosen)}
     first = max((at.L for at in designs.values() if at.L is not None), default=0)
     if first > path.steps:
         raise InputError(
@@ -123,7 +125,7 @@ def compared_along(
             over = of.worst / no_delay - 1 if no_delay else None
             rows.append(AlongRow(name, number, using.N, at.L, of, over, oldest, at.remark))
     if all(row.spread is None for row in rows):
-        raise InputError(f"{rows[0].method}: {rows[0].remark}")
+        raise InputError(f"no correction lands: {'; '.join(by_reason((row.method, row.remark) for row in rows))}")
     return AlongComparison(model, outputs, sampling, path.steps, first, tuple(rows), left_out)
 
 

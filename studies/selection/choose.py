@@ -26,7 +26,7 @@ from studies.selection.conditions import TAU_S, check_ages, chosen_methods, cond
 from studies.selection.costs import tables_for
 from studies.selection.curve import Curve
 from studies.selection.landing import earliest
-from studies.selection.methods import METHODS
+from studies.selection.methods import METHODS, by_reason
 from studies.selection.model import load_model, shipped_defaults
 from studies.selection.outputs import outputs_of
 from studies.selection.parts import OnPart, Parts, by_cost
@@ -34,6 +34,7 @@ from studies.selection.question import Accuracies, Question
 from studies.selection.remarks import remarks
 from studies.selection.sampling import Sampling
 from studies.selection.variants import Variant, candidates, variants
+from studies.selection.waiting import too_late
 
 
 def choose_filter(
@@ -139,7 +140,7 @@ def chosen(question: Question, methods: Sequence[str] | None = None, every: Sequ
         raise InputError(_out_of_reach(question, looked, no_delay))
     keeping = [candidate for candidate in looked if candidate.least is not None]
     if not keeping:
-        reasons = dict.fromkeys(f"{of.variant.method}: {of.reason}" for of in looked if of.allowed is not None)
+        reasons = by_reason((of.variant.method, of.reason) for of in looked if of.allowed is not None)
         raise InputError(f"{option('method')}: none of these can be had: {'; '.join(reasons)}")
     best = [_least(keeping, name) for name in names if any(of.variant.method == name for of in keeping)]
     parts = Parts(question.parts, question.statistic)
@@ -184,6 +185,8 @@ def _candidate(question: Question, accuracy: Accuracies, variant: Variant) -> Ca
     found = Candidate(variant, using.N, first, curve.at(first), curve.latest(question.within))
     if found.allowed is None:
         return replace(found, reason=_too_coarse(question, found))
+    if late := too_late(variant.method, question.sampling, variant.every, variant.options):
+        return replace(found, reason=late)
     law = SCHEDULED[variant.method].law(variant.options.feedback)
     last = found.first if METHODS[variant.method].landing != "later" else min(found.allowed, law.latest(using.N, delay))
     try:
@@ -262,8 +265,8 @@ def _out_of_reach(question: Question, looked: Sequence[Candidate], no_delay: flo
 
 def _can_be_had(question: Question, candidate: Candidate) -> bool:
     """Whether the method can have such a delay at all."""
-    law = SCHEDULED[candidate.variant.method].law(candidate.variant.options.feedback)
-    return law.undelayed or law.several or law.why_none(candidate.N, question.sampling.M) is None
+    variant = candidate.variant
+    return not too_late(variant.method, question.sampling, variant.every, variant.options)
 
 
 def _in_full(question: Question, candidate: Candidate) -> Candidate:

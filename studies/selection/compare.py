@@ -16,10 +16,11 @@ from sched_sim.html_table import html_table
 from sched_sim.ticks import Number
 from studies.selection.conditions import TAU_S, Conditions, check_ages, chosen_methods, conditions_of, settling
 from studies.selection.landing import Landed, Processor, landed
-from studies.selection.methods import METHODS, Asked
+from studies.selection.methods import METHODS, Asked, by_reason
 from studies.selection.model import Model, load_model, shipped_defaults
 from studies.selection.outputs import Outputs, outputs_of
 from studies.selection.sampling import Sampling
+from studies.selection.waiting import too_late
 
 Metric: TypeAlias = Literal["worst", "rms"]
 
@@ -145,13 +146,12 @@ def compared(
     for number in every:
         using = sampling.using(number)
         for name in chosen.methods:
-            at = landed(name, using.N, using.M, L, options, processor)
+            late = too_late(name, sampling, number, options)
+            at = Landed(None, late) if late else landed(name, using.N, using.M, L, options, processor)
             of, remark = _accuracy(model, outputs, using, name, at, options, conditions)
             rows.append(_row(name, number, using, of, remark, no_delay, metric))
     if all(row.accuracy is None for row in rows):
-        reasons = dict.fromkeys(row.remark for row in rows)
-        named = (f"{', '.join(row.method for row in rows if row.remark == reason)}: {reason}" for reason in reasons)
-        raise InputError(f"no correction lands: {'; '.join(named)}")
+        raise InputError(f"no correction lands: {'; '.join(by_reason((row.method, row.remark) for row in rows))}")
     return Comparison(model, outputs, sampling, metric, no_delay, tuple(rows), chosen.left_out)
 
 

@@ -45,8 +45,6 @@ def landed(method: str, N: int, M: int, L: int | None, options: Options, process
     rule = METHODS[method].landing
     first = earliest(method, M, options)
     law = None if method not in SCHEDULED else SCHEDULED[method].law(options.feedback)
-    if law is not None and rule != "at once" and (reason := law.why_none(N, M)):
-        return Landed(None, reason)
     if processor is not None:
         found = _scheduled(method, N, M, processor)
         if found is not None:

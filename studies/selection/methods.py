@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Literal, NamedTuple, TypeAlias
 
 from filters.accuracy.approximate import discarded, with_low_rate_noise
@@ -85,3 +85,12 @@ METHODS: Mapping[str, Method] = {
 
 COMPARED = tuple(name for name in METHODS if name not in ("clone-split", "discard"))
 """If none is named."""
+
+
+def by_reason(of_methods: Iterable[tuple[str, str]]) -> list[str]:
+    """Each reason once, with the methods that it is of; without those of which there is none."""
+    named: dict[str, list[str]] = {}
+    for method, reason in dict.fromkeys(of_methods):
+        if reason:
+            named.setdefault(reason, []).append(method)
+    return [f"{', '.join(methods)}: {reason}" for reason, methods in named.items()]

@@ -115,7 +115,7 @@ def test_why_the_others_do_not(sched_sim: Run) -> None:
     assert "0.3733 m at best, landing at L=45" in found["others"][0]["reason"]
     assert all(row["reason"].startswith("no part is fast enough") for row in found["designs"])
     table = sched_sim(f"design --within 0.3731 {INS} --processor cortex-m0plus").out
-    assert "not dual-rate: 0.3733 m at best" in table
+    assert "not dual-rate, delayed-horizon: 0.3733 m at best" in table
     assert "no part is fast enough: the nearest, cortex-m0plus, needs" in table
 
 
@@ -173,7 +173,7 @@ def test_the_figure_is_the_same_every_time(sched_sim: Run, tmp_path: Path, kind:
         (f"--within 0 {INS}", ["--within is 0", "greater than 0"]),
         (
             "--within 0.5 --model ins-gps -N 80 -M 200 --method clone-split",
-            ["none of these can be had: clone-split: M=200"],
+            ["none of these can be had: clone-split: ", "--delay-ms 500 (-M 200)", "or --every 3"],
         ),
         (
             "--within 0.3 --model ins-gps -N 80 -M 200",

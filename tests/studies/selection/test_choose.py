@@ -172,5 +172,23 @@ def test_what_cannot_be_is_named(arguments: dict[str, Any], said: str) -> None:
         choose_filter(**given)
 
 
+def test_what_waits_for_one_measurement_is_told_once_with_what_would_do() -> None:
+    """In the units that are known, every number of them true."""
+    methods = ["clone", "augmentation", "delayed-horizon", "larsen"]
+    in_time = {"model": "ins-gps", "delay_ms": 500, "methods": methods}
+    late = "with delay_ms 500 (M 200) others are taken before it arrives, every 200 ms (N 80)"
+    remedy = "choose method recalculate, larsen, carried-gain or dual-rate, or every 3"
+    of_both = {(of.variant.method, of.reason) for of in choose_filter(1, every=[1], **in_time).others}
+    assert {reason for _, reason in of_both} == {f"one measurement is on its way at a time, and {late}: {remedy}"}
+    rows = compare_accuracy(every=[1, 2, 3], **in_time).rows
+    assert {row.every for row in rows if row.accuracy is None} == {1, 2}
+    with pytest.raises(InputError, match=r"clone, augmentation: .*every 2 steps \(N 2\): choose .*, or every 4$"):
+        compare_accuracy(CV, [0], N=2, M=7, methods=["clone", "augmentation"])
+    with pytest.raises(
+        InputError, match=r"no step is left .* with M 4, every 4 steps \(N 4\): .* larsen, .* or every 2$"
+    ):
+        compare_accuracy(CV, [0], N=4, M=4, methods=["delayed-horizon"])
+
+
 def test_a_bound_is_a_number() -> None:
     assert within_of("0.38") == 0.38
