@@ -131,7 +131,7 @@ def _figure(value: float | None) -> str | None:
 def _percent(over: float) -> str:
     if not over < float("inf"):
         return "grows"
-    return f"{100 * over:.3g} %" if over < LARGE else f"{100 * over:.0f} %"
+    return f"{100 * over:.3g} %" if over < LARGE else f"{100 * over:,.0f} %"
 
 
 LARGE = 9.99

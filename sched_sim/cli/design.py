@@ -40,6 +40,16 @@ CostTables = Annotated[
         rich_help_panel=opt.DESIGN,
     ),
 ]
+DesignMethods = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--method",
+        help="recalculate, larsen, clone, clone-split, carried-gain, augmentation, dual-rate, delayed-horizon, "
+        "px4-predictor, fuse-as-fresh, or standard, to which nothing is late; repeatable; by default all that the cost "
+        "tables have, but for standard.",
+        rich_help_panel=opt.DESIGN,
+    ),
+]
 AllMethods = Annotated[
     bool,
     typer.Option(
@@ -70,7 +80,7 @@ def design(
     hr_hz: opt.HrHz = None,
     measurement_hz: opt.MeasurementHz = None,
     delay_ms: opt.DelayMs = None,
-    method: flags.AccuracyMethods = None,
+    method: DesignMethods = None,
     every: flags.Every = "1:4",
     metric: flags.Metric = "worst",
     motion: flags.Motion = None,
@@ -86,7 +96,8 @@ def design(
 ) -> None:
     """Which filter keeps an accuracy, how late its corrections may land for it, and on which part: for each method the
     latest landing, the least speed for that, the part that just does, and what it does better; and why the others do
-    not.
+    not. That no part will do is an answer, as of `minimum` and `processors` (exit code 0, and what would help); that no
+    method keeps the accuracy is an error (exit code 2, and the best that there is).
 
     sched-sim design --within 0.38 --model ins-gps
     sched-sim design --within 0.38 --model ins-gps --processor cortex-m4f --processor rp2040 --all-methods
@@ -172,6 +183,7 @@ def _show(found: Choice, ways: Sequence[Candidate], question: Question, words: s
     )
     calibrations = {part.name: None if part.calibration is None else part.calibration.text for part in question.parts}
     table = question.tables[0]
+    too_slow = any(of.parts and of.cheapest is None and of.parts[0].needed is not None for of in ways)
     print_table(
         title,
         [_words(of, found) for of in ways],
@@ -181,6 +193,8 @@ def _show(found: Choice, ways: Sequence[Candidate], question: Question, words: s
             *found.left_out,
             f"without delay: {found.no_delay:.6g}{unit}; least speed: {units(found.unit)} per HR period, to land by L",
             "part: the cheapest where prices are known, else the one with the least to spare" if question.parts else "",
+            f"{TOO_SLOW}: no part runs it; of its speed is what the nearest would need" if too_slow else "",
+            *by_reason((of.variant.method, of.reason) for of in ways if of.parts and of.parts[0].needed is None),
             words,
             f"costs: {', '.join(table.name for table in question.tables)}",
             ground_note(table, [of.variant.method for of in ways], calibrations) if question.parts else "",
@@ -204,8 +218,15 @@ def _words(of: Candidate, found: Choice) -> dict[str, Any]:
     on = of.cheapest
     do = sum(on.fits for on in of.parts)
     if on is None:
-        nothing = dict.fromkeys(("of its speed", "load", "lands at L", "after, ms", "std"))
-        return row | {"part": of.reason or None, **nothing, "parts that do": f"0 of {len(of.parts)}"}
+        nearest = of.parts[0]
+        known = nearest.needed is not None
+        return row | {
+            "part": f"{TOO_SLOW}: {nearest.part.name}" if known else "not known",
+            "of its speed": _percent(nearest.needed),
+            "load": _percent(nearest.load),
+            **dict.fromkeys(("lands at L", "after, ms", "std")),
+            "parts that do": f"0 of {len(of.parts)}",
+        }
     return row | {
         "part": on.part.name,
         "of its speed": _percent(on.needed),
@@ -226,7 +247,13 @@ def _figure(value: float | None) -> str | None:
 
 
 def _percent(share: Any) -> str | None:
-    return None if share is None else f"{float(100 * share):.3g} %"
+    from studies.selection.parts import percent
+
+    return None if share is None else percent(share)
+
+
+TOO_SLOW = "too slow"
+"""Before the name of the nearest part, in the table."""
 
 
 def _document(found: Choice, ways: Sequence[Candidate]) -> dict[str, Any]:

@@ -29,7 +29,7 @@ from studies.selection.landing import earliest
 from studies.selection.methods import METHODS, by_reason
 from studies.selection.model import load_model, shipped_defaults
 from studies.selection.outputs import outputs_of
-from studies.selection.parts import OnPart, Parts, by_cost
+from studies.selection.parts import OnPart, Parts, by_cost, percent
 from studies.selection.question import Accuracies, Question
 from studies.selection.remarks import remarks
 from studies.selection.sampling import Sampling
@@ -126,11 +126,10 @@ def chosen(question: Question, methods: Sequence[str] | None = None, every: Sequ
     names = [
         name for name in candidates(methods, tables, sampling.M) if name in wanted.methods or METHODS[name].needs == ""
     ]
+    without = by_reason((name, _why_not(name, tables[0])) for name in methods or () if name not in names)
     if not names:
-        raise InputError(
-            f"{option('method')}: the cost table {tables[0].shown} has none of {', '.join(wanted.methods)}; it has "
-            f"{', '.join(name for name in tables[0].costs if name in METHODS)}"
-        )
+        has = ", ".join(name for name in tables[0].costs if name in METHODS)
+        raise InputError(f"{option('method')} {'; '.join(without)}: choose from {has}")
     accuracy = Accuracies(question)
     looked = [
         _candidate(question, accuracy, variant)
@@ -151,6 +150,7 @@ def chosen(question: Question, methods: Sequence[str] | None = None, every: Sequ
         if not any(of.variant.method == name for of in keeping)
     ]
     left_out = [words for words in wanted.left_out if any(f"no {name}:" in words for name in SCHEDULED)]
+    left_out += [f"no {words}" for words in without]
     choice = Choice(
         question.model,
         question.outputs,
@@ -171,6 +171,15 @@ def with_parts(question: Question, looked: Sequence[Candidate]) -> tuple[Candida
     """Each of them on each part, cheapest first."""
     accuracy, parts = Accuracies(question), Parts(question.parts, question.statistic)
     return tuple(sorted((_on_parts(question, accuracy, parts, candidate) for candidate in looked), key=_rank))
+
+
+def _why_not(method: str, table: CostTable) -> str:
+    """Why one that was asked for is not looked at."""
+    if method not in SCHEDULED:
+        return (
+            f"every measurement that is late is left out, so that it never corrects and no {option('within')} is kept"
+        )
+    return f"the cost table {table.shown} has no costs of it"
 
 
 def _candidate(question: Question, accuracy: Accuracies, variant: Variant) -> Candidate:
@@ -225,10 +234,10 @@ def _on_parts(question: Question, accuracy: Accuracies, parts: Parts, candidate:
 
 
 def _too_slow(looked: Sequence[OnPart]) -> str:
-    nearest = next((on for on in looked if on.needed is not None), None)
-    if nearest is None or nearest.needed is None:
-        return "; ".join(on.remark for on in looked)
-    return f"no part is fast enough: the nearest, {nearest.part.name}, needs {float(100 * nearest.needed):.3g} %"
+    nearest = looked[0]
+    if nearest.needed is None:
+        return "; ".join(dict.fromkeys(on.remark for on in looked))
+    return f"no part is fast enough: the nearest, {nearest.part.name}, needs {percent(nearest.needed)} of its speed"
 
 
 def _too_coarse(question: Question, found: Candidate) -> str:

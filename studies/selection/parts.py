@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from math import ceil
 
 from sched_sim.costs.table import CostTable
 from sched_sim.design.landing import landing
@@ -41,15 +42,20 @@ class OnPart:
         return None if self.needed is None else 1 - self.needed
 
 
-def by_cost(on: OnPart) -> tuple[int, int, Fraction]:
+def by_cost(on: OnPart) -> tuple[int, Fraction, Fraction]:
     """First what runs it: by price, those without one after the others, the one with the least to spare first; then
-    what is too slow, the nearest first; last what nothing is known of."""
-    if on.needed is None:
-        return 3, 0, Fraction(0)
+    what is too slow, the nearest first; last what nothing is known of. Of equals the less busy one."""
+    if on.needed is None or on.load is None:
+        return 3, Fraction(0), Fraction(0)
     if not on.fits:
-        return 2, 0, on.needed
+        return 2, on.needed, on.load
     price = on.part.price
-    return (1, 0, -on.needed) if price is None else (0, 0, price)
+    return (1, -on.needed, on.load) if price is None else (0, price, on.load)
+
+
+def percent(share: Fraction) -> str:
+    """To three digits; above 100 whole numbers, rounded up, so that what is too much never looks like all."""
+    return f"{float(100 * share):.3g} %" if share <= 1 else f"{ceil(100 * share):,} %"
 
 
 class Parts:

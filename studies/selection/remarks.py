@@ -4,17 +4,34 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from sched_sim.errors import option
 from studies.selection.choice import Candidate, Choice
+from studies.selection.parts import percent
 from studies.selection.question import Accuracies, Question
 
 
 def remarks(choice: Choice, question: Question, accuracy: Accuracies) -> Iterator[str]:
     """Lines, most telling first."""
+    yield from _no_part(choice)
     for candidate in choice.best:
         yield from _lands_earlier(choice, candidate)
     first = choice.best[0] if choice.best else None
     if first is not None:
         yield from _leaving_out(question, accuracy, first)
+
+
+def _no_part(choice: Choice) -> Iterator[str]:
+    """What would help where no part runs any of them."""
+    looked = [(of, on) for of in choice.best for on in of.parts[:1] if on.needed is not None]
+    if not looked or any(of.cheapest for of, _ in looked):
+        return
+    of, on = min(looked, key=lambda pair: pair[1].needed or 0)
+    assert on.needed is not None
+    yield (
+        f"no part will do: {on.part.name} would need {percent(on.needed)} of its speed, with {of.variant.method}; name a "
+        f"faster one with {option('processor')} (see `sched-sim processors`), leave {option('processor')} out for all "
+        f"that ship, give a slower {option('hr_hz')}, or use fewer measurements and allow more {option('within')}"
+    )
 
 
 def _lands_earlier(choice: Choice, candidate: Candidate) -> Iterator[str]:

@@ -116,7 +116,31 @@ def test_why_the_others_do_not(sched_sim: Run) -> None:
     assert all(row["reason"].startswith("no part is fast enough") for row in found["designs"])
     table = sched_sim(f"design --within 0.3731 {INS} --processor cortex-m0plus").out
     assert "not dual-rate, delayed-horizon: 0.3733 m at best" in table
-    assert "no part is fast enough: the nearest, cortex-m0plus, needs" in table
+    assert "too slow: cortex-m0plus" in table
+
+
+def test_that_no_part_will_do_is_an_answer_with_what_would_help(sched_sim: Run) -> None:
+    """Exit code 0 as `minimum` and `processors` have; percentages in full."""
+    line = f"design --within 0.38 {INS} --processor cortex-m0plus"
+    result = sched_sim(line)
+    assert result.code == sched_sim("minimum -N 80 -M 44 --hr-hz 400 --processor cortex-m0plus").code == 0
+    assert "no part will do: cortex-m0plus would need 209 % of its speed, with dual-rate; name a faster" in result.out
+    assert "e+0" not in result.out
+    assert "68,099 %" in result.out
+    assert max(map(len, result.out.splitlines()[1:6])) <= 190
+    assert "no part will do" not in sched_sim(f"{line} --processor rp2040").out
+    help = " ".join(sched_sim("design --help").out.split())
+    assert "exit code 0, and what would help" in help
+
+
+def test_one_that_never_corrects_keeps_nothing(sched_sim: Run) -> None:
+    is_refused(
+        sched_sim(f"design --within 0.38 {INS} --method discard"), ["--method discard", "never corrects", "larsen"]
+    )
+    beside = sched_sim(f"design --within 0.38 {INS} --method discard --method larsen").out
+    assert "no discard: every measurement that is late is left out, so that it never corrects" in beside
+    unknown = sched_sim(f"design --within 0.38 {INS} --costs steffes2014 --method clone --method larsen").out
+    assert "no clone: the cost table steffes2014 (steffes2014) has no costs of it" in unknown
 
 
 def test_tasks_beside_it_need_their_share(sched_sim: Run, tmp_path: Path) -> None:
@@ -195,7 +219,7 @@ def test_the_figure_is_the_same_every_time(sched_sim: Run, tmp_path: Path, kind:
         ("--within 1 --model mine:nan -N 10 -M 4 --output 0", ["--model 'mine:nan'", "Phi"]),
         ("--within 1 --model nix", ["--model 'nix' is unknown"]),
         (f"--within 1 {INS} --method kalman", ["--method 'kalman' is unknown"]),
-        (f"--within 1 {INS} --method clone-split --costs steffes2014", ["steffes2014", "none of clone-split"]),
+        (f"--within 1 {INS} --method clone-split --costs steffes2014", ["--method clone-split", "steffes2014", "no costs of it", "choose from standard"]),
         (f"--within 1 {INS} --motion 1,2", ["--motion 1,2", "measures 3"]),
         (f"--within 1 {INS} --processor nix", ["--processor 'nix' not found: give one of"]),
         (f"--within 1 {INS} --costs steffes2014 --processor leon3", ["--processor needs counted", "steffes2014"]),

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
@@ -20,6 +22,7 @@ from studies.selection.front import front
 from studies.selection.methods import METHODS
 from studies.selection.model import load_model
 from studies.selection.outputs import outputs_of
+from studies.selection.parts import OnPart, by_cost, percent
 from studies.selection.question import Question
 from studies.selection.sampling import Sampling
 
@@ -170,6 +173,20 @@ def test_what_cannot_be_is_named(arguments: dict[str, Any], said: str) -> None:
     given: dict[str, Any] = {"within": 9.0, "model": CV, "output": [0], "N": 10, "M": 4} | arguments
     with pytest.raises(InputError, match=said):
         choose_filter(**given)
+
+
+def test_of_parts_that_are_as_good_the_less_busy_is_first() -> None:
+    part = load_part("leon3")
+    needed = Fraction(1, 2)
+    worse, better = (OnPart(part, needed, load, landed=4) for load in (Fraction(2, 5), Fraction(1, 5)))
+    assert sorted([worse, better], key=by_cost)[0] is better
+    priced = [replace(on, part=replace(part, price=Fraction(3))) for on in (worse, better)]
+    assert sorted(priced, key=by_cost)[0] is priced[1]
+
+
+def test_more_than_all_of_a_part_never_looks_like_all() -> None:
+    shares = (Fraction(1), Fraction("1.0001"), Fraction("0.4484"), Fraction("158.6301"))
+    assert [percent(share) for share in shares] == ["100 %", "101 %", "44.8 %", "15,864 %"]
 
 
 def test_what_waits_for_one_measurement_is_told_once_with_what_would_do() -> None:
