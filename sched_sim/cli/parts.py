@@ -119,7 +119,7 @@ def _limit(value: Figure) -> str:
 
 
 def _percent(rounded: Callable[[Figure], str]) -> Callable[[Figure], str]:
-    return lambda value: f"{Decimal(rounded(100 * value)):,f} %"
+    return lambda value: f"{rounded(100 * value)} %"
 
 
 HIGHEST_HR_HZ = "highest HR Hz"

@@ -24,6 +24,7 @@ from sched_sim.design.pieces import Statistic
 
 if TYPE_CHECKING:
     from sched_sim.costs.table import CostTable
+    from studies.sweep.accuracy import OutputAccuracy
     from studies.sweep.run import Outcome, Sweep
     from studies.sweep.store import Store
 
@@ -89,7 +90,8 @@ AccuracyModel = Annotated[
     typer.Option(
         "--model",
         help="Adds the columns worst_std and rms_std, how accurate each design's output is where it lands: ins-gps, "
-        "ins-rtk, star-tracker, camera, or package.module:function as in `sched-sim accuracy`.",
+        "ins-rtk, star-tracker, camera, or package.module:function as in `sched-sim accuracy`. px4-predictor: "
+        "with a time constant of 0.25 s.",
         rich_help_panel=ACCURACY,
     ),
 ]
@@ -184,6 +186,7 @@ def sweep(
     say_of_statistic(asked.grid.statistic, asked.grid.tables)
     if asked.grid.accuracy is not None:
         _say_of_sizes(asked.grid.accuracy.linear.states, asked.grid.tables)
+        _say_of_no_accuracy(asked.grid.accuracy, asked.grid.methods)
     path = results or Path(f"{grid.stem if grid else 'sweep'}-{asked.digest[:8]}.sqlite")
     exports = export or []
     for file in exports:
@@ -263,6 +266,14 @@ def _say_of_sizes(states: int, tables: Sequence[CostTable]) -> None:
                 f"Note: the costs of {table.name} are of {counted} states, and --model has {states}: give --costs of "
                 f"its size, as `sched-sim measure --backend counted` writes them"
             )
+
+
+def _say_of_no_accuracy(accuracy: OutputAccuracy, methods: Sequence[str]) -> None:
+    """Why there are methods whose accuracy is left empty."""
+    from studies.selection.methods import by_reason
+
+    for words in by_reason((method, accuracy.lacks(method)) for method in methods):
+        say(f"Note: worst_std and rms_std are empty of {words}")
 
 
 def _report(asked: Sweep, store: Store, outcome: Outcome, exports: Sequence[Path], format: opt.Format) -> None:

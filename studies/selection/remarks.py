@@ -28,9 +28,9 @@ def _no_part(choice: Choice) -> Iterator[str]:
     of, on = min(looked, key=lambda pair: pair[1].needed or 0)
     assert on.needed is not None
     yield (
-        f"no part will do: {on.part.name} would need {percent(on.needed)} of its speed, with {of.variant.method}; name a "
-        f"faster one with {option('processor')} (see `sched-sim processors`), leave {option('processor')} out for all "
-        f"that ship, give a slower {option('hr_hz')}, or use fewer measurements and allow more {option('within')}"
+        f"no part will do: {on.part.name} would need {percent(on.needed)} of its speed, with {of.variant.method}; name "
+        f"a faster one with {option('processor')} (see `sched-sim processors`), leave {option('processor')} out for "
+        f"all that ship, give a slower {option('hr_hz')}, or use fewer measurements and allow more {option('within')}"
     )
 
 

@@ -272,3 +272,15 @@ def test_a_sweep_says_where_its_costs_are_of_another_size(sched_sim: Run) -> Non
     line = "sweep -N 50 -M 20 -L 50 --model star-tracker --costs counted-9-3-3 --method dual-rate --format json"
     assert "are of 9 states, and --model has 2" in sched_sim(line).err
     assert "--model has" not in sched_sim(line.replace("star-tracker", "ins-gps")).err
+
+
+def test_a_sweep_says_which_methods_have_no_accuracy_in_it(sched_sim: Run) -> None:
+    line = "sweep -N 50 -M 20 -L 50 --model ins-gps --costs counted-9-3-3 --format json --method px4-predictor"
+    both = sched_sim(f"{line} --method fuse-as-fresh").err
+    assert "worst_std and rms_std are empty of fuse-as-fresh: its error is how far" in both
+    assert "accuracy --method fuse-as-fresh --motion" in both
+    assert "empty" not in sched_sim(line).err
+    own = (
+        "sweep -N 50 -M 20 -L 50 --model mine:cv --output 0 --costs counted-9-3-3 --method px4-predictor --format json"
+    )
+    assert "empty of px4-predictor: its time constant is in seconds: give --hr-hz" in sched_sim(own).err

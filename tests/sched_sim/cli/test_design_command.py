@@ -219,7 +219,10 @@ def test_the_figure_is_the_same_every_time(sched_sim: Run, tmp_path: Path, kind:
         ("--within 1 --model mine:nan -N 10 -M 4 --output 0", ["--model 'mine:nan'", "Phi"]),
         ("--within 1 --model nix", ["--model 'nix' is unknown"]),
         (f"--within 1 {INS} --method kalman", ["--method 'kalman' is unknown"]),
-        (f"--within 1 {INS} --method clone-split --costs steffes2014", ["--method clone-split", "steffes2014", "no costs of it", "choose from standard"]),
+        (
+            f"--within 1 {INS} --method clone-split --costs steffes2014",
+            ["--method clone-split", "steffes2014", "no costs of it", "choose from standard"],
+        ),
         (f"--within 1 {INS} --motion 1,2", ["--motion 1,2", "measures 3"]),
         (f"--within 1 {INS} --processor nix", ["--processor 'nix' not found: give one of"]),
         (f"--within 1 {INS} --costs steffes2014 --processor leon3", ["--processor needs counted", "steffes2014"]),

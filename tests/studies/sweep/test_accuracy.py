@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from filters.accuracy import shipped_model, with_low_rate_noise
+from filters.accuracy import px4_predictor, shipped_model, with_low_rate_noise
 from sched_sim import InputError
 from studies import run_sweep
 
@@ -38,6 +38,16 @@ def test_beside_a_simulation_too() -> None:
     (row,) = run_sweep(N=10, M=6, L=8, method="dual-rate", simulate=True, model="camera").table.to_pylist()
     assert row["achieved_l_max"] == row["achieved_l"]
     assert row["worst_std"] == pytest.approx(with_low_rate_noise(CAMERA, [0], 10, row["achieved_l"], "exact").worst)
+
+
+def test_of_px4s_output_predictor_too() -> None:
+    rows = run_sweep(
+        N=[10, 20], M=6, L=[6, 8], method="px4-predictor", costs="counted-9-3-3", model="camera"
+    ).table.to_pylist()
+    assert len(rows) == 4
+    for row in rows:
+        accuracy = px4_predictor(CAMERA, [0], row["N"], row["achieved_l"], 1 / (200 * 0.25))
+        assert (row["worst_std"], row["rms_std"]) == pytest.approx((accuracy.worst, accuracy.rms), rel=1e-9)
 
 
 def test_a_method_that_has_no_such_figure_has_none() -> None:
