@@ -18,6 +18,7 @@ from sched_sim.bounds import short
 from sched_sim.design.options import Options
 from sched_sim.errors import InputError, option
 from sched_sim.html_table import html_table
+from sched_sim.plain_table import plain_table
 from sched_sim.ticks import Number, exact
 from studies.selection.landing import Landed, Processor, landed
 from studies.selection.methods import COMPARED, METHODS, by_reason
@@ -43,7 +44,7 @@ class AlongRow:
     remark: str = ""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class AlongComparison:
     """first: the step from which on the steps count, that of the first landing of all."""
 
@@ -55,12 +56,23 @@ class AlongComparison:
     rows: tuple[AlongRow, ...]
     left_out: tuple[str, ...] = ()
 
+    def __repr__(self) -> str:
+        remarks = by_reason((row.method, row.remark) for row in self.rows)
+        return plain_table(*self._table, [*remarks, *self.left_out])
+
     def _repr_html_(self) -> str:
+        return html_table(*self._table)
+
+    @property
+    def _table(self) -> tuple[str, tuple[str, ...], list[tuple[Any, ...]]]:
+        """Caption, headings, rows."""
         unit = f", {self.outputs.unit}" if self.outputs.unit else ""
+        caption = f"{self.model.name}, {self.steps:,} steps: standard deviation of {self.outputs.name}{unit}"
         headings = ("method", "every", "N", "lands at", "median", "95 %", "worst")
-        cells = [(row.method, row.every, row.N, row.L, *(row.spread or [None] * 3)) for row in self.rows]
-        return html_table(
-            f"{self.model.name}, {self.steps:,} steps: standard deviation of {self.outputs.name}{unit}", headings, cells
+        return (
+            caption,
+            headings,
+            [(row.method, row.every, row.N, row.L, *(row.spread or [None] * 3)) for row in self.rows],
         )
 
 

@@ -7,7 +7,9 @@ from typing import Any
 
 from sched_sim.design.least_speed import LeastSpeed
 from sched_sim.html_table import html_table
+from sched_sim.plain_table import plain_table
 from studies.selection.compare import Metric
+from studies.selection.methods import by_reason
 from studies.selection.model import Model
 from studies.selection.outputs import Outputs
 from studies.selection.parts import OnPart
@@ -45,7 +47,7 @@ class Candidate:
         return next((on for on in self.parts if on.fits), None)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Choice:
     """What keeps the accuracy `within`, a standard deviation in the unit of the outputs.
 
@@ -67,6 +69,11 @@ class Choice:
     left_out: tuple[str, ...] = ()
     remarks: tuple[str, ...] = ()
 
+    def __repr__(self) -> str:
+        others = by_reason((of.variant.method, of.reason) for of in self.others)
+        notes = [*self.remarks, *(f"not {words}" for words in others), *self.left_out]
+        return plain_table(_caption(self), HEADINGS, map(_cells, self.best), notes)
+
     def _repr_html_(self) -> str:
         return _html(self)
 
@@ -87,14 +94,17 @@ HEADINGS = (
 
 def _html(choice: Choice) -> str:
     """The best way of each method, then why the others do not."""
+    rows = [_cells(candidate) for candidate in choice.best]
+    rows += [(of.variant.method, of.reason, of.variant.every, *[None] * 7) for of in choice.others]
+    return html_table(_caption(choice), HEADINGS, rows)
+
+
+def _caption(choice: Choice) -> str:
     unit = f" {choice.outputs.unit}" if choice.outputs.unit else ""
-    caption = (
+    return (
         f"{choice.model.name}: {choice.metric} of {choice.outputs.name} within {choice.within:g}{unit}; least speed in "
         f"{choice.unit}s per HR period"
     )
-    rows = [_cells(candidate) for candidate in choice.best]
-    rows += [(of.variant.method, of.reason, of.variant.every, *[None] * 7) for of in choice.others]
-    return html_table(caption, HEADINGS, rows)
 
 
 def _cells(of: Candidate) -> tuple[Any, ...]:
@@ -102,5 +112,7 @@ def _cells(of: Candidate) -> tuple[Any, ...]:
     speed = None if of.least is None else float(of.least.speed)
     start = (of.variant.method, of.variant.how, of.variant.every, of.L, of.std, speed)
     if on is None:
-        return (*start, of.reason or None, None, of.landed, of.landed_std)
+        nearest = next((on for on in of.parts if on.needed is not None), None)
+        part = (of.reason or None, None) if nearest is None else (f"too slow: {nearest.part.name}", nearest.needed)
+        return (*start, *part, of.landed, of.landed_std)
     return (*start, on.part.name, on.needed, on.landed, on.std)

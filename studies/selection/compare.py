@@ -13,6 +13,7 @@ from sched_sim.bounds import short
 from sched_sim.design.options import Options
 from sched_sim.errors import InputError, option
 from sched_sim.html_table import html_table
+from sched_sim.plain_table import plain_table
 from sched_sim.ticks import Number
 from studies.selection.conditions import TAU_S, Conditions, check_ages, chosen_methods, conditions_of, settling
 from studies.selection.landing import Landed, Processor, landed
@@ -45,7 +46,7 @@ class AccuracyRow:
     remark: str = ""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Comparison:
     """rows: by how many measurements are used, then by method. no_delay: the figure of the filter without delay that
     uses every measurement, a standard deviation in the unit of the outputs. left_out: methods that were not asked for
@@ -59,11 +60,21 @@ class Comparison:
     rows: tuple[AccuracyRow, ...]
     left_out: tuple[str, ...] = ()
 
+    def __repr__(self) -> str:
+        remarks = by_reason((row.method, row.remark) for row in self.rows)
+        rows = [(*_cells(row)[:-1], row.accuracy.verdict if row.accuracy else "does not land") for row in self.rows]
+        return plain_table(self._caption, HEADINGS, rows, [*remarks, *self.left_out])
+
     def _repr_html_(self) -> str:
+        return html_table(self._caption, HEADINGS, [_cells(row) for row in self.rows])
+
+    @property
+    def _caption(self) -> str:
         unit = f", {self.outputs.unit}" if self.outputs.unit else ""
-        caption = f"{self.model.name}: standard deviation of {self.outputs.name}{unit}"
-        headings = ("method", "every", "N", "lands at", "oldest age", "worst", "rms", "jump", "bias", "verdict")
-        return html_table(caption, headings, [_cells(row) for row in self.rows])
+        return f"{self.model.name}: standard deviation of {self.outputs.name}{unit}"
+
+
+HEADINGS = ("method", "every", "N", "lands at", "oldest age", "worst", "rms", "jump", "bias", "verdict")
 
 
 def _cells(row: AccuracyRow) -> tuple[Any, ...]:

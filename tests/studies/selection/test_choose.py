@@ -126,6 +126,21 @@ def test_notebooks_show_it() -> None:
     assert "worst" in compare_accuracy(CV, [0], N=10, M=4)._repr_html_()
 
 
+def test_what_is_printed_is_a_table() -> None:
+    """Not the matrices; with what is below the table of the command."""
+    found = choose_filter(0.38, "ins-gps", processors=["cortex-m0plus"])
+    accuracies = compare_accuracy("ins-gps", methods=["larsen", "clone"], delay_ms=500)
+    for shown in (str(found), repr(found), str(accuracies)):
+        assert "array(" not in shown
+        assert shown.splitlines()[1].split()[0] == "method"
+        assert max(map(len, shown.splitlines()[:4])) < 160
+    assert "too slow: cortex-m0plus" in str(found)
+    assert "no part will do: cortex-m0plus" in str(found)
+    assert "not px4-predictor: 0.3824 m at best" in str(found)
+    assert "does not land" in str(accuracies)
+    assert "clone: one measurement is on its way at a time" in str(accuracies)
+
+
 def test_the_front_is_what_no_other_design_beats() -> None:
     model = load_model("ins-gps", None)
     sampling = Sampling.of(shipped_model("ins-gps"))
