@@ -204,6 +204,11 @@ def work(costs: DualRateCosts[Fraction], timing: Timing) -> CycleWork:
     return CycleWork(high, costs.lr_propagate + costs.lr_gain + costs.lr_update + compensation)
 
 
+def longest(costs: DualRateCosts[Fraction], timing: Timing) -> Fraction:
+    """Of the HR jobs, without HR updates: no less will do, wherever corrections land."""
+    return costs.hr_restart if timing.N == 1 else max(costs.hr, costs.hr_restart)
+
+
 def binding(kind: str, held: bool, timing: Timing, options: Options) -> str:
     if kind == "hr":
         return kind
@@ -212,4 +217,4 @@ def binding(kind: str, held: bool, timing: Timing, options: Options) -> str:
     return "lr_update" if timing.M and not held and kind in ("lr_update", "hr_update") else "lr_total"
 
 
-DUAL_RATE = Method(pieces, DualRate, work, law, check, binding=binding)
+DUAL_RATE = Method(pieces, DualRate, work, law, check, binding=binding, longest=longest)

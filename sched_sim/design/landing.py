@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 
-from sched_sim.design.least_speed import achieved_l, has_closed_form, least_speed
+from sched_sim.design.least_speed import achieved_l, alone, has_closed_form, least_speed
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import Costs
 from sched_sim.design.timing import Timing
@@ -22,6 +22,9 @@ def landing(costs: Costs, timing: Timing, pace: Fraction, options: Options, task
 
         return worst_landing(costs, timing, pace, options, tasks)
     if not has_closed_form(options, tasks, costs, timing):
+        before = alone(costs, timing, options, tasks)
+        if before is not None and (landed := landing(costs, before, pace, options, tasks)) is not None:
+            return landed
         from sched_sim.design.steady import run_until_steady
 
         steady = run_until_steady(costs, timing, pace, options, tasks)

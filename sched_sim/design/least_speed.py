@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 from sched_sim.design import analysis
 from sched_sim.design.arguments import checked
+from sched_sim.design.load import loads
 from sched_sim.design.methods import method_of
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import Costs, JobCosts, converted, works
@@ -51,12 +52,11 @@ def least_speed(
     """The least speed at which every deadline holds (Steffes 2014, Sec. III.C: needed processing power).
 
     In closed form and exact; with context-switch costs, other tasks or earliest deadline first, and where the dual-rate
-    filter has several corrections on their way, M >= N or L > N, by bisection on the
-    simulation, which is exact to one tick and calls `on_progress` (see `search.least_speed_by_simulation`); with tasks
-    whose offset may be any, or with jitter, by bisection on the worst response times, for every phase
-    (`any_phase.least_speed_of_any_phase`). Every
-    faster processor does too, except where landing earlier costs more: the HR job of step k+1 is the longest of all, or
-    same-step feedback spills into the next step.
+    filter has several corrections on their way, M >= N or L > N, by bisection on the simulation, which is exact to one
+    tick and calls `on_progress` (see `search.least_speed_by_simulation`); with tasks whose offset may be any, or with
+    jitter, by bisection on the worst response times, for every phase (`any_phase.least_speed_of_any_phase`). An L > N
+    needs no more than one before the next measurement. Every faster processor does too, except where landing earlier
+    costs more: the HR job of step k+1 is the longest of all, or same-step feedback spills into the next step.
     Raises InputError for an L that the method cannot have.
     """
     tasks = checked(timing, options, tasks)
@@ -68,7 +68,12 @@ def least_speed(
             return LeastSpeed(*least_speed_of_any_phase(costs, timing, options, tasks, on_progress))
         from sched_sim.design.search import least_speed_by_simulation
 
-        return LeastSpeed(*least_speed_by_simulation(costs, timing, options, tasks, on_progress))
+        before = alone(costs, timing, options, tasks)
+        enough = None if before is None else least_speed(costs, before, options)
+        if enough is not None and enough.speed == _floor(costs, timing, options):
+            return enough
+        found = LeastSpeed(*least_speed_by_simulation(costs, timing, options, tasks, on_progress))
+        return found if enough is None or found.speed < enough.speed else enough
     resolution, in_ticks = _in_ticks(costs)
     least = analysis.least_period(in_ticks, timing.N, timing.M, timing.L, options)
     speed = Fraction(least.numerator, least.denominator * resolution)
@@ -134,6 +139,20 @@ def has_closed_form(
     if costs is None or timing is None:
         return True
     return method_of(costs).law(options.feedback).one_in_flight(timing.N, timing.L)
+
+
+def alone(costs: Costs, timing: Timing, options: Options, tasks: Sequence[Task]) -> Timing | None:
+    """The design that lands before the next measurement is taken, and so in time for this later L; None where there is
+    none that has a closed form."""
+    last = method_of(costs).law(options.feedback).last_alone(timing.N, timing.M)
+    if last is None or last >= timing.L or not has_closed_form(options, tasks):
+        return None
+    return Timing(timing.N, timing.M, last)
+
+
+def _floor(costs: Costs, timing: Timing, options: Options) -> Fraction:
+    """Less will never do."""
+    return max(method_of(costs).longest(costs, timing), *loads(costs, timing, Fraction(1), options))
 
 
 def _in_ticks(costs: Costs, *others: Fraction) -> tuple[int, JobCosts[int]]:

@@ -61,6 +61,17 @@ class Law(NamedTuple):
             return latest(N, M) - self.before
         return max(N - self.before, M)
 
+    def last_of_use(self, N: int, M: int) -> int:
+        """A later L asks for no less of the filter alone: with several on their way, an LR update that is not done when
+        the next measurement arrives would be behind for ever."""
+        if self.several and not self.only_first:
+            return N + max(M, 1)
+        return self.latest(N, M)
+
+    def last_alone(self, N: int, M: int) -> int | None:
+        """The latest L before the next measurement is taken; None if there is none."""
+        return N - self.before if M + self.after <= N - self.before else None
+
     def one_in_flight(self, N: int, L: int) -> bool:
         """Whether a correction has landed before the next measurement is taken, or costs nothing until it does."""
         return self.only_first or N - self.before >= L
@@ -92,6 +103,10 @@ def lacks_for_several(entries: str) -> str:
     )
 
 
+def no_work(_costs: object, _timing: Timing) -> Fraction:
+    return Fraction(0)
+
+
 def kind_missed(kind: str, _held: bool, _timing: Timing, _options: Options) -> str:
     return kind
 
@@ -106,6 +121,7 @@ class Method(Generic[Exact, InTicks]):
     lacking: what its pieces lack for a timing, in words; None if nothing;
     binding: the demand that a missed job stands for, from its kind and whether it waited for an earlier LR job.
     work_varies: the work of a cycle depends on where it lands; `work` is the least that it can be.
+    longest: of the HR jobs, without what lands, where several corrections may be on their way.
     """
 
     pieces: Callable[[CostOf, Options], Exact]
@@ -117,6 +133,7 @@ class Method(Generic[Exact, InTicks]):
     binding: Callable[[str, bool, Timing, Options], str] = kind_missed
     work_varies: bool = False
     lacking: Callable[[Exact, Timing], str | None] = lambda _costs, _timing: None
+    longest: Callable[[Exact, Timing], Fraction] = no_work
 
     def check_design(self, costs: Exact, timing: Timing, feedback: Feedback) -> None:
         """Raises InputError for a timing that the method cannot have, or for which its costs lack something."""

@@ -22,9 +22,10 @@ class Candidate:
     """One way to run one method.
 
     N: steps between the measurements that it uses. first: the earliest landing that it can have, best: the figure then.
-    L: the latest landing that keeps the accuracy and is before the next measurement of those; allowed: of the first
-    alone, None where even the first does not keep it. std: the figure at L. least: the least speed for L, in
-    the unit of the cost table; landed: where corrections land at that speed, landed_std: the figure then.
+    L: the latest landing that keeps the accuracy and that the method can have, also beyond N, but none so late that it
+    asks for no less (`Law.last_of_use`); allowed: the latest that keeps it, up to a step beyond these of any method,
+    None where even the first does not. std: the figure at L. least: the least speed for L, in the unit of the cost
+    table; landed: where corrections land at that speed, landed_std: the figure then.
     parts: what each makes of it, cheapest first. reason: why it will not do; empty if it does.
     """
 

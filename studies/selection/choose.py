@@ -197,7 +197,11 @@ def _candidate(question: Question, accuracy: Accuracies, variant: Variant) -> Ca
     if late := too_late(variant.method, question.sampling, variant.every, variant.options):
         return replace(found, reason=late)
     law = SCHEDULED[variant.method].law(variant.options.feedback)
-    last = found.first if METHODS[variant.method].landing != "later" else min(found.allowed, law.latest(using.N, delay))
+    last = (
+        found.first
+        if METHODS[variant.method].landing != "later"
+        else min(found.allowed, law.last_of_use(using.N, delay))
+    )
     try:
         timing = Timing(using.N, delay, max(last, delay))
         SCHEDULED[variant.method].check(timing, variant.options.feedback)

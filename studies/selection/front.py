@@ -80,7 +80,7 @@ def _points(question: Question, accuracy: Accuracies, variant: Variant) -> Itera
     delay = 0 if METHODS[variant.method].landing == "at once" else using.M
     first = earliest(variant.method, using.M, variant.options)
     law = SCHEDULED[variant.method].law(variant.options.feedback)
-    last = first if METHODS[variant.method].landing != "later" else law.latest(using.N, delay)
+    last = first if METHODS[variant.method].landing != "later" else law.last_of_use(using.N, delay)
     try:
         curve: Curve = accuracy.of(variant)
         costs = select(variant.table, variant.method, variant.options, question.statistic)

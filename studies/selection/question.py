@@ -55,7 +55,7 @@ class Accuracies:
         asked, using = self.question, self.question.sampling.using(variant.every)
         method = METHODS[variant.method]
         if method.lossless:
-            most = max(2 * using.N, using.N + using.M)
+            most = using.M + using.N + 1
             key: tuple[object, ...] = (using.N, variant.options.low_rate_noise)
             if key not in self._curves:
                 noise = variant.options.low_rate_noise

@@ -35,7 +35,7 @@ def _no_part(choice: Choice) -> Iterator[str]:
 
 
 def _lands_earlier(choice: Choice, candidate: Candidate) -> Iterator[str]:
-    """The same part lands at 29 of the 80 that are allowed."""
+    """The same part lands at 29 of the 80 that are allowed; more may be, than make a difference or it can have."""
     on, L = candidate.cheapest, candidate.L
     if on is None:
         landed, std, where = candidate.landed, candidate.landed_std, "at its least speed it"
@@ -43,7 +43,8 @@ def _lands_earlier(choice: Choice, candidate: Candidate) -> Iterator[str]:
         landed, std, where = on.landed, on.std, f"the same {on.part.name}"
     if landed is None or std is None or L is None or landed >= L:
         return
-    yield f"{candidate.variant.method}: {where} lands at {landed} of the {L} you allow, {std:.4g}{_unit(choice)}"
+    most = f"{L} or more" if candidate.allowed is not None and candidate.allowed > L else f"{L}"
+    yield f"{candidate.variant.method}: {where} lands at {landed} of the {most} you allow, {std:.4g}{_unit(choice)}"
 
 
 def _leaving_out(question: Question, accuracy: Accuracies, first: Candidate) -> Iterator[str]:

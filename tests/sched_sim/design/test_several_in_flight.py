@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections import defaultdict, deque
+from dataclasses import astuple
 from fractions import Fraction
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import pytest
@@ -29,7 +30,7 @@ from sched_sim.design.pieces import (
 from sched_sim.design.search import search_resolution
 from sched_sim.design.simulate import simulate
 from sched_sim.design.steady import run_until_steady
-from sched_sim.design.timing import Timing
+from sched_sim.design.timing import Feedback, Timing
 from sched_sim.errors import InputError
 from sched_sim.schedule.outcome import Schedule
 from sched_sim.schedule.tasks import Task
@@ -217,6 +218,29 @@ def test_a_later_landing_never_needs_more_than_an_earlier_one_here() -> None:
     stairs = staircase(costs, 13, 14)
     assert [stair.L for stair in stairs] == list(range(15, 27))
     assert all(stair.achieved <= stair.L for stair in stairs)
+
+
+IN_FLIGHT = [
+    (DualRateCosts(63, 4, 3, 41, 0, 56), Timing(10, 4, 10)),  # Steffes 2014, Table 3
+    (DualRateCosts(3, 9, 2, 8, 0, 7), Timing(4, 2, 4)),  # what lands at k + 1 needs most
+    (DualRateCosts(30, 9, 1, 5, 7, 6), Timing(3, 0, 3)),
+]
+
+
+@pytest.mark.parametrize(("costs", "timing"), IN_FLIGHT)
+@pytest.mark.parametrize("feedback", ["next-step", "same-step"])
+@pytest.mark.parametrize("cpus", [1, 2])
+def test_from_a_landing_on_a_later_one_asks_for_no_less(
+    costs: DualRateCosts[int], timing: Timing, feedback: Feedback, cpus: Literal[1, 2]
+) -> None:
+    """The least speed falls with L, from before the next measurement on, until an interval after arrival."""
+    options = Options(feedback=feedback, cpus=cpus, gain="precomputed" if costs.lr_gain else "at-update")
+    (N, M, _), law = astuple(timing), METHODS["dual-rate"].law(feedback)
+    first, last = law.last_alone(N, M), law.last_of_use(N, M)
+    assert first is not None
+    speeds = [least_speed(costs, Timing(N, M, L), options).speed for L in (*range(first, last + 1), last + 2 * N)]
+    assert speeds == sorted(speeds, reverse=True)
+    assert speeds[-1] == speeds[-2]
 
 
 def test_the_default_is_the_first_measurement_that_is_taken_after_arrival() -> None:

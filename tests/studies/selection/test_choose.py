@@ -58,8 +58,9 @@ def test_it_is_what_a_search_of_every_landing_finds(within: float, metric: str) 
                 for noise in ("exact", "sum", "euler") if name == "dual-rate" else ("exact",):
                     for gain in ("at-update", "precomputed") if name == "dual-rate" else ("at-update",):
                         options = Options(low_rate_noise=noise, gain=gain)  # type: ignore[arg-type]
-                        latest = None
-                        for L in SCHEDULED[name].law("next-step").legal(10 * every, 4):
+                        latest, law = None, SCHEDULED[name].law("next-step")
+                        last = 4 if law.only_first else law.last_of_use(10 * every, 4)
+                        for L in range(4 + law.after, last + 1):
                             accuracy = with_low_rate_noise(CV, [0], 10 * every, L, options.low_rate_noise)
                             if getattr(accuracy, metric) > within:
                                 break
