@@ -100,7 +100,7 @@ def test_with_several_in_flight_those_that_bear_it_take_part() -> None:
     }
     (other,) = found.others
     assert other.variant.method == "clone-split"
-    assert "one measurement at a time" in other.reason
+    assert "one measurement is on its way at a time" in other.reason
 
 
 def test_parts_as_they_are() -> None:
@@ -130,7 +130,7 @@ def test_notebooks_show_it() -> None:
 def test_what_is_printed_is_a_table() -> None:
     """Not the matrices; with what is below the table of the command."""
     found = choose_filter(0.38, "ins-gps", processors=["cortex-m0plus"])
-    accuracies = compare_accuracy("ins-gps", methods=["larsen", "clone"], delay_ms=500)
+    accuracies = compare_accuracy("ins-gps", methods=["larsen", "clone-split"], delay_ms=500)
     for shown in (str(found), repr(found), str(accuracies)):
         assert "array(" not in shown
         assert shown.splitlines()[1].split()[0] == "method"
@@ -210,7 +210,7 @@ def test_what_waits_for_one_measurement_is_told_once_with_what_would_do() -> Non
     methods = ["clone", "augmentation", "delayed-horizon", "larsen"]
     in_time = {"model": "ins-gps", "delay_ms": 500, "methods": methods}
     late = "with delay_ms 500 (M 200) others are taken before it arrives, every 200 ms (N 80)"
-    remedy = "choose method recalculate, larsen, carried-gain or dual-rate, or every 3"
+    remedy = "choose method recalculate, larsen, clone, carried-gain or dual-rate, or every 3"
     of_both = {(of.variant.method, of.reason) for of in choose_filter(1, every=[1], **in_time).others}
     assert {reason for _, reason in of_both} == {f"one measurement is on its way at a time, and {late}: {remedy}"}
     rows = compare_accuracy(every=[1, 2, 3], **in_time).rows
