@@ -86,10 +86,11 @@ def _bisect(run: Callable[[int, int], Steady], too_slow: int, steps: int, longes
 
 def search_resolution(costs: Costs, options: Options, tasks: Sequence[Task]) -> int:
     """Ticks per cost unit to which the least speed is searched: all work is whole, the largest piece at least
-    TICKS_PER_LOOP."""
+    TICKS_PER_LOOP; of a filter without work, the largest beside it."""
     work = [Fraction(value) for value in works(costs)]
     resolution = ticks_per_unit([options.context_switch, *work, *(task.cost for task in tasks)])
-    while max(work) * resolution < TICKS_PER_LOOP:
+    largest = max(work) or max([options.context_switch, *(task.cost for task in tasks)]) or 1
+    while largest * resolution < TICKS_PER_LOOP:
         resolution *= 10
     return resolution
 

@@ -65,3 +65,8 @@ def test_rate_monotonic_tasks_need_what_liu_and_layland_say() -> None:
     least = least_speed(step, Timing(1, 0, 1), tasks=[slow])
     assert least.speed == 5  # one HR period is 5 units long: T1 = 5, C1 = 2, T2 = 7, C2 = 3
     assert least.binding == "task:slow"
+
+
+def test_of_a_filter_without_work_the_least_speed_is_that_of_the_tasks() -> None:
+    nothing, task = StandardCosts(Fraction(0), Fraction(0)), Task("a", Fraction(1), Fraction(4), 20)
+    assert least_speed(nothing, Timing(5, 0, 5), Options(), [task]).speed == 4
