@@ -161,7 +161,7 @@ def _expectation_by(observe: Callable[..., None]) -> Callable[..., None]:
     def expect(view: Any, observed: Space, space: Space, before: Estimate, work: Workspace) -> None:
         copy_diagonal(before.P, work.variances)
         observe(view, observed, space, before.x, work)
-        _project(view.R, before.P, work)
+        project(view.R, before.P, work)
 
     return expect
 
@@ -213,7 +213,7 @@ def leave_out(r: int, work: Workspace) -> None:
     work.z[r] = 0.0
 
 
-def _project(R: FloatArray, P: FloatArray, work: Workspace) -> None:
+def project(R: FloatArray, P: FloatArray, work: Workspace) -> None:
     """S = H P H^T + R and cross = H P with the H in work."""
     matmul_blocked(work.H, P, work.cross)
     for i in range(R.shape[0]):

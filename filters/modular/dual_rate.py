@@ -1,4 +1,5 @@
-"""The dual rate filter for one sensor and linear or extended parts: Steffes 2014, Eqs. (13) to (19).
+"""The dual rate filter for linear or extended parts, Steffes 2014, Eqs. (13) to (19): of one sensor that measures every
+so many steps, on plain quantities. Any others are `dual_rate_in_flight`.
 
 The tasks are those of `filters.delayed.dual_rate`: the high-rate one carries state, Phi and Q, the low-rate one has the
 covariance at the steps k in which the sensor measures, and its correction is added L steps later. In the steps between
@@ -14,7 +15,7 @@ known in each k in between, from which those that follow are formed.
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from itertools import islice
 from typing import NamedTuple
@@ -27,26 +28,21 @@ from filters.backends.choose import BackendName, arguments_for, function_for
 from filters.covariance_forms import covariance_form
 from filters.delayed.high_rate_task import HighRateTask
 from filters.delayed.low_rate_noise import NOISE_METHODS
-from filters.kernels.dense import copy
-from filters.modular.arrivals import Arrivals, TooOld, arrivals
+from filters.modular import dual_rate_in_flight
+from filters.modular.arrivals import Arrivals, TooOld, arrivals, in_order
 from filters.modular.as_system import composed_system
 from filters.modular.breakdown import PREDICTOR, Failure, breakdown
 from filters.modular.composition import ModularFilter, Sensor
 from filters.modular.correction import correction
+from filters.modular.dual_rate_in_flight import landings
 from filters.modular.estimate import empty, is_sound
 from filters.modular.history import ModularHistory, new_estimates
+from filters.modular.low_rate import lr_propagate
 from filters.modular.measurements import Measurement
-from filters.modular.predictors import propagate
 from filters.modular.problem import check_linearised, check_problem
-from filters.modular.workspace import Workspace, new_workspace
+from filters.modular.workspace import new_workspace
 from filters.records import Estimate, Transition
 from filters.running import running
-
-
-def lr_propagate(P: FloatArray, transition: Transition, P_next: FloatArray, work: Workspace) -> None:
-    """Job: the covariance of a step k is carried over the transition from it, Eq. (14); it stays symmetric."""
-    copy(transition.Phi, work.F)
-    propagate(transition.Q, P, P_next, work)
 
 
 def run(
@@ -56,26 +52,26 @@ def run(
     inputs: ArrayLike,
     measurements: Iterable[Measurement],
     *,
-    L: int | None = None,
+    L: int | Mapping[str, int] | None = None,
     too_old: TooOld = "refuse",
     backend: BackendName = "reference",
 ) -> ModularHistory:
     """Filter a record of data; the measurement of step k corrects the estimate at the start of step k + L.
 
-    Other arguments and results as in `late.run`. L: more than the delay; if not given, the sensor's `every`, or the
-    first multiple of it that is. too_old: what is done with a measurement that arrives in step k + L or later:
-    "refuse", or "drop" it.
+    Other arguments and results as in `late.run`. L: more than the delay, of all sensors, or by the name of each; if not
+    given, the sensor's `every`, or the first multiple of it that is. too_old: what is done with a measurement that
+    arrives in step k + L or later: "refuse", or "drop" it.
 
     Raises:
-        ValueError: there is not exactly one sensor, a part is unscented, or not all quantities are plain; L does not
-            fit the sensor; a measurement is taken between the sensor's steps or arrives too late for L; and as
+        ValueError: a part is unscented; L does not fit a sensor; a measurement arrives too late for L; and as
             `late.run`.
     """
     check_linearised(composed, "dual-rate")
-    sensor = _only_sensor(composed)
-    N = _whole_rate(sensor)
-    lands = N * (sensor.longest_delay // N + 1) if L is None else L
-    _check_landing(sensor, lands)
+    measurements = in_order(measurements)
+    if not _in_cycles(composed, measurements):
+        return dual_rate_in_flight.run(composed, x0, P0, inputs, measurements, L=L, too_old=too_old, backend=backend)
+    (sensor,) = composed.sensors
+    N, lands = int(sensor.every), landings(composed, L)[sensor.name]
     x, P, moves = check_problem(composed, x0, P0, inputs)
     oldest = lands - 1 if too_old == "drop" else len(moves)
     arrived, dropped = arrivals(composed, measurements, len(moves), oldest, too_old)
@@ -192,53 +188,20 @@ class LowRateTask:
         return delta_x
 
 
-def _only_sensor(composed: ModularFilter) -> Sensor:
-    if len(composed.sensors) != 1:
-        names = ", ".join(repr(sensor.name) for sensor in composed.sensors) or "none"
-        raise ValueError(
-            f"late='dual-rate' works with one sensor, and the filter's are {names}; use late='recalculate', 'larsen' "
-            f"or 'carried-gain'"
-        )
+def _in_cycles(composed: ModularFilter, measurements: Sequence[Measurement]) -> bool:
+    """Whether one sensor takes them, of plain quantities, each at the start of a cycle of whole steps."""
+    if len(composed.sensors) != 1 or len(composed.of.attitudes) or len(composed.of.angles):
+        return False
     (sensor,) = composed.sensors
     observed = sensor.corrector.observed
-    if len(composed.of.attitudes) or len(composed.of.angles):
-        raise ValueError(
-            "late='dual-rate' adds its corrections to plain quantities, and the filter's state holds attitudes or "
-            "angles; use late='recalculate', 'larsen' or 'carried-gain'"
-        )
-    if len(observed.attitudes) or len(observed.angles):
-        raise ValueError(
-            f"sensor {sensor.name!r}: late='dual-rate' subtracts plain quantities, and it observes attitudes or "
-            f"angles; use late='recalculate', 'larsen' or 'carried-gain'"
-        )
-    return sensor
-
-
-def _whole_rate(sensor: Sensor) -> int:
-    if isinstance(sensor.every, Fraction):
-        raise ValueError(
-            f"sensor {sensor.name!r}: every={sensor.every!r}, and late='dual-rate' takes measurements every so many "
-            f"whole steps; use late='recalculate', 'larsen' or 'carried-gain'"
-        )
-    return sensor.every
-
-
-def _check_landing(sensor: Sensor, L: int) -> None:
-    if not (isinstance(L, int | np.integer) and sensor.longest_delay < L):
-        raise ValueError(
-            f"sensor {sensor.name!r}: L={L!r} must be a whole number, more than delay={sensor.longest_delay}: the "
-            f"correction lands after the measurement has arrived; give such an L, or use late='recalculate'"
-        )
+    return not (len(observed.attitudes) or len(observed.angles) or isinstance(sensor.every, Fraction)) and all(
+        one.taken % sensor.every == 0 for one in measurements
+    )
 
 
 def _check_arrivals(sensor: Sensor, arrived: Arrivals, L: int) -> None:
     for k, m in zip(arrived.taken, arrived.arrives, strict=True):
         where = f"sensor {sensor.name!r}, measurement of step {k}"
-        if k % sensor.every:
-            raise ValueError(
-                f"{where}: late='dual-rate' takes them every {sensor.every} steps from step 0 on; use "
-                f"late='recalculate', or leave it out"
-            )
         if m >= k + L:
             raise ValueError(
                 f"{where}: it arrives in step {m}, and its correction lands in step {k + L}; give a greater L, use "

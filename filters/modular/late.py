@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import Literal, TypeAlias, get_args
 
 import numpy as np
@@ -28,7 +28,7 @@ def run(
     *,
     late: Late = "recalculate",
     history: int | None = None,
-    L: int | None = None,
+    L: int | Mapping[str, int] | None = None,
     too_old: TooOld = "refuse",
     backend: BackendName = "reference",
 ) -> ModularHistory:
@@ -42,7 +42,7 @@ def run(
         taken, and of those that are lost altogether when that is known, see `carried_gain`.
     late: what is done with a late measurement: "recalculate" goes back, with any parts, any delays and in any order;
         "larsen" and "carried-gain" carry its correction forward, with linear and extended parts; "dual-rate" corrects
-        in a later step, with one sensor, linear or extended.
+        in a later step, with linear and extended parts.
     history: of "recalculate", see there. L: of "dual-rate", see there.
     too_old: what is done with a measurement from before the history, or one that arrives too late for L: "refuse", or
         "drop" it and go on; it is then among the `dropped` of what is returned.

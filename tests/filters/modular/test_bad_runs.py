@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from fractions import Fraction
 from functools import partial
 from typing import Any, get_args
 
@@ -55,10 +54,16 @@ def test_there_is_room_for_so_many_in_flight(late: str) -> None:
     refused("501 measurements are in flight at once, and there is room for 500: leave", filtered(GPS, late, *many))
 
 
-def test_the_dual_rate_way_needs_one_sensor_that_fits_its_cycle() -> None:
+def test_the_dual_rate_way_needs_landings_after_the_delays() -> None:
     case = linear_case(Sensor("gps", POSITION, every=4, delay=2))
-    refused("late='dual-rate' works with one sensor, .* are 'gps', 'other'; use", filtered(GPS, "dual-rate"))
-    refused("late='dual-rate' works with one sensor, .* are none", filtered(linear_case(), "dual-rate"))
+    refused("L=.*: 'sonar' is none of the sensors; they are gps", filtered(case, "dual-rate", L={"sonar": 9}))
+    both = linear_case(Sensor("gps", POSITION, every=4, delay=2), Sensor("other", POSITION, delay=5))
+    refused("sensor 'other': L=5 must be a whole number, more than delay=5", filtered(both, "dual-rate", L=5))
+    late_beside = Measurement("gps", 4, 8, Y)
+    refused(
+        "sensor 'gps', .* step 4: it arrives in step 8.*lands in step 8; give a greater L",
+        filtered(both, "dual-rate", late_beside),
+    )
     refused("predictor: late='dual-rate' .*use late='recalculate'", filtered(UNSCENTED, "dual-rate"))
     refused(
         "sensor 'gps': L=2 must be a whole number, more than delay=2: the correction lands after",
@@ -69,25 +74,11 @@ def test_the_dual_rate_way_needs_one_sensor_that_fits_its_cycle() -> None:
         "sensor 'gps': L=3 must be a whole number, more than delay=3:",
         filtered(linear_case(Sensor("gps", POSITION, every=4, delay=[1, 3, 2])), "dual-rate", L=3),
     )
-    refused(
-        r"sensor 'gps': every=Fraction\(9, 2\), and late='dual-rate' takes .* use late='recalculate'",
-        filtered(linear_case(Sensor("gps", POSITION, every=Fraction(9, 2))), "dual-rate"),
-    )
     late = Measurement("gps", 4, 7, Y)
     refused(
         "sensor 'gps', .* step 4: it arrives in step 7.*lands in step 7; give a greater",
         filtered(case, "dual-rate", late, L=3),
     )
-    between = Measurement("gps", 2, 4, Y)
-    refused("sensor 'gps', .* step 2: .*every 4 steps from step 0 on; use", filtered(case, "dual-rate", between))
-
-
-def test_the_dual_rate_way_needs_plain_quantities() -> None:
-    turned = cases.attitude_case(extended_predictor, Sensor("field", extended_corrector(cases.field, np.eye(3))))
-    refused("late='dual-rate' .*the filter's state holds attitudes or angles; use", filtered(turned, "dual-rate"))
-    bearing = extended_corrector(cases.height, [[1.0]], observed=space(1, angles=[0]))
-    angle = pendulum_case(extended_predictor, Sensor("bearing", bearing))
-    refused("sensor 'bearing': late='dual-rate' .*observes attitudes or angles; use", filtered(angle, "dual-rate"))
 
 
 def steep(x: FloatArray, out: FloatArray) -> None:
