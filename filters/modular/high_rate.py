@@ -64,13 +64,14 @@ def propagating(evolve: Callable[..., None]) -> Callable[..., None]:
     return hr_propagate
 
 
-def hr_pass(Phi: FloatArray, H: FloatArray, gain: FloatArray, delta: FloatArray, known: FloatArray) -> None:
+def hr_pass(
+    Phi: FloatArray, H: FloatArray, gain: FloatArray, delta: FloatArray, known: FloatArray, moved: FloatArray
+) -> None:
     """Job of a landing, for each knot that it passes: delta (n,) <- Phi delta, as of an error of the state.
 
     known (p,) <- H delta, by which what is expected of the knot's measurement was wrong; gain (p, n) = K^T: where that
-    has landed, delta <- delta - K H delta. Before, it is zero.
+    has landed, delta <- delta - K H delta. Before, it is zero. moved (n,): scratch.
     """
-    moved = np.zeros_like(delta)
     matvec(Phi, delta, moved)
     matvec(H, moved, known)
     for e in range(delta.shape[0]):

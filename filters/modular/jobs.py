@@ -12,6 +12,7 @@ from filters.jobs import Job
 from filters.modular.arrivals import whole
 from filters.modular.composition import ModularFilter, unscented_parts
 from filters.modular.correction import correction
+from filters.modular.dual_rate_jobs import dual_rate_jobs
 from filters.modular.estimate import empty
 from filters.modular.in_flight_jobs import (
     arguments_beside,
@@ -48,7 +49,9 @@ def modular_jobs(
     measurements: "predict_accumulate", and for each sensor "correct_accumulate.NAME" and "correct_late.NAME"; and those
     of several in flight. Of carried gains for each sensor "carry.NAME", a step of one that it measured, "beside.NAME",
     what each in flight adds to a correction by it, and "land.NAME". Of products of transitions "carry_product", and
-    "beside_product.NAME" and "land_product.NAME".
+    "beside_product.NAME" and "land_product.NAME". Of the dual-rate filter "hr_propagate", "hr_restart", "hr_update" and
+    "lr_propagate", and for each sensor "gain.NAME", "gain_again.NAME", "gain_kept.NAME", "lr_correct.NAME" and
+    "hr_pass.NAME".
 
     x0, P0, u: a typical state and covariance to start from, and a typical input, see `typical.typical_moment`.
 
@@ -75,6 +78,7 @@ def modular_jobs(
                 jobs.append(job(f"{kind}.{sensor.name}", correct, arguments))
         for products in (False, True):
             jobs += _in_flight_jobs(composed, job, products)
+        jobs += dual_rate_jobs(composed, job)
     return {job.kind: job for job in jobs}
 
 

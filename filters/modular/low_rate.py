@@ -186,7 +186,7 @@ class LowRate:
         known = np.empty_like(knot.known)
         gain = knot.gain if knot.landed else np.zeros_like(knot.gain)
         Phi = np.eye(self._of.errors) if knot.transition is None else knot.transition.Phi
-        self._pass(Phi, knot.H, gain, delta, known)
+        self._pass(Phi, knot.H, gain, delta, known, np.empty_like(delta))
         if not knot.landed:
             knot.known += known
             if knot.y is not None:

@@ -8,7 +8,15 @@ from typing import Any
 from sched_sim.costs.methods import METHODS
 from sched_sim.errors import InputError, option
 
-PREDICT = ("predict", "predict_accumulate", "carry_product")
+PREDICT = (
+    "predict",
+    "predict_accumulate",
+    "carry_product",
+    "hr_propagate",
+    "hr_restart",
+    "hr_update",
+    "lr_propagate",
+)
 CORRECT = (
     "correct",
     "correct_accumulate",
@@ -18,6 +26,11 @@ CORRECT = (
     "land",
     "beside_product",
     "land_product",
+    "gain",
+    "gain_again",
+    "gain_kept",
+    "lr_correct",
+    "hr_pass",
 )
 """Parts of a filter. The first is there once; each of the second once for each sensor."""
 

@@ -31,7 +31,11 @@ class SampledCosts:
     measurement), "correct_accumulate.gps" (one while another measurement is on its way, Larsen) and
     "correct_late.gps" (the late one itself, Larsen). With several late measurements in flight also what each costs in a
     step, "carry.gps", what it adds to a correction by the gps, "beside.gps", and its landing, "land.gps"; where
-    products of transitions are carried (Larsen), "carry_product", "beside_product.gps" and "land_product.gps".
+    products of transitions are carried (Larsen), "carry_product", "beside_product.gps" and "land_product.gps". Of the
+    dual-rate filter "hr_propagate" (one step of its high-rate task), "hr_restart" (one after a measurement was taken),
+    "hr_update" (a landing), "hr_pass.gps" (its way past a measurement of the gps), and of its low-rate task
+    "lr_propagate" (from a measurement to the next), "gain.gps", "lr_correct.gps" (on arrival) and, after a loss,
+    "gain_again.gps", and "gain_kept.gps" where the correction has landed.
     operations: counts by the same parts, where they are known; with the unit "operation" the samples may be left out,
     and each part has one: its arithmetic.
     provenance: whatever else the file says; path: where it was read from, for messages.
@@ -76,6 +80,10 @@ class _SampleTables(BaseModel):
     predict: _Samples | None = None
     predict_accumulate: _Samples | None = None
     carry_product: _Samples | None = None
+    hr_propagate: _Samples | None = None
+    hr_restart: _Samples | None = None
+    hr_update: _Samples | None = None
+    lr_propagate: _Samples | None = None
     correct: dict[str, _Samples] = {}
     correct_accumulate: dict[str, _Samples] = {}
     correct_late: dict[str, _Samples] = {}
@@ -84,6 +92,11 @@ class _SampleTables(BaseModel):
     land: dict[str, _Samples] = {}
     beside_product: dict[str, _Samples] = {}
     land_product: dict[str, _Samples] = {}
+    gain: dict[str, _Samples] = {}
+    gain_again: dict[str, _Samples] = {}
+    gain_kept: dict[str, _Samples] = {}
+    lr_correct: dict[str, _Samples] = {}
+    hr_pass: dict[str, _Samples] = {}
 
 
 class _OperationTables(BaseModel):
@@ -91,6 +104,10 @@ class _OperationTables(BaseModel):
     predict: CountsOfJob | None = None
     predict_accumulate: CountsOfJob | None = None
     carry_product: CountsOfJob | None = None
+    hr_propagate: CountsOfJob | None = None
+    hr_restart: CountsOfJob | None = None
+    hr_update: CountsOfJob | None = None
+    lr_propagate: CountsOfJob | None = None
     correct: dict[str, CountsOfJob] = {}
     correct_accumulate: dict[str, CountsOfJob] = {}
     correct_late: dict[str, CountsOfJob] = {}
@@ -99,6 +116,11 @@ class _OperationTables(BaseModel):
     land: dict[str, CountsOfJob] = {}
     beside_product: dict[str, CountsOfJob] = {}
     land_product: dict[str, CountsOfJob] = {}
+    gain: dict[str, CountsOfJob] = {}
+    gain_again: dict[str, CountsOfJob] = {}
+    gain_kept: dict[str, CountsOfJob] = {}
+    lr_correct: dict[str, CountsOfJob] = {}
+    hr_pass: dict[str, CountsOfJob] = {}
 
 
 class _SampleFile(BaseModel):

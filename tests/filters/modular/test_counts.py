@@ -174,6 +174,23 @@ def test_what_is_in_flight_costs_products_with_what_is_carried(n: int, p: int) -
         assert found[f"land{kind}.s"].total == moved + eliminated + of_products
 
 
+@pytest.mark.parametrize(("n", "p"), SIZES)
+def test_dual_rate_divides_a_prediction_and_a_correction_between_its_tasks(n: int, p: int) -> None:
+    """The covariance waits for the measurement, which then is its innovation and K z; a landing carries that on."""
+    found = linear(n, p)
+    state, moved = product(n, n, 1), product(n, p, 1) + Operations(add=n)
+    assert found["hr_restart"] == state
+    assert found["hr_propagate"] == found["predict"] + product(n, n, n)
+    assert found["hr_update"] == product(n, n, 1) + Operations(add=n)
+    assert found["lr_propagate"] + state == found["predict"]
+    assert found["gain.s"] + Operations(add=p) + moved == found["correct.s"]
+    assert found["gain_again.s"] + product(p, n, 1) == found["gain.s"]
+    assert found["lr_correct.s"] == Operations(multiply=n * p, add=n * p + 2 * p)
+    assert found["hr_pass.s"] == product(n, n, 1) + product(p, n, 1) + Operations(multiply=n * p, add=n * p)
+    thin = Operations(multiply=p * n * n, add=p * n * n)
+    assert found["gain_kept.s"] == thin + product(n, n, n) + product(n, n, n) + product(p, p, n) + thin
+
+
 def test_the_users_function_counts_as_often_as_it_is_called() -> None:
     """Linearised: once, and twice for each error if there is no Jacobian; unscented: once for each sigma point."""
     n, sensor = 3, linear_corrector(np.eye(1, 3), [[1.0]])
@@ -239,9 +256,38 @@ def test_what_is_counted_is_the_filter_itself(job: Job) -> None:
     np.testing.assert_allclose(counted, left_by(job), rtol=1e-13, atol=1e-15)
 
 
+@pytest.mark.parametrize("job", JOBS)
+def test_a_job_that_is_done_again_leaves_the_same(job: Job) -> None:
+    arguments = job.arguments(1)
+    for _ in range(2):
+        job.function(*arguments)
+    np.testing.assert_allclose(numbers(arguments), left_by(job), rtol=1e-13, atol=1e-15)
+
+
+DUAL_RATE_KINDS = (
+    "hr_propagate",
+    "hr_restart",
+    "hr_update",
+    "lr_propagate",
+    "gain",
+    "gain_again",
+    "gain_kept",
+    "lr_correct",
+    "hr_pass",
+)
+COMPILED = [
+    modular_jobs(UNSCENTED.composed, UNSCENTED.x0, UNSCENTED.P0, UNSCENTED.u)["correct.height"],
+    *(
+        job
+        for part, job in modular_jobs(EXTENDED.composed, EXTENDED.x0, EXTENDED.P0, EXTENDED.u).items()
+        if part.partition(".")[0] in DUAL_RATE_KINDS
+    ),
+]
+
+
 @pytest.mark.exhaust
-def test_what_is_compiled_is_the_filter_itself() -> None:
-    job = modular_jobs(UNSCENTED.composed, UNSCENTED.x0, UNSCENTED.P0, UNSCENTED.u)["correct.height"]
+@pytest.mark.parametrize("job", [pytest.param(job, id=job.kind) for job in COMPILED])
+def test_what_is_compiled_is_the_filter_itself(job: Job) -> None:
     arguments = job.arguments(1)
     function_for("compiled", job.function)(*arguments_for("compiled", arguments))
     np.testing.assert_allclose(numbers(arguments), left_by(job), rtol=1e-12, atol=1e-14)

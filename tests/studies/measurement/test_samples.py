@@ -131,7 +131,7 @@ def test_counts_of_each_part_are_printed_and_written(sched_sim: Run, tmp_path: P
     assert "operations" in sched_sim(line).out
 
 
-def test_a_filter_of_linear_parts_has_the_jobs_of_larsens_way_too() -> None:
+def test_a_filter_of_linear_parts_has_the_jobs_of_all_ways_with_late_measurements() -> None:
     assert list(load_filter("own_filter:cart").jobs) == [
         "predict",
         "correct.gps",
@@ -144,6 +144,15 @@ def test_a_filter_of_linear_parts_has_the_jobs_of_larsens_way_too() -> None:
         "carry_product",
         "beside_product.gps",
         "land_product.gps",
+        "hr_propagate",
+        "hr_restart",
+        "hr_update",
+        "lr_propagate",
+        "gain.gps",
+        "gain_again.gps",
+        "gain_kept.gps",
+        "lr_correct.gps",
+        "hr_pass.gps",
     ]
 
 
