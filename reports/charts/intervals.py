@@ -9,7 +9,7 @@ from typing import NamedTuple
 from sched_sim.schedule.outcome import Schedule, Slice
 
 TASK = "task:"
-CORRECT = "correct "
+OF_SENSOR = ("correct ", "gain ", "loss ")
 """Jobs of a composed filter, behind it the sensor's name: each sensor has a line of its own."""
 
 
@@ -52,8 +52,11 @@ def row_of(kind: str, cpu: int | None) -> Row:
     """The line on which jobs of one kind are drawn."""
     if kind.startswith(TASK):
         return Row(kind.removeprefix(TASK), cpu)
-    if kind == "predict" or kind.startswith(CORRECT):
-        return Row(kind.removeprefix(CORRECT), cpu)
+    if kind == "predict":
+        return Row(kind, cpu)
+    for prefix in OF_SENSOR:
+        if kind.startswith(prefix):
+            return Row(kind.removeprefix(prefix), cpu)
     return Row("LR" if kind.startswith("lr_") else "HR", cpu)
 
 

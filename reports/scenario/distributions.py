@@ -63,7 +63,7 @@ def distributions_figure(scenario: Scenario, outcome: Outcome, accuracy: Scenari
     for sensor in scenario.sensors:
         kind = correct_kind(sensor)
         least, most = sensor.least_delay, sensor.longest_delay
-        deadline = float(sensor.land_by + 1 - most) if least == most else None
+        deadline = float(scenario.due(sensor) - most) if least == most else None
         plain.append(
             _response(f"correct {shortened(sensor.name)}", scenario, outcome.jobs[kind], FILLS["CO"], deadline)
         )

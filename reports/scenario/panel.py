@@ -12,7 +12,6 @@ from reports.charts.panels import Mark, Panel, steps_shown
 from sched_sim.scenario.run import Outcome, run_scenario
 from sched_sim.scenario.scenario import Scenario
 from sched_sim.scenario.source import correct_kind
-from sched_sim.schedule.jobs import step_at
 from sched_sim.schedule.outcome import Schedule, Slice
 
 FEWEST_STEPS, MOST_STEPS = 12, 24
@@ -54,7 +53,7 @@ def scenario_panel(scenario: Scenario, outcome: Outcome) -> Panel:
         title=scenario.name,
         schedule=schedule,
         notes=(pace, scenario.late, steps_shown(first, last, scenario.steps)),
-        marks=_marks(late, schedule) if late else (),
+        marks=_marks(scenario, late, schedule) if late else (),
         first=first,
         last=last,
         misses=_misses(outcome, schedule, first),
@@ -87,12 +86,12 @@ def first_late(scenario: Scenario) -> Late | None:
     return min(arrivals, default=None)
 
 
-def _marks(late: Late, schedule: Schedule) -> Sequence[Mark]:
+def _marks(scenario: Scenario, late: Late, schedule: Schedule) -> Sequence[Mark]:
     """k, m and l of this measurement."""
     (finish,) = [job.finish for job in jobs(schedule) if (job.kind, job.step) == (late.kind, late.k)] or [None]
     labels = {late.k: "k", late.m: "m"}
     if finish is not None:
-        landed = step_at(finish, schedule.period)
+        landed = scenario.lands(finish, schedule.period)
         labels[landed] = "m = l" if landed == late.m else "l"
     return [Mark(step, text, 0, text == "k") for step, text in labels.items()]
 

@@ -49,7 +49,7 @@ def _overload(scenario: Scenario, outcome: Outcome, busy: Sequence[float]) -> It
 def _besides(scenario: Scenario, cpu: int) -> Iterator[str]:
     """What a processor does that is not in its demand."""
     late = [sensor.name for sensor in scenario.sensors if cpu == scenario.cpus - 1 and scenario.preempted(sensor)]
-    if late:
+    if late and scenario.late != "dual-rate":
         yield f"what corrections of {', '.join(late)} do again because they take longer than their step"
     if scenario.context_switch:
         yield "what context switches take"

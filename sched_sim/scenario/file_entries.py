@@ -228,16 +228,19 @@ class SensorEntry(Entry):
             roundings(every, offset),
         )
         of_ms = None if within is None else floor(units.steps(within) - longest_wait)
-        first = ceil(least - longest_wait)
+        first = ceil(least - longest_wait) + units.next_step
         if within is not None and of_ms is not None and of_ms < first:
             possible = ceil(10 * units.ms(first + longest_wait)) / 10
             raise InputError(
                 f"land_within_ms = {shown(within)} is before any correction can land: a measurement is used in the "
-                f"first step at its arrival or after it; give {possible:g} or more"
+                f"first step at its arrival or after it{', and lands in the next' if units.next_step else ''}; give "
+                f"{possible:g} or more"
             )
         said = [_said("land_by", self.land_by, self.land_by), _said("land_within_ms", within, of_ms, "land_by {}")]
         land_by: int | None = agreed(said)
-        return ceil(longest - least_wait) + max(floor(every), 1) - 1 if land_by is None else land_by
+        if land_by is not None:
+            return land_by
+        return ceil(longest - least_wait) + max(floor(every) - 1, units.next_step)
 
     def _composed(self, units: Units) -> ComposedSensor | None:
         return None if units.sensors is None else units.sensors[self.name]

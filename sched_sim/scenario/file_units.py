@@ -36,24 +36,26 @@ class Units:
     hr_hz: steps in a second; unit: of plain costs, one of `COST_UNITS`. None if the file gives none.
     sure: whether it is clear what they are; if not, nothing is said of what depends on them.
     composition: of the filter that the file names; None if it names none.
+    next_step: whether corrections land in the step after that in which they finish.
     """
 
     hr_hz: Fraction | None
     unit: str | None
     sure: bool
     composition: Composition | None = None
+    next_step: bool = False
 
     @classmethod
     def of(cls, document: Mapping[str, Any], composition: Composition | None) -> Units:
-        rate, unit = document.get("hr_hz"), document.get("unit")
+        rate, unit, next_step = document.get("hr_hz"), document.get("unit"), document.get("late") == "dual-rate"
         try:
             hr_hz = None if rate is None else above_zero(rate)
         except ValueError:
-            return cls(None, None, False, composition)
+            return cls(None, None, False, composition, next_step)
         if composition is None and "filter" in document:  # no name, which is said where it stands
-            return cls(hr_hz, None, False, Composition({}, None))
+            return cls(hr_hz, None, False, Composition({}, None), next_step)
         sure = unit in (None, *COST_UNITS) and not (hr_hz is not None and "speed" in document)
-        return cls(hr_hz, unit, sure, composition)
+        return cls(hr_hz, unit, sure, composition, next_step)
 
     @property
     def sensors(self) -> Mapping[str, ComposedSensor] | None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from sched_sim.scenario.dual_rate_load import mean_work
 from sched_sim.scenario.pattern import going_back, in_flight, numbers_in_flight, share_at_once
 from sched_sim.scenario.scenario import Scenario, Sensor
 from sched_sim.schedule.tasks import Task
@@ -35,13 +36,30 @@ class CatchingUp(NamedTuple):
 
 def loads(scenario: Scenario) -> list[Load]:
     """Mean work over time, without context switches and without what corrections do again to catch up."""
+    speed = float(scenario.speed)
+    tasks = [Load(task.name, task.cpu - 1, _mean_work(task) / speed) for task in scenario.tasks]
+    return [*(_of_dual_rate(scenario) if scenario.late == "dual-rate" else _of_filter(scenario)), *tasks]
+
+
+def _of_dual_rate(scenario: Scenario) -> list[Load]:
+    speed, last, work = float(scenario.speed), scenario.cpus - 1, mean_work(scenario)
+    mean_loads = [Load("predict", 0, work.predict / speed)]
+    for sensor, own in zip(scenario.sensors, work.sensors, strict=True):
+        mean_loads.append(Load(f"gain {sensor.name}", last, own.gain / speed))
+        mean_loads.append(Load(f"correct {sensor.name}", last, own.correct / speed))
+        if own.loss:
+            mean_loads.append(Load(f"loss {sensor.name}", last, own.loss / speed))
+    return mean_loads
+
+
+def _of_filter(scenario: Scenario) -> list[Load]:
     speed, last = float(scenario.speed), scenario.cpus - 1
     mean_loads = [Load("predict", 0, _predict(scenario) / speed)]
     for sensor, again in zip(scenario.sensors, _replays(scenario), strict=True):
         mean_loads.append(Load(f"correct {sensor.name}", last, _correct(scenario, sensor) / speed))
         if again:
             mean_loads.append(Load(f"replay for {sensor.name}", last, again / speed, scenario.preempted(sensor)))
-    return [*mean_loads, *(Load(task.name, task.cpu - 1, _mean_work(task) / speed) for task in scenario.tasks)]
+    return mean_loads
 
 
 def demand(scenario: Scenario) -> list[float]:
@@ -57,6 +75,8 @@ def catching_up(scenario: Scenario) -> dict[str, CatchingUp]:
 
     needed: at the least; of the corrections made in that step, only more urgent ones have been.
     """
+    if scenario.late == "dual-rate":
+        return {}
     replays = dict(zip(scenario.sensors, _replays(scenario), strict=True))
     predict = _predict(scenario) if scenario.cpus == 1 else 0.0
     figures = {}

@@ -11,10 +11,11 @@ from typing import NamedTuple
 from sched_sim.errors import InputError
 from sched_sim.html_table import html_table
 from sched_sim.scenario.distribution import finished_or_not, wilson
+from sched_sim.scenario.dual_rate import DualRateFilter, gain_kind, loss_kind
 from sched_sim.scenario.scenario import Scenario, Sensor, needed_parts
 from sched_sim.scenario.source import ComposedFilter, correct_kind
 from sched_sim.schedule.clock import Clock, OnProgress
-from sched_sim.schedule.jobs import Job, Source, step_at
+from sched_sim.schedule.jobs import Job, Source
 from sched_sim.schedule.length import check_simulation
 from sched_sim.schedule.outcome import Response, Schedule
 from sched_sim.schedule.processor import OnSlice, Platform, Processor
@@ -82,10 +83,12 @@ class SensorFigures:
 class Outcome:
     """What came out of a scenario.
 
-    jobs: by kind, "predict", "correct NAME", "task:NAME"; sensors: by name; schedule: of the processor;
+    jobs: by kind, "predict", "correct NAME", "task:NAME", of the dual-rate filter also "gain NAME" and "loss NAME";
+    sensors: by name; schedule: of the processor;
     first_miss: the earliest deadline that was missed, in HR periods from the start.
 
-    A correction is one job, from its arrival until it lands, whether it has to catch up or lands together with others.
+    A correction is one job, from its arrival until it lands, whether it has to catch up or lands together with others;
+    that of the dual-rate filter ends before the step in whose state it is.
     """
 
     jobs: Mapping[str, JobFigures]
@@ -155,7 +158,8 @@ def run_scenario(
     )
     period = to_ticks(speed, resolution)
     costs = {part: [to_ticks(cost, resolution) for cost in scenario.costs[part]] for part in parts}
-    composed = ComposedFilter(scenario, costs, period)
+    source = DualRateFilter if scenario.late == "dual-rate" else ComposedFilter
+    composed = source(scenario, costs, period)
     of_tasks = [TaskSource(task, speed, resolution) for task in tasks]
     clock = [] if on_progress is None else [Clock(period, scenario.steps, on_progress)]
     platform = Platform(scenario.cpus, to_ticks(scenario.context_switch, resolution))
@@ -171,7 +175,7 @@ def run_scenario(
     sensors = {}
     for number, sensor in enumerate(scenario.sensors):
         done = finishes[correct_kind(sensor)]
-        landings = [(job.step, step_at(job.end, period)) for job in done]
+        landings = [(job.step, scenario.lands(job.end, period)) for job in done]
         achieved = Counter(l - k for k, l in landings)
         arrived = achieved.total() + sum(waiting.sensor == number for waiting in composed.pending)
         sensors[sensor.name] = SensorFigures(
@@ -179,12 +183,23 @@ def run_scenario(
             composed.dropped[number],
             arrived,
             achieved,
-            _longest(sensor, done, period),
+            _longest(sensor, landings),
             landings,
         )
-    kinds = ["predict", *map(correct_kind, scenario.sensors), *(f"task:{task.name}" for task in tasks)]
+    kinds = ["predict", *_kinds(scenario), *(f"task:{task.name}" for task in tasks)]
     jobs = {kind: _figures(finishes[kind], schedule.responses.get(kind), period) for kind in kinds}
     return Outcome(jobs, sensors, schedule, processor.first_miss[0] / period if processor.first_miss else None)
+
+
+def _kinds(scenario: Scenario) -> list[str]:
+    """Of the jobs of the sensors."""
+    if scenario.late != "dual-rate":
+        return [*map(correct_kind, scenario.sensors)]
+    return [
+        kind
+        for sensor in scenario.sensors
+        for kind in (gain_kind(sensor), correct_kind(sensor), *([loss_kind(sensor)] if sensor.dropout else []))
+    ]
 
 
 class Finish(NamedTuple):
@@ -201,9 +216,9 @@ class Finish(NamedTuple):
         return self.deadline > self.release
 
 
-def _longest(sensor: Sensor, done: Sequence[Finish], period: int) -> Fraction | None:
-    waits = {job.step: job.step - sensor.instant(job.step) for job in done} if sensor.between_steps else {}
-    return max((step_at(job.end, period) - job.step + waits.get(job.step, Fraction(0)) for job in done), default=None)
+def _longest(sensor: Sensor, landings: Sequence[tuple[int, int]]) -> Fraction | None:
+    waits = {k: k - sensor.instant(k) for k, _ in landings} if sensor.between_steps else {}
+    return max((l - k + waits.get(k, Fraction(0)) for k, l in landings), default=None)
 
 
 def _figures(finishes: Sequence[Finish], response: Response | None, period: int) -> JobFigures:

@@ -33,19 +33,24 @@ from sched_sim.scenario.fields import (
 )
 from sched_sim.scenario.in_flight import Flight, first_overlap
 from sched_sim.scenario.instants import Steps, lag, roundings, taken
-from sched_sim.schedule.jobs import HR, LR
+from sched_sim.schedule.jobs import HR, LR, step_at
 from sched_sim.schedule.tasks import Task, wrong_together
 from sched_sim.ticks import exact
 
-Late = Literal["recalculate", "larsen", "carried-gain"]
+Late = Literal["recalculate", "larsen", "carried-gain", "dual-rate"]
 """What a late measurement does: the filter rolls back to it and replays, or its correction is carried forward, by
-Larsen's method or as a gain."""
+Larsen's method or as a gain; or every measurement is the low-rate task's, which corrects in a later step."""
 
 Samples = Mapping[str, Sequence[Fraction]]
 """Execution times by part of the filter, as in `sample_file.SampledCosts`."""
 
 ONE_IN_FLIGHT = ("predict_accumulate", "correct_accumulate", "correct_late")
 """Parts of a filter that run only where Larsen's method waits for one measurement at a time."""
+
+HIGH_RATE = ("hr_propagate", "hr_restart", "hr_update", "lr_propagate")
+OF_KNOTS = ("gain", "lr_correct", "hr_pass")
+AFTER_A_LOSS = ("gain_again", "gain_kept")
+"""Parts of the dual-rate filter: there once, and for each sensor, always or where any sensor loses measurements."""
 
 
 class Carried(NamedTuple):
@@ -76,7 +81,8 @@ class Sensor:
     after it. It never arrives with the probability `dropout`, else in the first step that starts at instant + delay or
     after it, the delay drawn from `delays`, one or several, with equal probability.
     priority: of its corrections; smaller is more urgent. land_by: the correction must finish during step k + land_by,
-    or before; its deadline is the end of that step, met exactly if the achieved l is k + land_by or less.
+    or before; its deadline is the end of that step, met exactly if the achieved l is k + land_by or less. Of the
+    dual-rate filter, whose corrections land in the step after that in which they finish, it is the start of that step.
     Raises InputError that names the sensor and lists all that is wrong with it.
     """
 
@@ -204,6 +210,8 @@ class Scenario:
             for task in self.tasks:
                 if task.cpu > self.cpus:
                     yield f"task {task.name!r}: cpu {task.cpu} is not there; give cpus = {task.cpu}, or cpu = 1"
+        if self.late == "dual-rate":
+            yield from _not_low_rate(self.sensors, None if "priority" in bad else self.priority)
         known = {"costs", "late"} if self.late == "recalculate" else {"costs", "late", "steps", "seed"}
         if not bad & known:
             yield from _lacking(self)
@@ -212,6 +220,14 @@ class Scenario:
     def carries(self) -> Carried | None:
         """What the filter carries of each measurement in flight, see `carried`."""
         return carried(self.sensors, self.late, self.steps, self.seed)
+
+    def lands(self, finish: int, period: int) -> int:
+        """The step in whose state a correction is that finishes then."""
+        return step_at(finish, period) + (self.late == "dual-rate")
+
+    def due(self, sensor: Sensor) -> int:
+        """At the start of which step, from its own, a correction must have finished."""
+        return sensor.land_by + (self.late != "dual-rate")
 
     def preempted(self, sensor: Sensor) -> bool:
         """Whether predict jobs go on while a correction of `sensor` is under way."""
@@ -255,8 +271,9 @@ SCENARIO_FIELDS = {
 
 
 def carried(sensors: Sequence[Sensor], late: Late, steps: int, seed: int) -> Carried | None:
-    """What a filter carries of each measurement in flight; None if it goes back, or Larsen's method has one at most."""
-    if late == "recalculate" or not any(sensor.delayed for sensor in sensors):
+    """What a filter carries of each measurement in flight; None if it goes back, or Larsen's method has one at most, or
+    its correction waits for a later step."""
+    if late in ("recalculate", "dual-rate") or not any(sensor.delayed for sensor in sensors):
         return None
     if late == "carried-gain":
         return GAINS
@@ -273,6 +290,9 @@ def _several_in_flight(sensors: Sequence[Sensor], steps: int, seed: int) -> bool
 
 def needed_parts(sensors: Sequence[Sensor], late: Late, carries: Carried | None) -> list[str]:
     """The parts of the filter that run in such a scenario. carries: see `carried`."""
+    if late == "dual-rate":
+        kinds = OF_KNOTS + (AFTER_A_LOSS if any(sensor.dropout for sensor in sensors) else ())
+        return [*HIGH_RATE, *(f"{kind}.{sensor.name}" for sensor in sensors for kind in kinds)]
     if late == "recalculate" or not any(sensor.delayed for sensor in sensors):
         return ["predict", *(f"correct.{sensor.name}" for sensor in sensors)]
     if carries is not None:
@@ -283,9 +303,32 @@ def needed_parts(sensors: Sequence[Sensor], late: Late, carries: Carried | None)
             *(f"{kind}.{sensor.name}" for sensor in sensors for kind in ("correct", carries.beside)),
             *(f"{carries.land}.{name}" for name in late_ones),
         ]
-    kinds = {True: ("correct_late",), False: ("correct", "correct_accumulate")}
-    of_sensors = [f"{kind}.{sensor.name}" for sensor in sensors for kind in kinds[sensor.delayed]]
+    one = {True: ("correct_late",), False: ("correct", "correct_accumulate")}
+    of_sensors = [f"{kind}.{sensor.name}" for sensor in sensors for kind in one[sensor.delayed]]
     return ["predict", "predict_accumulate", *of_sensors]
+
+
+def _not_low_rate(sensors: Sequence[Sensor], predictor: int | None) -> Iterator[str]:
+    """What to say of sensors that the low-rate task cannot do. predictor: its priority; None if it is wrong."""
+    for sensor in sensors:
+        if sensor.land_by <= sensor.least_delay:
+            yield (
+                f"sensor {sensor.name!r}: land_by {sensor.land_by} must be more than the least delay "
+                f'{sensor.least_delay}: with late = "dual-rate" a correction lands in a later step than that in which '
+                f"its measurement arrives; give {sensor.least_delay + 1} or more"
+            )
+    first = sensors[0]
+    for sensor in sensors[1:]:
+        if sensor.priority != first.priority:
+            yield (
+                f"sensor {sensor.name!r}: priority {sensor.priority}, where {first.name!r} has {first.priority}: with "
+                f'late = "dual-rate" one low-rate task does all corrections, first in, first out; give them the same'
+            )
+    if predictor is not None and first.priority <= predictor:
+        yield (
+            f"sensor {first.name!r}: priority {first.priority} must be more than {predictor}, that of [predictor]: "
+            f'with late = "dual-rate" the low-rate task gives way to the high-rate one; give {predictor + 1} or more'
+        )
 
 
 def _lacking(scenario: Scenario) -> list[str]:

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from math import ceil, isclose
 from pathlib import Path
-from typing import Annotated, Any, Literal, Self, get_args
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import BeforeValidator, Field, ValidationError, ValidationInfo, model_validator
 
@@ -56,16 +56,6 @@ def _processor(value: Any) -> str:
     return _file(value, f"or one of {', '.join(shipped_parts())}")
 
 
-def _late(value: Any) -> Any:
-    if value == "dual-rate":
-        *ways, last = map(repr, get_args(Late))
-        raise ValueError(
-            f"a scenario cannot do that: choose {', '.join(ways)} or {last}; for a filter of one sensor there is "
-            f"`sched-sim simulate --method dual-rate`"
-        )
-    return value
-
-
 def _not_too_many(sensors: Any) -> Any:
     if isinstance(sensors, list):
         check_sensors(sensors)
@@ -94,7 +84,7 @@ class _ScenarioFile(Entry):
     duration_s: Annotated[Fraction | None, BeforeValidator(time(above_zero))] = None
     steps: Annotated[_Steps, Field(validate_default=True)] = None
     seed: Annotated[Whole, Field(ge=0)] = 0
-    late: Annotated[Late, BeforeValidator(_late)] = "recalculate"
+    late: Late = "recalculate"
     filter: Annotated[str | None, BeforeValidator(_filter)] = None
     costs: Annotated[str | None, BeforeValidator(_cost_file)] = None
     processor: Annotated[str | None, BeforeValidator(_processor)] = None
@@ -262,12 +252,8 @@ def _scenario(checked: _ScenarioFile, units: Units, folder: Path) -> Scenario:
     costs: dict[str, Sequence[Fraction]] = {}
     sensors, harness = [sensor.sensor(units) for sensor in checked.sensor], False
     needed = needed_parts(sensors, checked.late, carried(sensors, checked.late, steps, checked.seed))
-    if unused := [part.partition(".")[2] for part in stated if part not in needed]:
-        raise InputError(
-            f'the cost of sensor {", ".join(unused)} has no meaning with late = "larsen": its late corrections are '
-            f"another part, whose costs are under [samples.correct_late] of a costs file; delete the cost, or choose "
-            f'late = "recalculate"'
-        )
+    if unused := [part for part in stated if part not in needed]:
+        raise InputError(_of_no_use(unused, checked.late))
     if checked.costs is not None:
         sampled = read_sampled_costs(folder / checked.costs)
         costs |= _from_file(sampled, checked, folder)
@@ -292,6 +278,22 @@ def _scenario(checked: _ScenarioFile, units: Units, folder: Path) -> Scenario:
         harness=harness,
         accuracy=None if checked.accuracy is None else checked.accuracy.asked(),
         filter=checked.filter,
+    )
+
+
+def _of_no_use(parts: Sequence[str], late: Late) -> str:
+    """What to say of the costs of these parts, which are stated and do not run."""
+    sensors = [part.partition(".")[2] for part in parts if part != "predict"]
+    named = ["[predictor]"] * ("predict" in parts) + [f"sensor {', '.join(sensors)}"] * bool(sensors)
+    said, choose = f'the cost of {" and ".join(named)} has no meaning with late = "{late}"', 'late = "recalculate"'
+    if late == "dual-rate":
+        return (
+            f"{said}: its tasks have other parts, whose costs are under [samples] of a costs file; delete the cost, or "
+            f"choose {choose}"
+        )
+    return (
+        f"{said}: its late corrections are another part, whose costs are under [samples.correct_late] of a costs file; "
+        f"delete the cost, or choose {choose}"
     )
 
 

@@ -120,13 +120,13 @@ from tests.sched_sim.cli.test_scenario_commands import REST, SHORT, write
         (("steps = 40", "steps = 40\ncontext_switch = -1"), ["context_switch: must be at least 0 (given: -1)"]),
         (
             ("steps = 40", 'steps = 40\nlate = "newest"'),
-            ["late", "'recalculate', 'larsen' or 'carried-gain'", "newest"],
+            ["late", "'recalculate', 'larsen', 'carried-gain' or 'dual-rate'", "newest"],
         ),
         (
             ("steps = 40", 'steps = 40\nlate = "dual-rate"'),
             [
-                "late: a scenario cannot do that: choose 'recalculate', 'larsen' or 'carried-gain'",
-                "simulate --method dual-rate`",
+                "no costs of hr_propagate, hr_restart, hr_update, lr_propagate, gain.gps",
+                "[samples.hr_pass] gps = [...]",
             ],
         ),
         (

@@ -74,7 +74,7 @@ BAD: dict[str, tuple[Callable[[], Any], str]] = {
     "context_switch": (lambda: built(context_switch=-1), "context_switch -1 must be 0 or more cost units"),
     "cpus": (lambda: built(cpus=3), "cpus is 3: choose from 1, 2"),
     "cpus as text": (lambda: built(cpus="2"), "cpus is '2': give a whole number"),
-    "late": (lambda: built(late="dual-rate"), "late is 'dual-rate': choose from 'recalculate', 'larsen'"),
+    "late": (lambda: built(late="newest"), "late is 'newest': choose from 'recalculate', 'larsen'"),
     "seed": (lambda: built(seed=0.5), "seed is 0.5: give a whole number"),
     "no sensors": (lambda: built(sensors=[]), "sensors is empty: give at least one Sensor"),
     "sensors": (lambda: built(sensors=["gps"]), "sensors holds 'gps': give a list of Sensor"),
@@ -84,7 +84,8 @@ BAD: dict[str, tuple[Callable[[], Any], str]] = {
     "all at once": (
         lambda: built(steps=0, cpus=3, late="never", sensors=None),
         "steps 0 must be at least 1: it is how many HR steps are simulated; sensors holds None: give a list of Sensor; "
-        "late is 'never': choose from 'recalculate', 'larsen', 'carried-gain'; cpus is 3: choose from 1, 2",
+        "late is 'never': choose from 'recalculate', 'larsen', 'carried-gain', 'dual-rate'; cpus is 3: choose from "
+        "1, 2",
     ),
     "a path": (lambda: run_scenario("late.toml"), "scenario is a str: give read_scenario(...)"),  # type: ignore[arg-type]
     "a Path": (lambda: run_scenario(Path("late.toml")), "Path: give read_scenario(...)"),  # type: ignore[arg-type]
