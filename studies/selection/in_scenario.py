@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -272,6 +273,12 @@ def _ages(sensor: Sensor, ages: FloatArray, first: int) -> FloatArray | None:
     return np.asarray(ages + waits[which])
 
 
+def _overtaken(outcome: Outcome) -> bool:
+    """Whether one lands before another of its sensor that was taken before."""
+    orders = ([l for _, l in sorted(figures.landings)] for figures in outcome.sensors.values())
+    return any(later < earlier for order in orders for earlier, later in pairwise(order))
+
+
 def _remarks(scenario: Scenario, outcome: Outcome, question: Question) -> Iterator[str]:
     never = [sensor.name for sensor in scenario.sensors if not outcome.sensors[sensor.name].landings]
     if never:
@@ -282,10 +289,10 @@ def _remarks(scenario: Scenario, outcome: Outcome, question: Question) -> Iterat
             f"{late} predict jobs finish late, and so does the output of their steps: the figures are of it once it is "
             f"there"
         )
-    if scenario.late != "recalculate" and len(scenario.sensors) > 1:
+    if scenario.late != "recalculate" and (len(scenario.sensors) > 1 or _overtaken(outcome)):
         yield (
-            f"the figures are of a filter that goes back to each measurement: late = {scenario.late} is not quite as "
-            f"good where other sensors measure while one is on its way"
+            f"the figures are of a filter that goes back to each measurement: late = {scenario.late} is not as good "
+            f"where others land while one that was taken before is on its way, the less the more that one tells"
         )
     if question.model.linearised:
         yield "the model is linearised at its start"

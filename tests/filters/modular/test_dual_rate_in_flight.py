@@ -14,7 +14,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from filters.modular import Measurement, ModularFilter, Sensor, linear_corrector, run
+from filters.accuracy.trace import along
+from filters.modular import Measurement, ModularFilter, Sensor, linear_corrector, linear_predictor, run
 from filters.modular.low_rate import LowRate
 from tests.filters.modular.cases import measured
 from tests.filters.modular.test_carried_gain import FILTER, NAMES, P0, X0, H, R, batch, inputs, record, undelayed
@@ -148,3 +149,27 @@ def test_compiled_equals_reference() -> None:
     both = [filtered(30, measurements, too_old="drop", backend=backend) for backend in ("compiled", "reference")]
     for compiled, reference in zip(*both, strict=True):
         np.testing.assert_allclose(compiled, reference, rtol=0, atol=1e-11)
+
+
+@pytest.mark.parametrize(
+    ("deviation", "lands", "worst", "average"), [(2.0, 30, 1.009, 1.0005), (0.3, 60, 1.865, 1.072)]
+)
+def test_what_has_been_overtaken_counts_in_the_gains_of_what_overtakes_it(
+    deviation: float, lands: int, worst: float, average: float
+) -> None:
+    """Beside the best filter of what has landed: fixes every 20 steps, images of 0.55 m every 7 that land in k + 6."""
+    Phi, Q, H = np.array([[1.0, 1.0], [0.0, 1.0]]), 0.01 * np.array([[1 / 3, 1 / 2], [1 / 2, 1]]), np.eye(1, 2)
+    noises, when = {"fix": [[deviation**2]], "image": [[0.3]]}, {"fix": lands, "image": 6}
+    every, steps = {"fix": 20, "image": 7}, 600
+    sensors = [Sensor(name, linear_corrector(H, noises[name]), every[name], when[name] - 1) for name in every]
+    measurements = [
+        Measurement(name, k, k + when[name] - 1, [0.0]) for name in every for k in range(0, steps, every[name])
+    ]
+    composed, start = ModularFilter(linear_predictor(Phi, Q), sensors), np.diag([4.0, 1.0])
+    found = run(composed, [0.0, 0.0], start, np.zeros((steps, 0)), measurements, late="dual-rate", L=when)
+    landings = [(one.sensor, one.taken, one.taken + when[one.sensor]) for one in measurements]
+    best = along(Phi, Q, {name: (H, R) for name, R in noises.items()}, [0], start, steps, landings).deviations
+    over = np.sqrt(found.P[:, 0, 0]) / best
+    assert over.min() > 1 - 1e-9
+    assert over.max() == pytest.approx(worst, abs=0.001)
+    assert np.sqrt(np.mean(found.P[:, 0, 0]) / np.mean(best**2)) == pytest.approx(average, abs=0.001)

@@ -16,6 +16,7 @@ from sched_sim.scenario.draws import fates
 from sched_sim.scenario.run import run_scenario
 from sched_sim.scenario.scenario import Scenario, Sensor
 from sched_sim.schedule.tasks import Task
+from tests import scenarios
 from tests.reports.layout import flaws, texts
 from tests.reports.scenario.test_distributions import LONG, OVERLOAD, ROCKET
 
@@ -39,6 +40,32 @@ BETWEEN_STEPS = replace(
     speed=Fraction(20),
     sensors=[Sensor("s", Fraction(20, 3), (Fraction(7, 2), 5), land_by=12, offset=Fraction(1, 2))],
 )
+
+TWO_TASKS = scenarios.scenario(
+    11,
+    dict.fromkeys(("hr_propagate", "hr_restart", "hr_update", "lr_propagate"), 3)
+    | {
+        f"{kind}.{name}": 4
+        for kind in ("gain", "lr_correct", "hr_pass", "gain_again", "gain_kept")
+        for name in ("gps", "camera")
+    },
+    scenarios.sensor("gps", 9, range(4, 7), dropout=0.2),
+    scenarios.sensor("camera", 5, 2),
+    steps=60,
+    late="dual-rate",
+)
+"""Too slow."""
+
+
+def test_gains_and_losses_are_on_the_line_of_their_sensor_and_l_is_the_step_of_the_landing() -> None:
+    scenario = replace(TWO_TASKS, speed=Fraction(40))
+    outcome = run_scenario(scenario)
+    panel = scenario_panel(scenario, outcome)
+    assert {row.name for row in rows(panel.schedule)} == {"predict", "gps", "camera"}
+    assert {bar.style for bar in bars(panel.schedule)} == {"HRP", "HRU", "LRP", "LRG", "LRU"}
+    assert {mark.text: mark.step for mark in panel.marks} == {"k": 0, "m": 2, "l": 3}
+    assert (0, 3) in outcome.sensors["camera"].landings
+    assert flaws(gantt([panel])) == []
 
 
 def test_a_measurement_between_steps_is_shown_where_it_is_used() -> None:
@@ -104,6 +131,8 @@ def test_the_window_is_short_and_about_what_matters(
         replace(OVERLOAD, steps=60, cpus=2, speed=Fraction(6)),
         replace(ROCKET, steps=60, cpus=2),
         BETWEEN_STEPS,
+        TWO_TASKS,
+        replace(TWO_TASKS, cpus=2),
     ],
 )
 def test_every_job_is_drawn_whether_it_ran_or_not(scenario: Scenario, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -170,6 +170,56 @@ def test_a_wrong_rate_or_duration_is_refused_by_name(tmp_path: Path, change: tup
         read(tmp_path, GPS.replace(*change), HEAD.replace(*change))
 
 
+DUAL_RATE = f'late = "dual-rate"\ncosts = "costs.toml"\n{HEAD}'
+
+
+@pytest.fixture
+def dual_rate_costs(tmp_path: Path) -> None:
+    of_gps = [f"[samples.{kind}]\ngps = [1]\n" for kind in ("gain", "lr_correct", "hr_pass")]
+    parts = "hr_propagate = [1]\nhr_restart = [1]\nhr_update = [1]\nlr_propagate = [1]\n"
+    (tmp_path / "costs.toml").write_text(f'name = "c"\nunit = "us"\n[samples]\n{parts}{"".join(of_gps)}')
+
+
+@pytest.mark.usefixtures("dual_rate_costs")
+@pytest.mark.parametrize(
+    ("times", "land_by"),
+    [
+        ("hz = 5", 79),
+        ("hz = 5\ndelay_ms = 110", 44 + 79),
+        ("every = 1\ndelay = 3", 4),
+        ('every = "3/2"\ndelay = 3', 4),
+        ("hz = 5\ndelay_ms = 110\nland_within_ms = 112.5", 45),
+    ],
+)
+def test_corrections_of_the_dual_rate_filter_land_in_a_later_step_than_that_of_the_arrival(
+    times: str, land_by: int, tmp_path: Path
+) -> None:
+    (found,) = read(tmp_path, f'name = "gps"\n{times}\n', DUAL_RATE, "").sensors
+    assert found.land_by == land_by
+
+
+@pytest.mark.usefixtures("dual_rate_costs")
+@pytest.mark.parametrize(
+    ("sensor", "predictor", "said"),
+    [
+        ("land_within_ms = 112", "", "land_within_ms = 112 is before any correction can land.* give 112.5 or more"),
+        ("land_by = 44", "", "land_by 44 must be more than the least delay 44"),
+        (
+            "cost_ms = 1",
+            "",
+            r'the cost of sensor gps has no meaning with late = "dual-rate": its tasks have other parts',
+        ),
+        ("", "cost_ms = 1\n", r"the cost of \[predictor\] has no meaning"),
+        ("priority = 5", "", "priority 5 must be more than 10, that of \\[predictor\\]"),
+    ],
+)
+def test_what_the_dual_rate_filter_cannot_have_is_refused(
+    sensor: str, predictor: str, said: str, tmp_path: Path
+) -> None:
+    with pytest.raises(InputError, match=said):
+        read(tmp_path, f'name = "gps"\nhz = 5\ndelay_ms = 110\n{sensor}\n', DUAL_RATE, predictor)
+
+
 @pytest.mark.parametrize(
     ("key", "steps"), [("hz", "every"), ("delay_ms", "delay"), ("offset_ms", "offset"), ("land_within_ms", "land_by")]
 )

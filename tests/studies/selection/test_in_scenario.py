@@ -279,7 +279,18 @@ def test_what_the_figures_are_not_of_is_told() -> None:
     costs = CHEAP | {"correct.radio": 1, "predict_accumulate": 1, "correct_late.gps": 1, "correct_accumulate.radio": 1}
     costs |= {"carry_product.gps": 1, "beside_product.radio": 1, "land_product.gps": 1, "carry_product": 1}
     larsen = scenario(100, costs, GPS, sensor("radio", 8), steps=100, hr_hz=400, accuracy=asked, late="larsen")
-    assert any("late = larsen is not quite as good" in remark for remark in along(larsen)[0].remarks)
+    assert any("late = larsen is not as good" in remark for remark in along(larsen)[0].remarks)
+
+
+@pytest.mark.parametrize(("delays", "told"), [([10], False), ([4, 30], True)])
+def test_one_that_overtakes_another_of_its_own_sensor_is_told_of(delays: list[int], told: bool) -> None:
+    parts = ("hr_propagate", "hr_restart", "hr_update", "lr_propagate", "gain.gps", "lr_correct.gps", "hr_pass.gps")
+    gps = sensor("gps", 8, delays, land_by=40)
+    asked = AccuracyAsked("ins-gps")
+    of = scenario(100, dict.fromkeys(parts, 1), gps, steps=200, hr_hz=400, accuracy=asked, late="dual-rate")
+    found, outcome = along(of)
+    assert outcome.sensors["gps"].landings
+    assert any("late = dual-rate is not as good" in remark for remark in found.remarks) == told
 
 
 @pytest.mark.parametrize(("late", "at_most"), [("recalculate", 1.0), ("carried-gain", 1.05), ("larsen", 1.05)])
