@@ -357,9 +357,10 @@ def _lacking(scenario: Scenario) -> list[str]:
 
 def _entries(parts: Sequence[str]) -> str:
     """How samples of these parts stand in a costs file."""
-    written = []
+    tables: dict[str, list[str]] = {}
     for part in parts:
         kind, of_sensor, sensor = part.partition(".")
         table, key = (f"samples.{kind}", toml_key(sensor)) if of_sensor else ("samples", kind)
-        written.append(f"[{table}] {key} = [...]")
+        tables.setdefault(table, []).append(f"{key} = [...]")
+    written = [f"[{table}] {', '.join(entries)}" for table, entries in tables.items()]
     return " and ".join([", ".join(written[:-1]), written[-1]] if written[1:] else written)

@@ -215,3 +215,20 @@ def test_a_scenario_that_no_part_can_run_is_refused_once(
 def test_measured_times_are_of_no_part(sched_sim: Run) -> None:
     Path("counts.toml").write_text('name = "t"\nunit = "us"\n[samples]\npredict = [5]\n[samples.correct]\ngps = [9]\n')
     is_refused(sched_sim("processors --scenario late.toml"), ["no [operations]", "leave the processor out"])
+
+
+def test_the_two_tasks_of_the_dual_rate_filter_have_a_verdict_too(sched_sim: Run, tmp_path: Path) -> None:
+    parts = "hr_propagate = { multiply = 900 }\nhr_restart = { add = 90 }\nhr_update = { add = 90 }\n"
+    parts += "lr_propagate = { multiply = 900 }\n"
+    for kind in ("gain", "lr_correct", "hr_pass"):
+        parts += f"[operations.{kind}]\ngps = {{ multiply = 100 }}\n"
+    (tmp_path / "counts.toml").write_text(f'name = "c"\nunit = "operation"\n[operations]\n{parts}')
+    (tmp_path / "late.toml").write_text(f'late = "dual-rate"\n{SCENARIO}')
+    (tmp_path / "mine.toml").write_text(PART.format("mine"))
+    rows = json.loads(sched_sim("processors --scenario late.toml --processor mine.toml --format json").out)
+    (row,) = [row for row in rows if row["processor"] == "mine"]
+    scenario = read_scenario("late.toml", processor="mine.toml")
+    lags = [delay or 0 for _, delay in scenario.sensors[0].measurements(scenario.steps, scenario.seed)]
+    assert (row["fits"], row["misses"], row["latest_l"]) == (True, 0, {"gps": 1 + max(lags)})
+    assert row["slack_of"] == "predict"
+    assert row["slack"] == pytest.approx(1 - 18e-6 * 400, abs=1e-3)

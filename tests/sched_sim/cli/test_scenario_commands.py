@@ -100,6 +100,24 @@ def test_samples_may_be_in_any_unit_of_time(tmp_path: Path) -> None:
         assert read_scenario(tmp_path / "s.toml").costs["predict"] == (Fraction(3),)
 
 
+def test_what_the_dual_rate_filter_lacks_is_written_as_the_message_says(sched_sim: Run, tmp_path: Path) -> None:
+    """Then each of its jobs has figures, and the pictures and the trace are made."""
+    stated = SHORT.replace('costs = "costs.toml"', 'late = "dual-rate"').replace("priority = 10", "dropout = 0.3")
+    (tmp_path / "s.toml").write_text(stated)
+    (entries,) = re.findall(r"write there (\[.*), beside", sched_sim("simulate --scenario s.toml").err)
+    samples = entries.replace(" and ", ", ").replace("] ", "]\n").replace(", ", "\n").replace("...", "1")
+    (tmp_path / "costs.toml").write_text(f'name = "c"\nunit = "ms"\n{samples}\n')
+    (tmp_path / "s.toml").write_text(f'costs = "costs.toml"\n{stated}')
+    line = "simulate --scenario s.toml --gantt g.svg --histogram h.svg --trace t.csv --format json"
+    document = json.loads(sched_sim(line).out)
+    assert list(document["jobs"]) == ["predict", "gain gps", "correct gps", "loss gps"]
+    assert document["late"] == "dual-rate"
+    assert document["misses"] == 0
+    assert document["sensors"]["gps"]["achieved_l"] == {"3": 1.0}
+    pieces = {row["piece"] for row in csv.DictReader((tmp_path / "t.csv").read_text().splitlines())}
+    assert pieces == {"HRP", "HRU", "LRP", "LRG", "LRU"}
+
+
 def test_json_has_the_distributions(sched_sim: Run) -> None:
     document = json.loads(sched_sim(f"simulate --scenario {ROCKET} --format json").out)
     outcome = run_scenario(read_scenario(ROCKET))
