@@ -104,6 +104,7 @@ def accuracy(
     if model is None:
         raise InputError(f"--model is missing: give one of {flags.MODELS}, or package.module:function of your own")
     numbers = flags.every_of(every)
+    flags.refuse_of_others(context, method)
     _refuse_contradictions(context, L, land_within_ms, speed, processor, trajectory)
     shipped = shipped_defaults(model)
     asked = flags.sampled(shipped, N, M, L, hr_hz, measurement_hz, delay_ms, land_within_ms)

@@ -105,6 +105,30 @@ def every_of(text: str) -> tuple[int, ...]:
 MOST_EVERY = 100
 
 
+ONLY_OF = {
+    "tau": ("px4-predictor",),
+    "motion": ("fuse-as-fresh",),
+    "L": ("dual-rate", "delayed-horizon"),
+    "land_within_ms": ("dual-rate", "delayed-horizon"),
+    "low_rate_noise": ("dual-rate",),
+    "gain": ("dual-rate",),
+}
+"""Parameters that say nothing of other methods than these."""
+
+
+def refuse_of_others(context: typer.Context, methods: list[str] | None) -> None:
+    """Raises InputError for an option that changes nothing of the methods that were asked for."""
+    if not methods:
+        return
+    useless = {name: of for name, of in ONLY_OF.items() if not set(of) & set(methods)}
+    for flag in opt.given_options(context, lambda name: name in useless):
+        of = useless[flag.lstrip("-").replace("-", "_")]
+        raise InputError(
+            f"{flag} changes nothing of --method {', '.join(methods)}: it is for {' and '.join(of)}; leave it out, or "
+            f"add --method {of[0]}"
+        )
+
+
 class Sampled(NamedTuple):
     """L: as asked for, in steps; words: what times became in steps, as a note."""
 

@@ -117,6 +117,7 @@ def design(
     if within is None:
         raise InputError("--within is missing: give the standard deviation that is allowed, such as --within 0.38")
     bound, numbers = within_of(within), flags.every_of(every)
+    flags.refuse_of_others(context, method)
     if figure is not None:
         from reports.drawing.picture import check_picture
 

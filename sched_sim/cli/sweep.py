@@ -308,6 +308,7 @@ def _report(asked: Sweep, store: Store, outcome: Outcome, exports: Sequence[Path
     before = f" ({outcome.before} of them were there before)" if outcome.before else ""
     several, in_seconds = len(tables) > 1, all(table.unit == "second" for table in tables)
     notes = {lines(form_note(table, asked.grid.methods), busy_note(table.provenance)): table.name for table in tables}
+    accuracy = asked.grid.accuracy is not None and not exports
     forms = [note if len(notes) == 1 else f"{name}: {note}" for note, name in notes.items() if note]
     print_table(
         f"{asked.grid.size} points{before}{left_out}", [_for_people(row, several, in_seconds) for row in methods]
@@ -318,6 +319,7 @@ def _report(asked: Sweep, store: Store, outcome: Outcome, exports: Sequence[Path
         [_for_people(row, several, in_seconds) for row in designs[:SHOWN]],
         note=lines(
             "All rows: " + ", ".join(str(file) for file in (store.path, *exports)),
+            "worst_std and rms_std of each design are in these rows; --export FILE.csv writes them" if accuracy else "",
             TASKS_ON_PARTS if asked.grid.tasks and len({table.processor for table in tables}) > 1 else "",
             caveat_note(asked.grid.methods),
             *forms,

@@ -162,7 +162,11 @@ def compared(
             of, remark = _accuracy(model, outputs, using, name, at, options, conditions)
             rows.append(_row(name, number, using, of, remark, no_delay, metric))
     if all(row.accuracy is None for row in rows):
-        raise InputError(f"no correction lands: {'; '.join(by_reason((row.method, row.remark) for row in rows))}")
+        reasons = "; ".join(by_reason((row.method, row.remark) for row in rows))
+        faster = (
+            "" if processor is None else f"; give a faster processor, or use fewer measurements, {option('every')} 2"
+        )
+        raise InputError(f"no correction lands: {reasons}{faster}")
     return Comparison(model, outputs, sampling, metric, no_delay, tuple(rows), chosen.left_out)
 
 
