@@ -28,7 +28,7 @@ def show(found: Comparison, asked: flags.Sampled, format: opt.Format) -> None:
     unit = _in_unit(found.outputs)
     print_table(
         f"Standard deviation of {found.outputs.name}{unit}, {found.model.name}, {flags.shown(found.sampling)}",
-        [_words(row, found) for row in found.rows],
+        _said([_words(row, found) for row in found.rows]),
         lines(
             f"over no delay: {found.metric}, over {found.no_delay:.6g}{_unit(found.outputs)} of the filter that uses "
             f"every measurement without delay",
@@ -120,6 +120,12 @@ def _words(row: AccuracyRow, found: Comparison) -> dict[str, Any]:
         "bias": _figure((of and of.bias) or None),
         "verdict": "does not land" if of is None else of.verdict,
     }
+
+
+def _said(rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
+    """Without the columns in which there may be nothing, and is."""
+    empty = [name for name in ("believed", "bias") if all(row[name] is None for row in rows)]
+    return [{name: value for name, value in row.items() if name not in empty} for row in rows]
 
 
 def _figure(value: float | None) -> str | None:

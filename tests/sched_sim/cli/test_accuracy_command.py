@@ -282,6 +282,18 @@ def test_a_sweep_says_where_its_costs_are_of_another_size(sched_sim: Run) -> Non
     assert "--model has" not in sched_sim(line.replace("star-tracker", "ins-gps")).err
 
 
+def test_what_is_empty_in_each_row_is_no_column_and_a_narrow_table_is_one(
+    sched_sim: Run, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    shown = sched_sim("accuracy --model ins-gps --method larsen").out
+    assert not {"believed", "bias"} & set(shown.splitlines()[2].split())
+    monkeypatch.setenv("COLUMNS", "80")
+    for line in ("accuracy --model ins-gps", "design --within 0.38 --model ins-gps"):
+        narrow = sched_sim(line).out
+        assert "left out, as COLUMNS is 80" in narrow
+        assert max(map(len, narrow.splitlines())) <= 80
+
+
 def test_a_sweep_says_which_methods_have_no_accuracy_in_it(sched_sim: Run) -> None:
     line = "sweep -N 50 -M 20 -L 50 --model ins-gps --costs counted-9-3-3 --format json --method px4-predictor"
     both = sched_sim(f"{line} --method fuse-as-fresh").err

@@ -22,6 +22,8 @@ TABLES = [
     "processors -N 40 -M 20 --hr-hz 400",
     "sweep -N 10:30:10 -M 1:4",
     f"sweep -N 10 -M 4 --costs counted-9-3-3 {PARTS}",
+    "accuracy --model ins-gps",
+    "design --within 0.38 --model ins-gps",
 ]
 
 SAID = "left out, as the terminal is narrow --format json has all (9 (246 of them were there before)"
