@@ -196,11 +196,18 @@ def _show(found: Choice, ways: Sequence[Candidate], question: Question, words: s
             "part: the cheapest where prices are known, else the one with the least to spare" if question.parts else "",
             f"{TOO_SLOW}: no part runs it; of its speed is what the nearest would need" if too_slow else "",
             *by_reason((of.variant.method, of.reason) for of in ways if of.parts and of.parts[0].needed is None),
+            "" if question.parts else _why_no_parts(question),
             words,
             f"costs: {', '.join(table.name for table in question.tables)}",
             ground_note(table, [of.variant.method for of in ways], calibrations) if question.parts else "",
         ),
     )
+
+
+def _why_no_parts(question: Question) -> str:
+    if question.sampling.hr_hz is None:
+        return "no parts: which do depends on the rate of the HR loop; give --hr-hz"
+    return f"no parts: {question.tables[0].name} has no counted operations; leave --costs out, and they are counted"
 
 
 def _words(of: Candidate, found: Choice) -> dict[str, Any]:

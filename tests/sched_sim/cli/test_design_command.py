@@ -172,6 +172,12 @@ def test_costs_in_other_units(sched_sim: Run) -> None:
     assert found["designs"][0]["min_speed"] == pytest.approx(0.75, abs=0.2)
 
 
+def test_why_there_are_no_parts(sched_sim: Run) -> None:
+    costs = sched_sim(f"design --within 0.38 {INS} --costs steffes2014").out
+    assert "no parts: steffes2014 has no counted operations; leave --costs out" in costs
+    assert "give --hr-hz" in sched_sim("design --within 5 --model mine:cv -N 10 -M 4 --output 0 --method larsen").out
+
+
 def test_csv_has_a_row_for_each(sched_sim: Run) -> None:
     line = f"design --within 0.38 {INS} --format csv"
     rows = list(csv.DictReader(io.StringIO(sched_sim(line).out)))
