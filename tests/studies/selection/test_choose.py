@@ -100,7 +100,7 @@ def test_with_several_in_flight_those_that_bear_it_take_part() -> None:
     }
     (other,) = found.others
     assert other.variant.method == "clone-split"
-    assert "one measurement at a time" in other.reason
+    assert "one measurement is on its way at a time" in other.reason
 
 
 def test_parts_as_they_are() -> None:
