@@ -192,7 +192,7 @@ def test_something_is_on_two_thousand_designs(number: int, record_property: Call
     record_property("designs", examples)
     record_property("of load", found[None])
     record_property("not tight", found[False])
-    assert found[False] <= 0.15 * examples + 1
+    assert found[False] <= 0.15 * examples + 3 * (0.15 * 0.85 * examples) ** 0.5
 
 
 restart_is_no_landing = Design(DualRateCosts(1, 2, 1, 1, 0, 1), Timing(2, 0, 2), Options(cpus=2))
