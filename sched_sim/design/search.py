@@ -21,6 +21,9 @@ from sched_sim.ticks import ticks_per_unit
 TICKS_PER_LOOP = 1_000_000
 """The least speed is found to this many ticks in the filter's largest job, or finer."""
 
+MOST_LOADS = 100
+"""Of ever later landings, that are tried before other speeds."""
+
 FIRST_LOOK = 256
 """HR periods of the first simulations; most speeds that are too slow miss something in so many."""
 
@@ -52,17 +55,34 @@ def least_speed_by_simulation(
         speed = Fraction(period, resolution)
         return run_until_steady(costs, timing, speed, options, tasks, steps)
 
+    piling = [ceil(load * resolution) for load in _loads_later(costs, timing, options, tasks)]
     too_slow = max(ceil(floor * resolution) - 1, 0)
     enough, steps = too_slow + 1, min(FIRST_LOOK, longest)
     steady = run(enough, steps)
     while not steady.repeats:
         if steady.schedule.misses or steps == longest:
             too_slow, enough, steady = _bisect(run, enough, steps, longest)
-        else:
-            steps = min(4 * steps, longest)
-            steady = run(enough, steps)
+            continue
+        piling = [load for load in piling if load >= enough]
+        if piling and _is_least(run, load := piling.pop(0), longest):
+            return Fraction(load, resolution), "load"
+        steps = min(4 * steps, longest)
+        steady = run(enough, steps)
     binding = _binding(run(too_slow, steps).schedule, costs, timing, options) if too_slow else "load"
     return Fraction(enough, resolution), binding
+
+
+def _loads_later(costs: Costs, timing: Timing, options: Options, tasks: Sequence[Task]) -> list[Fraction]:
+    """Those of corrections that land ever later, which takes more work: one of them is often the least speed."""
+    law, (N, M, L) = method_of(costs).law(options.feedback), (timing.N, timing.M, timing.L)
+    if not law.several or law.only_first:
+        return []
+    landings = [*range(M, L, N)[:MOST_LOADS], L]
+    return sorted({max(loads(costs, Timing(N, at, L), Fraction(1), options, tasks)) for at in landings})
+
+
+def _is_least(run: Callable[[int, int], Steady], period: int, longest: int) -> bool:
+    return run(period, longest).repeats and not run(period - 1, longest).repeats
 
 
 def _bisect(run: Callable[[int, int], Steady], too_slow: int, steps: int, longest: int) -> tuple[int, int, Steady]:
