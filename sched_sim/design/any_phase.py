@@ -93,6 +93,8 @@ def _settled(costs: Costs, timing: Timing, speed: Fraction, options: Options, ta
     check_simulation(timing.N, tasks, f"the {timing.N} HR periods of a measurement cycle", MOST_JOBS_OF_A_CYCLE)
     if isinstance(costs, DelayedHorizonCosts):
         return _replayed(costs, timing, speed, options, tasks)
+    if not method_of(costs).law(options.feedback).one_in_flight(timing.N, timing.L):
+        return _in_flight(costs, timing, speed, options, tasks)
     if isinstance(costs, DualRateCosts) and options.policy == "fixed":
         return _corrected(costs, timing, speed, options, tasks)
     design = phased(costs, timing, speed, options, tasks)
@@ -130,6 +132,18 @@ def _corrected(
         last = lands
 
 
+def _in_flight(costs: Costs, timing: Timing, speed: Fraction, options: Options, tasks: Sequence[Task]) -> Settled:
+    """Of several on their way, which take the more work the later they land, with that of the first landing that none
+    comes after if none does."""
+    lands = timing.M + method_of(costs).law(options.feedback).after
+    while True:
+        design = phased(costs, timing, speed, options, tasks, lands)
+        late = _late_of_all(costs, timing, speed, options, tasks, design)
+        if late is not None or lands >= timing.L or (landed := _landed(costs, timing, design)) <= lands:
+            return Settled(design, late)
+        lands = landed
+
+
 def _first_correction(costs: DualRateCosts[Fraction], timing: Timing, speed: Fraction, options: Options) -> int:
     """The step, after k, in which it comes where neither tasks nor corrections nor context switches delay it; L if that
     is too late."""
@@ -160,9 +174,10 @@ def _landed(costs: Costs, timing: Timing, design: Phased) -> int:
 
 def _step_done(design: Phased, kind: str) -> int:
     """The step, after k, in which what these jobs compute is in the state."""
-    found = next(each for each in finishes(design) if each.kind == kind)
+    found = [each for each in finishes(design) if each.kind == kind][-1]
     due = design.cycle.low[design.cycle.landing].due
-    return int((ceiling(found.at - found.due, design.period) + due).max()) - design.cycle.apart
+    steps = int((ceiling(found.at - found.due, design.period) + due).max())
+    return steps + design.cycle.passed - design.cycle.apart
 
 
 def _late(design: Phased) -> tuple[str | None, bool]:

@@ -27,7 +27,7 @@ from sched_sim.design.pieces import (
     works,
 )
 from sched_sim.design.timing import Timing
-from sched_sim.errors import InputError
+from sched_sim.errors import InputError, option
 
 
 class LowJob(NamedTuple):
@@ -44,7 +44,9 @@ class Cycle(NamedTuple):
     """high: work of the HR job of each step, from k on, without the correction.
 
     correction: HR work that comes once, in any step from k + first to k + last, its own job if `apart`. low: in the
-    order in which they run; landing: which of them the correction waits for.
+    order in which they run; landing: which of them the correction waits for. passed: steps from the measurement whose
+    correction it is to k, where others are taken before it arrives. several: LR work may be left when the next cycle
+    begins.
     """
 
     high: list[int]
@@ -54,10 +56,13 @@ class Cycle(NamedTuple):
     apart: bool = False
     low: tuple[LowJob, ...] = ()
     landing: int = -1
+    passed: int = 0
+    several: bool = False
 
 
-def cycle_of(costs: JobCosts[int], timing: Timing, options: Options) -> Cycle:
-    """costs in ticks."""
+def cycle_of(costs: JobCosts[int], timing: Timing, options: Options, lands: int | None = None) -> Cycle:
+    """costs in ticks. lands: the L up to which corrections of the dual-rate filter may come, by default that of the
+    design."""
     N, M, L = timing.N, timing.M, timing.L
     match costs:
         case StandardCosts(propagate, update):
@@ -86,7 +91,7 @@ def cycle_of(costs: JobCosts[int], timing: Timing, options: Options) -> Cycle:
             kind = "lr_gain" if isinstance(costs, MultirateCosts) else "lr_step"
             return Cycle([always] * N, low=(LowJob(kind, 0, once, L, after_high=True),))
         case DualRateCosts():
-            return _dual_rate(costs, timing, options)
+            return _dual_rate(costs, timing, options, L if lands is None else lands)
         case DelayedHorizonCosts():
             return _delayed_horizon(costs, timing)
         case _:
@@ -104,23 +109,35 @@ def _larsen_in_flight(costs: LarsenInFlightCosts[int], N: int, M: int) -> Cycle:
     return Cycle(high)
 
 
-def _dual_rate(costs: DualRateCosts[int], timing: Timing, options: Options) -> Cycle:
+def _dual_rate(costs: DualRateCosts[int], timing: Timing, options: Options, lands: int) -> Cycle:
+    """With several on their way, as if each landed that late: it goes through the most cycles, and most are missing."""
     N, M, L = timing.N, timing.M, timing.L
     apart = options.feedback == "same-step"
-    if L + apart > N:
+    if L + apart > N and options.policy == "edf":
         raise InputError(
-            f"with L={L} and N={N} several corrections are on their way, and then it is not known at which phase of "
-            f"the tasks they are latest: give each task an offset, and no jitter"
+            f"{option('policy')} edf with L={L} and N={N}: several corrections are on their way, and then it is not "
+            f"known by deadlines at which phase of the tasks they are latest: choose {option('policy')} fixed, or give "
+            f"each task an offset, and no jitter"
         )
     due = L + 1 if apart else L
     early = due if options.lr_propagate_by == "l" or M == 0 else M
     high = [costs.hr] * N
     high[1 % N] = costs.hr_restart
-    low = [LowJob("lr_propagate", 0, costs.lr_propagate, early, after_high=True)]
-    if costs.lr_gain:
-        low.append(LowJob("lr_gain", 0, costs.lr_gain, early, after_high=True))
-    low.append(LowJob("lr_update", M, costs.lr_update, due, after_high=M == 0))
-    return Cycle(high, costs.hr_update, M if apart else M + 1, L, apart, tuple(low))
+    waits = M >= N and not costs.lr_gain
+    passed = (M // N if waits else max(M - 1, 0) // N) * N
+    missing = (lands + apart - 1) // N
+    update = LowJob("lr_update", M - passed, costs.lr_update + missing * costs.hr_update, due - passed, M == 0)
+    if waits:  # LR propagate of the next cycle, for the update that comes before it
+        low = [update, LowJob("lr_propagate", M - passed, costs.lr_propagate, early + N - passed, after_high=M == N)]
+    else:
+        low = [LowJob("lr_propagate", 0, costs.lr_propagate, early, after_high=True)]
+        if costs.lr_gain:
+            low.append(LowJob("lr_gain", 0, costs.lr_gain, early, after_high=True))
+        low.append(update)
+    first = M if apart else M + 1
+    correction = max(-(-lands // N), 1) * costs.hr_update
+    several, landing = L + apart > N, low.index(update)
+    return Cycle(high, correction, first - passed, lands - passed, apart, tuple(low), landing, passed, several)
 
 
 def _delayed_horizon(costs: DelayedHorizonCosts[int], timing: Timing) -> Cycle:

@@ -164,13 +164,23 @@ class Phased(NamedTuple):
         return total
 
 
-def phased(costs: Costs, timing: Timing, speed: Fraction, options: Options, tasks: Sequence[Task]) -> Phased:
-    """In the fewest ticks per cost unit in which all is whole; in int64 where nothing can overflow."""
+def phased(
+    costs: Costs,
+    timing: Timing,
+    speed: Fraction,
+    options: Options,
+    tasks: Sequence[Task],
+    lands: int | None = None,
+) -> Phased:
+    """In the fewest ticks per cost unit in which all is whole; in int64 where nothing can overflow.
+
+    lands: the L up to which corrections may come, by default that of the design.
+    """
     costs = converted(costs, Fraction)
     others = [speed, options.context_switch, *works(costs)]
     resolution = lcm(ticks_per_unit(others), *(_denominator(*part) for task in tasks for part in _parts(task, speed)))
     period, switches = to_ticks(speed, resolution), 2 * to_ticks(options.context_switch, resolution)
-    cycle = cycle_of(converted(costs, lambda work: to_ticks(work, resolution)), timing, options)
+    cycle = cycle_of(converted(costs, lambda work: to_ticks(work, resolution)), timing, options, lands)
     in_ticks = []
     for task in tasks:
         work, every, first, jitter, deadline = (above * resolution // below for above, below in _parts(task, speed))

@@ -109,6 +109,7 @@ def _low_jobs(design: Phased, late: int) -> Iterator[Finishes]:
     others = _others(design, level)
     cycle = design.counted(design.steps // design.N)
     k, span = cycle * design.N * design.period, design.N * design.period
+    landing = design.cycle.landing % max(len(design.cycle.low), 1)
     for number, low in enumerate(design.cycle.low):
         release, due = k + low.release * design.period + late * low.after_high, k + low.due * design.period
         start, job = _busy_before(design, level, release, late)
@@ -118,16 +119,18 @@ def _low_jobs(design: Phased, late: int) -> Iterator[Finishes]:
             count = cycle[job] - (other > number) - ceiling(since, span) + 1
             ahead = ahead + np.maximum(count, 0) * (work.work + design.switches)
 
-        def come(length: Ints, start: Ints = start, job: Ints = job, ahead: Ints = ahead) -> Ints:
+        last = cycle[job] - (number <= landing)  # of the corrections that can have come
+
+        def come(length: Ints, start: Ints = start, last: Ints = last, ahead: Ints = ahead) -> Ints:
             work = ahead + others(start, length)
             if level.high:
                 first, end = design.first_step(start), design.first_step(start + length)
-                work = work + design.high_and_corrections(first, end, cycle[job] - 1)
+                work = work + design.high_and_corrections(first, end, last)
             return work
 
         found = _finishes(low.kind, come, start, job, release, due)
         yield found
-        if design.cycle.apart and low is design.cycle.low[-1]:
+        if design.cycle.apart and number == landing:
             yield _feedback(design, come, start, job, release, found)
 
 
@@ -138,7 +141,8 @@ def _feedback(design: Phased, come: Come, start: Ints, job: Ints, release: Ints,
         return _finishes("hr_update", lambda length: come(length) + work, start, job, release, update.due)
     level = _level(design, 0, HR)
     at_once, others = starts(design, level, 0), _others(design, level)
-    ahead = int(np.diff(design.before).max()) + work
+    waiting = 1 + (design.cycle.last - design.cycle.first) // design.N
+    ahead = int(np.diff(design.before).max()) + waiting * work
     length = _first_idle(lambda length: ahead + others(at_once, length), 0 * at_once + 1, update.due.max())
     return update._replace(kind="hr_update", at=update.at + length.max())
 
@@ -223,7 +227,7 @@ def starts(design: Phased, level: Level, late: int) -> Ints:
 
 def _busy_before(design: Phased, level: Level, release: Ints, late: int) -> tuple[Ints, Ints]:
     """Pairs of a start and a job: every start of a busy period that may last until the release of the job."""
-    if level.tasks or level.block:
+    if level.tasks or level.block or (level.low and design.cycle.several):
         busy = longest_busy(design, level, late)
     else:  # what came before k has been done by then, or something is late
         busy = design.N * design.period if level.low else 0

@@ -10,6 +10,7 @@ from typing import Any
 from sched_sim.costs.table import CostTable
 from sched_sim.design.landing import landing
 from sched_sim.design.least_speed import least_speed
+from sched_sim.design.method import Law
 from sched_sim.design.methods import METHODS as SCHEDULED
 from sched_sim.design.methods import select
 from sched_sim.design.options import Options
@@ -18,7 +19,7 @@ from sched_sim.design.timing import Timing
 from sched_sim.errors import InputError, option
 from sched_sim.processors.part import Part
 from sched_sim.processors.part_file import load_part, shipped_parts
-from sched_sim.schedule.tasks import Task
+from sched_sim.schedule.tasks import Task, phases_matter
 from sched_sim.ticks import Number, positive
 from studies.selection.choice import Candidate, Choice
 from studies.selection.compare import Metric, check_metric, undelayed
@@ -219,6 +220,12 @@ def _candidate(question: Question, accuracy: Accuracies, variant: Variant) -> Ca
         landed=at,
         landed_std=None if at is None else curve.at(max(at, first)),
     )
+
+
+def _last_known(question: Question, law: Law, N: int, M: int) -> int:
+    """By deadlines the worst phase of tasks is known with one correction on its way."""
+    by_deadlines = question.options.policy == "edf" and phases_matter(question.tasks)
+    return law.latest(N, M) if by_deadlines else law.last_of_use(N, M)
 
 
 def _on_parts(question: Question, accuracy: Accuracies, parts: Parts, candidate: Candidate) -> Candidate:

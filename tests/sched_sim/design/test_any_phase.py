@@ -29,7 +29,7 @@ from sched_sim.errors import InputError
 from sched_sim.schedule.outcome import Response
 from sched_sim.schedule.processor import Platform, Processor
 from sched_sim.schedule.tasks import Task, TaskSource
-from tests.designs import Design, designs
+from tests.designs import Design, designs, designs_in_flight
 from tests.exhaust import share_of
 
 Loaded = tuple[Design, list[Task]]
@@ -41,14 +41,14 @@ SHORT = Fraction(1, 1000)
 
 
 @st.composite
-def with_tasks(draw: st.DrawFn, plain: bool = False) -> Loaded:
+def with_tasks(draw: st.DrawFn, plain: bool = False, in_flight: bool = False) -> Loaded:
     """One to three tasks, of any phase at least one.
 
     plain: one processor, next-step feedback, fixed priorities of which no two are equal, no context switch; all tasks
-    of any phase and preemptive.
+    of any phase and preemptive. in_flight: of the dual-rate filter with several corrections on their way.
     """
     plain_ones = designs.filter(lambda design: design.options.cpus == 1 and design.options.feedback == "next-step")
-    costs, timing, options = draw(plain_ones if plain else designs)
+    costs, timing, options = draw(plain_ones if plain else designs_in_flight() if in_flight else designs)
     N = timing.N
     often = st.sampled_from([Fraction(N), Fraction(1), Fraction(2), Fraction(N, 2), Fraction(3, 2), Fraction(2 * N)])
     periods = often | st.fractions(Fraction(1, 2), 15, max_denominator=4)
@@ -75,7 +75,7 @@ def with_tasks(draw: st.DrawFn, plain: bool = False) -> Loaded:
                 plain or draw(st.booleans()),
             )
         )
-    policy = draw(st.sampled_from(["fixed", "edf"])) if options.cpus == 1 and not plain else "fixed"
+    policy = draw(st.sampled_from(["fixed", "edf"])) if options.cpus == 1 and not (plain or in_flight) else "fixed"
     switch = Fraction(0) if plain else draw(st.sampled_from([Fraction(0), Fraction(1), Fraction(3)]))
     return Design(costs, timing, replace(options, policy=policy, context_switch=switch)), tasks
 
@@ -133,6 +133,20 @@ def holds_at_every_phase(loaded: Loaded, random: Random) -> bool:
 @given(with_tasks(), st.integers(0, 2**32))
 def test_at_the_least_speed_nothing_is_late_at_any_phase(loaded: Loaded, number: int) -> None:
     holds_at_every_phase(loaded, Random(number))
+
+
+@settings(max_examples=20)
+@given(with_tasks(in_flight=True), st.integers(0, 2**32))
+def test_nor_is_anything_with_several_corrections_on_their_way(loaded: Loaded, number: int) -> None:
+    holds_at_every_phase(loaded, Random(number))
+
+
+@pytest.mark.exhaust
+@pytest.mark.parametrize("number", range(20))
+def test_nor_on_four_thousand_designs_with_several(number: int) -> None:
+    random = Random(number)
+    law = given(with_tasks(in_flight=True))(lambda loaded: holds_at_every_phase(loaded, random))
+    seed(number)(settings(max_examples=share_of(200))(law))()
 
 
 @pytest.mark.exhaust
@@ -221,6 +235,43 @@ def test_corrections_count_in_no_step_but_those_in_which_they_may_come() -> None
     assert least_speed(costs, timing, options).speed == 2
     assert late_job(costs, timing, Fraction(2), options, [task]) is None
     assert worst_landing(costs, timing, Fraction(2), options, [task]) == 2
+
+
+FAST, SLOW = Task("fast", Fraction(1), Fraction(6), 5), Task("slow", Fraction(3), Fraction(40), 15)
+
+
+@pytest.mark.parametrize("timing", [Timing(2, 1, 4), Timing(2, 3, 5), Timing(3, 3, 5), Timing(1, 2, 4)])
+@pytest.mark.parametrize("gain", [0, 6])
+@pytest.mark.parametrize("task", [FAST, SLOW])
+def test_with_several_on_their_way_it_holds_at_each_phase_of_a_grid(timing: Timing, gain: int, task: Task) -> None:
+    """Eighths of a step, over a time after which the schedule repeats; it lands no later than is said."""
+    costs = DualRateCosts(*map(Fraction, (10, 14, 3, 8, gain, 11)))
+    options = Options(gain="precomputed" if gain else "at-update")
+    speed = least_speed(costs, timing, options, [task]).speed
+    latest = worst_landing(costs, timing, speed, options, [task])
+    assert latest is not None
+    for eighth in range(8 * int(task.period)):
+        at = [replace(task, offset=Fraction(eighth, 8))]
+        schedule = simulate(costs, timing, speed, 24, options, at)
+        assert schedule.misses == 0
+        assert max(schedule.achieved) <= latest
+
+
+@pytest.mark.parametrize("task", [FAST, SLOW])
+def test_a_landing_beyond_the_next_measurement_asks_for_no_more_than_one_before_it(task: Task) -> None:
+    costs = DualRateCosts(*map(Fraction, (10, 14, 3, 8, 0, 41)))
+    speeds = [least_speed(costs, Timing(4, 2, L), tasks=[task]).speed for L in (3, 4, 5, 7, 9)]
+    assert speeds == sorted(speeds, reverse=True)
+    assert speeds[-1] < speeds[1]
+
+
+def test_on_a_processor_of_their_own_lr_jobs_that_pile_up_are_too_much() -> None:
+    """21 in each step, and for the correction that is missing two more."""
+    costs, task = DualRateCosts(*map(Fraction, (60, 5, 2, 3, 13, 5))), Task("a", Fraction(1), Fraction(8), 15)
+    options, timing = Options(gain="precomputed", cpus=2), Timing(1, 0, 2)
+    speed = least_speed(costs, timing, options, [task]).speed
+    assert simulate(costs, timing, speed, 60, options, [replace(task, offset=Fraction(0))]).misses == 0
+    assert speed > 21
 
 
 CONTROL = Task("control", Fraction(4), Fraction("0.6"), 5)

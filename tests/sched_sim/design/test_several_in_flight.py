@@ -276,12 +276,14 @@ def test_tasks_of_any_phase_beside_measurements_in_flight(method: str) -> None:
         assert least_speed(costs, timing, tasks=known).speed <= speed
 
 
-def test_of_dual_rate_they_are_refused() -> None:
+def test_of_dual_rate_they_are_refused_by_deadlines() -> None:
     tasks = [Task("control", Fraction(3), Fraction(1), priority=5)]
-    with pytest.raises(InputError, match=r"several corrections are on their way.*give each task an offset"):
-        least_speed(select(COUNTED, "dual-rate"), Timing(6, 4, 9), tasks=tasks)
+    costs, timing, options = select(COUNTED, "dual-rate"), Timing(6, 4, 9), Options(policy="edf")
+    with pytest.raises(InputError, match=r"policy edf with L=9 and N=6: .*policy fixed, or give each task"):
+        least_speed(costs, timing, options, tasks)
     fixed = [Task("control", Fraction(3), Fraction(1), priority=5, offset=Fraction(1))]
-    assert least_speed(select(COUNTED, "dual-rate"), Timing(6, 4, 9), tasks=fixed).speed > 0
+    assert least_speed(costs, timing, options, fixed).speed > 0
+    assert least_speed(costs, timing, tasks=tasks).speed >= least_speed(costs, timing).speed
 
 
 def test_clone_is_coupled_with_each_that_is_on_its_way() -> None:
