@@ -198,11 +198,8 @@ def _candidate(question: Question, accuracy: Accuracies, variant: Variant) -> Ca
     if late := too_late(variant.method, question.sampling, variant.every, variant.options):
         return replace(found, reason=late)
     law = SCHEDULED[variant.method].law(variant.options.feedback)
-    last = (
-        found.first
-        if METHODS[variant.method].landing != "later"
-        else min(found.allowed, law.last_of_use(using.N, delay))
-    )
+    later = METHODS[variant.method].landing == "later"
+    last = min(found.allowed, _last_known(question, law, using.N, delay)) if later else found.first
     try:
         timing = Timing(using.N, delay, max(last, delay))
         SCHEDULED[variant.method].check(timing, variant.options.feedback)

@@ -153,6 +153,20 @@ def test_tasks_beside_it_need_their_share(sched_sim: Run, tmp_path: Path) -> Non
     assert beside["load"] == pytest.approx(alone["load"] + 0.2)
 
 
+@pytest.mark.parametrize(("policy", "L"), [("fixed", 124), ("edf", 80)])
+def test_beside_tasks_of_any_phase_it_may_land_beyond_the_next_measurement(
+    sched_sim: Run, tmp_path: Path, policy: str, L: int
+) -> None:
+    """By deadlines only before it, for there the worst phase is not known."""
+    (tmp_path / "tasks.toml").write_text(
+        '[[task]]\nname = "control"\nhz = 100\ncost_us = 300\npriority = 5\n', encoding="utf-8"
+    )
+    line = f"--within 0.5 {INS} --method dual-rate --every 1 --processor rp2040 --tasks tasks.toml --policy {policy}"
+    (row,) = answer(sched_sim, line)["designs"]
+    assert row["L"] == L
+    assert row["parts"][0]["fits"]
+
+
 def test_choices_that_are_given_are_kept(sched_sim: Run) -> None:
     rows = answer(sched_sim, f"--within 0.38 {INS} --method dual-rate --gain at-update --low-rate-noise exact "
                   "--all-methods --processor leon3")["designs"]  # fmt: skip
