@@ -31,7 +31,7 @@ ADVICE = re.compile(r"(larger|smaller|longer|shorter|lower|higher|fewer) (N\b|M\
         ("minimum -N 4 -M 4 -L 3", ["give L from 5 on"]),
         ("minimum -N 25 -M 200 -L 210 --method dual-rate --tasks control.toml", ["periods (control 7.12346) down"]),
         (
-            "minimum -N 25 -M 200 -L 210 --method dual-rate --tasks any.toml",
+            "minimum -N 25 -M 200 -L 210 --method dual-rate --policy edf --tasks any.toml",
             ["several corrections are on", "an offset"],
         ),
         (
