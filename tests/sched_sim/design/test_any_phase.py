@@ -177,7 +177,7 @@ def is_tight(loaded: Loaded) -> bool | None:
     slower = speed - Fraction(1, search_resolution(costs, options, tasks))
     if binding == "load":
         return None
-    whole = ceil(max(task.jitter for task in tasks) / timing.N) * timing.N
+    whole = (ceil(max(task.jitter for task in tasks) / timing.N) + timing.M // timing.N) * timing.N
     for step in range(whole, whole + 2 * timing.N):  # of two cycles, for in the first an update may be missing
         together = [replace(task, offset=step - task.jitter) for task in tasks]
         if simulate(costs, timing, slower, cycles_of(together, timing.N), options, together).misses:
