@@ -58,8 +58,19 @@ def landed(method: str, N: int, M: int, L: int | None, options: Options, process
                 f"{option('L')} {L} is before a correction of {method} can land: its measurement arrives at M={M}; "
                 f"give {option('L')} {first} or more"
             )
+        if law is not None and not law.several and N - law.before < L:
+            return Landed(None, _beyond(L, first, N - law.before, N))
         return Landed(L, "" if processor is None else _not_costed(processor))
     return Landed(first, "" if processor is None else _not_costed(processor))
+
+
+def _beyond(L: int, first: int, last: int, N: int) -> str:
+    """Why a method that has one measurement on its way cannot land so late."""
+    give = f"{option('L')} {f'{first} to {last}' if first < last else last}"
+    return (
+        f"{option('L')} {L} is after the next measurement is taken, {option('N')} {N}, and one is on its way at a "
+        f"time: give {give}, or choose {option('method')} dual-rate"
+    )
 
 
 def earliest(method: str, M: int, options: Options) -> int:
