@@ -12,14 +12,21 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 
 from filters.accuracy.model import LinearModel
-from filters.accuracy.periodic import by_age, noise_by_age, or_infinite
+from filters.accuracy.periodic import by_age, noise_by_age, not_found, or_infinite
 from filters.accuracy.prefix import prefix
 from filters.accuracy.riccati import gain, steady_prior, steady_state, updated
+from filters.accuracy.unseen import check_seen
 from filters.accuracy.visible import visible
 from filters.arrays import FloatArray
 
 CycleNoise: TypeAlias = Callable[[LinearModel, int], FloatArray]
 """What a filter takes for the noise of N steps, (n, n)."""
+
+
+NO_GAIN = (
+    "no noise in Q stirs a mode that does not decay, so that its gain goes to zero and what this method makes of it "
+    "depends on all that ever was; give it a noise"
+)
 
 
 class Assumed(NamedTuple):
@@ -67,6 +74,8 @@ def with_assumed(
     Raises ValueError as `steady` does.
     """
     reduced, C = visible(model, outputs)
+    if divided == 1:
+        check_seen(model, outputs, N)
     with np.errstate(over="ignore", invalid="ignore"):
         over = prefix(reduced, max(N * divided, oldest))
         Phi, H = over.Phi[N], reduced.H
@@ -74,10 +83,7 @@ def with_assumed(
         assumed_R = reduced.R if R is None else R
         prior = steady_prior(over.Phi[N * divided], assumed_Q, H, assumed_R)
         if not np.isfinite(prior).all():
-            raise ValueError(
-                f"the gain does not settle with a measurement every N={N} steps: at that interval, or with that noise, "
-                f"a mode of the model goes unseen; take another N"
-            )
+            raise ValueError(not_found(N * divided, over.Phi[N * divided]))
         K = gain(prior, H, assumed_R) / divided
         A = Phi @ (np.eye(reduced.states) - K @ H)
         true_prior = steady_state(A, Phi @ K @ reduced.R @ K.T @ Phi.T + over.Q[N])

@@ -14,10 +14,15 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from filters.accuracy.model import LinearModel
+from filters.accuracy.pattern import Interval
 from filters.accuracy.prefix import Prefix, prefix
 from filters.accuracy.riccati import posterior, steady_prior
+from filters.accuracy.unseen import check_seen
 from filters.accuracy.visible import visible
 from filters.arrays import FloatArray
+
+MOST_GROWTH = 1e6
+"""From one measurement to the next; squares of it beside 1 leave few of a number's sixteen digits."""
 
 
 class Steady(NamedTuple):
@@ -37,20 +42,19 @@ class Steady(NamedTuple):
 def steady(model: LinearModel, outputs: FloatArray, N: ArrayLike, oldest: int) -> Steady:
     """outputs (o, n): C, the rows whose accuracy is asked for; oldest: the greatest age.
 
-    Raises ValueError where the outputs depend on what no measurement ever says (`visible`), or do not settle for some
-    N: measured so seldom, a mode goes unseen.
+    Raises ValueError where the outputs depend on what no measurement ever says (`visible`), or for some N on what none
+    in those steps says (`unseen`), and where the covariance is not found.
     """
-    model, C = visible(model, outputs)
     several = np.atleast_1d(np.asarray(N, dtype=np.int64))
+    whole, (model, C) = model, visible(model, outputs)
+    for each in several:
+        check_seen(whole, outputs, int(each))
     with np.errstate(over="ignore", invalid="ignore"):
         over = prefix(model, max(int(several.max()), oldest))
         before = steady_prior(over.Phi[several], over.Q[several], model.H, model.R)
         if not np.isfinite(before).all():
-            unsettled = several[~np.isfinite(before).all(axis=(1, 2))][0]
-            raise ValueError(
-                f"the covariance does not settle with a measurement every N={unsettled} steps: at that interval a mode "
-                f"of the model goes unseen; take another N"
-            )
+            first = several[~np.isfinite(before).all(axis=(1, 2))][0]
+            raise ValueError(not_found(int(first), over.Phi[first]))
         _, after = posterior(before, model.H, model.R)
         return Steady(
             several,
@@ -59,6 +63,21 @@ def steady(model: LinearModel, outputs: FloatArray, N: ArrayLike, oldest: int) -
             or_infinite(by_age(over, C, after, oldest) + noise_by_age(over, C, oldest)),
             or_infinite(by_age(over, C, before - after, oldest)),
         )
+
+
+def not_found(N: Interval, over: FloatArray) -> str:
+    """Why there is no covariance. over (n, n): the transition from a measurement to the next."""
+    growth = float(np.abs(np.linalg.eigvals(over)).max()) if np.isfinite(over).all() else np.inf
+    if growth < MOST_GROWTH:
+        return (
+            f"the covariance does not settle with a measurement every N={N} steps: a mode of the model is hardly seen "
+            f"at that interval, or no noise stirs it; take another N, or give each mode a noise in Q"
+        )
+    return (
+        f"the covariance with a measurement every N={N} steps is lost in rounding: from one to the next a mode of the "
+        f"model grows by a factor of {growth:.2g}, and the others beside it are beyond the digits of a number; take a "
+        f"smaller N"
+    )
 
 
 def or_infinite(variances: FloatArray) -> FloatArray:

@@ -9,20 +9,32 @@ from filters.arrays import Flags, FloatArray
 MOST_DOUBLINGS = 64
 SETTLED = 1e-13
 """So little, of itself, a variance changes by in as many cycles as went before."""
+LOST = 1e-6
+"""By more, of itself, a cycle changes a settled variance only where the digits of numbers do not suffice."""
 
 
 def steady_prior(Phi: FloatArray, Q: FloatArray, H: FloatArray, R: FloatArray) -> FloatArray:
     """P^- (..., n, n) just before a measurement, once it no longer changes: the filter's own, with the best gain.
 
-    Phi, Q (..., n, n): over a cycle; H (p, n), R (p, p): of the measurement that ends it. nan where it does not settle.
+    Phi, Q (..., n, n): over a cycle; H (p, n), R (p, p): of the measurement that ends it. nan where it
+    does not settle, or is lost in rounding.
 
     The structure-preserving doubling algorithm of E. K.-W. Chu, H.-Y. Fan, W.-W. Lin and C.-S. Wang,
     Structure-preserving algorithms for periodic discrete-time algebraic Riccati equations, International Journal of
     Control 77, 2004.
     States are scaled by their noise, for units may span twenty decades.
     """
+    try:
+        return _doubled(Phi, Q, H, R)
+    except np.linalg.LinAlgError:  # of one of them, lost in rounding
+        if Q.ndim == 2:
+            return np.full_like(Q, np.nan)
+        return np.array([steady_prior(transition, noise, H, R) for transition, noise in zip(Phi, Q, strict=True)])
+
+
+def _doubled(Phi: FloatArray, Q: FloatArray, H: FloatArray, R: FloatArray) -> FloatArray:
     n = Phi.shape[-1]
-    scale = _scale(Q)
+    scale = noise_scale(Q)
     A = np.swapaxes(Phi * scale / scale[:, None], -1, -2)
     P = Q / np.outer(scale, scale)
     Hs = H * scale
@@ -42,9 +54,26 @@ def steady_prior(Phi: FloatArray, Q: FloatArray, H: FloatArray, R: FloatArray) -
             settled = np.asarray((np.abs(change) <= SETTLED * np.abs(variances)).all(axis=-1))
             if (settled | ~np.isfinite(variances).all(axis=-1)).all():
                 break
-        P = _refined(P, Phi * scale / scale[:, None], Q / np.outer(scale, scale), Hs, R)
+        F, noise = Phi * scale / scale[:, None], Q / np.outer(scale, scale)
+        P = _refined(P, F, noise, Hs, R)
+        settled = np.asarray(settled & holds(P, P, F, noise, Hs, R) & _calms(P, F, Hs, R))
     P = np.where(settled[..., None, None], P, np.nan)
     return np.asarray(P * np.outer(scale, scale))
+
+
+def holds(P: FloatArray, then: FloatArray, Phi: FloatArray, Q: FloatArray, H: FloatArray, R: FloatArray) -> Flags:
+    """Whether a cycle (...,) leads from P (..., n, n) to `then`, but for rounding."""
+    made = Phi @ posterior(P, H, R)[1] @ np.swapaxes(Phi, -1, -2) + Q
+    return np.asarray((np.abs(_diagonal(made - then)) <= LOST * np.abs(_diagonal(then))).all(axis=-1))
+
+
+def _calms(P: FloatArray, Phi: FloatArray, H: FloatArray, R: FloatArray) -> Flags:
+    """Whether no error grows that the measurements correct: it does with no noise in a mode that grows, of which P = 0
+    is no more than a balance."""
+    error = Phi - Phi @ gain(P, H, R) @ H
+    finite = np.asarray(np.isfinite(error).all(axis=(-2, -1)))
+    radius = np.abs(np.linalg.eigvals(np.where(finite[..., None, None], error, 0.0))).max(axis=-1, initial=0.0)
+    return np.asarray(finite & (radius <= 1.0 + LOST))
 
 
 def _refined(P: FloatArray, Phi: FloatArray, Q: FloatArray, H: FloatArray, R: FloatArray) -> FloatArray:
@@ -96,7 +125,7 @@ def _summed(A: FloatArray, W: FloatArray) -> FloatArray:
     return X
 
 
-def _scale(Q: FloatArray) -> FloatArray:
+def noise_scale(Q: FloatArray) -> FloatArray:
     """One of each state (n,): the largest deviation that noise gives it in a cycle, 1 where there is none."""
     variances = _diagonal(Q).reshape(-1, Q.shape[-1]).max(axis=0)
     return np.asarray(np.where(variances > 0.0, np.sqrt(variances), 1.0))

@@ -13,6 +13,8 @@ from filters.arrays import FloatArray
 
 NOTHING = 1e-12
 """A singular value of scaled matrices that is zero but for rounding."""
+ROUNDED = 1e-15
+"""A row of H with no greater number in it is one of zeros, as the cosine of a right angle is computed: 6e-17."""
 
 
 def visible(model: LinearModel, outputs: FloatArray) -> tuple[LinearModel, FloatArray]:
@@ -22,18 +24,16 @@ def visible(model: LinearModel, outputs: FloatArray) -> tuple[LinearModel, Float
     Raises ValueError where the outputs depend on such a mode (test of Popov, Belevitch and Hautus): their variance has
     no bound.
     """
-    scale = _scale(model)
-    Phi, H, C = model.Phi * scale / scale[:, None], model.H * scale, outputs * scale
-    hidden = _undecaying(Phi, _unobservable(Phi, H))
+    scale = state_scale(model)
+    Phi, H, C = model.Phi * scale / scale[:, None], measured_rows(model, scale), outputs * scale
+    hidden = _undecaying(Phi, unobservable(Phi, H))
     if not hidden.shape[1]:
         return model, outputs
     if np.linalg.norm(C @ hidden) > 1e-9 * np.linalg.norm(C):
         mode = hidden[:, np.linalg.norm(C @ hidden, axis=0).argmax()]
-        names = model.names or tuple(f"state {i}" for i in range(model.states))
-        states = [names[i] for i in np.argsort(-np.abs(mode)) if abs(mode[i]) > 0.1 * np.abs(mode).max()]
         raise ValueError(
-            f"no measurement ever says anything of a mode of {', '.join(states)} that does not decay, and the outputs "
-            f"depend on it: their variance grows without bound; measure it, or ask for other outputs"
+            f"no measurement ever says anything of a mode of {states_of(model, mode)} that does not decay, and the "
+            f"outputs depend on it: their variance grows without bound; measure it, or ask for other outputs"
         )
     kept = np.linalg.svd(hidden)[0][:, hidden.shape[1] :]  # orthonormal, across what is hidden
     down, up = kept.T / scale, scale[:, None] * kept
@@ -46,24 +46,25 @@ def seen(model: LinearModel, outputs: FloatArray) -> tuple[LinearModel, FloatArr
 
     What is left is a model of its own, for it is acted on by nothing else.
     """
-    scale = _scale(model)
+    scale = state_scale(model)
     Phi, C = model.Phi * scale / scale[:, None], outputs * scale
-    hidden = _unobservable(Phi, C)
+    hidden = unobservable(Phi, _normalised(C))
     kept = np.linalg.svd(hidden)[0][:, hidden.shape[1] :] if hidden.shape[1] else np.eye(model.states)
     down, up = kept.T / scale, scale[:, None] * kept
     part = LinearModel(down @ model.Phi @ up, down @ model.Q @ down.T, np.empty((0, kept.shape[1])), np.empty((0, 0)))
     return part, outputs @ up
 
 
-def _unobservable(Phi: FloatArray, H: FloatArray) -> FloatArray:
-    """An orthonormal basis (n, hidden) of the largest subspace that H does not see and Phi does not leave."""
-    basis = _null(H / np.linalg.norm(H, axis=1, keepdims=True).clip(np.finfo(float).tiny))
+def unobservable(Phi: FloatArray, rows: FloatArray, nothing: float = NOTHING, least_move: float = 0.0) -> FloatArray:
+    """An orthonormal basis (n, hidden) of the largest subspace that the rows do not see and Phi does not leave; all
+    scaled, rows of length 1. least_move: of Phi less the identity; what is below it by `nothing` is rounding."""
+    basis = _null(rows, nothing)
     moved = Phi - np.eye(len(Phi))  # leaves the same subspaces
-    moved /= max(np.abs(moved).max(), np.finfo(float).tiny)
+    moved /= max(np.abs(moved).max(), least_move, np.finfo(float).tiny)
     while basis.shape[1]:
         beyond = moved @ basis
         beyond -= basis @ (basis.T @ beyond)
-        kept = _null(beyond)
+        kept = _null(beyond, nothing)
         if kept.shape[1] == basis.shape[1]:
             return basis
         basis = basis @ kept
@@ -81,13 +82,31 @@ def _undecaying(Phi: FloatArray, hidden: FloatArray) -> FloatArray:
     return np.asarray(hidden @ vectors[:, :lasting])
 
 
-def _null(matrix: FloatArray) -> FloatArray:
+def _null(matrix: FloatArray, nothing: float) -> FloatArray:
     """An orthonormal basis of what the matrix makes zero."""
     _, values, rows = np.linalg.svd(matrix)
-    return np.asarray(rows[np.count_nonzero(values > NOTHING) :].T)
+    return np.asarray(rows[np.count_nonzero(values > nothing) :].T)
 
 
-def _scale(model: LinearModel) -> FloatArray:
+def measured_rows(model: LinearModel, scale: FloatArray) -> FloatArray:
+    """H of scaled states (`state_scale`), rows of length 1; of zeros where nothing but rounding is in it."""
+    rows = model.H * scale
+    signal = np.linalg.norm(rows, axis=1) / np.sqrt(np.diag(model.R))
+    nothing = (np.abs(model.H).max(axis=1) <= ROUNDED) & (signal <= NOTHING)
+    return np.where(nothing[:, None], 0.0, _normalised(rows))
+
+
+def _normalised(rows: FloatArray) -> FloatArray:
+    return np.asarray(rows / np.linalg.norm(rows, axis=1, keepdims=True).clip(np.finfo(float).tiny))
+
+
+def states_of(model: LinearModel, mode: FloatArray) -> str:
+    """The names of those that it is mostly of; mode (n,): in scaled states."""
+    names = model.names or tuple(f"state {i}" for i in range(model.states))
+    return ", ".join(names[i] for i in np.argsort(-np.abs(mode)) if abs(mode[i]) > 0.1 * np.abs(mode).max())
+
+
+def state_scale(model: LinearModel) -> FloatArray:
     """One of each state: the deviation that noise gives it in some steps, 1 where there is none."""
     variances = np.diag(prefix(model, 2 * model.states).Q[-1])
     return np.asarray(np.where(variances > 0.0, np.sqrt(variances), 1.0))
