@@ -10,6 +10,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from filters.accuracy.model import LinearModel
 from filters.accuracy.prefix import prefix
@@ -17,7 +18,7 @@ from filters.arrays import FloatArray
 
 
 class Cycles(NamedTuple):
-    """F, G, Q (n, n): P becomes F P (I + G P)^-1 F^T + Q."""
+    """F, G, Q (..., n, n): P becomes F P (I + G P)^-1 F^T + Q."""
 
     F: FloatArray
     G: FloatArray
@@ -33,13 +34,14 @@ def one_cycle(model: LinearModel, N: int, *, measured: bool = True) -> Cycles:
 
 def composed(first: Cycles, then: Cycles) -> Cycles:
     """Both, in this order."""
-    identity = np.eye(len(first.F))
-    by_noise = np.linalg.solve((identity + first.Q @ then.G).T, then.F.T).T  # F_2 (I + Q_1 G_2)^-1
-    seen = np.linalg.solve(identity + then.G @ first.Q, then.G)  # (I + G_2 Q_1)^-1 G_2
+    identity = np.eye(first.F.shape[-1])
+    # F_2 (I + Q_1 G_2)^-1 and (I + G_2 Q_1)^-1 G_2
+    by_noise = _transposed(np.linalg.solve(_transposed(identity + first.Q @ then.G), _transposed(then.F)))
+    seen = np.linalg.solve(identity + then.G @ first.Q, then.G)
     return Cycles(
         by_noise @ first.F,
-        _symmetric(first.G + first.F.T @ seen @ first.F),
-        _symmetric(then.Q + by_noise @ first.Q @ then.F.T),
+        _symmetric(first.G + _transposed(first.F) @ seen @ first.F),
+        _symmetric(then.Q + by_noise @ first.Q @ _transposed(then.F)),
     )
 
 
@@ -65,4 +67,8 @@ def applied(cycles: Cycles, P: FloatArray) -> FloatArray:
 
 
 def _symmetric(matrix: FloatArray) -> FloatArray:
-    return np.asarray(0.5 * (matrix + matrix.T))
+    return np.asarray(0.5 * (matrix + _transposed(matrix)))
+
+
+def _transposed(matrix: NDArray[np.floating]) -> FloatArray:
+    return np.asarray(np.swapaxes(matrix, -1, -2))

@@ -5,29 +5,34 @@ So do filters without a memory of the past, for instance robot_localization with
 
 from __future__ import annotations
 
+from math import ceil
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from filters.accuracy.exact import lossless
+from filters.accuracy.gains import NO_GAIN
 from filters.accuracy.model import LinearModel, output_rows
 from filters.accuracy.outcome import Accuracy, check_steps, of_cycle
-from filters.accuracy.periodic import steady
+from filters.accuracy.pattern import Interval, check_interval, check_repeats, taken
 from filters.accuracy.prefix import prefix
-from filters.accuracy.riccati import gain, steady_prior
+from filters.accuracy.regime import in_steps, regime
+from filters.accuracy.repeating import repeating_priors
+from filters.accuracy.riccati import below_one, gain
 from filters.accuracy.visible import visible
 from filters.arrays import FloatArray, as_array
 
 
 class Mean(NamedTuple):
-    """The mean output error (N, outputs) in each step from a landing on, once it repeats; radius: of what makes it."""
+    """The mean output error (steps, outputs) in each step of a repetition, from a landing on; radius: of what makes it,
+    over a repetition."""
 
     errors: FloatArray
     radius: float
 
 
-def fused_as_fresh(model: LinearModel, outputs: ArrayLike, N: int, M: int, displacement: ArrayLike) -> Accuracy:
+def fused_as_fresh(model: LinearModel, outputs: ArrayLike, N: Interval, M: int, displacement: ArrayLike) -> Accuracy:
     """displacement (p,): h(x_m) - h(x_k), how far the measured quantity moves while the measurement is under way; of a
     motion that is stated, for with a random one the mean error would look like noise.
 
@@ -35,9 +40,11 @@ def fused_as_fresh(model: LinearModel, outputs: ArrayLike, N: int, M: int, displ
     `lossless`; ValueError too for a wrong displacement.
     """
     check_steps("M", M, 0)
+    N = check_interval("N", N)
+    check_repeats(N)
     best = lossless(model, outputs, N, 0)
     C = output_rows(outputs, model.states)
-    variances = steady(model, C, [N], N).variances[0, :N]
+    variances = in_steps(regime(model, C, N, ceil(N)), 0)
     mean = mean_error(model, C, N, displacement)
     return of_cycle(
         N,
@@ -52,15 +59,25 @@ def fused_as_fresh(model: LinearModel, outputs: ArrayLike, N: int, M: int, displ
     )
 
 
-def mean_error(model: LinearModel, outputs: ArrayLike, N: int, displacement: ArrayLike) -> Mean:
+def mean_error(model: LinearModel, outputs: ArrayLike, N: Interval, displacement: ArrayLike) -> Mean:
     """Of the filter of `fused_as_fresh`: ebar^+ = (I - K H) ebar^- - K d, and the model's propagation between."""
     moved = as_array("displacement", displacement)
     if moved.shape != (len(model.H),) or not np.isfinite(moved).all():
         raise ValueError(f"displacement={displacement!r}: give {len(model.H)} finite numbers, one for each measurement")
     left, C = visible(model, output_rows(outputs, model.states))
-    over = prefix(left, N)
-    K = gain(steady_prior(over.Phi[N], over.Q[N], left.H, left.R), left.H, left.R)
-    kept = np.eye(left.states) - K @ left.H
-    after = np.linalg.solve(np.eye(left.states) - kept @ over.Phi[N], -K @ moved)
-    radius = float(np.abs(np.linalg.eigvals(kept @ over.Phi[N])).max())
-    return Mean(np.asarray(np.einsum("oi,aij,j->ao", C, over.Phi[:N], after)), radius)
+    intervals = np.diff(taken(N))
+    over, identity = prefix(left, ceil(N)), np.eye(left.states)
+    K = gain(repeating_priors(over.Phi[intervals], over.Q[intervals], left.H, left.R), left.H, left.R)
+    kept = identity - K @ left.H
+    brought, left_over = identity, np.zeros(left.states)  # what a repetition makes of the mean error after its first
+    for n, later in zip(intervals, np.roll(np.arange(len(intervals)), -1), strict=True):
+        brought = kept[later] @ over.Phi[n] @ brought
+        left_over = kept[later] @ over.Phi[n] @ left_over - K[later] @ moved
+    radius = float(np.abs(np.linalg.eigvals(brought)).max())
+    if not below_one(radius):
+        raise ValueError(NO_GAIN)
+    errors, after = [], np.linalg.solve(identity - brought, left_over)
+    for n, later in zip(intervals, np.roll(np.arange(len(intervals)), -1), strict=True):
+        errors.append(np.einsum("oi,aij,j->ao", C, over.Phi[:n], after))
+        after = kept[later] @ over.Phi[n] @ after - K[later] @ moved
+    return Mean(np.concatenate(errors), radius)

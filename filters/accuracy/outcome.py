@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from math import sqrt
+from fractions import Fraction
+from math import ceil, sqrt
 from typing import Literal, NamedTuple, TypeAlias
 
 import numpy as np
@@ -10,15 +11,15 @@ import numpy as np
 from filters.accuracy.riccati import below_one
 from filters.arrays import FloatArray
 
-Verdict: TypeAlias = Literal["exact", "approximate", "unstable", "diverges"]
+Verdict: TypeAlias = Literal["exact", "bound", "approximate", "unstable", "diverges"]
 
 
 class Accuracy(NamedTuple):
     """The periodic regime. All of an output are standard deviations in its unit, of several rows together: the square
     root of the trace.
 
-    N: steps between measurements. L: steps from a measurement to the output in which it is first (the reaction time);
-        None where none ever is.
+    N: steps between measurements; of a quotient the figures are those of all its intervals (`pattern`).
+    L: steps from a measurement to the output in which it is first (the reaction time); None where none ever is.
     oldest, mean_age: steps since the newest measurement in an output was taken (the data age); its least is L.
     worst, rms: of the worst step of a cycle, and the root of the mean over its steps.
     no_delay: worst of the same model with the best gain and L = 0.
@@ -26,11 +27,12 @@ class Accuracy(NamedTuple):
     believed: worst that the filter's own covariance says; None where that is the truth.
     bias: the largest norm of the mean error. total: the worst root of variance and squared bias.
     radius: spectral radius of the error from cycle to cycle where it may be unstable, else None.
-    verdict: "exact": as good as the age of its measurements allows; "approximate"; "unstable": the error grows because
-        of the filter, "diverges": because nothing corrects it. In the last two the figures are infinite.
+    verdict: "exact": as good as the age of its measurements allows; "bound": that is no worse than the figures, for its
+        intervals repeat too late to look at each; "approximate"; "unstable": the error grows because of the filter,
+        "diverges": because nothing corrects it. In the last two the figures are infinite.
     """
 
-    N: int
+    N: int | Fraction
     L: int | None
     oldest: int | None
     mean_age: float | None
@@ -51,7 +53,7 @@ class Accuracy(NamedTuple):
 
 
 def of_cycle(
-    N: int,
+    N: int | Fraction,
     L: int,
     variances: FloatArray,
     no_delay: float,
@@ -62,9 +64,9 @@ def of_cycle(
     radius: float | None = None,
     verdict: Verdict = "exact",
 ) -> Accuracy:
-    """The record, from the variance of the output in each step of a cycle (N,).
+    """The record, from the variance of the output in each step (N,) of a cycle, or of all cycles that repeat.
 
-    no_delay, jump, believed: variances too. means (N, outputs): the mean error in each step.
+    no_delay, jump, believed: variances too. means (as many, outputs): the mean error in each step.
     """
     if radius is not None and not below_one(radius):
         return _without_bound(N, L, no_delay, believed, radius, "unstable")
@@ -72,8 +74,8 @@ def of_cycle(
     return Accuracy(
         N=N,
         L=L,
-        oldest=N + L - 1,
-        mean_age=L + (N - 1) / 2,
+        oldest=ceil(N) + L - 1,
+        mean_age=L + mean_wait(N),
         worst=_deviation(variances.max()),
         rms=_deviation(variances.mean()),
         no_delay=_deviation(no_delay),
@@ -86,7 +88,14 @@ def of_cycle(
     )
 
 
-def diverging(N: int, no_delay: float, radius: float) -> Accuracy:
+def mean_wait(N: int | Fraction) -> float:
+    """Steps since the last measurement, on average over all steps."""
+    between = Fraction(N)
+    short, longer = between // 1, between % 1  # so many of the intervals are a step longer
+    return float(((1 - longer) * short * (short - 1) + longer * (short + 1) * short) / (2 * between))
+
+
+def diverging(N: int | Fraction, no_delay: float, radius: float) -> Accuracy:
     """The record of a filter that nothing corrects. no_delay: a variance."""
     return _without_bound(N, None, no_delay, None, radius, "diverges")
 
@@ -98,14 +107,14 @@ def check_steps(name: str, value: int, least: int) -> None:
 
 
 def _without_bound(
-    N: int, L: int | None, no_delay: float, believed: float | None, radius: float, verdict: Verdict
+    N: int | Fraction, L: int | None, no_delay: float, believed: float | None, radius: float, verdict: Verdict
 ) -> Accuracy:
     infinite = float("inf")
     return Accuracy(
         N=N,
         L=L,
-        oldest=None if L is None else N + L - 1,
-        mean_age=None if L is None else L + (N - 1) / 2,
+        oldest=None if L is None else ceil(N) + L - 1,
+        mean_age=None if L is None else L + mean_wait(N),
         worst=infinite,
         rms=infinite,
         no_delay=_deviation(no_delay),

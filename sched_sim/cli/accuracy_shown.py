@@ -42,6 +42,8 @@ def show(found: Comparison, asked: flags.Sampled, format: opt.Format) -> None:
 MEANING = {
     "jump": "jump: how far the output moves when a correction lands (1 sigma)",
     "believed": "believed: what the filter's own covariance says of its worst step, where that is not the truth",
+    "bound": "bound: the figures are no less than the true ones: the intervals between measurements repeat too late to "
+    "look at each, so any order of the shorter and the longer is allowed for",
     "bias": "bias: the mean error, from --motion and the delay; worst and rms are about it",
 }
 
@@ -50,6 +52,8 @@ def _meaning(rows: Sequence[AccuracyRow]) -> str:
     said = [MEANING["jump"]]
     if any(row.accuracy and row.accuracy.believed is not None for row in rows):
         said.append(MEANING["believed"])
+    if any(row.accuracy and row.accuracy.verdict == "bound" for row in rows):
+        said.append(MEANING["bound"])
     if any(row.accuracy and row.accuracy.bias for row in rows):
         said.append(MEANING["bias"])
     return "\n".join(said)
@@ -67,9 +71,6 @@ def _row(row: AccuracyRow, found: Comparison) -> dict[str, Any]:
     """For scripts."""
     of = row.accuracy
 
-    def ms(steps: float | None) -> float | None:
-        return found.sampling.using(row.every).ms(steps)
-
     return {
         "method": row.method,
         "every": row.every,
@@ -80,7 +81,7 @@ def _row(row: AccuracyRow, found: Comparison) -> dict[str, Any]:
         "oldest_age_steps": None if of is None else of.oldest,
         "oldest_age_ms": row.oldest_ms,
         "mean_age_steps": None if of is None else of.mean_age,
-        "mean_age_ms": None if of is None else ms(of.mean_age),
+        "mean_age_ms": None if of is None or of.L is None else found.sampling.using(row.every).mean_age_ms(of.L),
         "output": found.outputs.name,
         "unit": found.outputs.unit or None,
         "worst_std": None if of is None else _finite(of.worst),
@@ -91,7 +92,7 @@ def _row(row: AccuracyRow, found: Comparison) -> dict[str, Any]:
         "believed_std": None if of is None or of.believed is None else _finite(of.believed),
         "bias": None if of is None else of.bias,
         "worst_with_bias": None if of is None else _finite(of.total),
-        "spectral_radius": None if of is None else of.radius,
+        "spectral_radius": None if of is None or of.radius is None else _finite(of.radius),
         "verdict": None if of is None else of.verdict,
         "remark": row.remark or None,
     }

@@ -101,7 +101,7 @@ def compared_along(
 
     def lands(name: str, number: int) -> Landed:
         late = too_late(name, sampling, number, options)
-        return Landed(None, late) if late else landed(name, sampling.N * number, sampling.M, L, options, processor)
+        return Landed(None, late) if late else landed(name, sampling.using(number).N, sampling.M, L, options, processor)
 
     designs = {(number, name): lands(name, number) for number in every for name in ("standard", *chosen)}
     first = max((at.L for at in designs.values() if at.L is not None), default=0)
@@ -112,18 +112,18 @@ def compared_along(
         )
     found: dict[tuple[int, int], Spread] = {}
 
-    def spread_of(N: int, lands: int) -> Spread:
-        if (N, lands) not in found:
-            landings = [("measurement", k, k + lands) for k in range(0, path.steps + 1, N)]
+    def spread_of(number: int, lands: int) -> Spread:
+        if (number, lands) not in found:
+            landings = [("measurement", k, k + lands) for k in sampling.using(number).taken(path.steps)]
             sensors = {"measurement": (at_each.H, at_each.R)}
             try:
                 run = along(at_each.Phi, at_each.Q, sensors, outputs.rows, P0, path.steps, landings)
             except ValueError as error:
                 raise InputError(f"{option('trajectory')}: {error}") from None
-            found[N, lands] = spread(run.deviations, first)
-        return found[N, lands]
+            found[number, lands] = spread(run.deviations, first)
+        return found[number, lands]
 
-    no_delay = spread_of(sampling.N, 0).worst
+    no_delay = spread_of(1, 0).worst
     rows = []
     for number in every:
         using = sampling.using(number)
@@ -132,8 +132,8 @@ def compared_along(
             if at.L is None:
                 rows.append(AlongRow(name, number, using.N, None, None, None, None, at.remark))
                 continue
-            of = spread_of(sampling.N * number, at.L)
-            oldest = using.ms(using.N + at.L - 1)
+            of = spread_of(number, at.L)
+            oldest = using.oldest_ms(at.L)
             over = of.worst / no_delay - 1 if no_delay else None
             rows.append(AlongRow(name, number, using.N, at.L, of, over, oldest, at.remark))
     if all(row.spread is None for row in rows):

@@ -35,7 +35,7 @@ from studies.selection.question import Accuracies, Question
 from studies.selection.remarks import remarks
 from studies.selection.sampling import Sampling
 from studies.selection.variants import Variant, candidates, variants
-from studies.selection.waiting import too_late
+from studies.selection.waiting import too_irregular, too_late
 
 
 def choose_filter(
@@ -122,7 +122,7 @@ def chosen(question: Question, methods: Sequence[str] | None = None, every: Sequ
     check_metric(question.metric)
     sampling, tables = question.sampling, question.tables
     wanted = chosen_methods(methods, question.conditions)
-    check_ages(question.model, 2 * max(every) * sampling.N + sampling.M)
+    check_ages(question.model, 2 * (sampling.using(max(every)).N + 1) + sampling.M)
     no_delay = undelayed(question.model, question.outputs, sampling, question.metric)
     names = [
         name for name in candidates(methods, tables, sampling.M) if name in wanted.methods or METHODS[name].needs == ""
@@ -187,6 +187,8 @@ def _candidate(question: Question, accuracy: Accuracies, variant: Variant) -> Ca
     using = question.sampling.using(variant.every)
     first = earliest(variant.method, using.M, variant.options)
     delay = 0 if METHODS[variant.method].landing == "at once" else using.M
+    if irregular := too_irregular(variant.method, using, variant.options):
+        return Candidate(variant, using.N, first, float("inf"), reason=irregular)
     try:
         curve = accuracy.of(variant)
     except ValueError as error:

@@ -21,7 +21,7 @@ from studies.selection.methods import METHODS, Asked, by_reason
 from studies.selection.model import Model, load_model, shipped_defaults
 from studies.selection.outputs import Outputs, outputs_of
 from studies.selection.sampling import Sampling
-from studies.selection.waiting import too_late
+from studies.selection.waiting import too_irregular, too_late
 
 Metric: TypeAlias = Literal["worst", "rms"]
 
@@ -151,13 +151,13 @@ def compared(
     check_metric(metric)
     conditions = conditions_of(model, sampling, motion, tau_s)
     chosen = chosen_methods(methods, conditions)
-    check_ages(model, max(every) * sampling.N + max(L or 0, sampling.M))
+    check_ages(model, sampling.using(max(every)).N + 1 + max(L or 0, sampling.M))
     no_delay = undelayed(model, outputs, sampling, metric)
     rows = []
     for number in every:
         using = sampling.using(number)
         for name in chosen.methods:
-            late = too_late(name, sampling, number, options)
+            late = too_late(name, sampling, number, options) or too_irregular(name, using, options)
             at = Landed(None, late) if late else landed(name, using.N, using.M, L, options, processor)
             of, remark = _accuracy(model, outputs, using, name, at, options, conditions)
             rows.append(_row(name, number, using, of, remark, no_delay, metric))
@@ -178,7 +178,7 @@ def figure(accuracy: Accuracy, metric: Metric) -> float:
 def undelayed(model: Model, outputs: Outputs, sampling: Sampling, metric: Metric) -> float:
     """The figure of the filter without delay that uses every measurement."""
     with settling(sampling):
-        return figure(lossless(model.linear, outputs.rows, sampling.N, 0), metric)
+        return figure(lossless(model.linear, outputs.rows, sampling.between, 0), metric)
 
 
 def check_metric(metric: Any) -> None:
@@ -201,7 +201,7 @@ def _accuracy(
     asked = Asked(
         model.linear,
         outputs.rows,
-        using.N,
+        using.between,
         using.M,
         at.L,
         options.low_rate_noise,
@@ -220,4 +220,6 @@ def _row(
     if of is None:
         return AccuracyRow(name, every, using.N, None, None, None, None, remark)
     over = figure(of, metric) / no_delay - 1 if no_delay else None
-    return AccuracyRow(name, every, using.N, of, over, using.ms(of.L), using.ms(of.oldest), remark)
+    return AccuracyRow(
+        name, every, using.N, of, over, using.ms(of.L), of.L if of.L is None else using.oldest_ms(of.L), remark
+    )

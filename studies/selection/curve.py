@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from math import ceil
 from typing import NamedTuple
 
 import numpy as np
 
-from filters.accuracy.gains import halved_noise, summed_noise, with_assumed
+from filters.accuracy.assumed_regime import assumed_regime
+from filters.accuracy.gains import halved_noise, summed_noise
 from filters.accuracy.model import LinearModel
-from filters.accuracy.periodic import mean, steady, worst
+from filters.accuracy.pattern import Interval
+from filters.accuracy.regime import mean_of, regime, worst_of
 from filters.arrays import FloatArray
 from filters.delayed.low_rate_noise import LowRateNoise
 from studies.selection.compare import Metric, figure
@@ -34,25 +37,26 @@ class Curve(NamedTuple):
         return self.first + kept - 1 if kept else None
 
 
-def by_landing(model: LinearModel, rows: FloatArray, N: int, most: int, noise: LowRateNoise, metric: Metric) -> Curve:
+def by_landing(
+    model: LinearModel, rows: FloatArray, N: Interval, most: int, noise: LowRateNoise, metric: Metric
+) -> Curve:
     """Of a method that is as good as the age of its measurements, but for the noise over N steps: L = 0 .. most.
 
     Raises ValueError where there is no regime.
     """
+    oldest = ceil(N) + most
     if noise == "exact":
-        variances = steady(model, rows, [N], N + most).variances[0]
+        found = regime(model, rows, N, oldest)
     else:
-        wrong = summed_noise if noise == "sum" else halved_noise
-        regime = with_assumed(model, rows, N, N + most, wrong)
-        if not regime.radius < 1.0:
+        found, _, radius = assumed_regime(model, rows, N, oldest, summed_noise if noise == "sum" else halved_noise)
+        if not radius < 1.0:
             return Curve(0, np.full(most + 1, np.inf))
-        variances = regime.variances
-    of_cycle = worst if metric == "worst" else mean
-    return Curve(0, np.sqrt(np.maximum(of_cycle(variances, N, np.arange(most + 1)), 0.0)))
+    figure_of = worst_of if metric == "worst" else mean_of
+    return Curve(0, np.sqrt(np.maximum(figure_of(found, np.arange(most + 1)), 0.0)))
 
 
 def at_arrival(
-    model: Model, outputs: Outputs, method: str, N: int, M: int, conditions: Conditions, metric: Metric
+    model: Model, outputs: Outputs, method: str, N: Interval, M: int, conditions: Conditions, metric: Metric
 ) -> Curve:
     """Of a method that lands with its measurement's arrival, and is not as good as its age. Raises ValueError where
     there is no regime."""

@@ -10,6 +10,7 @@ from filters.accuracy.exact import lossless
 from filters.accuracy.fresh import fused_as_fresh
 from filters.accuracy.model import LinearModel
 from filters.accuracy.outcome import Accuracy
+from filters.accuracy.pattern import Interval
 from filters.accuracy.predictor import px4_predictor
 from filters.arrays import FloatArray
 from filters.delayed.low_rate_noise import LowRateNoise
@@ -19,7 +20,7 @@ Landing: TypeAlias = Literal["at once", "at M", "later"]
 
 
 class Asked(NamedTuple):
-    """Of which filter: N, M, and L, where its corrections land.
+    """Of which filter: between, the steps from one measurement to the next, M, and L, where its corrections land.
 
     displacement (p,): by which the measured quantity moves during the delay; None if no motion was stated. pull: period
     of a step over the time constant of PX4's output predictor; None where the rate of the loop is not known.
@@ -27,7 +28,7 @@ class Asked(NamedTuple):
 
     model: LinearModel
     rows: FloatArray
-    N: int
+    between: Interval
     M: int
     L: int
     low_rate_noise: LowRateNoise = "exact"
@@ -47,25 +48,25 @@ class Method(NamedTuple):
 
 
 def _exact(asked: Asked) -> Accuracy:
-    return lossless(asked.model, asked.rows, asked.N, asked.L)
+    return lossless(asked.model, asked.rows, asked.between, asked.L)
 
 
 def _dual_rate(asked: Asked) -> Accuracy:
-    return with_low_rate_noise(asked.model, asked.rows, asked.N, asked.L, asked.low_rate_noise)
+    return with_low_rate_noise(asked.model, asked.rows, asked.between, asked.L, asked.low_rate_noise)
 
 
 def _px4_predictor(asked: Asked) -> Accuracy:
     assert asked.pull is not None
-    return px4_predictor(asked.model, asked.rows, asked.N, asked.L, asked.pull)
+    return px4_predictor(asked.model, asked.rows, asked.between, asked.L, asked.pull)
 
 
 def _fuse_as_fresh(asked: Asked) -> Accuracy:
     assert asked.displacement is not None
-    return fused_as_fresh(asked.model, asked.rows, asked.N, asked.M, asked.displacement)
+    return fused_as_fresh(asked.model, asked.rows, asked.between, asked.M, asked.displacement)
 
 
 def _discard(asked: Asked) -> Accuracy:
-    return discarded(asked.model, asked.rows, asked.N)
+    return discarded(asked.model, asked.rows, asked.between)
 
 
 METHODS: Mapping[str, Method] = {

@@ -56,14 +56,14 @@ class Accuracies:
         method = METHODS[variant.method]
         if method.lossless:
             most = using.M + using.N + 1
-            key: tuple[object, ...] = (using.N, variant.options.low_rate_noise)
+            key: tuple[object, ...] = (using.between, variant.options.low_rate_noise)
             if key not in self._curves:
                 noise = variant.options.low_rate_noise
                 self._curves[key] = by_landing(
-                    asked.model.linear, asked.outputs.rows, using.N, most, noise, asked.metric
+                    asked.model.linear, asked.outputs.rows, using.between, most, noise, asked.metric
                 )
         else:
-            key = (using.N, variant.method)
+            key = (using.between, variant.method)
             if key not in self._curves:
                 self._curves[key] = self._at_arrival(variant, using)
         return self._curves[key]
@@ -76,4 +76,6 @@ class Accuracies:
             lossless = self.of(variant._replace(method="recalculate")).at(using.M)
             if lossless > asked.within:
                 return Curve(using.M, np.array([lossless]))
-        return at_arrival(asked.model, asked.outputs, variant.method, using.N, using.M, asked.conditions, asked.metric)
+        return at_arrival(
+            asked.model, asked.outputs, variant.method, using.between, using.M, asked.conditions, asked.metric
+        )

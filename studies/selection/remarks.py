@@ -4,10 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from filters.accuracy.pattern import repeats_soon
 from sched_sim.errors import option
 from studies.selection.choice import Candidate, Choice
 from studies.selection.parts import percent
 from studies.selection.question import Accuracies, Question
+
+BOUND = (
+    "standard deviations are bounds, no less than the true ones: the intervals between measurements repeat too late to "
+    "look at each, so any order of the shorter and the longer is allowed for"
+)
 
 
 def remarks(choice: Choice, question: Question, accuracy: Accuracies) -> Iterator[str]:
@@ -15,6 +21,8 @@ def remarks(choice: Choice, question: Question, accuracy: Accuracies) -> Iterato
     yield from _no_part(choice)
     for candidate in choice.best:
         yield from _lands_earlier(choice, candidate)
+    if any(not repeats_soon(question.sampling.using(of.variant.every).between) for of in choice.best):
+        yield BOUND
     first = choice.best[0] if choice.best else None
     if first is not None:
         yield from _leaving_out(question, accuracy, first)

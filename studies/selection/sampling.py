@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from math import floor
+from math import ceil, floor
 
+from filters.accuracy.pattern import Interval
 from filters.accuracy.shipped import ShippedModel
 from sched_sim.bounds import whole
 from sched_sim.design.times import Times
@@ -69,6 +70,33 @@ class Sampling:
             return replace(self, N=every * self.N)
         hz = self.times.measurement_hz / every
         return replace(self, N=floor(self.hr_hz / hz), times=replace(self.times, measurement_hz=hz))
+
+    @property
+    def between(self) -> Interval:
+        """Steps from one measurement to the next, a quotient where N is the shorter of two intervals."""
+        if self.times is None or self.times.measurement_hz is None or self.hr_hz is None:
+            return self.N
+        between = self.hr_hz / self.times.measurement_hz
+        return int(between) if between.denominator == 1 else between
+
+    def taken(self, steps: int) -> list[int]:
+        """The steps in which measurements are taken, up to this one."""
+        return [ceil(number * self.between) for number in range(floor(steps / self.between) + 1)]
+
+    def oldest_ms(self, L: int) -> float | None:
+        """From when a measurement is taken until just before the landing of the next, L steps after its own; at the
+        most."""
+        if self.hr_hz is None:
+            return None
+        between = Fraction(self.between)
+        return float((L + between - Fraction(1, between.denominator)) * 1000 / self.hr_hz)
+
+    def mean_age_ms(self, L: int) -> float | None:
+        """From when a measurement is taken to the outputs in which it is the newest, on average."""
+        if self.hr_hz is None:
+            return None
+        between = Fraction(self.between)
+        return float((L + (between - Fraction(1, between.denominator)) / 2) * 1000 / self.hr_hz)
 
     def ms(self, steps: float | None) -> float | None:
         """From when a measurement is taken to so many steps after its own, at the latest."""

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from itertools import count
+from math import ceil
 
+from filters.accuracy.pattern import MOST_MEASUREMENTS
+from filters.accuracy.predictor import MOST_INNOVATIONS
 from sched_sim.design.methods import METHODS as SCHEDULED
 from sched_sim.design.options import Options
 from sched_sim.errors import option
@@ -30,6 +34,31 @@ def too_late(method: str, sampling: Sampling, every: int, options: Options) -> s
         else f"no step is left between a measurement's arrival and the next one with {delay}, {interval}"
     )
     return f"{why}: choose {option('method')} {', '.join(others[:-1])} or {others[-1]}, or {option('every')} {enough}"
+
+
+def too_irregular(method: str, using: Sampling, options: Options) -> str:
+    """Why the method has no figures where the intervals between measurements repeat too late, and what would do; empty
+    if it has."""
+    most = _most_measurements(method, options)
+    between = Fraction(using.between)
+    if most is None or between.denominator <= most or using.hr_hz is None:
+        return ""
+    hz = using.hr_hz / between
+    nearest = next(count * hz for count in (round(between), ceil(between)) if count >= 1)
+    return (
+        f"at {option('hr_hz')} {float(using.hr_hz):g} and with a measurement every {float(1000 / hz):g} ms the "
+        f"intervals between them repeat after {between.denominator:,}, and of this method at most {most:,} are looked "
+        f"at one by one: give {option('hr_hz')} {float(nearest):.12g}, which the measurements divide, or choose "
+        f"{option('method')} clone"
+    )
+
+
+def _most_measurements(method: str, options: Options) -> int | None:
+    """Of a repetition, that are looked at one by one; None where a bound is known beyond."""
+    if method == "px4-predictor":
+        return MOST_INNOVATIONS
+    rough = method == "dual-rate" and options.low_rate_noise != "exact"
+    return MOST_MEASUREMENTS if rough or method == "fuse-as-fresh" else None
 
 
 def _can_have(method: str, N: int, M: int, options: Options) -> bool:
