@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from filters.accuracy.model import LinearModel, output_rows
+from filters.accuracy.shipped import Output
 from filters.accuracy.visible import visible
 from filters.arrays import FloatArray
 from sched_sim.bounds import MOST_STATES, short
@@ -72,8 +74,19 @@ def _outputs(model: Model, asked: Any) -> Outputs:
         raise InputError(f"{said} has no name before the = sign: {HOW}")
     numbers = _states(states, said, tuple(named))
     rows = _rows(numbers, said, model.linear)
-    unit = next((output.unit for output in named.values() if set(numbers) <= set(output.states)), "")
-    return Outputs(name.strip() or f"states {states}", rows, unit)
+    return Outputs(name.strip() or f"states {states}", rows, _unit_of(numbers, said, named))
+
+
+def _unit_of(states: Sequence[int], said: str, named: Mapping[str, Output]) -> str:
+    """Of these states of a shipped model; "" of another. Raises InputError for states of different units, for the
+    squares of these have no sum."""
+    units = list(dict.fromkeys(output.unit for output in named.values() if set(states) & set(output.states)))
+    if len(units) > 1:
+        raise InputError(
+            f"{said} holds states in {', '.join(units)}, which have no standard deviation together: ask for one of "
+            f"{', '.join(named)}, or for states of one unit"
+        )
+    return units[0] if units else ""
 
 
 def _states(text: str, said: str, named: tuple[str, ...]) -> list[int]:

@@ -57,3 +57,9 @@ def nothing() -> int:
 
 def fails() -> System:
     raise RuntimeError("the battery is flat")
+
+
+def turning() -> LinearModel:
+    """By a twentieth of a turn in a step."""
+    c, s = np.cos(np.pi / 10), np.sin(np.pi / 10)
+    return LinearModel(np.array([[c, -s], [s, c]]), 1e-4 * np.eye(2), np.array([[1.0, 0.0]]), np.array([[0.04]]))
