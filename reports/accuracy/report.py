@@ -112,6 +112,8 @@ def _wrong(results: Results) -> dict[str, Any]:
         "px4": {name: [percents(share) for share in shares] for name, shares in px4.items()},
         "times": significant(found["camera"].px4.worst / found["camera"].exact.worst, 2),
         "at_2_hz": percents(results.noise_by_rate[2]),
+        "at_2_hz_early": percents(results.noise_on_arrival),
+        "camera_delay_ms": f"{found['camera'].given.ms(found['camera'].given.M):g}",
         "at_20_hz": percents(results.noise_by_rate[20]),
         "largest_noise": _at_most(max(noises)),
         "bias": deviation(EXAMPLE, found[EXAMPLE].fresh.bias),

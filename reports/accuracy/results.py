@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import NamedTuple
 
-from studies.accuracy.approximations import Approximations, approximations, noise_by_camera_rate
+from studies.accuracy.approximations import Approximations, approximations, noise_by_camera_rate, noise_of_camera
 from studies.accuracy.given import MODELS, given
 from studies.accuracy.landing import Landing, landing
 from studies.accuracy.scale import Placed, counted, scale
@@ -18,12 +18,14 @@ Progress = Callable[[int, int, str], None]
 
 
 class Results(NamedTuple):
-    """By model. noise_by_rate: of the camera, by its rate in Hz, what Q' costs. choices: on the slow processor."""
+    """By model. noise_by_rate: of the camera, by its rate in Hz, what Q' costs landing at L = N; noise_on_arrival:
+    at 2 Hz and L = M. choices: on the slow processor."""
 
     landings: Mapping[str, Landing]
     approximations: Mapping[str, Approximations]
     placed: Mapping[str, Sequence[Placed]]
     noise_by_rate: Mapping[int, float]
+    noise_on_arrival: float
     choices: Sequence[Choice]
 
 
@@ -37,4 +39,6 @@ def results(progress: Progress = lambda _done, _total, _what: None) -> Results:
         approximated[name] = approximations(of)
         placed[name] = scale(of, counted(of), approximated[name].px4)
     progress(len(MODELS), len(MODELS), "done")
-    return Results(landings, approximated, placed, noise_by_camera_rate(), choices())
+    camera = given("camera")
+    on_arrival = noise_of_camera(round(camera.hr_hz / 2), camera.M)
+    return Results(landings, approximated, placed, noise_by_camera_rate(), on_arrival, choices())
