@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import astuple
 from fractions import Fraction
 from math import lcm
 
@@ -11,7 +10,7 @@ import numpy as np
 
 from sched_sim.design.analysis import NOT_LANDED, achieved_l, least_period
 from sched_sim.design.options import Options
-from sched_sim.design.pieces import DelayedHorizonCosts, DualRateCosts, JobCosts
+from sched_sim.design.pieces import DelayedHorizonCosts, DualRateCosts, JobCosts, works
 from sched_sim.design.simulate import simulate
 from sched_sim.design.timing import Timing
 from tests.designs import Design
@@ -33,7 +32,7 @@ def assert_agreement(costs: JobCosts, options: Options, timings: Sequence[Timing
             assert missed, (Design(costs, timing, options), speed, "one tick less is enough")
     for share in shares:
         finer = share.denominator * lcm(*least.denominator.tolist())
-        fine = type(costs)(*(finer * cost for cost in astuple(costs)))
+        fine = type(costs)(*(finer * cost for cost in works(costs)))
         periods = np.array([int(finer * share * speed) for speed in speeds])
         for timing, speed, landed in zip(timings, speeds, achieved_l(fine, N, M, periods, options), strict=True):
             simulated = landing(costs, timing, share * speed, options)

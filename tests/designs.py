@@ -12,7 +12,7 @@ from sched_sim.design.methods import method_of
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import (
     AugmentationCosts,
-    CarriedGainCosts,
+    CarriedGainInFlightCosts,
     CloneInFlightCosts,
     CloneSplitCosts,
     DelayedHorizonCosts,
@@ -46,7 +46,7 @@ def serial_designs(draw: st.DrawFn) -> Design:
         | st.builds(LarsenInFlightCosts, ticks, ticks, ticks, ticks, ticks, ticks)
         | st.builds(CloneInFlightCosts, ticks, ticks, ticks, ticks, ticks, ticks)
         | st.builds(CloneSplitCosts, ticks, ticks, ticks, ticks)
-        | st.builds(CarriedGainCosts, ticks, ticks, ticks, ticks, ticks, ticks)
+        | st.builds(CarriedGainInFlightCosts, ticks, ticks, ticks, ticks, ticks, ticks)
         | st.builds(Px4PredictorCosts, ticks, ticks, ticks, ticks, ticks)
         | st.builds(AugmentationCosts, ticks, ticks, ticks, ticks, ticks)
         | st.builds(FuseAsFreshCosts, ticks, ticks)

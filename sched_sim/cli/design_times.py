@@ -49,6 +49,12 @@ class Design(NamedTuple):
             skipped = not asked and M <= self.N and law.why_none(self.N, M)
             needs = (0, 0) if skipped else (law.after, None if law.several else law.before)
             check_times(self.said, Steps(self.N, M, self.L), self.rate, *needs)
+        if self.L is not None and M is not None and self.L < M:
+            first = M + (law.after if asked else 1)
+            raise InputError(
+                f"L={self.L} is less than M={M}: the correction cannot land before the measurement arrives; give L "
+                f"from {first} on"
+            )
         timing = opt.make_timing(self.N, self.M, self.L, method, options, delay)
         return Timing(timing.N, 0, 0) if method == "standard" else timing
 

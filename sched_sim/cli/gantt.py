@@ -13,6 +13,7 @@ from sched_sim.cli.design_flags import with_options
 from sched_sim.cli.output import lines, say
 from sched_sim.cli.outputs import refuse_one_file_for_two
 from sched_sim.design.options import Options
+from sched_sim.errors import InputError
 
 if TYPE_CHECKING:
     from sched_sim.costs.table import CostTable
@@ -85,6 +86,10 @@ def gantt(
         if together := released_together(work, timing, pace, options, others):
             say(f"Note: {name}: {together}")
         panels.append(method_panel(table, name, timing, pace, cycles, options, others, statistic=statistic))
+    if not panels:
+        raise InputError(
+            f"no method of {table.name} can have {design.shown}: choose one with --method, or other --costs"
+        )
     if first is not None or until is not None:
         start, end = stretch(first, until, rate, min(panel.end for panel in panels))
         panels = [zoomed(panel, start, end) for panel in panels]

@@ -12,6 +12,7 @@ from sched_sim.cli.output import lines, print_csv, print_json, print_table, say,
 from sched_sim.cli.progress import simulations
 from sched_sim.costs.table import SECONDS
 from sched_sim.design.options import Options
+from sched_sim.errors import InputError
 
 LARGEST_DENOMINATOR = 10_000
 """A fraction with a larger one (of measured costs) tells a person nothing; --format json has it."""
@@ -111,6 +112,10 @@ def minimum(
         scale = second if timed else Fraction(1)
         rows.append(row | measured_row(table, name, timing, options, others, scale))
         shown.append(person)
+    if not rows:
+        raise InputError(
+            f"no method of {table.name} can have {design.shown}: choose one with --method, or other --costs"
+        )
     say_of_statistic(statistic, [table])
     timings = {row["method"]: design.timing(row["method"], options) for row in rows}
     note = lines(

@@ -16,6 +16,7 @@ from sched_sim.design.options import Options
 from sched_sim.design.pieces import (
     CarriedCosts,
     CarriedGainCosts,
+    CarriedGainInFlightCosts,
     CloneCosts,
     CloneInFlightCosts,
     CloneSplitCosts,
@@ -28,6 +29,9 @@ from sched_sim.schedule.jobs import HR, Job, step_at
 
 CLONE_LABELS, CARRIED_GAIN_LABELS = ("ST", "U"), ("U", "LA")
 """Of the work at k and of that at m."""
+
+BESIDE_OTHERS = ("couple", "compensate")
+"""Kinds of costs that only several in flight take."""
 
 
 class Carried(HrSource):
@@ -88,14 +92,9 @@ def _work(costs: CarriedCosts[Fraction], timing: Timing) -> CycleWork:
 
 def _clone_pieces(cost: CostOf, _options: Options) -> CloneCosts[Fraction]:
     alone = map(cost, ("propagate", "start", "carry", "update"))
-    several = "couple", "compensate"
-    return CloneInFlightCosts(*alone, *map(cost, several)) if all(map(cost.has, several)) else CloneCosts(*alone)
-
-
-def _clone_lacking(costs: CloneCosts[Fraction], timing: Timing) -> str | None:
-    if timing.M <= timing.N or isinstance(costs, CloneInFlightCosts):
-        return None
-    return lacks_for_several("[costs.clone] couple, compensate")
+    if lacks := cost.lacks(*BESIDE_OTHERS):
+        return CloneCosts(*alone, lacks=lacks)
+    return CloneInFlightCosts(*alone, *map(cost, BESIDE_OTHERS))
 
 
 def _clone_split_pieces(cost: CostOf, _options: Options) -> CloneSplitCosts[Fraction]:
@@ -103,10 +102,19 @@ def _clone_split_pieces(cost: CostOf, _options: Options) -> CloneSplitCosts[Frac
 
 
 def _carried_gain_pieces(cost: CostOf, _options: Options) -> CarriedGainCosts[Fraction]:
-    kinds = ("propagate", "update", "carry", "land", "couple", "compensate")
-    return CarriedGainCosts(*map(cost, kinds))
+    alone = map(cost, ("propagate", "update", "carry", "land"))
+    if lacks := cost.lacks(*BESIDE_OTHERS):
+        return CarriedGainCosts(*alone, lacks=lacks)
+    return CarriedGainInFlightCosts(*alone, *map(cost, BESIDE_OTHERS))
 
 
-CLONE = Method(_clone_pieces, _source, _work, law_with_several, lands_in_step_m=True, lacking=_clone_lacking)
+def _lacking(costs: CarriedCosts[Fraction], timing: Timing) -> str | None:
+    if timing.M <= timing.N or isinstance(costs, CloneInFlightCosts | CarriedGainInFlightCosts):
+        return None
+    method = "clone" if isinstance(costs, CloneCosts) else "carried-gain"
+    return costs.lacks or lacks_for_several(f"[costs.{method}] {', '.join(BESIDE_OTHERS)}")
+
+
+CLONE = Method(_clone_pieces, _source, _work, law_with_several, lands_in_step_m=True, lacking=_lacking)
 CLONE_SPLIT = Method(_clone_split_pieces, _source, _work, law, lands_in_step_m=True)
-CARRIED_GAIN = Method(_carried_gain_pieces, _source, _work, law_with_several, lands_in_step_m=True)
+CARRIED_GAIN = Method(_carried_gain_pieces, _source, _work, law_with_several, lands_in_step_m=True, lacking=_lacking)

@@ -15,6 +15,9 @@ from sched_sim.design.pieces import LarsenCosts, LarsenInFlightCosts, product
 from sched_sim.design.timing import Timing
 from sched_sim.schedule.jobs import HR, Job, Parts, step_at
 
+KINDS = ("gain", "correct", "compensate")
+"""Of costs that it takes."""
+
 
 class LarsenInFlight(HrSource):
     """An HR job each step: propagation and products; at m the corrections; at k gain and covariance."""
@@ -60,4 +63,4 @@ def work(costs: LarsenInFlightCosts[Fraction], timing: Timing) -> CycleWork:
 def lacking(costs: LarsenCosts[Fraction], timing: Timing) -> str | None:
     if timing.M <= timing.N or isinstance(costs, LarsenInFlightCosts):
         return None
-    return lacks_for_several("[costs.larsen] gain, correct, compensate")
+    return costs.lacks or lacks_for_several(f"[costs.larsen] {', '.join(KINDS)}")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Generic, NamedTuple, TypeVar
@@ -30,6 +30,12 @@ class CostOf:
 
     def has(self, kind: str) -> bool:
         return self.table.has(self.method, kind)
+
+    def lacks(self, *kinds: str) -> str:
+        """What the table has not of these, which several in flight take, in words; empty if nothing."""
+        missing = [kind for kind in kinds if not self.has(kind)]
+        others = [method for method in ("recalculate", "dual-rate") if method in self.table.costs]
+        return lacks_for_several(f"[costs.{self.method}] {', '.join(missing)}", others) if missing else ""
 
 
 Exact = TypeVar("Exact")
@@ -94,12 +100,15 @@ class CycleWork(NamedTuple):
     low: Fraction = Fraction(0)
 
 
-def lacks_for_several(entries: str) -> str:
-    """That a cost table does not have these, which are needed where M is more than N, and what can be done."""
+def lacks_for_several(entries: str, others: Sequence[str] = ()) -> str:
+    """That a cost table does not have these, which are needed where M is more than N, and what can be done.
+
+    others: methods that can have that, and that the table has.
+    """
+    instead = f", or choose {option('method')} {' or '.join(others)}" if others else ""
     return (
         f"where M is more than N, others are measured before one arrives, and for that the cost table has no "
-        f"{entries}: use {option('costs')} counted-9-3-3 or a table that `sched-sim measure` writes, or choose "
-        f"{option('method')} recalculate or dual-rate"
+        f"{entries}: use {option('costs')} counted-9-3-3 or a table that `sched-sim measure` writes{instead}"
     )
 
 

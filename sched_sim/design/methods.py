@@ -15,6 +15,7 @@ from sched_sim.design.options import Options
 from sched_sim.design.pieces import (
     AugmentationCosts,
     CarriedGainCosts,
+    CarriedGainInFlightCosts,
     CloneCosts,
     CloneInFlightCosts,
     CloneSplitCosts,
@@ -52,6 +53,7 @@ _BY_PIECES: Mapping[type, AnyMethod] = {
     CloneInFlightCosts: _any(carried.CLONE),
     CloneSplitCosts: _any(carried.CLONE_SPLIT),
     CarriedGainCosts: _any(carried.CARRIED_GAIN),
+    CarriedGainInFlightCosts: _any(carried.CARRIED_GAIN),
     DelayedHorizonCosts: _any(delayed_horizon.DELAYED_HORIZON),
     Px4PredictorCosts: _any(late_serial.PX4_PREDICTOR),
     AugmentationCosts: _any(late_serial.AUGMENTATION),

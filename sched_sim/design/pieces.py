@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import astuple, dataclass
+from dataclasses import astuple, dataclass, field
 from fractions import Fraction
 from typing import Generic, Literal, TypeAlias, TypeVar, cast
 
@@ -36,11 +36,14 @@ class RecalculateCosts(Generic[Number]):
 
 @dataclass(frozen=True, slots=True)
 class LarsenCosts(Generic[Number]):
-    """Work of the pieces of Larsen's method; accumulate: a propagated step with the product Phi(k->j) in it."""
+    """Work of the pieces of Larsen's method; accumulate: a propagated step with the product Phi(k->j) in it.
+
+    lacks: what the cost table has not that takes several in flight, M > N, in words."""
 
     propagate: Number
     accumulate: Number
     update: Number
+    lacks: str = field(default="", kw_only=True, compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,12 +58,14 @@ class LarsenInFlightCosts(LarsenCosts[Number]):
 
 @dataclass(frozen=True, slots=True)
 class CloneCosts(Generic[Number]):
-    """Work of the pieces of stochastic cloning; start: at k; carry: in each of the steps k+1 .. m-1; update: at m."""
+    """Work of the pieces of stochastic cloning; start: at k; carry: in each of the steps k+1 .. m-1; update: at m;
+    lacks: as in `LarsenCosts`."""
 
     propagate: Number
     start: Number
     carry: Number
     update: Number
+    lacks: str = field(default="", kw_only=True, compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,16 +84,21 @@ class CloneSplitCosts(CloneCosts[Number]):
 
 @dataclass(frozen=True, slots=True)
 class CarriedGainCosts(Generic[Number]):
-    """Work of the pieces of the carried gain.
-
-    update: gain and covariance, at k; carry: in each of the steps k+1 .. m-1; land: at m; couple, compensate: for each
-    other measurement that is on its way at k, at k and when that one lands.
-    """
+    """Work of the pieces of the carried gain; update: gain and covariance, at k; carry: in each of the steps
+    k+1 .. m-1; land: at m; lacks: as in `LarsenCosts`."""
 
     propagate: Number
     update: Number
     carry: Number
     land: Number
+    lacks: str = field(default="", kw_only=True, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
+class CarriedGainInFlightCosts(CarriedGainCosts[Number]):
+    """Those of the carried gain where it can also have several measurements in flight, M > N; couple, compensate: as in
+    `CloneInFlightCosts`."""
+
     couple: Number
     compensate: Number
 
@@ -190,7 +200,7 @@ def product(costs: LarsenInFlightCosts[Exact]) -> Exact:
 
 def beside_others(costs: CarriedCosts[Exact]) -> tuple[Exact, Exact]:
     """Work for each other measurement that is on its way, at k and at m; none where there can be no other."""
-    if isinstance(costs, CloneInFlightCosts | CarriedGainCosts):
+    if isinstance(costs, CloneInFlightCosts | CarriedGainInFlightCosts):
         return costs.couple, costs.compensate
     return 0 * costs.propagate, 0 * costs.propagate
 
@@ -215,9 +225,11 @@ def at_m(costs: LateCosts[Exact], M: int) -> Exact:
 
 def converted(costs: JobCosts[Number], convert: Callable[[Number], Other]) -> JobCosts[Other]:
     """The same pieces in other numbers."""
-    return cast("JobCosts[Other]", type(costs)(*map(convert, works(costs))))  # type: ignore[arg-type]  # each of one kind
+    lacks = getattr(costs, "lacks", "")
+    said = {"lacks": lacks} if lacks else {}
+    return cast("JobCosts[Other]", type(costs)(*map(convert, works(costs)), **said))  # type: ignore[arg-type]  # each of one kind
 
 
 def works(costs: JobCosts[Number]) -> tuple[Number, ...]:
     """What each piece costs."""
-    return astuple(costs)
+    return tuple(work for work in astuple(costs) if not isinstance(work, str))

@@ -95,8 +95,9 @@ def _recalculate_work(costs: RecalculateCosts[Fraction], timing: Timing) -> Cycl
 
 def _larsen_pieces(cost: CostOf, _options: Options) -> LarsenCosts[Fraction]:
     alone = cost("propagate"), cost("propagate_accumulate"), cost("update")
-    several = "gain", "correct", "compensate"
-    return LarsenInFlightCosts(*alone, *map(cost, several)) if all(map(cost.has, several)) else LarsenCosts(*alone)
+    if lacks := cost.lacks(*larsen_in_flight.KINDS):
+        return LarsenCosts(*alone, lacks=lacks)
+    return LarsenInFlightCosts(*alone, *map(cost, larsen_in_flight.KINDS))
 
 
 def _larsen_source(

@@ -56,8 +56,9 @@ class Timing:
             raise InputError(f"M={self.M} must be at least 0: it is the delay of the measurement in HR steps")
         if self.L < self.M:
             raise InputError(
-                f"L={self.L} must be > M={self.M}: the correction cannot land before the measurement arrives; "
-                f"give L from {self.M + 1} on"
+                f"L={self.L} must be >= M={self.M}: the correction cannot land before the measurement arrives; "
+                f"give L from {self.M} on, or from {self.M + 1} where it takes a step more (dual-rate with "
+                f"next-step feedback)"
             )
 
 

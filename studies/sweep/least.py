@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import astuple
 from fractions import Fraction
 from math import gcd
 from typing import NamedTuple
@@ -97,7 +96,7 @@ def _landing(costs: JobCosts[int], N: Ints, M: Ints, period: Fractions, options:
     landed = np.empty_like(N)
     for denominator in set(period.denominator.tolist()):
         some = period.denominator == denominator
-        finer = type(costs)(*(value * denominator for value in astuple(costs)))
+        finer = type(costs)(*(value * denominator for value in works(costs)))
         landed[some] = analysis.achieved_l(finer, N[some], M[some], period.numerator[some], options)
     return landed
 

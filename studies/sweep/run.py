@@ -9,6 +9,7 @@ from itertools import chain
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from sched_sim.design.pieces import works
 from sched_sim.design.steady import hyperperiod_steps
 from sched_sim.design.timing import Timing
 from sched_sim.errors import InputError, option
@@ -59,7 +60,7 @@ class Sweep:
             "unit": [table.unit for table in grid.tables],
             "tasks": [[str(value) for value in astuple(task)] for task in grid.tasks],
             "options": [[str(value) for value in astuple(options)] for options in grid.options],
-            "work": [[str(value) for value in astuple(block.costs)] for block in grid.blocks],
+            "work": [[str(value) for value in works(block.costs)] for block in grid.blocks],
             "simulated cycles": self.cycles,
             **({} if grid.accuracy is None else {"accuracy": grid.accuracy.description()}),
         }

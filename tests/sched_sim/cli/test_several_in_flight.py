@@ -72,3 +72,46 @@ def test_a_table_without_what_clone_needs_for_it_is_said_to_lack_it(sched_sim: R
     assert json.loads(alone.out)[0]["min_speed"] == 13
     words = ["where M is more than N", "no [costs.clone] couple, compensate", "--costs counted-9-3-3"]
     is_refused(sched_sim(f"{line} --method clone --costs mine.toml"), words)
+
+
+CARRIED = """name = "mine"
+unit = "us"
+[costs.clone]
+propagate = 100
+start = 20
+carry = 1
+update = 40
+compensate = 1
+[costs.carried-gain]
+propagate = 100
+update = 20
+carry = 1
+land = 40
+compensate = 1
+"""
+
+
+def test_one_on_its_way_at_a_time_does_not_take_what_several_do(sched_sim: Run, tmp_path: Path) -> None:
+    (tmp_path / "mine.toml").write_text(CARRIED)
+    rows = json.loads(sched_sim("minimum -N 10 -M 8 --costs mine.toml --format json").out)
+    assert [(row["method"], row["min_speed"]) for row in rows] == [("clone", 140), ("carried-gain", 140)]
+
+
+def test_what_is_missing_is_named_and_what_the_table_lacks_is_not_proposed(sched_sim: Run, tmp_path: Path) -> None:
+    (tmp_path / "mine.toml").write_text(CARRIED)
+    refused = sched_sim("minimum -N 10 -M 14 --method clone --costs mine.toml")
+    is_refused(refused, ["no [costs.clone] couple:", "--costs counted-9-3-3"])
+    assert "choose --method" not in refused.err
+    (tmp_path / "more.toml").write_text(f"{CARRIED}[costs.recalculate]\npropagate = 1\nupdate = 1\nreplay = 1\n")
+    is_refused(sched_sim("minimum -N 10 -M 14 --method clone --costs more.toml"), ["or choose --method recalculate\n"])
+    nothing_left = sched_sim("minimum -N 10 -M 14 --costs mine.toml")
+    is_refused(nothing_left, ["no clone", "no carried-gain", "no method of mine can have N=10 M=14"])
+
+
+@pytest.mark.parametrize(("method", "first"), [("clone", 31), ("dual-rate", 32)])
+def test_a_landing_before_arrival_is_refused_with_the_first_that_the_method_can_have(
+    sched_sim: Run, method: str, first: int
+) -> None:
+    line = f"minimum -N 10 -M 31 --costs counted-9-3-3 --method {method}"
+    is_refused(sched_sim(f"{line} -L 30"), ["L=30", "M=31", f"give L from {first} on"])
+    assert sched_sim(f"{line} -L {first}").code == 0

@@ -13,7 +13,7 @@ import pytest
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import (
     AugmentationCosts,
-    CarriedGainCosts,
+    CarriedGainInFlightCosts,
     CloneCosts,
     CloneInFlightCosts,
     CloneSplitCosts,
@@ -58,8 +58,8 @@ SERIAL = [
     CloneInFlightCosts(3, 4, 2, 4, 3, 1),
     CloneInFlightCosts(3, 1, 5, 2, 7, 7),
     CloneSplitCosts(3, 2, 2, 3),
-    CarriedGainCosts(3, 4, 2, 1, 1, 1),
-    CarriedGainCosts(3, 1, 5, 2, 7, 7),
+    CarriedGainInFlightCosts(3, 4, 2, 1, 1, 1),
+    CarriedGainInFlightCosts(3, 1, 5, 2, 7, 7),
     Px4PredictorCosts(2, 7, 5, 3, 1),
     AugmentationCosts(7, 3, 3, 4, 2),
     AugmentationCosts(7, 0, 3, 0, 0),
@@ -129,7 +129,7 @@ def random_costs(random: Random) -> JobCosts:
         RecalculateCosts,
         LarsenInFlightCosts,
         CloneInFlightCosts,
-        CarriedGainCosts,
+        CarriedGainInFlightCosts,
     ]
     kinds += [MultirateCosts, RobustCosts]
     kinds += [DelayedHorizonCosts] * 3 + [Px4PredictorCosts, AugmentationCosts, FuseAsFreshCosts]

@@ -3,7 +3,6 @@ silently."""
 
 from __future__ import annotations
 
-from dataclasses import astuple
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -16,7 +15,7 @@ from hypothesis import strategies as st
 from sched_sim.design.analysis import NOT_LANDED, Binding, achieved_l, least_period
 from sched_sim.design.methods import METHODS
 from sched_sim.design.options import Options
-from sched_sim.design.pieces import DualRateCosts, JobCosts, LarsenCosts, RecalculateCosts, StandardCosts
+from sched_sim.design.pieces import DualRateCosts, JobCosts, LarsenCosts, RecalculateCosts, StandardCosts, works
 from sched_sim.errors import InputError
 from studies.sweep.legal import Legal
 from tests.command_line import Run
@@ -28,7 +27,7 @@ factors = st.integers(1, 60).map(lambda digits: 10**digits) | st.integers(40, 70
 
 
 def times(costs: JobCosts, factor: int) -> JobCosts:
-    return type(costs)(*(factor * cost for cost in astuple(costs)))
+    return type(costs)(*(factor * cost for cost in works(costs)))
 
 
 @given(designs, factors, st.sampled_from([np.int32, np.int64, np.uint64, object]))

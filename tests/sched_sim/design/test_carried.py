@@ -17,7 +17,7 @@ from sched_sim.design.cycle import cycle_of
 from sched_sim.design.least_speed import achieved_l, least_speed
 from sched_sim.design.methods import method_of, select
 from sched_sim.design.options import Options
-from sched_sim.design.pieces import CarriedGainCosts, CloneInFlightCosts
+from sched_sim.design.pieces import CarriedGainInFlightCosts, CloneInFlightCosts
 from sched_sim.design.timing import Timing
 from studies.steffes import cases
 from tests.designs import ticks
@@ -68,7 +68,7 @@ def test_the_carried_gain_needs_the_standard_filters_power() -> None:
         assert achieved_l(select(normalised, "carried-gain"), timing, standard) == timing.M
 
 
-@pytest.mark.parametrize("pieces", [CarriedGainCosts, CloneInFlightCosts])
+@pytest.mark.parametrize("pieces", [CarriedGainInFlightCosts, CloneInFlightCosts])
 @given(N=st.integers(1, 6), M=st.integers(0, 20), work=st.tuples(*[ticks] * 6))
 def test_with_m_beyond_n_jobs_are_those_of_the_timeline(pieces: type, N: int, M: int, work: tuple[int, ...]) -> None:
     """Of each measurement: work at k and at m, carried between; for two of which one is taken while the other is on
