@@ -109,8 +109,9 @@ def cycle_marks(
     def add(step: int, text: str, cycle: int, is_k: bool = False) -> None:
         names.setdefault(step, []).append(Mark(step, text, cycle, is_k))
 
-    for cycle in range(max(cycles, end // timing.N) + 1):
-        k = cycle * timing.N
+    taken = timing.taken
+    for cycle in range(max(cycles, taken.before(end + 1) - 1) + 1):
+        k = taken.step(cycle)
         later = "" if cycle == 0 else "+N" if cycle == 1 else f"+{cycle}N"
         add(k, f"k{later}", cycle, True)
         if cycle >= cycles:
@@ -173,7 +174,7 @@ def method_panel(
     landings: dict[int, int] = {}
     schedule = simulate(costs, timing, speed, cycles, options, tasks, keep_slices=True, on_landing=landings.__setitem__)
     two_rate = method in TWO_RATE_METHODS
-    delay = replace(timing, M=0) if two_rate or method == "standard" else timing
+    delay = replace(timing, M=0, instants=None) if two_rate or method == "standard" else timing
     pace = f"HR period {_number(1000 * speed)} ms" if table.unit == "second" else f"speed {_number(speed)}"
     notes = [pace, landing_note(landings.values(), delay.M)]
     if method == "standard":

@@ -56,7 +56,11 @@ class Design(NamedTuple):
                 f"from {first} on"
             )
         timing = opt.make_timing(self.N, self.M, self.L, method, options, delay)
-        return Timing(timing.N, 0, 0) if method == "standard" else timing
+        if method == "standard":
+            return Timing(timing.N, 0, 0)
+        if self.rate is None or self.times is None or law.undelayed:
+            return timing
+        return replace(timing, instants=self.times.instants(self.rate))
 
 
 def make_design(

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
-from math import ceil
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -222,7 +221,7 @@ def unseen(
         steady = run_until_steady(costs, timing, speed, options, tasks)
     except InputError as error:
         return f"{shown}; not all is seen: {error}"
-    needed = ceil(Fraction(steady.steps, timing.N))
+    needed = timing.taken.before(steady.steps)
     if needed <= cycles:
         return None
     if steady.repeats:

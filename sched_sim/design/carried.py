@@ -25,6 +25,7 @@ from sched_sim.design.pieces import (
 )
 from sched_sim.design.serial import law, law_with_several
 from sched_sim.design.timing import Timing
+from sched_sim.design.uneven import others_since
 from sched_sim.schedule.jobs import HR, Job, step_at
 
 CLONE_LABELS, CARRIED_GAIN_LABELS = ("ST", "U"), ("U", "LA")
@@ -47,34 +48,30 @@ class Carried(HrSource):
         step, start = self.step, self.next_release
         self.step, self.next_release = step + 1, start + self.period
         k = step - self.M
-        lands = k >= 0 and k % self.N == 0
+        lands = k >= 0 and not self.taken.since(k)
         at_k, at_m = self.labels
-        others = max(0, self.taken_before(step) - self.taken_before(k + 1)) if lands else 0
+        others = max(0, self.taken.before(step) - self.taken.before(k + 1)) if lands else 0
         work = [
             (at_m, self.at_m + others * self.compensate if lands else 0),
             ("P", self.propagate),
             ("CA", self.carried(step) * self.carry),
         ]
-        if step % self.N == 0:
+        if not self.taken.since(step):
             work.append((at_k, self.at_k + self.carried(step) * self.couple))
         parts = tuple((label, part) for label, part in work if part)
         total = sum(part for _, part in parts)
         return (Job("hr", step, HR, start, self.next_release, total, parts, self._landed if lands else None),)
 
-    def taken_before(self, step: int) -> int:
-        """How many measurements were taken before this step."""
-        return -(-max(step, 0) // self.N)
-
     def carried(self, step: int) -> int:
         """How many were taken before this step and arrive after it."""
-        return max(0, self.taken_before(step) - self.taken_before(step - self.M + 1))
+        return max(0, self.taken.before(step) - self.taken.before(max(step - self.M + 1, 0)))
 
     def state(self, now: int) -> Hashable:
         return super().state(now), min(self.step, self.M) if self.M >= self.N else self.M
 
     def _landed(self, job: Job, now: int) -> tuple[Job, ...]:
         k = job.step - self.M
-        self.on_landing(k // self.N, max(step_at(now, self.period), job.step) - k)
+        self.on_landing(self.taken.before(k), max(step_at(now, self.period), job.step) - k)
         return ()
 
 
@@ -86,8 +83,8 @@ def _work(costs: CarriedCosts[Fraction], timing: Timing) -> CycleWork:
     propagate, at_k, carry, at_m = works(costs)[:4]
     couple, compensate = beside_others(costs)
     carried = max(timing.M - 1, 0)
-    once = at_k + at_m + carried // timing.N * (couple + compensate)
-    return CycleWork(timing.N * propagate + carried * carry + once)
+    once = at_k + at_m + others_since(timing, timing.M) * (couple + compensate)
+    return CycleWork(timing.interval * propagate + carried * carry + once)
 
 
 def _clone_pieces(cost: CostOf, _options: Options) -> CloneCosts[Fraction]:

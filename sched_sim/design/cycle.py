@@ -5,10 +5,12 @@ Written from the timeline, not from the sources of the simulation, which are the
 
 from __future__ import annotations
 
+from math import floor
 from typing import NamedTuple
 
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import (
+    CarriedCosts,
     CarriedGainCosts,
     CloneCosts,
     DelayedHorizonCosts,
@@ -64,6 +66,8 @@ def cycle_of(costs: JobCosts[int], timing: Timing, options: Options, lands: int 
     """costs in ticks. lands: the L up to which corrections of the dual-rate filter may come, by default that of the
     design."""
     N, M, L = timing.N, timing.M, timing.L
+    if timing.instants is not None and M > N and isinstance(costs, LarsenInFlightCosts | CloneCosts | CarriedGainCosts):
+        return _uneven(costs, timing)
     match costs:
         case StandardCosts(propagate, update):
             return Cycle([propagate + update, *[propagate] * (N - 1)])
@@ -109,6 +113,22 @@ def _larsen_in_flight(costs: LarsenInFlightCosts[int], N: int, M: int) -> Cycle:
     return Cycle(high)
 
 
+def _uneven(costs: LarsenInFlightCosts[int] | CarriedCosts[int], timing: Timing) -> Cycle:
+    """At the most, where intervals are N steps and N + 1: each N, all that is ever done at k and at m in one step, and
+    in each step as much as in any."""
+    assert timing.instants is not None
+    before, with_m = (floor(steps / timing.instants.every) for steps in (timing.M - 1, timing.M))
+    if isinstance(costs, LarsenInFlightCosts):
+        each, at_once = (before + 1) * product(costs), costs.gain + costs.correct + with_m * costs.compensate
+    else:
+        propagate, at_k, carry, landing = works(costs)[:4]
+        couple, compensate = beside_others(costs)
+        each, at_once = (before + 1) * carry, at_k + landing + with_m * (couple + compensate)
+    high = [costs.propagate + each] * timing.N
+    high[0] += at_once
+    return Cycle(high)
+
+
 def _dual_rate(costs: DualRateCosts[int], timing: Timing, options: Options, lands: int) -> Cycle:
     """With several on their way, as if each landed that late: it goes through the most cycles, and most are missing."""
     N, M, L = timing.N, timing.M, timing.L
@@ -123,6 +143,8 @@ def _dual_rate(costs: DualRateCosts[int], timing: Timing, options: Options, land
     early = due if options.lr_propagate_by == "l" or M == 0 else M
     high = [costs.hr] * N
     high[1 % N] = costs.hr_restart
+    if timing.instants is not None:  # fewer restart than with each interval the shorter one
+        high = [max(costs.hr, costs.hr_restart)] * N
     waits = M >= N and not costs.lr_gain
     passed = (M // N if waits else max(M - 1, 0) // N) * N
     missing = (lands + apart - 1) // N

@@ -128,8 +128,8 @@ def pieces(cost: CostOf, _options: Options) -> DelayedHorizonCosts[Fraction]:
 
 def work(costs: DelayedHorizonCosts[Fraction], timing: Timing) -> CycleWork:
     """Where it lands at once; later, there is more to replay."""
-    low = costs.update + (timing.M + 1) * costs.replay + timing.N * costs.propagate
-    return CycleWork(timing.N * costs.predict, low)
+    low = costs.update + (timing.M + 1) * costs.replay + timing.interval * costs.propagate
+    return CycleWork(timing.interval * costs.predict, low)
 
 
 def binding(kind: str, held: bool, _timing: Timing, _options: Options) -> str:

@@ -11,6 +11,7 @@ from sched_sim.design.method import CostOf, CycleWork, Law, Method
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import DualRateCosts
 from sched_sim.design.timing import Feedback, Timing
+from sched_sim.design.uneven import others_since
 from sched_sim.errors import InputError
 from sched_sim.schedule.jobs import HR, LR, Job, Parts, Then, step_at
 
@@ -38,7 +39,6 @@ class DualRate(HrSource):
         correction_due = timing.L + 1 if self.same_step else timing.L
         self.update_due = correction_due * period
         self.propagate_due = self.update_due if by_l else timing.M * period
-        self.restart_offset = 1 % timing.N
         self.ordinary: Parts = (("HRP", costs.hr),)
         self.restart: Parts = (("HRP", costs.hr_restart),)
         self.to_apply: deque[int] = deque()  # cycles whose LR update has finished, not yet in the state
@@ -53,17 +53,17 @@ class DualRate(HrSource):
     def release(self) -> tuple[Job, ...]:
         step, start = self.step, self.next_release
         self.step, self.next_release = step + 1, start + self.period
-        offset = step % self.N
-        parts = self.restart if offset == self.restart_offset else self.ordinary
+        taken = not self.taken.since(step)
+        parts = self.ordinary if self.taken.since(step - 1) else self.restart
         work = parts[0][1]
         if self.to_apply:
             correction = self._apply(step) * self.costs.hr_update
             work += correction
             parts = (*parts, ("HRU", correction))
-        job = Job("hr", step, HR, start, self.next_release, work, parts, None if offset else self._propagate)
-        if not offset:
-            self.missing.append(step // self.N - self.in_state)
-        if step >= self.M and offset == self.M % self.N:
+        job = Job("hr", step, HR, start, self.next_release, work, parts, self._propagate if taken else None)
+        if taken:
+            self.missing.append(self.taken.before(step) - self.in_state)
+        if step >= self.M and not self.taken.since(step - self.M):
             return (job, *self._measurement(step - self.M, start))
         return (job,)
 
@@ -73,7 +73,7 @@ class DualRate(HrSource):
         return (*self.lr_queue, *self.propagates, *self.updates)
 
     def state(self, now: int) -> Hashable:
-        this = self.step // self.N
+        this = self.taken.before(self.step)
         waiting = (self.lr_queue, self.propagates, self.updates)
         return (
             super().state(now),
@@ -90,15 +90,16 @@ class DualRate(HrSource):
         """Land the corrections that reach the state in the HR job of `step`; returns how many HR updates they take."""
         cycles = 0
         for cycle in self.to_apply:
-            cycles += self._cycles_between(cycle * self.N, step)
-            self.on_landing(cycle, step - cycle * self.N)
+            k = self.taken.step(cycle)
+            cycles += self._cycles_between(k, step)
+            self.on_landing(cycle, step - k)
         self.in_state += len(self.to_apply)
         self.to_apply.clear()
         return cycles
 
     def _cycles_between(self, k: int, step: int) -> int:
         """Through how many cycles a correction of k goes: one, if the next k is not passed."""
-        return max(-(-(step - k) // self.N), 1)
+        return max(self.taken.before(step) - self.taken.before(k), 1)
 
     def _lr_job(self, kind: str, label: str, k: int, release: int, due: int, cost: int, then: Then) -> Job:
         return Job(kind, k, LR, release, k * self.period + due, cost, ((label, cost),), then, self.lr_cpu)
@@ -129,7 +130,7 @@ class DualRate(HrSource):
 
     def _update_done(self, job: Job, now: int) -> tuple[Job, ...]:
         if not self.same_step:
-            self.to_apply.append(job.step // self.N)
+            self.to_apply.append(self.taken.before(job.step))
             return self._next_in_chain()
         cost = self._cycles_between(job.step, step_at(now, self.period)) * self.costs.hr_update
         due = job.step * self.period + self.update_due
@@ -138,7 +139,7 @@ class DualRate(HrSource):
 
     def _landed(self, job: Job, now: int) -> tuple[Job, ...]:
         self.in_state += 1
-        self.on_landing(job.step // self.N, max(step_at(now, self.period) - job.step, self.M))
+        self.on_landing(self.taken.before(job.step), max(step_at(now, self.period) - job.step, self.M))
         return ()
 
     def _enqueue(self) -> tuple[Job, ...]:
@@ -198,15 +199,15 @@ def pieces(cost: CostOf, options: Options) -> DualRateCosts[Fraction]:
 
 def work(costs: DualRateCosts[Fraction], timing: Timing) -> CycleWork:
     """Where corrections land as soon as measurements arrive; later ones go through more cycles."""
-    cycles = max(-(-timing.M // timing.N), 1)
-    high = (timing.N - 1) * costs.hr + costs.hr_restart + cycles * costs.hr_update
+    cycles = 1 + others_since(timing, timing.M)
+    high = (timing.interval - 1) * costs.hr + costs.hr_restart + cycles * costs.hr_update
     compensation = (cycles - 1) * costs.hr_update
     return CycleWork(high, costs.lr_propagate + costs.lr_gain + costs.lr_update + compensation)
 
 
 def longest(costs: DualRateCosts[Fraction], timing: Timing) -> Fraction:
     """Of the HR jobs, without HR updates: no less will do, wherever corrections land."""
-    return costs.hr_restart if timing.N == 1 else max(costs.hr, costs.hr_restart)
+    return costs.hr_restart if timing.interval == 1 else max(costs.hr, costs.hr_restart)
 
 
 def binding(kind: str, held: bool, timing: Timing, options: Options) -> str:

@@ -11,6 +11,7 @@ from sched_sim.design.highest_rate import highest_rate
 from sched_sim.design.landing import landing
 from sched_sim.design.least_speed import LeastSpeed, least_speed
 from sched_sim.design.load import loads
+from sched_sim.design.long_pattern import of_bound
 from sched_sim.design.methods import method_of
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import Costs
@@ -91,5 +92,6 @@ def _busy(costs: Costs, timing: Timing, pace: Fraction, options: Options, tasks:
     from sched_sim.design.simulate import at_worst_phase
     from sched_sim.design.steady import run_until_steady
 
+    costs, timing = of_bound(costs, timing)
     at = at_worst_phase(costs, timing, pace, options, tasks)
     return run_until_steady(costs, timing, pace, options, at).schedule.utilization

@@ -17,6 +17,7 @@ class HrSource(RecurringSource):
     def __init__(self, timing: Timing, period: int, on_landing: OnLanding) -> None:
         self.N = timing.N
         self.M = timing.M
+        self.taken = timing.taken
         self.period = period
         self.step = 0
         self.next_release = 0
@@ -26,4 +27,4 @@ class HrSource(RecurringSource):
         return ()
 
     def state(self, now: int) -> Hashable:
-        return self.next_release - now, self.step % self.N
+        return self.next_release - now, self.step % self.taken.steps

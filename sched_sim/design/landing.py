@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 
 from sched_sim.design.least_speed import achieved_l, alone, has_closed_form, least_speed
+from sched_sim.design.long_pattern import of_bound
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import Costs
 from sched_sim.design.timing import Timing
@@ -17,6 +18,7 @@ def landing(costs: Costs, timing: Timing, pace: Fraction, options: Options, task
 
     pace: the speed, in cost units per HR period.
     """
+    costs, timing = of_bound(costs, timing)
     if phases_matter(tasks):
         from sched_sim.design.any_phase import worst_landing
 

@@ -26,7 +26,7 @@ def _each_step(costs: LateCosts[int], M: int) -> Parts:
 
 
 def _work(costs: LateCosts[Fraction], timing: Timing) -> CycleWork:
-    return CycleWork(timing.N * each_step(costs, timing.M) + at_m(costs, timing.M))
+    return CycleWork(timing.interval * each_step(costs, timing.M) + at_m(costs, timing.M))
 
 
 def _px4_predictor_pieces(cost: CostOf, _options: Options) -> Px4PredictorCosts[Fraction]:

@@ -9,10 +9,12 @@ from typing import NamedTuple
 from sched_sim.design import analysis
 from sched_sim.design.arguments import checked
 from sched_sim.design.load import loads
+from sched_sim.design.long_pattern import of_bound
 from sched_sim.design.methods import method_of
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import Costs, JobCosts, converted, works
 from sched_sim.design.timing import Timing
+from sched_sim.design.uneven import comes_unevenly, longest_job
 from sched_sim.errors import InputError
 from sched_sim.schedule.tasks import Task, phases_matter
 from sched_sim.ticks import Number, positive, ticks_per_unit, to_ticks
@@ -51,16 +53,20 @@ def least_speed(
 ) -> LeastSpeed:
     """The least speed at which every deadline holds (Steffes 2014, Sec. III.C: needed processing power).
 
-    In closed form and exact; with context-switch costs, other tasks or earliest deadline first, and where the dual-rate
-    filter has several corrections on their way, M >= N or L > N, by bisection on the simulation, which is exact to one
-    tick and calls `on_progress` (see `search.least_speed_by_simulation`); with tasks whose offset may be any, or with
-    jitter, by bisection on the worst response times, for every phase (`any_phase.least_speed_of_any_phase`). An L > N
-    needs no more than one before the next measurement. Every faster processor does too, except where landing earlier
-    costs more: the HR job of step k+1 is the longest of all, or same-step feedback spills into the next step.
+    In closed form and exact, where measurements are not whole steps apart for their intervals as they come, whether
+    each is used M steps after its k or as soon as it is there (`uneven`). With context-switch costs, other tasks or
+    earliest deadline first, and where the dual-rate filter has several corrections on their way, M >= N or L > N, by
+    bisection on the simulation, which is exact to one tick and calls `on_progress` (see
+    `search.least_speed_by_simulation`), or, where the intervals repeat only after many steps, an upper bound
+    (`long_pattern`); with tasks whose offset may be any, or with jitter, by bisection on the worst response times, for
+    every phase (`any_phase.least_speed_of_any_phase`), of uneven intervals an upper bound too. An L > N needs no more
+    than one before the next measurement. Every faster processor does too, except where landing earlier costs more:
+    the HR job of step k+1 is the longest of all, or same-step feedback spills into the next step.
     Raises InputError for an L that the method cannot have.
     """
     tasks = checked(timing, options, tasks)
     method_of(costs).check_design(costs, timing, options.feedback)
+    costs, timing = of_bound(costs, timing)
     if not has_closed_form(options, tasks, costs, timing):
         if phases_matter(tasks):
             from sched_sim.design.any_phase import least_speed_of_any_phase
@@ -74,6 +80,8 @@ def least_speed(
             return enough
         found = LeastSpeed(*least_speed_by_simulation(costs, timing, options, tasks, on_progress))
         return found if enough is None or found.speed < enough.speed else enough
+    if comes_unevenly(costs, timing):
+        return LeastSpeed(longest_job(costs, timing), analysis.Binding.hr.name)
     resolution, in_ticks = _in_ticks(costs)
     least = analysis.least_period(in_ticks, timing.N, timing.M, timing.L, options)
     speed = Fraction(least.numerator, least.denominator * resolution)
@@ -90,6 +98,7 @@ def achieved_l(costs: Costs, timing: Timing, speed: Number, options: Options = O
     checked(timing, options)
     speed = positive(speed, "speed")
     method_of(costs).check_design(costs, timing, options.feedback)
+    costs, timing = of_bound(costs, timing)
     if not has_closed_form(options, ()):
         raise InputError(
             f"options with context_switch={float(options.context_switch):g} and policy={options.policy!r} have no "
@@ -100,6 +109,8 @@ def achieved_l(costs: Costs, timing: Timing, speed: Number, options: Options = O
 
         steady = run_until_steady(costs, timing, speed, options)
         return max(steady.schedule.achieved) if steady.repeats else None
+    if comes_unevenly(costs, timing):
+        return timing.M if longest_job(costs, timing) <= speed else None
     resolution, in_ticks = _in_ticks(costs, speed)
     landed = analysis.achieved_l(in_ticks, timing.N, timing.M, to_ticks(speed, resolution), options)
     return None if landed == analysis.NOT_LANDED else landed
@@ -138,14 +149,15 @@ def has_closed_form(
         return False
     if costs is None or timing is None:
         return True
-    return method_of(costs).law(options.feedback).one_in_flight(timing.N, timing.L)
+    law = method_of(costs).law(options.feedback)
+    return law.one_in_flight(timing.N, timing.L) and (law.only_first or not law.several or timing.instants is None)
 
 
 def alone(costs: Costs, timing: Timing, options: Options, tasks: Sequence[Task]) -> Timing | None:
     """The design that lands before the next measurement is taken, and so in time for this later L; None where there is
     none that has a closed form."""
     last = method_of(costs).law(options.feedback).last_alone(timing.N, timing.M)
-    if last is None or last >= timing.L or not has_closed_form(options, tasks):
+    if last is None or last >= timing.L or (timing.instants and timing.N == 1) or not has_closed_form(options, tasks):
         return None
     return Timing(timing.N, timing.M, last)
 

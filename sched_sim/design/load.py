@@ -17,7 +17,7 @@ def utilization(costs: Costs, timing: Timing, speed: Fraction) -> Fraction:
 
     That it is below 1 is needed, and does not suffice: a deadline may need more for a while (`least_speed`).
     """
-    return Fraction(sum(method_of(costs).work(costs, timing))) / (timing.N * speed)
+    return Fraction(sum(method_of(costs).work(costs, timing))) / (timing.interval * speed)
 
 
 def loads(
@@ -29,8 +29,8 @@ def loads(
     """
     check_cpus(tasks, options.cpus)
     high, low = method_of(costs).work(costs, timing)
-    work = [Fraction(high) / timing.N, *[Fraction(0)] * (options.cpus - 1)]
-    work[-1] += Fraction(low) / timing.N
+    work = [Fraction(high) / timing.interval, *[Fraction(0)] * (options.cpus - 1)]
+    work[-1] += Fraction(low) / timing.interval
     for task in tasks:
         work[task.cpu - 1] += task.cost / task.period
     return tuple(share / speed for share in work)

@@ -147,7 +147,7 @@ class Method(Generic[Exact, InTicks]):
     def check_design(self, costs: Exact, timing: Timing, feedback: Feedback) -> None:
         """Raises InputError for a timing that the method cannot have, or for which its costs lack something."""
         law = self.law(feedback)
-        wrong = None if law.several else one_at_a_time(replace(timing, M=0) if law.undelayed else timing)
+        wrong = None if law.several else one_at_a_time(replace(timing, M=0, instants=None) if law.undelayed else timing)
         if wrong:
             raise InputError(wrong)
         self.check(timing, feedback)

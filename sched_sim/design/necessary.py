@@ -29,6 +29,7 @@ from sched_sim.design.pieces import (
     at_m,
     beside_others,
     each_step,
+    product,
     works,
 )
 
@@ -57,11 +58,12 @@ def demands(costs: JobCosts[int], timings: Range, options: Options) -> Iterator[
             with_product = max(accumulate + update, propagate)
             alone = with_product if timings.least_M >= 2 else min(with_product, propagate + update)
             if isinstance(costs, LarsenInFlightCosts) and timings.most_M > timings.least_N:
-                alone = min(alone, propagate + costs.correct)
-            yield alone, 1
+                yield min(alone, _of_several(costs, timings)), 1
+            else:
+                yield alone, 1
         case CloneCosts(propagate, at_k, carry, landing) | CarriedGainCosts(propagate, at_k, carry, landing):
             couple, compensate = beside_others(costs)
-            others = max(timings.least_M - 1, 0) // timings.most_N
+            others = max(timings.least_M - 1, 0) // (timings.most_N + 1)
             beside_k, beside_m = others * couple, others * compensate
             yield propagate + others * carry + _carried(at_k + beside_k, carry, landing + beside_m, timings), 1
         case MultirateCosts() | RobustCosts():
@@ -74,6 +76,14 @@ def demands(costs: JobCosts[int], timings: Range, options: Options) -> Iterator[
             yield from _delayed_horizon(costs, timings, options)
         case DualRateCosts():
             yield from _dual_rate(costs, timings, options)
+
+
+def _of_several(costs: LarsenInFlightCosts[int], timings: Range) -> int:
+    """The longer of the HR jobs of k and m, where intervals are up to a step more than N."""
+    products, others = (max(timings.least_M - steps, 0) // (timings.most_N + 1) for steps in (2, 1))
+    at_m = (products + 1) * product(costs) + costs.correct + others * costs.compensate
+    at_k = max(others - 1, 0) * product(costs) + costs.gain
+    return costs.propagate + max(at_m, at_k)
 
 
 def _carried(at_k: int, carry: int, at_m: int, timings: Range) -> int:

@@ -2,7 +2,8 @@
 
 N, M and L are steps of the rate, so whether a design fits goes up and down with it: at a rate at which the delay is a
 whole number of steps it fits, and just above it not. Between two rates at which one of them changes, all three are
-what they are, and so is the least speed, in work per HR period: there the best rate is known exactly. Such pieces are
+what they are, and so is the least speed, in work per HR period, or it changes at a few rates that are known: there the
+best rate is known exactly. Such pieces are
 taken from the top; whole ranges of them are left out together where they need more than there is (`necessary`).
 """
 
@@ -10,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from fractions import Fraction
+from itertools import pairwise
 from typing import NamedTuple
 
 from sched_sim.bounds import MOST_STEPS
@@ -21,8 +23,9 @@ from sched_sim.design.methods import method_of
 from sched_sim.design.necessary import Range, demands
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import Costs, DualRateCosts, JobCosts, converted, works
-from sched_sim.design.times import Times
+from sched_sim.design.times import Instants, Times
 from sched_sim.design.timing import Timing
+from sched_sim.design.uneven import PRODUCT_FROM, comes_unevenly, longest_job
 from sched_sim.errors import InputError
 from sched_sim.ticks import ticks_per_unit, to_ticks
 
@@ -31,6 +34,9 @@ DIGITS = 4
 
 MOST_DIGITS = 12
 """A rate that fits alone, such as 1000/7 Hz, is not rounded."""
+
+SOON, FINER = 8, 10**6
+"""Intervals that repeat after so few measurements are looked at one by one, others as if after so many times as much."""
 
 
 class Pieces(NamedTuple):
@@ -88,6 +94,9 @@ class Pieces(NamedTuple):
         L = self.landing(rate) - wait
         return N, M, L if self.law.several else min(latest, L)
 
+    def instants(self, rate: int | Fraction) -> Instants:
+        return Instants(Fraction(rate) / self.by_N, Fraction(rate) / self.by_M if self.by_M else Fraction(0))
+
     def landing(self, rate: int | Fraction) -> int:
         """The last step that starts by the time by which corrections must land."""
         return int(rate // self.by_L) if self.by_L else 0
@@ -100,7 +109,7 @@ class Pieces(NamedTuple):
         if self.one_in_flight and not self.law.one_in_flight(N, L):
             return None
         try:
-            timing = Timing(N, M, L)
+            timing = Timing(N, M, L, self.instants(rate))
             method_of(self.costs).check_design(self.costs, timing, self.options.feedback)
         except InputError:
             return None
@@ -169,6 +178,8 @@ class Pieces(NamedTuple):
         timing = self.timing(middle) if low < middle < high else None
         if timing is None or not self.possible(middle, middle, low):
             return None
+        if comes_unevenly(self.costs, timing):
+            return self._highest_of_several(low, high, timing)
         below, above = self.hz(low), self.hz(high)
         best = 1 / least_speed(self.costs, timing, self.options).speed
         if best <= below:
@@ -186,6 +197,37 @@ class Pieces(NamedTuple):
             ),
             None,
         )
+
+    def _highest_of_several(self, low: int, high: int, timing: Timing) -> Fraction | None:
+        """The same of methods whose work hangs on the intervals of measurements too: it is another beyond each rate at
+        which so many of them are as long as it takes to arrive, or as a step more or less. Beside that, intervals that
+        repeat soon are looked at, for which there may be less."""
+        number = range(timing.M // (timing.N + 1), (timing.M + 1) // timing.N + 2)
+        changes = {Fraction(self.by_N * (timing.M + more), count) for count in number if count for more in (-1, 0, 1)}
+        for count in number:
+            if apart := Fraction(1, self.by_M) - Fraction(count, self.by_N):
+                changes |= {steps / apart for steps in (1, PRODUCT_FROM)}
+        ends: list[int | Fraction] = [low, *sorted(change for change in changes if low < change < high), high]
+        alike = (self._highest_alike(below, above) for below, above in reversed([*pairwise(ends)]))
+        found = next((rate for rate in alike if rate is not None), None)
+        soon = {
+            self.hz(1) * self.by_N * (timing.N + Fraction(part, count))
+            for count in range(2, SOON + 1)
+            for part in range(1, count)
+        }
+        alone = (rate for rate in sorted(soon, reverse=True) if low < rate * self.per_hz < high)
+        higher = next((rate for rate in alone if (found is None or rate > found) and self.fits(rate)), None)
+        return found if higher is None else rounded_down(higher, self.fits)
+
+    def _highest_alike(self, low: int | Fraction, high: int | Fraction) -> Fraction | None:
+        below, above = self.hz(1) * low, self.hz(1) * high
+        timing = self.timing(Fraction(low + high) / 2)
+        if timing is None or not comes_unevenly(self.costs, timing):
+            return None
+        if self.possible(high, high) and self.fits(above):
+            return rounded_down(above, self.fits)
+        best = min(1 / longest_job(self.costs, timing, FINER), above)
+        return rounded_down(best, lambda rate: below < rate < above and self.fits(rate)) if best > below else None
 
 
 def _paces(costs: JobCosts[int], per_cost: int, timing: Timing, options: Options) -> Iterator[Fraction]:

@@ -4,6 +4,7 @@ earliest deadline first."""
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from fractions import Fraction
 from itertools import count
 from math import ceil
@@ -78,7 +79,7 @@ def _loads_later(costs: Costs, timing: Timing, options: Options, tasks: Sequence
     if not law.several or law.only_first:
         return []
     landings = [*range(M, L, N)[:MOST_LOADS], L]
-    return sorted({max(loads(costs, Timing(N, at, L), Fraction(1), options, tasks)) for at in landings})
+    return sorted({max(loads(costs, replace(timing, M=at), Fraction(1), options, tasks)) for at in landings})
 
 
 def _is_least(run: Callable[[int, int], Steady], period: int, longest: int) -> bool:

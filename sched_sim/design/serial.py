@@ -32,8 +32,8 @@ class Serial(HrSource):
     def release(self) -> tuple[Job, ...]:
         step, start = self.step, self.next_release
         self.step, self.next_release = step + 1, start + self.period
-        since_k = step % self.N
-        if since_k == self.M % self.N and step >= self.M:
+        since_k = self.taken.since(step)
+        if step >= self.M and not self.taken.since(step - self.M):
             work, parts, then = self.update_work, self.update, self._landed
         elif 2 <= since_k < self.M:
             work, parts, then = self.accumulate_work, self.accumulate, None
@@ -46,7 +46,7 @@ class Serial(HrSource):
 
     def _landed(self, job: Job, now: int) -> tuple[Job, ...]:
         k = job.step - self.M
-        self.on_landing(k // self.N, max(step_at(now, self.period), job.step) - k)
+        self.on_landing(self.taken.before(k), max(step_at(now, self.period), job.step) - k)
         return ()
 
 
@@ -70,11 +70,11 @@ def _standard_source(
     costs: StandardCosts[int], timing: Timing, _options: Options, period: int, on_landing: OnLanding
 ) -> Serial:
     plain, update = (("P", costs.propagate),), (("U", costs.update),)
-    return Serial(plain, plain, update, replace(timing, M=0), period, on_landing)
+    return Serial(plain, plain, update, replace(timing, M=0, instants=None), period, on_landing)
 
 
 def _standard_work(costs: StandardCosts[Fraction], timing: Timing) -> CycleWork:
-    return CycleWork(timing.N * costs.propagate + costs.update)
+    return CycleWork(timing.interval * costs.propagate + costs.update)
 
 
 def _recalculate_pieces(cost: CostOf, _options: Options) -> RecalculateCosts[Fraction]:
@@ -90,7 +90,7 @@ def _recalculate_source(
 
 
 def _recalculate_work(costs: RecalculateCosts[Fraction], timing: Timing) -> CycleWork:
-    return CycleWork(timing.N * costs.propagate + costs.update + timing.M * costs.replay)
+    return CycleWork(timing.interval * costs.propagate + costs.update + timing.M * costs.replay)
 
 
 def _larsen_pieces(cost: CostOf, _options: Options) -> LarsenCosts[Fraction]:
@@ -113,7 +113,7 @@ def _larsen_work(costs: LarsenCosts[Fraction], timing: Timing) -> CycleWork:
     if timing.M > timing.N and isinstance(costs, LarsenInFlightCosts):
         return larsen_in_flight.work(costs, timing)
     products = max(timing.M - 1, 0)
-    return CycleWork((timing.N - products) * costs.propagate + products * costs.accumulate + costs.update)
+    return CycleWork((timing.interval - products) * costs.propagate + products * costs.accumulate + costs.update)
 
 
 STANDARD = Method(_standard_pieces, _standard_source, _standard_work, law_with_several)

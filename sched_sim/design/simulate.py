@@ -54,7 +54,7 @@ def simulate(
     """
     tasks = checked(timing, options, tasks)
     speed, cycles = positive(speed, "speed"), at_least_one(cycles, "cycles")
-    check_simulation(cycles * timing.N, tasks, f"{short(cycles)} cycles of N={timing.N}")
+    check_simulation(timing.taken.step(cycles), tasks, f"{short(cycles)} cycles of N={timing.N}")
     tasks = at_worst_phase(costs, timing, speed, options, tasks)
     achieved: Counter[int] = Counter()
 
@@ -93,7 +93,7 @@ def simulated_steps(costs: Costs, timing: Timing, cycles: int, options: Options)
     lands = timing.L + law.before
     if law.only_first:
         lands = timing.M + 1 if method.lands_in_step_m else 0
-    return cycles * timing.N + max(lands - timing.N, 0)
+    return max(timing.taken.step(cycles), timing.taken.step(cycles - 1) + lands)
 
 
 def at_worst_phase(

@@ -82,7 +82,7 @@ def run_until_steady(
 
 def hyperperiod_steps(timing: Timing, tasks: Sequence[Task]) -> int:
     """HR periods after which measurements and tasks are released together again as they were."""
-    return common_period(timing.N, [task.period for task in tasks])
+    return common_period(timing.taken.steps, [task.period for task in tasks])
 
 
 def longest_run(timing: Timing, tasks: Sequence[Task]) -> int:

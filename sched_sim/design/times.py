@@ -27,6 +27,13 @@ class Steps(NamedTuple):
     L: int | None
 
 
+class Instants(NamedTuple):
+    """When measurements are taken, and how much later they arrive, in HR steps that need not be whole."""
+
+    every: Fraction
+    delay: Fraction
+
+
 @dataclass(frozen=True, slots=True)
 class Times:
     """What holds at any rate of the HR loop; each None if it was not said.
@@ -82,6 +89,12 @@ class Times:
                     f"{short(steps)} HR steps: give values that make at most {MOST_STEPS:,}"
                 )
         return Steps(N, M, L)
+
+    def instants(self, hr_hz: Fraction) -> Instants | None:
+        """At this rate; None if measurements are whole steps apart, or it was not said how far."""
+        if self.measurement_hz is None or (every := hr_hz / self.measurement_hz).denominator == 1:
+            return None
+        return Instants(every, (self.delay_ms or Fraction(0)) * hr_hz / 1000)
 
     def wait(self, hr_hz: Fraction) -> Fraction:
         """The longest time, in HR steps, from when a measurement is taken to the start of its step k: where two of them

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from fractions import Fraction
+from math import floor
 from typing import Literal
 
 from sched_sim.bounds import whole
+from sched_sim.design.taken import Taken
 from sched_sim.design.time_limits import check_times
-from sched_sim.design.times import Steps, Times
+from sched_sim.design.times import Instants, Steps, Times
 from sched_sim.errors import InputError, option
 from sched_sim.ticks import Number, positive
 
@@ -23,11 +26,16 @@ class Timing:
     L: feedback step; the correction must reach the state by l = k + L, M <= L.
 
     Where M or L is more than N, several are on their way at once; not every method can have that (`Law.several`).
+
+    instants: where measurements are not whole steps apart, N is the shorter of the intervals, others are N + 1. That
+    is the worst, and all intervals count as N, but where several are on their way, or N is 1: there they come as
+    they do, k the first step at or after each instant, and m = k + M. None where it does not matter.
     """
 
     N: int
     M: int
     L: int
+    instants: Instants | None = None
 
     @classmethod
     def at(
@@ -45,7 +53,7 @@ class Timing:
         assert N is not None
         assert M is not None
         check_times(times, Steps(N, M, L), rate, before=None)
-        return cls(N, M, latest(N, M) if L is None else L)
+        return cls(N, M, latest(N, M) if L is None else L, times.instants(rate))
 
     def __post_init__(self) -> None:
         for name in ("N", "M", "L"):
@@ -60,6 +68,22 @@ class Timing:
                 f"give L from {self.M} on, or from {self.M + 1} where it takes a step more (dual-rate with "
                 f"next-step feedback)"
             )
+        if self.instants is None:
+            return
+        if floor(self.instants.every) != self.N:
+            raise InputError(f"instants {self.instants} and N={self.N} do not agree: N is the shorter interval")
+        if self.instants.every.denominator == 1 or (max(self.M, self.L) <= self.N and self.N > 1):
+            object.__setattr__(self, "instants", None)
+
+    @property
+    def interval(self) -> int | Fraction:
+        """HR steps from one measurement to the next, on average."""
+        return self.N if self.instants is None else self.instants.every
+
+    @property
+    def taken(self) -> Taken:
+        """In which steps."""
+        return Taken.each(self.interval)
 
 
 def latest(N: int, M: int) -> int:

@@ -31,7 +31,7 @@ class TwoRate(HrSource):
         period: int,
         on_landing: OnLanding,
     ) -> None:
-        undelayed = replace(timing, M=0)
+        undelayed = replace(timing, M=0, instants=None)
         check(undelayed)
         super().__init__(undelayed, period, on_landing)
         self.high: Parts = (high,)
@@ -95,7 +95,7 @@ def _multirate_source(
 
 
 def _multirate_work(costs: MultirateCosts[Fraction], timing: Timing) -> CycleWork:
-    return CycleWork(timing.N * costs.state_update, costs.covariance_gain)
+    return CycleWork(timing.interval * costs.state_update, costs.covariance_gain)
 
 
 def _robust_pieces(cost: CostOf, _options: Options) -> RobustCosts[Fraction]:
@@ -110,7 +110,7 @@ def _robust_source(
 
 
 def _robust_work(costs: RobustCosts[Fraction], timing: Timing) -> CycleWork:
-    return CycleWork(timing.N * costs.inertial, costs.robust_step)
+    return CycleWork(timing.interval * costs.inertial, costs.robust_step)
 
 
 MULTIRATE = Method(_multirate_pieces, _multirate_source, _multirate_work, law, check)

@@ -16,7 +16,7 @@ from sched_sim.design.landing import landing
 from sched_sim.design.methods import METHODS, select
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import Costs
-from sched_sim.design.times import Times
+from sched_sim.design.times import Instants, Times
 from sched_sim.design.timing import Timing
 from sched_sim.errors import InputError
 from sched_sim.processors.part import on_part
@@ -39,7 +39,9 @@ def test_what_divides_is_exact() -> None:
 
 def test_several_may_be_on_their_way() -> None:
     assert Timing.at(400, 5, 300) == Timing(80, 120, 160)
-    assert Timing.at(400, 30, "33.3") == Timing(13, 14, 26)
+    instants = Instants(Fraction(40, 3), Fraction("13.32"))
+    assert Timing.at(400, 30, "33.3") == Timing(13, 14, 26, instants)
+    assert Timing.at(400, 30, 20) == Timing(13, 8, 13, instants) == Timing(13, 8, 13)
     assert Timing.at(400, 5, 110, 300) == Timing(80, 44, 120)
 
 
