@@ -33,11 +33,25 @@ class Design(NamedTuple):
         delay = "none" if self.M is None else self.M
         return f"N={self.N} M={delay} L={'latest' if self.L is None else self.L}"
 
-    def timing(self, method: str, options: Options, *, asked: bool = True) -> Timing:
+    def why_none(self, method: str, options: Options) -> str | None:
+        """Why this delay leaves the method no L, in the units in which it was given; None if one is left, or if there
+        is no such delay."""
+        from sched_sim.design.methods import METHODS
+
+        law = METHODS[method].law(options.feedback)
+        if law.undelayed or self.M is None or self.M < 0 or self.N < 1:
+            return None
+        hz, delay_ms = self.said.measurement_hz, self.said.delay_ms
+        if hz is None and delay_ms is None:
+            return law.why_none(self.N, self.M)
+        every = f"N={self.N}" if hz is None else f"--measurement-hz {float(hz):g}"
+        delay = f"M={self.M}" if delay_ms is None else f"--delay-ms {float(delay_ms):g}"
+        return law.why_none(self.N, self.M, f"{delay} and {every}")
+
+    def timing(self, method: str, options: Options) -> Timing:
         """With the latest L that the method can have, if none was said. Raises InputError for a delay or a landing that
-        it cannot have; for M = N, where it needs a step more, only if it was asked for. Some methods can have several
-        measurements on their way, so that M and L may be more than N. Of the standard filter, to which nothing is late,
-        M and L are 0."""
+        it cannot have. Some methods can have several measurements on their way, so that M and L may be more than N. Of
+        the standard filter, to which nothing is late, M and L are 0."""
         from sched_sim.design.methods import METHODS
         from sched_sim.design.time_limits import check_times
         from sched_sim.design.timing import Timing
@@ -46,14 +60,12 @@ class Design(NamedTuple):
         delay = None if self.said.delay_ms is None else f"--delay-ms {float(self.said.delay_ms):g}"
         M = 0 if law.undelayed else self.M
         if self.rate is not None and M is not None and not (law.undelayed and self.M):
-            skipped = not asked and M <= self.N and law.why_none(self.N, M)
-            needs = (0, 0) if skipped else (law.after, None if law.several else law.before)
-            check_times(self.said, Steps(self.N, M, self.L), self.rate, *needs)
+            before = None if law.several else law.before
+            check_times(self.said, Steps(self.N, M, self.L), self.rate, law.after, before)
         if self.L is not None and M is not None and self.L < M:
-            first = M + (law.after if asked else 1)
             raise InputError(
                 f"L={self.L} is less than M={M}: the correction cannot land before the measurement arrives; give L "
-                f"from {first} on"
+                f"from {M + law.after} on"
             )
         timing = opt.make_timing(self.N, self.M, self.L, method, options, delay)
         if method == "standard":

@@ -12,8 +12,8 @@ from sched_sim.cli.chart_options import From, Until, Width, stretch, width_mm
 from sched_sim.cli.design_flags import with_options
 from sched_sim.cli.output import lines, say
 from sched_sim.cli.outputs import refuse_one_file_for_two
+from sched_sim.cli.refused import Refused
 from sched_sim.design.options import Options
-from sched_sim.errors import InputError
 
 if TYPE_CHECKING:
     from sched_sim.costs.table import CostTable
@@ -64,7 +64,7 @@ def gantt(
     from sched_sim.cli.measured_note import say_of_statistic
     from sched_sim.cli.simulate import released_together
     from sched_sim.design.least_speed import least_speed
-    from sched_sim.design.methods import METHODS, select
+    from sched_sim.design.methods import select
 
     check_picture(output, "--output")
     across = width_mm(width)
@@ -76,25 +76,23 @@ def gantt(
     design = make_design(N, M, L, rate, measurement_hz, delay_ms, land_within_ms)
     say_of_statistic(statistic, [table])
     panels, methods = [], opt.wanted_methods(method or _usual(table), table)
+    refused = Refused(methods)
     for name in methods:
-        timing = design.timing(name, options)
-        work = select(table, name, options, statistic)
-        if len(methods) > 1 and not method and (reason := METHODS[name].lacking(work, timing)):
-            say(f"Note: no {name}: {reason}")
-            continue
-        pace = opt.pace(speed, rate, part, partial(least_speed, work, timing, options, others))
-        if together := released_together(work, timing, pace, options, others):
-            say(f"Note: {name}: {together}")
-        panels.append(method_panel(table, name, timing, pace, cycles, options, others, statistic=statistic))
-    if not panels:
-        raise InputError(
-            f"no method of {table.name} can have {design.shown}: choose one with --method, or other --costs"
-        )
+        with refused.noting(name, design.why_none(name, options)):
+            timing = design.timing(name, options)
+            work = select(table, name, options, statistic)
+            pace = opt.pace(speed, rate, part, partial(least_speed, work, timing, options, others))
+            together = released_together(work, timing, pace, options, others)
+            panels.append(method_panel(table, name, timing, pace, cycles, options, others, statistic=statistic))
+            if together:
+                say(f"Note: {name}: {together}")
+    refused.say()
     if first is not None or until is not None:
         start, end = stretch(first, until, rate, min(panel.end for panel in panels))
         panels = [zoomed(panel, start, end) for panel in panels]
     save(draw(panels, width_mm=across, hr_hz=rate), output, "--output")
-    for words in lines(design.words, caveat_note(methods)).splitlines():
+    left = [name for name in methods if name not in refused.notes]
+    for words in lines(design.words, caveat_note(left)).splitlines():
         say(words)
     say(f"Wrote {output}")
 

@@ -8,11 +8,11 @@ from typing import Any
 
 from sched_sim.cli import options as opt
 from sched_sim.cli.design_flags import with_options
-from sched_sim.cli.output import lines, print_csv, print_json, print_table, say, units
+from sched_sim.cli.output import lines, print_csv, print_json, print_table, units
 from sched_sim.cli.progress import simulations
+from sched_sim.cli.refused import Refused
 from sched_sim.costs.table import SECONDS
 from sched_sim.design.options import Options
-from sched_sim.errors import InputError
 
 LARGEST_DENOMINATOR = 10_000
 """A fraction with a larger one (of measured costs) tells a person nothing; --format json has it."""
@@ -51,7 +51,7 @@ def minimum(
     from sched_sim.design.fit import fit
     from sched_sim.design.landing import landing
     from sched_sim.design.least_speed import least_speed
-    from sched_sim.design.methods import METHODS, select
+    from sched_sim.design.methods import select
     from sched_sim.design.pieces import converted
 
     part = opt.make_processor(processor)
@@ -64,18 +64,13 @@ def minimum(
     def in_seconds(cost: Fraction) -> Fraction:
         return second * cost
 
-    rows: list[dict[str, Any]] = []
-    shown: list[dict[str, Any]] = []
     names = opt.wanted_methods(method, table)
-    for name in names:
-        timing = design.timing(name, options, asked=bool(method))
-        if not method and (reason := METHODS[name].law(options.feedback).why_none(timing.N, timing.M)):
-            say(f"Note: no {name}: {reason}")
-            continue
+    refused = Refused(names)
+
+    def found(name: str) -> tuple[dict[str, Any], dict[str, Any]]:
+        """For scripts, and for people."""
+        timing = design.timing(name, options)
         work = select(table, name, options, statistic)
-        if len(names) > 1 and not method and (reason := METHODS[name].lacking(work, timing)):
-            say(f"Note: no {name}: {reason}")
-            continue
         person: dict[str, Any] = {"method": "standard (no delay)" if name == "standard" else name}
         unit_and_form = {"cost_unit": "second" if timed else table.unit} | update_form(table, name)
         with simulations(name) as on_progress:
@@ -110,12 +105,15 @@ def minimum(
                         f"{units(table.unit)} per s": f"{row['work_per_second']:.4g}",
                     }
         scale = second if timed else Fraction(1)
-        rows.append(row | measured_row(table, name, timing, options, others, scale))
-        shown.append(person)
-    if not rows:
-        raise InputError(
-            f"no method of {table.name} can have {design.shown}: choose one with --method, or other --costs"
-        )
+        return row | measured_row(table, name, timing, options, others, scale), person
+
+    rows, shown = [], []
+    for name in names:
+        with refused.noting(name, design.why_none(name, options)):
+            row, person = found(name)
+            rows.append(row)
+            shown.append(person)
+    refused.say()
     say_of_statistic(statistic, [table])
     timings = {row["method"]: design.timing(row["method"], options) for row in rows}
     note = lines(

@@ -12,6 +12,7 @@ from sched_sim.cli import options as opt
 from sched_sim.cli.design_flags import with_options
 from sched_sim.cli.output import lines, print_csv, print_json, print_table
 from sched_sim.cli.parts import MEANING, TASKS_ON_PARTS, highest_note
+from sched_sim.cli.refused import Refused
 from sched_sim.costs.methods import METHODS
 from sched_sim.costs.table import COUNTED
 from sched_sim.design.options import Options
@@ -19,6 +20,7 @@ from sched_sim.design.options import Options
 if TYPE_CHECKING:
     from fractions import Fraction
 
+    from sched_sim.costs.table import CostTable
     from sched_sim.design.fit import Fit
     from sched_sim.design.pieces import Statistic
     from sched_sim.design.times import Times
@@ -116,11 +118,15 @@ def processors(
         rate = positive(hr_hz, "--hr-hz")
         design = make_design(N, M, L, rate, measurement_hz, delay_ms, land_within_ms)
         methods = opt.known_methods(method or ["dual-rate"])
-        timings = {name: design.timing(name, options) for name in methods}
+        refused, timings = Refused(methods), {}
+        for name in methods:
+            with refused.noting(name, design.why_none(name, options)):
+                timings[name] = design.timing(name, options)
         others = opt.make_tasks(tasks, "second", rate)
         assert design.times is not None
-        rows, shown, remarks = _verdicts(parts, timings, costs, statistic, rate, options, others, design.times)
-        title = f"{', '.join(methods)}, HR loop at {hr_hz} Hz, {design.shown} (operations: {costs or COUNTED})"
+        rows, shown, remarks = _verdicts(parts, timings, costs, statistic, rate, options, others, design.times, refused)
+        named = ", ".join(name for name in methods if name not in refused.notes)
+        title = f"{named}, HR loop at {hr_hz} Hz, {design.shown} (operations: {costs or COUNTED})"
         same = TASKS_ON_PARTS if others and len(parts) > 1 else ""
         note = lines(MEANING, highest_note(others), same, design.words, *remarks)
     if format == "json":
@@ -201,9 +207,10 @@ def _verdicts(
     options: Options,
     tasks: Sequence[Task],
     times: Times,
+    refused: Refused,
 ) -> tuple[list[dict[str, Any]], list[dict[str, Any]], list[str]]:
-    """A row for each processor and method; the same in words, in the order of `_by_slack`; and remarks: which
-    covariance update the operations are of, the ground, and why some processors cannot be told of."""
+    """A row for each processor and method that is not refused; the same in words, in the order of `_by_slack`; and
+    remarks: which covariance update the operations are of, the ground, and why some processors cannot be told of."""
     from sched_sim.cli.caveats import caveat_note, with_caveats
     from sched_sim.cli.measured_note import measured_row, say_of_statistic
     from sched_sim.cli.no_time import no_time_note
@@ -222,22 +229,30 @@ def _verdicts(
     counts = load_costs(COUNTED if costs is None else costs)
     tables = [on_part(counts, part) for part in parts]
     say_of_statistic(statistic, tables)
+
+    def verdict_of(part: Part, table: CostTable, method: str, timing: Timing) -> tuple[Fit | None, str | None]:
+        """And why there is none."""
+        try:
+            work = select(table, method, options, statistic)
+        except InputError as error:
+            if method not in table.lacking:
+                raise
+            missing = [operation for job in counts.operations[method].values() for operation in without_time(job, part)]
+            lacking[part.name] = list(dict.fromkeys([*lacking.get(part.name, ()), *missing]))
+            return None, str(error)
+        with simulations(f"{method} on {part.name}") as on_progress:
+            return fit(work, timing, rate, options, tasks, on_progress, times=times), None
+
+    found: dict[tuple[str, str], tuple[Fit | None, str | None]] = {}
+    for method, timing in timings.items():
+        with refused.noting(method):
+            for part, table in zip(parts, tables, strict=True):
+                found[part.name, method] = verdict_of(part, table, method, timing)
+    refused.say()
+    timings = {method: timing for method, timing in timings.items() if method not in refused.notes}
     for part, table in zip(parts, tables, strict=True):
         for method, timing in timings.items():
-            verdict, reason = None, None
-            try:
-                work = select(table, method, options, statistic)
-            except InputError as error:
-                if method not in table.lacking:
-                    raise
-                reason = str(error)
-                missing = [
-                    operation for job in counts.operations[method].values() for operation in without_time(job, part)
-                ]
-                lacking[part.name] = list(dict.fromkeys([*lacking.get(part.name, ()), *missing]))
-            else:
-                with simulations(f"{method} on {part.name}") as on_progress:
-                    verdict = fit(work, timing, rate, options, tasks, on_progress, times=times)
+            verdict, reason = found[part.name, method]
             verdicts.append(verdict)
             least = None if verdict is None else verdict.least
             row = (
@@ -246,7 +261,7 @@ def _verdicts(
                 | fit_row(part, rate, times, verdict, bool(tasks))
             )
             rows.append(row | measured_row(table, method, timing, options, tasks) | {"reason": reason})
-            name = {"method": method} if len(timings) > 1 else {}
+            name = {"method": method} if len(refused.methods) > 1 else {}
             about = {"processor": part.name, "precision": part.precision, **name}
             words = fit_words(part, rate, times, verdict, bool(tasks))
             shown.append(about | words | {"fixed by": fixed_by(row["binding"])})

@@ -82,15 +82,18 @@ class Law(NamedTuple):
         """Whether a correction has landed before the next measurement is taken, or costs nothing until it does."""
         return self.only_first or N - self.before >= L
 
-    def why_none(self, N: int, M: int) -> str | None:
-        """Why no L is left, although other methods have one; None if one is."""
+    def why_none(self, N: int, M: int, said: str = "") -> str | None:
+        """Why no L is left, although other methods have one; None if one is.
+
+        said: N and M as the user gave them, if not in steps.
+        """
         if self.several or M + self.after <= N - self.before:
             return None
         if M > N:
-            return (
-                f"it waits for one measurement at a time, and with M={M} and N={N} others are taken before one arrives"
-            )
-        return f"with M=N={N} no step is left to it between the measurement's arrival and the next one"
+            given = said or f"M={M} and N={N}"
+            return f"it waits for one measurement at a time, and with {given} others are taken before one arrives"
+        given = said or f"M=N={N}"
+        return f"with {given} no step is left to it between the measurement's arrival and the next one"
 
 
 class CycleWork(NamedTuple):

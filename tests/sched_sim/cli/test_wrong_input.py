@@ -18,7 +18,7 @@ def test_a_value_that_is_close_to_a_choice_is_said_with_it(sched_sim: Run) -> No
 @pytest.mark.parametrize(
     ("line", "said"),
     [
-        ("minimum -N 10 -M 4 -L 4", ["L=4", "M=4", "give L from 5 on"]),
+        ("minimum -N 10 -M 4 -L 4 --method dual-rate", ["L=4", "M=4", "give L from 5 on"]),
         ("minimum -N 10 -M 4 -L 3", ["L=3", "M=4", "give L from 5"]),
         ("minimum -N 10 -M 11 --method larsen", ["[costs.larsen] gain, correct, compensate", "counted-9-3-3"]),
         ("minimum -N 0 -M 0", ["N=0", "at least 1"]),
@@ -28,7 +28,7 @@ def test_a_value_that_is_close_to_a_choice_is_said_with_it(sched_sim: Run) -> No
         ("minimum -N 10 -M 4 --costs nowhere.toml", ["nowhere.toml", "steffes2014"]),
         ("minimum -N 10 -M 4 --costs bad.toml", ["bad.toml", "costs.larsen.update", "-1"]),
         ("minimum -N 10 -M 4 --costs short.toml", ["short.toml", "[costs.larsen] propagate_accumulate", "measure"]),
-        ("minimum -N 10 -M 4 --gain precomputed", ["steffes2014", "lr_gain", "measure"]),
+        ("minimum -N 10 -M 4 --gain precomputed --method dual-rate", ["steffes2014", "lr_gain", "measure"]),
         ("minimum -N 10 -M 4 --context-switch -1", ["--context-switch is -1: it must be 0 or more cost units"]),
         ("minimum -N 10 -M 4 --context-switch 5us", ["--context-switch is '5us': give it in units of the cost table"]),
         ("minimum -N 10 -M 4 --hr-hz 400Hz", ["--hr-hz is '400Hz': give it in Hz, without the unit: 400\n"]),
