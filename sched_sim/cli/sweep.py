@@ -184,6 +184,8 @@ def sweep(
     wanted = settings(flags, grid)
     asked = wanted.sweep()
     say_of_statistic(asked.grid.statistic, asked.grid.tables)
+    for refused, reason in asked.grid.refused.items():
+        say(f"Note: no {refused}: {reason}")
     if asked.grid.accuracy is not None:
         _say_of_sizes(asked.grid.accuracy.linear.states, asked.grid.tables)
         _say_of_no_accuracy(asked.grid.accuracy, asked.grid.methods)
@@ -283,6 +285,7 @@ def _report(asked: Sweep, store: Store, outcome: Outcome, exports: Sequence[Path
     from studies.sweep.summary import best, by_method
 
     tables = asked.grid.tables
+    left = [method for method in asked.grid.methods if method not in asked.grid.refused]
     designs, methods = best(store), by_method(store)
     if format != "table":
         busy = {table.name: busy_row(table.provenance) for table in tables}
@@ -307,7 +310,7 @@ def _report(asked: Sweep, store: Store, outcome: Outcome, exports: Sequence[Path
     left_out = f", {asked.grid.left_out} combinations left out as not legal" if asked.grid.left_out else ""
     before = f" ({outcome.before} of them were there before)" if outcome.before else ""
     several, in_seconds = len(tables) > 1, all(table.unit == "second" for table in tables)
-    notes = {lines(form_note(table, asked.grid.methods), busy_note(table.provenance)): table.name for table in tables}
+    notes = {lines(form_note(table, left), busy_note(table.provenance)): table.name for table in tables}
     accuracy = asked.grid.accuracy is not None and not exports
     forms = [note if len(notes) == 1 else f"{name}: {note}" for note, name in notes.items() if note]
     print_table(
@@ -321,7 +324,7 @@ def _report(asked: Sweep, store: Store, outcome: Outcome, exports: Sequence[Path
             "All rows: " + ", ".join(str(file) for file in (store.path, *exports)),
             "worst_std and rms_std of each design are in these rows; --export FILE.csv writes them" if accuracy else "",
             TASKS_ON_PARTS if asked.grid.tasks and len({table.processor for table in tables}) > 1 else "",
-            caveat_note(asked.grid.methods),
+            caveat_note(left),
             *forms,
         ),
     )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
@@ -10,14 +10,14 @@ from itertools import accumulate, product
 from typing import TYPE_CHECKING
 
 from sched_sim.costs.table import CostTable
-from sched_sim.design.least_speed import has_closed_form
+from sched_sim.design.least_speed import has_closed_form, least_speed
 from sched_sim.design.method import Law
 from sched_sim.design.methods import METHODS, select
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import Costs, Statistic
 from sched_sim.design.timing import Timing
 from sched_sim.errors import InputError, option
-from sched_sim.schedule.tasks import Task, check_cpus
+from sched_sim.schedule.tasks import Task, check_cpus, phases_matter
 from studies.sweep.legal import Designs, Legal
 
 if TYPE_CHECKING:
@@ -178,8 +178,8 @@ class Grid:
     @cached_property
     def _legal(self) -> tuple[Legal, ...]:
         """By block; blocks under one law share theirs."""
-        laws = [_law(block) for block in self.blocks]
-        of_law = {law: Legal(law, self.N, self.M, self.L) for law in set(laws)}
+        laws = [(_law(block), _is_simulated(block)) for block in self.blocks]
+        of_law = {law: Legal(law[0], self.N, self.M, self.L, simulated=law[1]) for law in set(laws)}
         return tuple(of_law[law] for law in laws)
 
     @cached_property
@@ -199,6 +199,27 @@ class Grid:
     def left_out(self) -> int:
         """How many combinations of the given values are not legal. A value that stands for all legal ones is none."""
         return sum(legal.left_out for legal in self._legal) * self._points_per_design
+
+    @cached_property
+    def refused(self) -> Mapping[str, str]:
+        """By the method of which no point is legal, why not, of its first one."""
+        left = {block.method for block, legal in zip(self.blocks, self._legal, strict=True) if legal.size}
+        first = {block.method: block for block in reversed(self.blocks)}
+        return {method: self._why_none(first[method]) for method in self.methods if method not in left}
+
+    def _why_none(self, block: Block) -> str:
+        law = METHODS[block.method].law(block.options.feedback)
+        N, M = self.N[0], 0 if self.M is None else self.M[0]
+        if law.undelayed:
+            return f"it has no delay: give {option('M')} 0, or leave it out, and 1 <= L <= N"
+        if reason := law.why_none(N, M):
+            return reason
+        try:
+            timing = Timing(N, M, law.latest(N, M) if self.L is None else self.L[0])
+            least_speed(block.costs, timing, block.options, block.tasks)
+        except InputError as error:
+            return str(error)
+        return "no point of it is legal"
 
     def chunk(self, start: int, stop: int) -> Chunk:
         """The points start .. stop-1, which must lie in one block (see `spans`)."""
@@ -229,8 +250,19 @@ def _lacking(block: Block) -> str | None:
 
 
 def _law(block: Block) -> Law:
+    """Of the dual-rate filter by deadlines, beside tasks of any phase, where several corrections are on their way their
+    worst is not known."""
     law = METHODS[block.method].law(block.options.feedback)
-    return law._replace(several=False) if _lacking(block) else law
+    by_deadlines = not law.only_first and block.options.policy == "edf" and phases_matter(block.tasks)
+    return law._replace(several=False) if by_deadlines or _lacking(block) else law
+
+
+def _is_simulated(block: Block) -> bool:
+    """Whether the least speed of a design of it, with several on their way at once, is found by simulation."""
+    law = METHODS[block.method].law(block.options.feedback)
+    if phases_matter(block.tasks):
+        return False
+    return law.several and not (law.only_first and block.has_closed_form)
 
 
 def _extent(values: tuple[int, ...] | None) -> str:

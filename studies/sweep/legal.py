@@ -9,7 +9,9 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
+from sched_sim.bounds import MOST_IN_FLIGHT
 from sched_sim.design.method import Law
+from sched_sim.design.steady import LONGEST
 from sched_sim.errors import InputError, option
 
 Ints: TypeAlias = npt.NDArray[Any]
@@ -50,12 +52,21 @@ class Legal:
     The axes are sorted; None instead of M or L stands for every legal value, with several measurements on their way at
     once for every M with which there need not be, and for every L up to `Law.latest`.
     size: how many there are. left_out: how many combinations of the given values have none.
+    simulated: M and L are no more than is simulated to find the least speed.
     Raises InputError for what has too many.
     """
 
-    def __init__(self, law: Law, N: Sequence[int], M: Sequence[int] | None, L: Sequence[int] | None) -> None:
+    def __init__(
+        self,
+        law: Law,
+        N: Sequence[int],
+        M: Sequence[int] | None,
+        L: Sequence[int] | None,
+        simulated: bool = False,
+    ) -> None:
         _check_size(N, M, L)
         self.law = law
+        self.simulated = simulated
         self.N = np.array(N, dtype=np.int64)
         wanted_M = _undelayed(M) if law.undelayed else M
         self.M = None if wanted_M is None else np.array(wanted_M, dtype=np.int64)
@@ -113,7 +124,19 @@ class Legal:
             N_of_pair = np.repeat(N, per_n)
             latest = (M // N_of_pair + 1) * N_of_pair if several else N_of_pair
             count = latest - before - first + 1
-        return _Pairs(np.repeat(N, per_n), M, first, count, per_n)
+        pairs = _Pairs(np.repeat(N, per_n), M, first, count, per_n)
+        return self._within(pairs) if self.simulated else pairs
+
+    def _within(self, pairs: _Pairs) -> _Pairs:
+        """Those whose M and L are no more than is simulated."""
+        most = longest_flight(pairs.N)
+        up_to = most + 1 if self.L is None else np.searchsorted(self.L, most, "right")
+        choices = np.where(most < pairs.M, 0, np.minimum(pairs.choices, up_to - pairs.first))
+        kept = choices > 0
+        ends = np.concatenate([[0], np.cumsum(kept)])
+        last = np.cumsum(pairs.per_n)
+        per_n = ends[last] - ends[last - pairs.per_n]
+        return _Pairs(pairs.N[kept], pairs.M[kept], pairs.first[kept], choices[kept], per_n)
 
     def _kept(self, pairs: _Pairs, N: Ints) -> int:
         """How many combinations of the given values have a legal design."""
@@ -123,8 +146,15 @@ class Legal:
             return int(np.count_nonzero(pairs.per_n))
         below = np.searchsorted(self.L, N - self.law.before, "right")
         if self.law.several:
-            below = np.where(pairs.per_n > 0, self.L.size, 0)
+            most = np.searchsorted(self.L, longest_flight(N), "right") if self.simulated else self.L.size
+            below = np.where(pairs.per_n > 0, most, 0)
         return int(np.maximum(below - np.searchsorted(self.L, self.law.after, "left"), 0).sum())
+
+
+def longest_flight(N: Ints) -> Ints:
+    """The largest M and L of which the least speed is found by simulation (`steady.longest_run`)."""
+    most: Ints = np.minimum(np.maximum(LONGEST, N), MOST_IN_FLIGHT * N)
+    return most
 
 
 def _check_size(N: Sequence[int], M: Sequence[int] | None, L: Sequence[int] | None) -> None:

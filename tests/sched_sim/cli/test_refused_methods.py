@@ -91,3 +91,24 @@ def test_what_is_wrong_for_all_is_said_once(sched_sim: Run) -> None:
     result = sched_sim("minimum -N 10")
     is_refused(result, ["-M is missing"])
     assert result.err.count("-M is missing") == 1
+
+
+def test_a_sweep_names_the_methods_of_which_no_point_is_legal_and_speaks_of_the_others_alone(sched_sim: Run) -> None:
+    result = sched_sim(f"sweep -N 10 -M 5,10,11,31 -L 32 {COUNTED}")
+    assert "Note: no fuse-as-fresh: L=32 must be <= N=10" in result.err
+    assert "px4-predictor" not in result.out
+    assert "fuse-as-fresh" not in result.out
+
+
+@pytest.mark.parametrize(
+    ("design", "reason"),
+    [
+        ("-N 10 -M 100000", "L=100010 with N=10 is more than is simulated"),
+        ("-N 5 -M 12 --tasks tasks.toml --policy edf", "--policy edf with L=15 and N=5"),
+    ],
+)
+def test_a_sweep_leaves_out_what_has_no_answer(sched_sim: Run, tmp_path: Path, design: str, reason: str) -> None:
+    (tmp_path / "tasks.toml").write_text(ANY_PHASE)
+    result = sched_sim(f"sweep {design} --method clone,dual-rate {COUNTED} --format json")
+    assert [row["method"] for row in json.loads(result.out)["methods"]] == ["clone"]
+    assert f"Note: no dual-rate: {reason}" in result.err
