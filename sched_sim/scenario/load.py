@@ -120,7 +120,8 @@ def _predict(scenario: Scenario) -> float:
     if carries is None:
         return _mixed(scenario, "predict")
     work = _mean(scenario, "predict")
-    for sensor, number in zip(scenario.sensors, numbers_in_flight(scenario.sensors), strict=True):
+    flying = numbers_in_flight(scenario.sensors, predictor=_lands_first_below(scenario))
+    for sensor, number in zip(scenario.sensors, flying, strict=True):
         if sensor.delayed:
             late = sensor.dropout + (1 - sensor.dropout) * (1 - _share_at_once(sensor))
             work += number * _mean(scenario, carries.of(sensor.name))
@@ -131,9 +132,15 @@ def _predict(scenario: Scenario) -> float:
 def _with_those_in_flight(scenario: Scenario, sensor: Sensor, *, at_once: bool) -> float:
     """A correction of the state, or of the covariance alone, and its part with each that is in flight."""
     assert scenario.carries is not None
-    number = sum(numbers_in_flight(scenario.sensors, sensor, at_once=at_once))
+    first = _lands_first_below(scenario)
+    number = sum(numbers_in_flight(scenario.sensors, sensor, at_once=at_once, predictor=first))
     beside = _mean(scenario, f"{scenario.carries.beside}.{sensor.name}")
     return _mean(scenario, f"correct.{sensor.name}") + number * beside
+
+
+def _lands_first_below(scenario: Scenario) -> int | None:
+    """The priority below which corrections land before the predict job of their step begins; None where none do."""
+    return scenario.priority if scenario.cpus == 1 else None
 
 
 def _share_at_once(sensor: Sensor) -> float:

@@ -145,12 +145,19 @@ def share_at_once(sensor: Sensor) -> float:
     return float(np.mean([part.at[0] for part in parts])) / (1 - sensor.dropout)
 
 
-def numbers_in_flight(sensors: Sequence[Sensor], sensor: Sensor | None = None, *, at_once: bool = False) -> list[float]:
+def numbers_in_flight(
+    sensors: Sequence[Sensor],
+    sensor: Sensor | None = None,
+    *,
+    at_once: bool = False,
+    predictor: int | None = None,
+) -> list[float]:
     """How many late measurements of each sensor are in flight at the start of a step, on average, if every correction
     lands in the step in which it arrives; a lost one is as long as its sensor's longest delay.
 
     sensor: of the steps in which it takes a measurement, where those count that the sensors before it take in the step.
     at_once: when its correction of such a step is made; then those of all sensors do, and none that has landed before.
+    predictor: its priority, where corrections that are more urgent land before its job begins; else None.
     """
     parts = _arrivals(sensors)
     late = [arrivals for arrivals in parts if arrivals.sensor.delayed]
@@ -165,6 +172,8 @@ def numbers_in_flight(sensors: Sequence[Sensor], sensor: Sensor | None = None, *
         lost = arrivals.sensor.dropout * (lags < longest if at_once else lags <= longest)
         there = 1 - arrivals.sensor.dropout - arrivals.before + lost
         if sensor is not None and at_once and arrivals.priority <= sensor.priority:
+            there -= arrivals.at
+        if not at_once and predictor is not None and arrivals.priority < predictor:
             there -= arrivals.at
         taken_now = sensor is not None and (at_once or arrivals.owner < sensors.index(sensor))
         taken_now = taken_now and arrivals.sensor is not sensor

@@ -33,14 +33,15 @@ in a later step catches up as above.
 
 carried-gain, and larsen in any other scenario: any number may be in flight (`filters.modular.carried_gain`). That one
 is being taken is known in its step k, and the covariance is corrected there: the predict job of k does that too, with
-the work of the sensor's correction. It also takes each measurement that is in flight at its start a step further,
+the work of the sensor's correction. It also takes each measurement that is in flight when it begins a step further,
 `carry`, and a correction made at once, or at k, does its part with each in flight, `beside`: those of its own step
-have been taken before it. When a late one has arrived its correction is the work of its landing, `land`, which needs no
-replay and lands in the step in which it finishes; it is in flight until then. A measurement that never arrives is
-in flight as long as its sensor's longest delay, for then the filter knows; to add what it would have told to the
-covariance is not charged. A measurement that for once arrives in its own step is corrected at once. A preempted
-correction that is made at once and finishes in a later step catches up as above, by predicts, and the corrections of
-the covariance and the landings in the steps that passed.
+have been taken before it. One that arrives in the step of a predict job and is more urgent has landed before that
+begins, on the same processor; others land behind it. When a late one has arrived its correction is the work of its
+landing, `land`, which needs no replay and lands in the step in which it finishes; it is in flight until then. A
+measurement that never arrives is in flight as long as its sensor's longest delay, for then the filter knows; to add
+what it would have told to the covariance is not charged. A measurement that for once arrives in its own step is
+corrected at once. A preempted correction that is made at once and finishes in a later step catches up as above, by
+predicts, and the corrections of the covariance and the landings in the steps that passed.
 
 In one step and of one priority, late corrections come first, then those of the sensors in their order.
 
@@ -54,7 +55,7 @@ from bisect import bisect_left, bisect_right, insort
 from collections import defaultdict
 from collections.abc import Iterable, Mapping, Sequence
 from functools import partial
-from itertools import groupby
+from itertools import chain, groupby
 from operator import itemgetter
 from typing import NamedTuple
 
@@ -143,11 +144,12 @@ class ComposedFilter(Source):
     def release(self) -> tuple[Job, ...]:
         step, start = self.step, self.next_release
         self.step, self.next_release = step + 1, start + self.period
-        predict = self._predict()
+        first = self._landing_first(step)
+        predict = self._predict(first)
         corrected = 0
         for number, following in enumerate(self.following):
             if following is not None and following[0] == step:
-                corrected += self._take(number, *following)
+                corrected += self._take(number, *following, len(first))
                 self.following[number] = next(self.measurements[number], None)
         for taken in [taken for taken, lost in self.flying.items() if lost == step]:
             del self.flying[taken]
@@ -179,13 +181,23 @@ class ComposedFilter(Source):
         """Whether it arrived in a later step than that in which it was taken."""
         return measurement.step * self.period < measurement.arrival
 
-    def _predict(self) -> int:
+    def _landing_first(self, step: int) -> set[Taken]:
+        """Those in flight that will have landed when the predict job of this step begins."""
+        if self.carries is None or self.corrector_cpu:
+            return set()
+        there = (Taken(found.step, found.sensor) for found in chain(self.carried, self.arrivals.get(step, ())))
+        urgent = self.scenario.priority
+        return {taken for taken in there if taken in self.flying and self.sensors[taken.sensor].priority < urgent}
+
+    def _predict(self, landing_first: set[Taken]) -> int:
         """The work of the prediction, with what is in flight."""
         waits = self.one_in_flight and (self.awaited or self.carried)
         part = "predict_accumulate" if waits else "predict"
         work = total(self.costs[part], self.predict_stream)
         if self.carries is not None:
             for taken in self.flying:
+                if taken in landing_first:
+                    continue
                 work += total(self.costs[self.carries.of(self.sensors[taken.sensor].name)], self.predict_stream)
         return work
 
@@ -194,8 +206,8 @@ class ComposedFilter(Source):
         parts = (("PR", predict), ("CO", corrected)) if corrected else (("PR", predict),)
         return Job("predict", step, self.scenario.priority, start, start + self.period, predict + corrected, parts)
 
-    def _take(self, number: int, step: int, delay: int | None) -> int:
-        """What is done in its step with one that will come late."""
+    def _take(self, number: int, step: int, delay: int | None, landed: int) -> int:
+        """What is done in its step with one that will come late. landed: of those in flight, before that."""
         sensor = self.sensors[number]
         arrives = None if delay is None else step + delay
         self.taken[number] += 1
@@ -204,7 +216,7 @@ class ComposedFilter(Source):
             if self.one_in_flight:
                 self._await(Awaited(step, arrives))
             elif self.carries is not None:
-                work = self._correct_covariance(Taken(step, number), arrives)
+                work = self._correct_covariance(Taken(step, number), arrives, len(self.flying) - landed)
         if arrives is None:
             self.dropped[number] += 1
             return work
@@ -212,11 +224,11 @@ class ComposedFilter(Source):
         self.arrivals[arrives].append(Measurement(step, number, arrives * self.period, due))
         return work
 
-    def _correct_covariance(self, taken: Taken, arrives: int | None) -> int:
-        """The work of it, by one that comes late; from now on it is in flight."""
+    def _correct_covariance(self, taken: Taken, arrives: int | None, in_flight: int) -> int:
+        """The work of it, by one that comes late, with so many in flight; from now on it is too."""
         sensor = self.sensors[taken.sensor]
         work = total(self.costs[f"correct.{sensor.name}"], self.streams[taken.sensor])
-        work += self._beside(taken.sensor, len(self.flying))
+        work += self._beside(taken.sensor, in_flight)
         self.flying[taken] = taken.step + sensor.longest_delay if arrives is None else None
         self._apply(taken.step, taken)
         return work

@@ -288,6 +288,14 @@ def test_several_in_flight_are_each_carried_and_each_beside_a_correction(late: L
     assert jobs.misses == 0
 
 
+@pytest.mark.parametrize(("priority", "at_m"), [(HR - 1, 3 + 2), (HR, 3 + 1 + 2 + 1)])
+def test_one_that_lands_before_the_predict_job_is_in_flight_for_it_no_more(priority: int, at_m: int) -> None:
+    """Taken in every fourth step and 4 late: in step 4 one lands, and the next is taken."""
+    of = scenario(10, CARRIED, sensor("gps", 4, 4, priority=priority), late="carried-gain", steps=5)
+    assert works_of(of, "predict") == [5, 4, 4, 4, at_m]
+    assert slices_of(of, "correct gps") == [(40, 42) if priority < HR else (40 + at_m, 42 + at_m)]
+
+
 def test_carried_gain_what_never_arrives_is_in_flight_as_long_as_the_longest_delay() -> None:
     of = scenario(10, CARRIED, sensor("gps", 20, [2, 4], dropout=1.0), late="carried-gain", steps=7)
     assert [end - start for start, end in slices_of(of, "predict")] == [5, 4, 4, 4, 4, 3, 3]
