@@ -124,12 +124,13 @@ def design(
         check_picture(figure, "--figure")
     asked = flags.sampled(shipped_defaults(model), N, M, None, hr_hz, measurement_hz, delay_ms)
     rate = asked.sampling.hr_hz
-    if tasks is not None and rate is None:
-        raise InputError(f"--tasks {tasks} without --hr-hz: give the rate of the HR loop, such as --hr-hz 400")
     loaded = load_model(model, rate)
     outputs = outputs_of(loaded, output, unit)
     conditions = conditions_of(loaded, asked.sampling, motion, tau)
     tables = tables_for(loaded, costs)
+    if tasks is not None and rate is None and all(table.operations for table in tables):
+        raise InputError(f"--tasks {tasks} without --hr-hz: give the rate of the HR loop, such as --hr-hz 400")
+    parts = parts_for(_listed(processor), tables, asked.sampling)
     given = opt.given_options(context, lambda name: name in ("gain", "low_rate_noise"))
     question = Question(
         loaded,
@@ -139,12 +140,12 @@ def design(
         metric,
         conditions,
         tables,
-        parts_for(_listed(processor), tables, asked.sampling),
+        parts,
         options,
         (options.low_rate_noise,) if "--low-rate-noise" in given else NOISES,
         (options.gain,) if "--gain" in given else GAINS,
         statistic,
-        opt.make_tasks(tasks, "second", rate),
+        opt.make_tasks(tasks, "second" if parts else tables[0].unit, rate),
     )
     found = chosen(question, method, numbers)
     ways = with_parts(question, found.keeping) if all_methods else found.best
@@ -192,7 +193,8 @@ def _show(found: Choice, ways: Sequence[Candidate], question: Question, words: s
             *found.remarks,
             *(f"not {words}" for words in by_reason((of.variant.method, of.reason) for of in found.others)),
             *found.left_out,
-            f"without delay: {found.no_delay:.6g}{unit}; least speed: {units(found.unit)} per HR period, to land by L",
+            f"without delay: {found.no_delay:.6g}{unit}; least speed: {units(found.unit)} per HR period, to land by L"
+            + (", beside the tasks" if question.tasks_in_unit else ""),
             "part: the cheapest where prices are known, else the one with the least to spare" if question.parts else "",
             f"{TOO_SLOW}: no part runs it; of its speed is what the nearest would need" if too_slow else "",
             *by_reason((of.variant.method, of.reason) for of in ways if of.parts and of.parts[0].needed is None),

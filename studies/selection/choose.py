@@ -68,7 +68,8 @@ def choose_filter(
     model, output, unit, N to delay_ms, motion, tau_s, metric: as in `compare_accuracy`. every: 2 tries every second
     measurement too. processors: parts by name, path or as they are, by default all that ship; costs: tables by name or
     path, by default counts for the model, in each form of the covariance update that is worth it. tasks: with costs in
-    seconds; the least speed is that of the filter alone.
+    seconds where there are parts, and the least speed is that of the filter alone; else, as with tables of no counts,
+    in the unit of the tables, and the least speed is with them.
 
     Raises InputError that names what is wrong, its value and what to give; where no method keeps the accuracy, it says
     the best that there is, and how.
@@ -206,10 +207,10 @@ def _candidate(question: Question, accuracy: Accuracies, variant: Variant) -> Ca
         timing = Timing(using.N, delay, max(last, delay))
         SCHEDULED[variant.method].check(timing, variant.options.feedback)
         costs = select(variant.table, variant.method, variant.options, question.statistic)
-        least = least_speed(costs, timing, variant.options)
+        least = least_speed(costs, timing, variant.options, question.tasks_in_unit)
     except InputError as error:
         return replace(found, reason=str(error))
-    landed = landing(costs, timing, least.speed, variant.options, ())
+    landed = landing(costs, timing, least.speed, variant.options, question.tasks_in_unit)
     at = None if landed is None else (0 if delay == 0 and found.first == 0 else landed)
     return replace(
         found,

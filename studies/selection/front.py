@@ -88,8 +88,9 @@ def _points(question: Question, accuracy: Accuracies, variant: Variant) -> Itera
         return
     for L in _some(first, min(last, curve.first + len(curve.figures) - 1)):
         std = curve.at(L)
+        timing = Timing(using.N, delay, max(L, delay))
         try:
-            speed = least_speed(costs, Timing(using.N, delay, max(L, delay)), variant.options).speed
+            speed = least_speed(costs, timing, variant.options, question.tasks_in_unit).speed
         except InputError:
             continue
         if std < float("inf"):

@@ -25,7 +25,8 @@ from studies.selection.variants import GAINS, NOISES, Variant
 
 @dataclass(frozen=True)
 class Question:
-    """All that a choice depends on. parts: none where the costs are no counts, or the rate is not known."""
+    """All that a choice depends on. parts: none where the costs are no counts, or the rate is not known. tasks: their
+    costs in seconds where there are parts, else in the unit of the cost tables."""
 
     model: Model
     outputs: Outputs
@@ -40,6 +41,11 @@ class Question:
     gains: Sequence[Gain] = GAINS
     statistic: Statistic = "minimum"
     tasks: Sequence[Task] = ()
+
+    @property
+    def tasks_in_unit(self) -> Sequence[Task]:
+        """Those that the least speed is with: none whose costs are seconds, beside counts of operations."""
+        return () if self.parts else self.tasks
 
 
 class Accuracies:

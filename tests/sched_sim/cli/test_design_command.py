@@ -153,6 +153,34 @@ def test_tasks_beside_it_need_their_share(sched_sim: Run, tmp_path: Path) -> Non
     assert beside["load"] == pytest.approx(alone["load"] + 0.2)
 
 
+MINE = (
+    'name = "mine"\nunit = "ms"\n[costs.larsen]\npropagate = 0.21\npropagate_accumulate = 0.3\nupdate = 0.42\n'
+    "[costs.dual-rate]\nhr_propagate = {}\nhr_restart = 0.02\nhr_update = 0.02\nlr_propagate = 0.2\nlr_update = 0.26\n"
+)
+"""Costs in time."""
+
+
+@pytest.mark.parametrize(
+    ("costs", "task"),
+    [("mine.toml", "hz = 100\ncost_ms = 9"), ("steffes2014", "period = 4\ncost = 3.6")],
+)
+@pytest.mark.parametrize("method", ["larsen", "dual-rate"])
+def test_tasks_beside_costs_that_are_no_counts_are_those_of_minimum(
+    sched_sim: Run, tmp_path: Path, costs: str, task: str, method: str
+) -> None:
+    (tmp_path / "mine.toml").write_text(MINE.format(0.29), encoding="utf-8")
+    (tmp_path / "tasks.toml").write_text(
+        f'[[task]]\nname = "control"\npriority = 5\noffset = 0\n{task}\n', encoding="utf-8"
+    )
+    line = f"--costs {costs} --tasks tasks.toml --method {method}"
+    (row,) = answer(sched_sim, f"--within 0.38 {INS} --every 1 {line}")["designs"]
+    (least,) = json.loads(sched_sim(f"minimum -N 80 -M 44 -L {row['L']} {line} --hr-hz 400 --format json").out)
+    second = 1000 if costs == "mine.toml" else 1
+    assert Fraction(row["min_speed_exact"]) == Fraction(least["min_speed_exact"]) * second
+    alone = f"--within 0.38 {INS} --every 1 --costs {costs} --method {method}"
+    assert row["min_speed"] > 3 * answer(sched_sim, alone)["designs"][0]["min_speed"]
+
+
 @pytest.mark.parametrize(("policy", "L"), [("fixed", 124), ("edf", 80)])
 def test_beside_tasks_of_any_phase_it_may_land_beyond_the_next_measurement(
     sched_sim: Run, tmp_path: Path, policy: str, L: int
