@@ -185,7 +185,9 @@ def _show(found: Choice, ways: Sequence[Candidate], question: Question, words: s
     )
     calibrations = {part.name: None if part.calibration is None else part.calibration.text for part in question.parts}
     table = question.tables[0]
-    too_slow = any(of.parts and of.cheapest is None and of.parts[0].needed is not None for of in ways)
+    machine = any(on.part is None for of in ways for on in of.parts)
+    slow = [on for of in ways if of.cheapest is None for on in of.parts]
+    too_slow = any(on.part is not None and on.needed is not None for on in slow)
     print_table(
         title,
         [_words(of, found) for of in ways],
@@ -197,13 +199,22 @@ def _show(found: Choice, ways: Sequence[Candidate], question: Question, words: s
             + (", beside the tasks" if question.tasks_in_unit else ""),
             "part: the cheapest where prices are known, else the one with the least to spare" if question.parts else "",
             f"{TOO_SLOW}: no part runs it; of its speed is what the nearest would need" if too_slow else "",
+            f"fits: the machine of {_names(question)}; of its speed: what the tightest deadline takes of it; load: the "
+            "share of time it is busy"
+            if machine
+            else "",
             *by_reason((of.variant.method, of.reason) for of in ways if of.parts and of.parts[0].needed is None),
-            "" if question.parts else _why_no_parts(question),
+            "" if question.parts or machine else _why_no_parts(question),
             words,
-            f"costs: {', '.join(table.name for table in question.tables)}",
+            f"costs: {_names(question)}",
             ground_note(table, [of.variant.method for of in ways], calibrations) if question.parts else "",
         ),
     )
+
+
+def _names(question: Question) -> str:
+    """Of the cost tables."""
+    return ", ".join(table.name for table in question.tables)
 
 
 def _why_no_parts(question: Question) -> str:
@@ -226,25 +237,37 @@ def _words(of: Candidate, found: Choice) -> dict[str, Any]:
     if not of.parts:
         return row | {"lands at L": of.landed, "std": _figure(of.landed_std)}
     on = of.cheapest
+    if of.parts[0].part is None:
+        return row | {"fits": "no" if on is None else "yes"} | _shares(of.parts[0]) | _landed(on, of, found)
     do = sum(on.fits for on in of.parts)
     if on is None:
         nearest = of.parts[0]
         known = nearest.needed is not None
         return row | {
-            "part": f"{TOO_SLOW}: {nearest.part.name}" if known else "not known",
-            "of its speed": _percent(nearest.needed),
-            "load": _percent(nearest.load),
-            **dict.fromkeys(("lands at L", "after, ms", "std")),
+            "part": f"{TOO_SLOW}: {nearest.name}" if known else "not known",
+            **_shares(nearest),
+            **_landed(on, of, found),
             "parts that do": f"0 of {len(of.parts)}",
         }
     return row | {
-        "part": on.part.name,
-        "of its speed": _percent(on.needed),
-        "load": _percent(on.load),
-        "lands at L": on.landed,
-        "after, ms": _ms(found.sampling.using(of.variant.every).ms(on.landed)),
-        "std": _figure(on.std),
+        "part": on.name,
+        **_shares(on),
+        **_landed(on, of, found),
         "parts that do": f"{do} of {len(of.parts)}",
+    }
+
+
+def _shares(on: OnPart) -> dict[str, Any]:
+    return {"of its speed": _percent(on.needed), "load": _percent(on.load)}
+
+
+def _landed(on: OnPart | None, of: Candidate, found: Choice) -> dict[str, Any]:
+    """on: None where it lands on none."""
+    landed = None if on is None else on.landed
+    return {
+        "lands at L": landed,
+        "after, ms": _ms(found.sampling.using(of.variant.every).ms(landed)),
+        "std": None if on is None else _figure(on.std),
     }
 
 
@@ -317,8 +340,8 @@ def _row(of: Candidate, found: Choice) -> dict[str, Any]:
 def _on(on: OnPart, of: Candidate, found: Choice) -> dict[str, Any]:
     sampling = found.sampling.using(of.variant.every)
     return {
-        "processor": on.part.name,
-        "price": None if on.part.price is None else float(on.part.price),
+        "processor": None if on.part is None else on.name,
+        "price": None if on.price is None else float(on.price),
         "fits": on.fits if on.needed is not None else None,
         "needed_share": None if on.needed is None else float(on.needed),
         "slack": None if on.slack is None else float(on.slack),
@@ -338,5 +361,5 @@ def _flat(of: Candidate, found: Choice) -> dict[str, Any]:
     on = of.cheapest
     figures = dict.fromkeys(OF_A_PART) if on is None else _on(on, of, found)
     part = {name: figures[name] for name in OF_A_PART} | {"std_on_part": None if on is None else on.std}
-    do = [other.part.name for other in of.parts if other.fits]
+    do = [other.part.name for other in of.parts if other.part is not None and other.fits]
     return _row(of, found) | part | {"parts_that_do": " ".join(do) or None}

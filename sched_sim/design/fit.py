@@ -68,13 +68,7 @@ def fit(
     """
     tasks = checked(timing, options, tasks)
     rate = positive(hr_hz, "hr_hz")
-    for task in tasks:
-        if (share := task.cost / task.period * rate) > 1:
-            raise InputError(
-                f"task {task.name!r} alone needs {float(100 * share):.4g} % of the processor: its cost is "
-                f"{float(1000 * task.cost):.4g} ms and its period {float(1000 * task.period / rate):.4g} ms; mend "
-                f"them, or their units"
-            )
+    check_shares(tasks, rate)
     least = least_speed(costs, timing, options, tasks, on_progress)
     busy = sum(loads(costs, timing, 1 / rate, options, tasks), Fraction(0)) / options.cpus
     if options.context_switch or method_of(costs).work_varies:
@@ -86,6 +80,18 @@ def fit(
     if landed is not None:  # it may have more digits, and the phases of tasks are those that are given
         highest = rate if highest is None else max(highest, rate)
     return Fit(least, least.speed * rate, busy, landed is not None, landed, highest)
+
+
+def check_shares(tasks: Sequence[Task], rate: Fraction, second: Fraction = Fraction(1)) -> None:
+    """Raises InputError for a task that takes longer than its period. rate: of the HR loop, in Hz; second: seconds in
+    the unit of the tasks' costs."""
+    for task in tasks:
+        if (share := second * task.cost / task.period * rate) > 1:
+            raise InputError(
+                f"task {task.name!r} alone needs {float(100 * share):.4g} % of the processor: its cost is "
+                f"{float(1000 * second * task.cost):.4g} ms and its period {float(1000 * task.period / rate):.4g} ms; "
+                f"mend them, or their units"
+            )
 
 
 def _busy(costs: Costs, timing: Timing, pace: Fraction, options: Options, tasks: Sequence[Task]) -> Fraction:

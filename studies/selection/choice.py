@@ -26,7 +26,8 @@ class Candidate:
     asks for no less (`Law.last_of_use`); allowed: the latest that keeps it, up to a step beyond these of any method,
     None where even the first does not. std: the figure at L. least: the least speed for L, in the unit of the cost
     table; landed: where corrections land at that speed, landed_std: the figure then.
-    parts: what each makes of it, cheapest first. reason: why it will not do; empty if it does.
+    parts: what each makes of it, cheapest first; where the costs are times, what the machine does that they are of.
+    reason: why it will not do; empty if it does.
     """
 
     variant: Variant
@@ -114,6 +115,6 @@ def _cells(of: Candidate) -> tuple[Any, ...]:
     start = (of.variant.method, of.variant.how, of.variant.every, of.L, of.std, speed)
     if on is None:
         nearest = next((on for on in of.parts if on.needed is not None), None)
-        part = (of.reason or None, None) if nearest is None else (f"too slow: {nearest.part.name}", nearest.needed)
+        part = (of.reason or None, None) if nearest is None else (f"too slow: {nearest.name}", nearest.needed)
         return (*start, *part, of.landed, of.landed_std)
-    return (*start, on.part.name, on.needed, on.landed, on.std)
+    return (*start, on.name, on.needed, on.landed, on.std)

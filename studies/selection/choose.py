@@ -8,6 +8,7 @@ from fractions import Fraction
 from typing import Any
 
 from sched_sim.costs.table import CostTable
+from sched_sim.design.fit import check_shares
 from sched_sim.design.landing import landing
 from sched_sim.design.least_speed import least_speed
 from sched_sim.design.method import Law
@@ -122,6 +123,8 @@ def chosen(question: Question, methods: Sequence[str] | None = None, every: Sequ
     """`choose_filter` of what has been looked at."""
     check_metric(question.metric)
     sampling, tables = question.sampling, question.tables
+    if sampling.hr_hz is not None and question.second is not None:
+        check_shares(question.tasks, sampling.hr_hz, question.second)
     wanted = chosen_methods(methods, question.conditions)
     check_ages(question.model, 2 * (sampling.using(max(every)).N + 1) + sampling.M)
     no_delay = undelayed(question.model, question.outputs, sampling, question.metric)
@@ -230,7 +233,7 @@ def _last_known(question: Question, law: Law, N: int, M: int) -> int:
 
 def _on_parts(question: Question, accuracy: Accuracies, parts: Parts, candidate: Candidate) -> Candidate:
     rate, variant = question.sampling.hr_hz, candidate.variant
-    if rate is None or not question.parts or candidate.L is None:
+    if rate is None or candidate.L is None:
         return candidate
     delay = 0 if METHODS[variant.method].landing == "at once" else question.sampling.M
     timing = Timing(candidate.N, delay, candidate.L)
@@ -239,6 +242,8 @@ def _on_parts(question: Question, accuracy: Accuracies, parts: Parts, candidate:
         replace(on, std=None if on.landed is None else curve.at(max(on.landed, candidate.first)))
         for on in parts.look(variant.table, variant.method, timing, rate, variant.options, question.tasks)
     ]
+    if not looked:
+        return candidate
     looked.sort(key=by_cost)
     reason = "" if any(on.fits for on in looked) else _too_slow(looked)
     return replace(candidate, parts=tuple(looked), reason=reason)
@@ -248,7 +253,10 @@ def _too_slow(looked: Sequence[OnPart]) -> str:
     nearest = looked[0]
     if nearest.needed is None:
         return "; ".join(dict.fromkeys(on.remark for on in looked))
-    return f"no part is fast enough: the nearest, {nearest.part.name}, needs {percent(nearest.needed)} of its speed"
+    which = f"{nearest.name} is too slow: it"
+    if nearest.part is not None:
+        which = f"no part is fast enough: the nearest, {nearest.name},"
+    return f"{which} needs {percent(nearest.needed)} of its speed"
 
 
 def _too_coarse(question: Question, found: Candidate) -> str:
@@ -324,6 +332,4 @@ def _rank(candidate: Candidate) -> tuple[int, Fraction, Fraction]:
     on = candidate.cheapest
     if on is None:
         return (2 if candidate.parts else 1), Fraction(0), candidate.least.speed
-    return (
-        (1, Fraction(0), candidate.least.speed) if on.part.price is None else (0, on.part.price, candidate.least.speed)
-    )
+    return (1, Fraction(0), candidate.least.speed) if on.price is None else (0, on.price, candidate.least.speed)

@@ -1,4 +1,5 @@
-"""Which parts run a design, how much of each it takes, and where its corrections land there."""
+"""Which parts run a design, or whether the machine does whose times its costs are; how much of each it takes, and where
+its corrections land there."""
 
 from __future__ import annotations
 
@@ -7,13 +8,13 @@ from dataclasses import dataclass
 from fractions import Fraction
 from math import ceil
 
-from sched_sim.costs.table import CostTable
+from sched_sim.costs.table import SECONDS, CostTable
 from sched_sim.design.landing import landing
 from sched_sim.design.least_speed import least_speed
 from sched_sim.design.load import loads
 from sched_sim.design.methods import select
 from sched_sim.design.options import Options
-from sched_sim.design.pieces import Statistic
+from sched_sim.design.pieces import Costs, Statistic
 from sched_sim.design.timing import Timing
 from sched_sim.errors import InputError
 from sched_sim.processors.part import Part, on_part
@@ -22,16 +23,26 @@ from sched_sim.schedule.tasks import Task
 
 @dataclass(frozen=True, slots=True)
 class OnPart:
-    """needed: the share of the part's speed at which every deadline holds, above 1 it is too slow; load: the share of
-    its time that it is busy. landed: the L at which corrections land there, std: the figure of the output then; None if
-    it is too slow. remark: why nothing is known of it."""
+    """part: None for the machine whose times the cost table has. needed: the share of its speed at which every deadline
+    holds, above 1 it is too slow; load: the share of its time that it is busy. landed: the L at which corrections land
+    there, std: the figure of the output then; None if it is too slow. remark: why nothing is known of it."""
 
-    part: Part
+    part: Part | None
     needed: Fraction | None
     load: Fraction | None
     landed: int | None = None
     std: float | None = None
     remark: str = ""
+
+    @property
+    def name(self) -> str:
+        """In words."""
+        return "the machine of the costs" if self.part is None else self.part.name
+
+    @property
+    def price(self) -> Fraction | None:
+        """As in `Part`."""
+        return None if self.part is None else self.part.price
 
     @property
     def fits(self) -> bool:
@@ -49,8 +60,7 @@ def by_cost(on: OnPart) -> tuple[int, Fraction, Fraction]:
         return 3, Fraction(0), Fraction(0)
     if not on.fits:
         return 2, on.needed, on.load
-    price = on.part.price
-    return (1, -on.needed, on.load) if price is None else (0, price, on.load)
+    return (1, -on.needed, on.load) if on.price is None else (0, on.price, on.load)
 
 
 def percent(share: Fraction) -> str:
@@ -69,7 +79,11 @@ class Parts:
     def look(
         self, table: CostTable, method: str, timing: Timing, rate: Fraction, options: Options, tasks: Sequence[Task]
     ) -> list[OnPart]:
-        """What each part makes of the design, without its accuracy."""
+        """What each part makes of the design, without its accuracy, or the machine of a table of times; nothing without
+        either."""
+        if not self.parts and table.unit in SECONDS:
+            costs = select(table, method, options, self.statistic)
+            return [_looked(None, costs, timing, 1 / (rate * SECONDS[table.unit]), options, tasks)]
         return [self._one(part, table, method, timing, rate, options, tasks) for part in self.parts]
 
     def _one(
@@ -91,7 +105,14 @@ class Parts:
             if method not in self._tables[key].lacking:
                 raise
             return OnPart(part, None, None, remark=str(error))
-        needed = least_speed(costs, timing, options, tasks).speed * rate
-        busy = sum(loads(costs, timing, 1 / rate, options, tasks), Fraction(0)) / options.cpus
-        lands = landing(costs, timing, 1 / rate, options, tasks) if needed <= 1 else None
-        return OnPart(part, needed, busy, lands)
+        return _looked(part, costs, timing, 1 / rate, options, tasks)
+
+
+def _looked(
+    part: Part | None, costs: Costs, timing: Timing, pace: Fraction, options: Options, tasks: Sequence[Task]
+) -> OnPart:
+    """pace: what it does in an HR period, in the unit of the costs."""
+    needed = least_speed(costs, timing, options, tasks).speed / pace
+    busy = sum(loads(costs, timing, pace, options, tasks), Fraction(0)) / options.cpus
+    lands = landing(costs, timing, pace, options, tasks) if needed <= 1 else None
+    return OnPart(part, needed, busy, lands)

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 
 import numpy as np
 
 from filters.delayed.low_rate_noise import LowRateNoise
-from sched_sim.costs.table import CostTable
+from sched_sim.costs.table import SECONDS, CostTable
 from sched_sim.design.options import Gain, Options
 from sched_sim.design.pieces import Statistic
 from sched_sim.processors.part import Part
@@ -46,6 +47,11 @@ class Question:
     def tasks_in_unit(self) -> Sequence[Task]:
         """Those that the least speed is with: none whose costs are seconds, beside counts of operations."""
         return () if self.parts else self.tasks
+
+    @property
+    def second(self) -> Fraction | None:
+        """Seconds in the unit of the tasks' costs, None if that is no time."""
+        return Fraction(1) if self.parts else SECONDS.get(self.tables[0].unit)
 
 
 class Accuracies:

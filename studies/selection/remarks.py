@@ -35,10 +35,17 @@ def _no_part(choice: Choice) -> Iterator[str]:
         return
     of, on = min(looked, key=lambda pair: pair[1].needed or 0)
     assert on.needed is not None
+    none, faster = "no part will do", f"leave {option('costs')} out for the parts that ship"
+    if on.part is None:
+        none = "none fits"
+    else:
+        faster = (
+            f"name a faster one with {option('processor')} (see `sched-sim processors`), leave {option('processor')} "
+            f"out for all that ship"
+        )
     yield (
-        f"no part will do: {on.part.name} would need {percent(on.needed)} of its speed, with {of.variant.method}; name "
-        f"a faster one with {option('processor')} (see `sched-sim processors`), leave {option('processor')} out for "
-        f"all that ship, give a slower {option('hr_hz')}, or use fewer measurements and allow more {option('within')}"
+        f"{none}: {on.name} would need {percent(on.needed)} of its speed, with {of.variant.method}; {faster}, give a "
+        f"slower {option('hr_hz')}, or use fewer measurements and allow more {option('within')}"
     )
 
 
@@ -48,7 +55,7 @@ def _lands_earlier(choice: Choice, candidate: Candidate) -> Iterator[str]:
     if on is None:
         landed, std, where = candidate.landed, candidate.landed_std, "at its least speed it"
     else:
-        landed, std, where = on.landed, on.std, f"the same {on.part.name}"
+        landed, std, where = on.landed, on.std, f"the same {'machine' if on.part is None else on.name}"
     if landed is None or std is None or L is None or landed >= L:
         return
     most = f"{L} or more" if candidate.allowed is not None and candidate.allowed > L else f"{L}"

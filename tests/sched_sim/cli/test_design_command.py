@@ -181,6 +181,40 @@ def test_tasks_beside_costs_that_are_no_counts_are_those_of_minimum(
     assert row["min_speed"] > 3 * answer(sched_sim, alone)["designs"][0]["min_speed"]
 
 
+@pytest.mark.parametrize(("propagate", "task"), [(0.29, ""), (3.9, ""), (0.29, "hz = 100\ncost_ms = 9")])
+@pytest.mark.parametrize("method", ["larsen", "dual-rate"])
+def test_costs_in_time_fit_the_loop_or_not_as_minimum_says(
+    sched_sim: Run, tmp_path: Path, propagate: float, task: str, method: str
+) -> None:
+    (tmp_path / "mine.toml").write_text(MINE.format(propagate), encoding="utf-8")
+    line = f"--costs mine.toml --method {method}"
+    if task:
+        (tmp_path / "tasks.toml").write_text(
+            f'[[task]]\nname = "control"\npriority = 5\noffset = 0\n{task}\n', encoding="utf-8"
+        )
+        line += " --tasks tasks.toml"
+    asked = f"--within 0.38 {INS} --every 1 {line}"
+    (row,) = answer(sched_sim, asked)["designs"]
+    (on,) = row["parts"]
+    (said,) = json.loads(sched_sim(f"minimum -N 80 -M 44 -L {row['L']} {line} --hr-hz 400 --format json").out)
+    for key in ("processor", "fits", "needed_share", "slack", "load", "achieved_l", "correction_ms"):
+        assert on[key] == pytest.approx(said[key]), key
+    shown = sched_sim(f"design {asked}").out
+    assert "fits: the machine of mine" in shown
+    assert (" yes " if on["fits"] else "none fits: the machine of the costs would need") in shown
+
+
+def test_a_task_that_takes_longer_than_its_period_is_refused_as_by_minimum(sched_sim: Run, tmp_path: Path) -> None:
+    (tmp_path / "mine.toml").write_text(MINE.format(0.29), encoding="utf-8")
+    (tmp_path / "tasks.toml").write_text(
+        '[[task]]\nname = "control"\nhz = 100\ncost_ms = 900\npriority = 5\n', encoding="utf-8"
+    )
+    line = "--costs mine.toml --tasks tasks.toml"
+    refusal = sched_sim(f"minimum -N 80 -M 44 -L 62 --hr-hz 400 {line}")
+    assert sched_sim(f"design --within 0.38 {INS} {line}") == refusal
+    is_refused(refusal, ["--tasks 'tasks.toml': task 'control' alone needs 9000 %", "900 ms"])
+
+
 @pytest.mark.parametrize(("policy", "L"), [("fixed", 124), ("edf", 80)])
 def test_beside_tasks_of_any_phase_it_may_land_beyond_the_next_measurement(
     sched_sim: Run, tmp_path: Path, policy: str, L: int
