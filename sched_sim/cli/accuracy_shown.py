@@ -34,6 +34,7 @@ def show(found: Comparison, asked: flags.Sampled, format: opt.Format) -> None:
             f"every measurement without delay",
             _meaning(found.rows),
             asked.words,
+            _intervals(found),
             *remarks,
         ),
     )
@@ -57,6 +58,14 @@ def _meaning(rows: Sequence[AccuracyRow]) -> str:
     if any(row.accuracy and row.accuracy.bias for row in rows):
         said.append(MEANING["bias"])
     return "\n".join(said)
+
+
+def _intervals(found: Comparison) -> str:
+    """Of which they are the figures, where they are not all the same."""
+    exact = {row.every for row in found.rows if row.accuracy and row.accuracy.verdict != "bound"}
+    if all(isinstance(found.sampling.using(every).between, int) for every in exact):
+        return ""
+    return "accuracy and ages are of all intervals between measurements, the longer ones too"
 
 
 def _in_unit(outputs: Outputs) -> str:
