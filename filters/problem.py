@@ -59,6 +59,11 @@ def check_problem(
         raise ValueError(f"M={M}, L={L}, N={N} must satisfy {rule}{other}")
     start, moves = _start_and_inputs(system, x0, P0, inputs)
     readings = measured(system.measurements, N, measurements)
+    if len(readings.y) > (most := len(moves) // N + 1):
+        raise ValueError(
+            f"measurements has {len(readings.y)} rows, and in {len(moves)} steps {most} are taken with N={N}: row c is "
+            f"of step c N; leave out those after the end"
+        )
     return Problem(lossy(shaped(system), N, readings.present), start, moves, readings)
 
 

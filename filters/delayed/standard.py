@@ -119,9 +119,9 @@ def run(
     N, M, L: steps between measurements, delay, feedback; this method checks M and L but has no use for them.
     x0 (n,), P0 (n, n): estimate and covariance at step 0, before its measurement.
     inputs (steps, m): row j takes the state from j to j + 1.
-    measurements (cycles, p): row c is taken at k = cN; where there are fewer than steps // N + 1, the last are missing.
-        None in place of a row, or of a number in it, says that it was lost: the filter uses the rest, as if H and R had
-        no other rows. Of what was lost the innovation is nan and the gain zero.
+    measurements (cycles, p): row c is taken at k = cN; where there are fewer than steps // N + 1, the last are missing,
+        and more are refused. None in place of a row, or of a number in it, says that it was lost: the filter uses the
+        rest, as if H and R had no other rows. Of what was lost the innovation is nan and the gain zero.
     update: the covariance form. All lose digits where R is tiny beside H P H^T, or measurements nearly the same: P may
         cease to be a covariance (textbook, short), or the gain be far from the best one (joseph). A run that has been
         spoilt so is refused. Most is borne by the factors of P that `multirate_gain.run` can keep, for n = 1 the same

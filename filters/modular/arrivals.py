@@ -116,7 +116,8 @@ def in_order(measurements: Iterable[Measurement]) -> list[Measurement]:
 def _read(measurements: list[Measurement], sensor: Sensor) -> tuple[FloatArray, Flags]:
     """The y (any, numbers) of one sensor's measurements, without gaps, and what their errors have no number of."""
     observed = sensor.corrector.observed
-    numbers = [without_mask(measurement.y) for measurement in measurements]
+    whole = [None] * observed.numbers
+    numbers = [whole if measurement.y is None else without_mask(measurement.y) for measurement in measurements]
     values = _stacked(measurements, numbers, observed.numbers)
     gone = np.zeros(values.shape, dtype=np.bool_)
     for row in np.flatnonzero(~np.isfinite(values).all(axis=1)):

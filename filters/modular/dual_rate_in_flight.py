@@ -103,7 +103,7 @@ def run(
 
 
 def _is_lost(measurement: Measurement) -> bool:
-    return all(value is None for value in without_mask(measurement.y))
+    return measurement.y is None or all(value is None for value in without_mask(measurement.y))
 
 
 def landings(composed: ModularFilter, L: int | Mapping[str, int] | None) -> dict[str, int]:

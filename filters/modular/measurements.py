@@ -17,13 +17,14 @@ from filters.seed import check_seed
 class Measurement(NamedTuple):
     """One measurement of the sensor of this name: y (numbers,), taken in one step, available from another on.
 
-    y: None in place of a number that is lost, or a masked array of NumPy's; the others are used.
+    y: None in place of a number that is lost, or a masked array of NumPy's; the others are used. None
+        alone: all are lost.
     """
 
     sensor: str
     taken: int
     arrives: int
-    y: FloatArray | Sequence[float | None]
+    y: FloatArray | Sequence[float | None] | None
 
 
 def observe(composed: ModularFilter, truth: FloatArray, seed: int) -> list[Measurement]:

@@ -313,9 +313,9 @@ def _from_file(sampled: SampledCosts, checked: _ScenarioFile, folder: Path) -> S
         }
     if checked.hr_hz is not None and sampled.unit not in SECONDS:
         raise InputError(
-            f"costs {sampled.shown} has the unit {sampled.unit!r}, and hr_hz needs one of time: write unit = with "
-            f"{', '.join(SECONDS)} for times, give processor = ... where operations are counted, or speed = ... (cost "
-            f"units per HR period) instead of hr_hz"
+            f"costs {sampled.shown} has the unit {sampled.unit!r}, and hr_hz needs one of time: give processor = ... "
+            f"where operations are counted, or speed = ... (cost units per HR period) instead of hr_hz; in a file of "
+            f"times write one of these units: {', '.join(SECONDS)}"
         )
     slower = (checked.times_slower or Fraction(1)) * (1 if checked.hr_hz is None else SECONDS[sampled.unit])
     return {name: tuple(slower * sample for sample in samples) for name, samples in sampled.samples.items()}

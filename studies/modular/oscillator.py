@@ -177,7 +177,11 @@ def history_at(dropout: float, seed: int, setting: Setting = USUAL, backend: Bac
     dt_s = step_s(setting)
     seen = {
         name: np.array(
-            [(measurement.taken * dt_s, measurement.y[0]) for measurement in measurements if measurement.sensor == name]
+            [
+                (measurement.taken * dt_s, measurement.y[0])
+                for measurement in measurements
+                if measurement.sensor == name and measurement.y is not None
+            ]
         ).reshape(-1, 2)
         for name in SENSORS
     }

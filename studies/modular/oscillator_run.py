@@ -146,7 +146,7 @@ def residuals(record: Record, setting: Setting, dropout: float, backend: Backend
             measurement for measurement in measurements if measurement.sensor == name and measurement.taken >= settled
         ]
         taken = np.array([measurement.taken for measurement in mine], dtype=np.int64)
-        y = np.array([measurement.y[0] for measurement in mine])
+        y = np.array([measurement.y[0] for measurement in mine if measurement.y is not None])
         innovation.append(y - predicted[taken, seen])
         after.append(y - history.x[taken, seen])
     error = history.x[settled:] - record.truth[settled:]

@@ -87,6 +87,10 @@ GOOD = problem(example_system(3, 2, 1), 5, 2, 4, 12, seed=0)
         ({"measurements": 7}, "measurements is 7; give a row for each"),
         ({"measurements": np.zeros((3, 1)) + 1j}, "measurements holds a value that is no number: it is complex"),
         ({"measurements": [np.zeros(1) + 1j]}, "measurements holds a value that is no number: it is complex"),
+        (
+            {"measurements": np.zeros((4, 1))},
+            "measurements has 4 rows, and in 12 steps 3 are taken with N=5",
+        ),
         ({"inputs": None}, "inputs is None; give a row of 2 numbers for each step$"),
         ({"inputs": np.zeros(12)}, r"inputs has shape \(12,\); give a row of 2 numbers for each step$"),
         ({"x0": np.zeros(3) + 1j}, "x0 is no array of numbers: it is complex"),

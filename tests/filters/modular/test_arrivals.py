@@ -104,6 +104,15 @@ def test_a_measurement_that_has_lost_all_is_none(late: Late) -> None:
         np.testing.assert_array_equal(each, same)
 
 
+@pytest.mark.parametrize("late", WAYS)
+def test_none_in_place_of_a_measurement_is_one_that_has_lost_all(late: Late) -> None:
+    sensor = sensor_of("extended", [0, 1, 2])
+    found = history([sensor], taken(None, [0.1, 0.3, 0.5]), late)
+    expected = history([sensor], taken([None, None, None], [0.1, 0.3, 0.5]), late)
+    np.testing.assert_array_equal(found.x, expected.x)
+    np.testing.assert_array_equal(found.P, expected.P)
+
+
 def test_a_lost_number_need_not_be_one_that_the_model_can_expect() -> None:
     """A bearing to a beacon that the vehicle stands on: the rest of the measurement is used."""
 
