@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import ceil
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -75,7 +76,7 @@ def gantt(
     others = opt.make_tasks(tasks, table.unit, rate)
     design = make_design(N, M, L, rate, measurement_hz, delay_ms, land_within_ms)
     say_of_statistic(statistic, [table])
-    panels, methods = [], opt.wanted_methods(method or _usual(table), table)
+    panels, longer, methods = [], [], opt.wanted_methods(method or _usual(table), table)
     refused = Refused(methods)
     for name in methods:
         with refused.noting(name, design.why_none(name, options)):
@@ -83,12 +84,17 @@ def gantt(
             work = select(table, name, options, statistic)
             pace = opt.pace(speed, rate, part, partial(least_speed, work, timing, options, others))
             together = released_together(work, timing, pace, options, others)
-            panels.append(method_panel(table, name, timing, pace, cycles, options, others, statistic=statistic))
+            drawn = partial(method_panel, table, name, timing, pace, options=options, tasks=others, statistic=statistic)
+            panels.append(drawn(cycles=cycles))
+            longer.append((timing.N, drawn))
             if together:
                 say(f"Note: {name}: {together}")
     refused.say()
     if first is not None or until is not None:
-        start, end = stretch(first, until, rate, min(panel.end for panel in panels))
+        start, end = stretch(first, until, rate, max(panel.end for panel in panels))
+        for number, (N, drawn) in enumerate(longer):
+            if panels[number].end < end:
+                panels[number] = drawn(cycles=cycles + ceil((end - panels[number].end) / N))
         panels = [zoomed(panel, start, end) for panel in panels]
     save(draw(panels, width_mm=across, hr_hz=rate), output, "--output")
     left = [name for name in methods if name not in refused.notes]

@@ -86,3 +86,12 @@ def test_what_cannot_be_drawn_is_refused(sched_sim: Run, tmp_path: Path, options
 def test_what_times_became_in_steps_is_said_line_by_line(sched_sim: Run) -> None:
     result = sched_sim("gantt --hr-hz 400 --measurement-hz 5 --delay-ms 110 --method larsen -o g.svg")
     assert result.err == "5 Hz: N = 80 steps\n110 ms late: M = 44 steps\nWrote g.svg\n"
+
+
+def test_each_method_is_simulated_as_far_as_the_picture_goes(sched_sim: Run, tmp_path: Path) -> None:
+    """Larsen's correction is in the state by step 26, the dual-rate one must be by 40."""
+    line = "gantt -N 10 -M 25 -L 40 --costs counted-9-3-3"
+    assert sched_sim(f"{line} --from 20 --until 34 -o g.svg").code == 0
+    texts = " ".join(re.findall(r"<!-- (.*?) -->", (tmp_path / "g.svg").read_text()))
+    assert texts.count("steps 20 to 33 of") == 2
+    is_refused(sched_sim(f"{line} --until 41 -o g.svg"), ["--until 41 is beyond the end", "40 steps are simulated"])
