@@ -8,7 +8,9 @@ from math import ceil
 from typing import NamedTuple
 
 from reports.charts.intervals import jobs
+from reports.charts.lanes import shortened
 from reports.charts.panels import Mark, Panel, steps_shown
+from sched_sim.errors import InputError
 from sched_sim.scenario.run import Outcome, run_scenario
 from sched_sim.scenario.scenario import Scenario
 from sched_sim.scenario.source import correct_kind
@@ -19,6 +21,8 @@ CYCLES = 2
 """The slowest sensor's, as far as they are no more steps than that."""
 AFTER_MISS = 2
 """Steps shown after the deadline."""
+MOST_ASKED = 2_000
+"""Steps of one picture."""
 LEAST_BAR_MM = 0.5
 """A predict job of a fast processor is a bar all the same."""
 BEFORE_ARRIVAL, AFTER_ARRIVAL = 4, 8
@@ -33,13 +37,20 @@ class Late(NamedTuple):
     kind: str
 
 
-def scenario_panel(scenario: Scenario, outcome: Outcome) -> Panel:
+def scenario_panel(scenario: Scenario, outcome: Outcome, steps: tuple[int, int] | None = None) -> Panel:
     """The steps of a scenario about its first missed deadline, or its first late measurement.
 
     outcome: of this scenario; it says where to look. The steps up to there are simulated again, to the same end.
+    steps: the first shown instead, and the one at whose start the panel ends; k, m and l are then of the first late
+    measurement that arrives there. Raises InputError for more than a chart can show.
     """
-    late = first_late(scenario)
-    first, last = window(scenario, outcome.first_miss, late)
+    late = first_late(scenario, 0 if steps is None else steps[0])
+    first, last = steps or window(scenario, outcome.first_miss, late)
+    if last - first > MOST_ASKED:
+        raise InputError(
+            f"a Gantt chart of {last - first} steps is too long, at most {MOST_ASKED} can be drawn: give fewer, or "
+            f"write a trace"
+        )
     slices: list[Slice] = []
     again = run_scenario(replace(scenario, steps=last), on_slice=slices.append)
     start = first * again.schedule.period
@@ -52,7 +63,12 @@ def scenario_panel(scenario: Scenario, outcome: Outcome) -> Panel:
     return Panel(
         title=scenario.name,
         schedule=schedule,
-        notes=(pace, scenario.late, steps_shown(first, last, scenario.steps)),
+        notes=(
+            pace,
+            scenario.late,
+            steps_shown(first, last, scenario.steps),
+            *_whose(scenario, late if late and late.k <= last else None),
+        ),
         marks=_marks(scenario, late, schedule) if late else (),
         first=first,
         last=last,
@@ -75,15 +91,23 @@ def window(scenario: Scenario, first_miss: float | None, late: Late | None) -> t
     return first, first + width
 
 
-def first_late(scenario: Scenario) -> Late | None:
-    """The late measurement that arrives first."""
+def first_late(scenario: Scenario, start: int = 0) -> Late | None:
+    """The late measurement that arrives first, from the step `start` on."""
     arrivals = [
         Late(step + delay, step, correct_kind(sensor))
         for sensor in scenario.sensors
         for step, delay in sensor.measurements(scenario.steps, scenario.seed)
-        if delay and step + delay < scenario.steps
+        if delay and start <= step + delay < scenario.steps
     ]
     return min(arrivals, default=None)
+
+
+def _whose(scenario: Scenario, late: Late | None) -> Sequence[str]:
+    """Of which sensor k, m and l are, where there are several."""
+    if late is None or len(scenario.sensors) < 2:
+        return ()
+    (name,) = [sensor.name for sensor in scenario.sensors if correct_kind(sensor) == late.kind]
+    return (f"$k$, $m$, $l$ of {shortened(name)}",)
 
 
 def _marks(scenario: Scenario, late: Late, schedule: Schedule) -> Sequence[Mark]:

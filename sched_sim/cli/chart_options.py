@@ -66,12 +66,14 @@ def width_mm(text: str) -> float:
     return float(width)
 
 
-def stretch(first: str | None, until: str | None, rate: Fraction | None, steps: int) -> tuple[int, int]:
+def stretch(
+    first: str | None, until: str | None, rate: Fraction | None, steps: int, more: str = "--cycles"
+) -> tuple[int, int]:
     """The first step shown, and the one at whose start the picture ends; by default all of the `steps` simulated. A
     time is widened to whole steps.
 
-    rate: of the HR loop, in Hz. Raises InputError for what is no step, for an order that is none, and for steps that
-    are not simulated.
+    rate: of the HR loop, in Hz; more: what lengthens the simulation. Raises InputError for what is no step, for an
+    order that is none, and for steps that are not simulated.
     """
     start = 0 if first is None else floor(_step(first, "--from", rate))
     end = steps if until is None else ceil(_step(until, "--until", rate))
@@ -80,7 +82,7 @@ def stretch(first: str | None, until: str | None, rate: Fraction | None, steps: 
             lasting = "" if rate is None else f", {float(1000 * steps / rate):g} ms,"
             raise InputError(
                 f"{what} {text} is beyond the end: {steps} steps{lasting} are simulated; give an earlier one, or more "
-                f"--cycles"
+                f"{more}"
             )
     if start >= end:
         after = "the start" if first is None else f"--from {first}"

@@ -7,9 +7,10 @@ from collections import Counter
 from collections.abc import Iterable, Sequence
 from contextlib import ExitStack
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from sched_sim import shares
+from sched_sim.cli.chart_options import stretch
 from sched_sim.cli.output import Format, print_csv, print_json, print_table
 from sched_sim.cli.outputs import Named, module_files, refuse_one_file_for_two
 from sched_sim.cli.progress import progress_bar
@@ -34,9 +35,17 @@ if TYPE_CHECKING:
     from studies.selection.in_scenario import ScenarioAccuracy
 
 
+class Picture(NamedTuple):
+    """The schedule as a picture: in which file, if any, and the first step and the end that were asked for."""
+
+    path: Path | None
+    first: str | None = None
+    until: str | None = None
+
+
 def simulate_scenario(
     path: Path,
-    gantt: Path | None,
+    picture: Picture,
     traces: Sequence[Path],
     histogram: Path | None,
     asked: Asked,
@@ -49,16 +58,20 @@ def simulate_scenario(
     from sched_sim.scenario.scenario_file import read_scenario
     from sched_sim.schedule.trace import check_trace, open_trace
 
+    gantt = picture.path
     if gantt is not None or histogram is not None:
         from reports.drawing.picture import check_picture
 
-        for option, picture in (("--gantt", gantt), ("--histogram", histogram)):
-            if picture is not None:
-                check_picture(picture, option)
+        for option, file in (("--gantt", gantt), ("--histogram", histogram)):
+            if file is not None:
+                check_picture(file, option)
     for trace in traces:
         check_trace(trace)
     scenario, slower = read_scenario(path, describe), asked.slower
     about = question(scenario, path, asked)
+    steps = None
+    if picture.first is not None or picture.until is not None:
+        steps = stretch(picture.first, picture.until, scenario.hr_hz, scenario.steps, more="steps in the file")
     read: list[Path | str] = [*scenario.files, *module_files()]
     refuse_one_file_for_two(outputs, [("--scenario", file) for file in read])
     with ExitStack() as files:
@@ -84,7 +97,7 @@ def simulate_scenario(
         from reports.charts.chart import save
         from reports.scenario.panel import scenario_panel
 
-        save(draw([scenario_panel(scenario, outcome)], hr_hz=scenario.hr_hz), gantt, "--gantt")
+        save(draw([scenario_panel(scenario, outcome, steps)], hr_hz=scenario.hr_hz), gantt, "--gantt")
     schedule = outcome.schedule
     busy_shares = [float(schedule.utilization)]
     if scenario.cpus > 1:

@@ -11,6 +11,7 @@ import typer
 
 from sched_sim.cli import options as opt
 from sched_sim.cli import scenario_flags as flags
+from sched_sim.cli.chart_options import From, Until, stretch
 from sched_sim.cli.design_flags import with_options
 from sched_sim.cli.output import lines, print_csv, print_json, say
 from sched_sim.cli.outputs import refuse_one_file_for_two
@@ -60,7 +61,7 @@ HistogramFile = Annotated[
     ),
 ]
 ABOUT_ACCURACY = flags.Asked._fields
-WITH_SCENARIO = ("scenario", "gantt", "trace", "histogram", "format", *ABOUT_ACCURACY)
+WITH_SCENARIO = ("scenario", "gantt", "first", "until", "trace", "histogram", "format", *ABOUT_ACCURACY)
 """The parameters that go together with --scenario; what the others say, the scenario says itself."""
 
 
@@ -83,6 +84,8 @@ def simulate(
     options: Options = Options(),
     tasks: opt.Tasks = None,
     gantt: GanttFile = None,
+    first: From = None,
+    until: Until = None,
     trace: TraceFiles = None,
     scenario: ScenarioFile = None,
     histogram: HistogramFile = None,
@@ -104,12 +107,14 @@ def simulate(
     outputs = [("--histogram", histogram), ("--gantt", gantt), *(("--trace", path) for path in trace or ())]
     inputs = [("--scenario", scenario), ("--costs", costs), ("--processor", processor), ("--tasks", tasks)]
     refuse_one_file_for_two(outputs, inputs)
+    if gantt is None and (given := opt.given_options(context, lambda name: name in ("first", "until"))):
+        raise InputError(f"{', '.join(given)} says what a picture shows: give --gantt FILE.svg too")
     if scenario is not None:
-        from sched_sim.cli.scenario import simulate_scenario
+        from sched_sim.cli.scenario import Picture, simulate_scenario
 
         _refuse_beside_scenario(context, scenario)
         asked = flags.Asked(model, output, unit, initial_std, times_slower)
-        simulate_scenario(scenario, gantt, trace or (), histogram, asked, outputs, format)
+        simulate_scenario(scenario, Picture(gantt, first, until), trace or (), histogram, asked, outputs, format)
         return
     if given := opt.given_options(context, lambda name: name in ABOUT_ACCURACY):
         raise InputError(
@@ -175,8 +180,11 @@ def simulate(
     if gantt is not None:
         from reports.charts.chart import gantt as draw
         from reports.charts.chart import method_panel, save
+        from reports.charts.panels import zoomed
 
         panel = method_panel(table, method, timing, pace, cycles, options, others, statistic=statistic)
+        if first is not None or until is not None:
+            panel = zoomed(panel, *stretch(first, until, rate, panel.end))
         save(draw([panel], hr_hz=rate), gantt, "--gantt")
     say_of_statistic(statistic, [table])
     if together := released_together(work, timing, pace, options, others):

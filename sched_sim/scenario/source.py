@@ -145,7 +145,7 @@ class ComposedFilter(Source):
         step, start = self.step, self.next_release
         self.step, self.next_release = step + 1, start + self.period
         first = self._landing_first(step)
-        predict = self._predict(first)
+        predict, carry = self._predict(), self._carry(first)
         corrected = 0
         for number, following in enumerate(self.following):
             if following is not None and following[0] == step:
@@ -153,7 +153,7 @@ class ComposedFilter(Source):
                 self.following[number] = next(self.measurements[number], None)
         for taken in [taken for taken, lost in self.flying.items() if lost == step]:
             del self.flying[taken]
-        jobs = [self._predict_job(step, start, predict, corrected)]
+        jobs = [self._predict_job(step, start, predict, carry, corrected)]
         if self.awaited is not None and self.awaited.arrives == step:
             self.awaited = None
         arrived = sorted(self.arrivals.pop(step, []), key=self._order)
@@ -189,11 +189,15 @@ class ComposedFilter(Source):
         urgent = self.scenario.priority
         return {taken for taken in there if taken in self.flying and self.sensors[taken.sensor].priority < urgent}
 
-    def _predict(self, landing_first: set[Taken]) -> int:
-        """The work of the prediction, with what is in flight."""
+    def _predict(self) -> int:
+        """The work of the prediction; with the products of Larsen's method while one is awaited."""
         waits = self.one_in_flight and (self.awaited or self.carried)
         part = "predict_accumulate" if waits else "predict"
-        work = total(self.costs[part], self.predict_stream)
+        return total(self.costs[part], self.predict_stream)
+
+    def _carry(self, landing_first: set[Taken]) -> int:
+        """The work of taking what is in flight a step further."""
+        work = 0
         if self.carries is not None:
             for taken in self.flying:
                 if taken in landing_first:
@@ -201,10 +205,11 @@ class ComposedFilter(Source):
                 work += total(self.costs[self.carries.of(self.sensors[taken.sensor].name)], self.predict_stream)
         return work
 
-    def _predict_job(self, step: int, start: int, predict: int, corrected: int) -> Job:
+    def _predict_job(self, step: int, start: int, predict: int, carry: int, corrected: int) -> Job:
         """corrected: the work of the corrections of the covariance in its step."""
-        parts = (("PR", predict), ("CO", corrected)) if corrected else (("PR", predict),)
-        return Job("predict", step, self.scenario.priority, start, start + self.period, predict + corrected, parts)
+        more = tuple((label, work) for label, work in (("CA", carry), ("CO", corrected)) if work)
+        work = predict + carry + corrected
+        return Job("predict", step, self.scenario.priority, start, start + self.period, work, (("PR", predict), *more))
 
     def _take(self, number: int, step: int, delay: int | None, landed: int) -> int:
         """What is done in its step with one that will come late. landed: of those in flight, before that."""
@@ -280,7 +285,8 @@ class ComposedFilter(Source):
         sensor, draws = self.sensors[first.sensor], self.streams[first.sensor]
         if self._is_carried(first):
             late = total(self.costs[self._part(first)], draws)
-            return self._job(together, (("CO", late),), partial(self._land, together))
+            label = "CO" if self.carries is None else "LA"
+            return self._job(together, ((label, late),), partial(self._land, together))
         aim = now // self.period
         kind = "correct_accumulate" if self.one_in_flight and self._waits(aim, together) else "correct"
         names = [self.sensors[measurement.sensor].name for measurement in together]

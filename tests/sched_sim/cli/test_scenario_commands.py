@@ -15,7 +15,7 @@ from sched_sim.scenario.run import run_scenario
 from sched_sim.scenario.scenario import Sensor
 from sched_sim.scenario.scenario_file import read_scenario
 from sched_sim.schedule.tasks import Task
-from tests.command_line import Run
+from tests.command_line import Run, is_refused
 from tests.scenarios import ROCKET
 
 SHORT = """\
@@ -278,3 +278,48 @@ def test_corrections_that_have_not_landed_count_as_later_than_all(sched_sim: Run
 def test_each_of_two_processors_has_a_busy_share(sched_sim: Run, tmp_path: Path) -> None:
     write(tmp_path, SHORT.replace("speed = 10", "speed = 10\ncpus = 2"))
     assert "Processors busy 30.0% and 9.0% of the time" in sched_sim("simulate --scenario s.toml").out
+
+
+SPREAD = """name = "spread"
+speed = 100
+steps = 200
+late = "carried-gain"
+costs = "c.toml"
+[[sensor]]
+name = "imu"
+every = 1
+[[sensor]]
+name = "gps"
+every = 40
+delay = 30
+priority = 20
+land_by = 60
+"""
+SPREAD_COSTS = """name = "c"
+unit = "operation"
+[samples]
+predict = [30]
+correct = { imu = [5], gps = [30] }
+carry.gps = [9]
+beside = { imu = [2], gps = [2] }
+land.gps = [20]
+"""
+
+
+def test_a_picture_of_a_scenario_shows_the_steps_asked_for_and_says_whose_they_are(
+    sched_sim: Run, tmp_path: Path
+) -> None:
+    (tmp_path / "s.toml").write_text(SPREAD)
+    (tmp_path / "c.toml").write_text(SPREAD_COSTS)
+    line = "simulate --scenario s.toml"
+    assert sched_sim(f"{line} --gantt g.svg --from 25 --until 43").code == 0
+    texts = re.findall(r"<!-- (.*?) -->", (tmp_path / "g.svg").read_text())
+    assert {"steps 25 to 42 of 200", "$k$, $m$, $l$ of gps", "gps"} <= set(texts)
+    assert all(any(label in text for text in texts) for label in ("carry", "land", "correct"))
+    is_refused(sched_sim(f"{line} --gantt g.svg --until 201"), ["--until 201", "200 steps are simulated"])
+    is_refused(sched_sim(f"{line} --from 25"), ["--from says what a picture shows", "--gantt"])
+
+
+def test_a_picture_of_one_filter_shows_the_steps_asked_for(sched_sim: Run, tmp_path: Path) -> None:
+    assert sched_sim("simulate -N 10 -M 4 --gantt g.svg --from 3 --until 9").code == 0
+    assert "steps 3 to 8 of 30" in (tmp_path / "g.svg").read_text()
