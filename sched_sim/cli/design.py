@@ -13,7 +13,7 @@ from sched_sim.cli.design_flags import with_options
 from sched_sim.cli.output import lines, print_csv, print_json, print_table, say, units
 from sched_sim.cli.processors import Parts
 from sched_sim.design.options import Options
-from sched_sim.errors import InputError
+from sched_sim.errors import InputError, option
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -110,7 +110,7 @@ def design(
     from studies.selection.model import load_model, shipped_defaults
     from studies.selection.outputs import outputs_of
     from studies.selection.question import Question
-    from studies.selection.variants import GAINS, NOISES
+    from studies.selection.variants import WAYS
 
     if model is None:
         raise InputError(f"--model is missing: give one of {flags.MODELS}, or package.module:function of your own")
@@ -131,7 +131,7 @@ def design(
     if tasks is not None and rate is None and all(table.operations for table in tables):
         raise InputError(f"--tasks {tasks} without --hr-hz: give the rate of the HR loop, such as --hr-hz 400")
     parts = parts_for(_listed(processor), tables, asked.sampling)
-    given = opt.given_options(context, lambda name: name in ("gain", "low_rate_noise"))
+    given = opt.given_options(context, lambda name: name in WAYS)
     question = Question(
         loaded,
         outputs,
@@ -142,8 +142,7 @@ def design(
         tables,
         parts,
         options,
-        (options.low_rate_noise,) if "--low-rate-noise" in given else NOISES,
-        (options.gain,) if "--gain" in given else GAINS,
+        {name: (getattr(options, name),) if option(name) in given else known for name, known in WAYS.items()},
         statistic,
         opt.make_tasks(tasks, "second" if parts else tables[0].unit, rate),
     )
@@ -320,6 +319,8 @@ def _row(of: Candidate, found: Choice) -> dict[str, Any]:
         "method": of.variant.method,
         "low_rate_noise": options.low_rate_noise if of.variant.method == "dual-rate" else None,
         "gain": options.gain if of.variant.method == "dual-rate" else None,
+        "lr_propagate_by": options.lr_propagate_by if of.variant.method == "dual-rate" else None,
+        "feedback": options.feedback if of.variant.method == "dual-rate" else None,
         "update_form": of.variant.table.update_form,
         "costs": of.variant.table.name,
         "every": of.variant.every,

@@ -10,7 +10,7 @@ from typing import Any
 from sched_sim.costs.table import CostTable
 from sched_sim.design.fit import check_shares
 from sched_sim.design.landing import landing
-from sched_sim.design.least_speed import least_speed
+from sched_sim.design.least_speed import has_closed_form, least_speed
 from sched_sim.design.method import Law
 from sched_sim.design.methods import METHODS as SCHEDULED
 from sched_sim.design.methods import select
@@ -35,7 +35,7 @@ from studies.selection.parts import OnPart, Parts, by_cost, percent
 from studies.selection.question import Accuracies, Question
 from studies.selection.remarks import remarks
 from studies.selection.sampling import Sampling
-from studies.selection.variants import Variant, candidates, variants
+from studies.selection.variants import Variant, candidates, kept, variants
 from studies.selection.waiting import too_irregular, too_late
 
 
@@ -68,9 +68,10 @@ def choose_filter(
 
     model, output, unit, N to delay_ms, motion, tau_s, metric: as in `compare_accuracy`. every: 2 tries every second
     measurement too. processors: parts by name, path or as they are, by default all that ship; costs: tables by name or
-    path, by default counts for the model, in each form of the covariance update that is worth it. tasks: with costs in
-    seconds where there are parts, and the least speed is that of the filter alone; else, as with tables of no counts,
-    in the unit of the tables, and the least speed is with them.
+    path, by default counts for the model, in each form of the covariance update that is worth it. options: of the
+    choices of the dual-rate filter those that differ from the paper's are kept to, of the others all are tried.
+    tasks: with costs in seconds where there are parts, and the least speed is that of the filter alone; else, as with
+    tables of no counts, in the unit of the tables, and the least speed is with them.
 
     Raises InputError that names what is wrong, its value and what to give; where no method keeps the accuracy, it says
     the best that there is, and how.
@@ -89,8 +90,9 @@ def choose_filter(
             tables,
             parts_for(processors, tables, sampling),
             options,
-            statistic=statistic,
-            tasks=tasks,
+            kept(options),
+            statistic,
+            tasks,
         ),
         methods,
         every,
@@ -138,8 +140,11 @@ def chosen(question: Question, methods: Sequence[str] | None = None, every: Sequ
     accuracy = Accuracies(question)
     looked = [
         _candidate(question, accuracy, variant)
-        for variant in variants(names, every, tables, question.options, question.noises, question.gains)
+        for variant in variants(names, every, tables, question.options, question.ways)
     ]
+    beside = [of for of in looked if of.variant.is_beside(question.options) and of.allowed is not None]
+    left = any(of.reason == NOT_TRIED or (of.L or 0) < (of.allowed or 0) for of in beside)
+    looked = [of for of in looked if of.reason != NOT_TRIED]
     if all(candidate.allowed is None for candidate in looked):
         raise InputError(_out_of_reach(question, looked, no_delay))
     keeping = [candidate for candidate in looked if candidate.least is not None]
@@ -156,6 +161,10 @@ def chosen(question: Question, methods: Sequence[str] | None = None, every: Sequ
     ]
     left_out = [words for words in wanted.left_out if any(f"no {name}:" in words for name in SCHEDULED)]
     left_out += [f"no {words}" for words in without]
+    left_out += [
+        f"dual-rate: {option('lr_propagate_by')} l and {option('feedback')} same-step, which may need less, are tried "
+        f"only where nothing is simulated, and not beyond the next measurement: give one to see"
+    ] * left
     choice = Choice(
         question.model,
         question.outputs,
@@ -205,7 +214,12 @@ def _candidate(question: Question, accuracy: Accuracies, variant: Variant) -> Ca
         return replace(found, reason=late)
     law = SCHEDULED[variant.method].law(variant.options.feedback)
     later = METHODS[variant.method].landing == "later"
-    last = min(found.allowed, _last_known(question, law, using.N, delay)) if later else found.first
+    most: int | None = _last_known(question, law, using.N, delay)
+    if variant.is_beside(question.options):
+        most = law.last_alone(using.N, delay) if has_closed_form(variant.options, question.tasks_in_unit) else None
+    if most is None:
+        return replace(found, reason=NOT_TRIED)
+    last = min(found.allowed, most) if later else found.first
     try:
         timing = Timing(using.N, delay, max(last, delay))
         SCHEDULED[variant.method].check(timing, variant.options.feedback)
@@ -223,6 +237,10 @@ def _candidate(question: Question, accuracy: Accuracies, variant: Variant) -> Ca
         landed=at,
         landed_std=None if at is None else curve.at(max(at, first)),
     )
+
+
+NOT_TRIED = "not tried"
+"""Of a way beside the options that has no closed form."""
 
 
 def _last_known(question: Question, law: Law, N: int, M: int) -> int:

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from sched_sim.design.least_speed import least_speed
+from sched_sim.design.least_speed import has_closed_form, least_speed
 from sched_sim.design.methods import METHODS as SCHEDULED
 from sched_sim.design.methods import select
 from sched_sim.design.timing import Timing
@@ -57,7 +57,7 @@ def front(question: Question, methods: Sequence[str], every: Sequence[int]) -> F
     """Of these methods."""
     accuracy = Accuracies(question, whole=True)
     least: dict[tuple[str, int, int], FrontPoint] = {}
-    for variant in variants(methods, every, question.tables, question.options, question.noises, question.gains):
+    for variant in variants(methods, every, question.tables, question.options, question.ways):
         for point in _points(question, accuracy, variant):
             key = point.method, point.every, point.L
             if key not in least or point.speed < least[key].speed:
@@ -89,6 +89,9 @@ def _points(question: Question, accuracy: Accuracies, variant: Variant) -> Itera
     for L in _some(first, min(last, curve.first + len(curve.figures) - 1)):
         std = curve.at(L)
         timing = Timing(using.N, delay, max(L, delay))
+        in_closed_form = has_closed_form(variant.options, question.tasks_in_unit, costs, timing)
+        if variant.is_beside(question.options) and not in_closed_form:
+            continue
         try:
             speed = least_speed(costs, timing, variant.options, question.tasks_in_unit).speed
         except InputError:

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 
 import numpy as np
 
-from filters.delayed.low_rate_noise import LowRateNoise
 from sched_sim.costs.table import SECONDS, CostTable
-from sched_sim.design.options import Gain, Options
+from sched_sim.design.options import Options
 from sched_sim.design.pieces import Statistic
 from sched_sim.processors.part import Part
 from sched_sim.schedule.tasks import Task
@@ -21,7 +20,7 @@ from studies.selection.methods import METHODS
 from studies.selection.model import Model
 from studies.selection.outputs import Outputs
 from studies.selection.sampling import Sampling
-from studies.selection.variants import GAINS, NOISES, Variant
+from studies.selection.variants import WAYS, Variant, Ways
 
 
 @dataclass(frozen=True)
@@ -38,8 +37,7 @@ class Question:
     tables: Sequence[CostTable]
     parts: Sequence[Part] = ()
     options: Options = Options()
-    noises: Sequence[LowRateNoise] = NOISES
-    gains: Sequence[Gain] = GAINS
+    ways: Ways = field(default_factory=lambda: WAYS)
     statistic: Statistic = "minimum"
     tasks: Sequence[Task] = ()
 

@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
-from typing import NamedTuple
+from itertools import product
+from typing import Any, NamedTuple, TypeAlias
 
-from filters.delayed.low_rate_noise import LowRateNoise
 from sched_sim.costs.table import CostTable
 from sched_sim.design.methods import METHODS as SCHEDULED
-from sched_sim.design.options import Gain, Options
+from sched_sim.design.options import Options, choices
 from studies.selection.methods import METHODS
 
-NOISES: tuple[LowRateNoise, ...] = ("exact", "sum", "euler")
-GAINS: tuple[Gain, ...] = ("at-update", "precomputed")
+Ways: TypeAlias = Mapping[str, tuple[Any, ...]]
+"""Choices of the dual-rate filter that are looked at, by the names of `Options`."""
+
+WAYS: Ways = {name: choices()[name] for name in ("low_rate_noise", "gain", "lr_propagate_by", "feedback")}
+"""All."""
 
 
 class Variant(NamedTuple):
@@ -34,15 +37,28 @@ class Variant(NamedTuple):
         """So many choices are not as in the paper."""
         return len(self._choices())
 
+    def is_beside(self, options: Options) -> bool:
+        """Whether it is another way to schedule the dual-rate filter than that of the options."""
+        return self.method == "dual-rate" and any(
+            getattr(self.options, name) != getattr(options, name) for name in ("lr_propagate_by", "feedback")
+        )
+
     def _choices(self) -> list[str]:
-        choices = []
-        if self.options.low_rate_noise != "exact":
-            choices.append({"sum": "Q' (Eq. 23)", "euler": "Q'' (Eq. 24)"}[self.options.low_rate_noise])
-        if self.options.gain == "precomputed":
-            choices.append("gain early")
+        choices = _of_dual_rate(self.options) if self.method == "dual-rate" else []
         if self.table.update_form not in (None, "textbook"):
             choices.append(f"{self.table.update_form} update")
         return choices
+
+
+def _of_dual_rate(options: Options) -> list[str]:
+    words = {
+        "Q' (Eq. 23)": options.low_rate_noise == "sum",
+        "Q'' (Eq. 24)": options.low_rate_noise == "euler",
+        "gain early": options.gain == "precomputed",
+        "propagate by l": options.lr_propagate_by == "l",
+        "same step": options.feedback == "same-step",
+    }
+    return [said for said, chosen in words.items() if chosen]
 
 
 def candidates(methods: Sequence[str] | None, tables: Sequence[CostTable], M: int) -> list[str]:
@@ -58,10 +74,9 @@ def variants(
     every: Sequence[int],
     tables: Sequence[CostTable],
     options: Options,
-    noises: Sequence[LowRateNoise] = NOISES,
-    gains: Sequence[Gain] = GAINS,
+    ways: Ways = WAYS,
 ) -> Iterator[Variant]:
-    """noises, gains: those of the dual-rate filter that are looked at; the others have `options` alone."""
+    """ways: those of the dual-rate filter; the other methods have none of these choices, and `options` alone."""
     for method in methods:
         for number in every:
             for table in tables:
@@ -70,15 +85,24 @@ def variants(
                 if method != "dual-rate":
                     yield Variant(method, number, table, replace(options, low_rate_noise="exact", gain="at-update"))
                     continue
-                for noise in noises:
-                    for gain in gains:
-                        if _has(table, noise, gain):
-                            yield Variant(method, number, table, replace(options, low_rate_noise=noise, gain=gain))
+                for chosen in product(*ways.values()):
+                    way = replace(options, **dict(zip(ways, chosen, strict=True)))
+                    if _has(table, way):
+                        yield Variant(method, number, table, way)
 
 
-def _has(table: CostTable, noise: LowRateNoise, gain: Gain) -> bool:
-    kinds = table.costs["dual-rate"]
+def kept(options: Options) -> Ways:
+    """What differs from the paper's is kept to."""
+    paper = Options()
+    return {
+        name: known if getattr(options, name) == getattr(paper, name) else (getattr(options, name),)
+        for name, known in WAYS.items()
+    }
+
+
+def _has(table: CostTable, options: Options) -> bool:
+    kinds, noise = table.costs["dual-rate"], options.low_rate_noise
     high = "hr_propagate" if noise == "exact" else f"hr_propagate_{noise}"
     low = "lr_propagate_euler" if noise == "euler" else "lr_propagate"
-    late = ("lr_gain", "lr_correct") if gain == "precomputed" else ("lr_update",)
+    late = ("lr_gain", "lr_correct") if options.gain == "precomputed" else ("lr_update",)
     return all(kind in kinds for kind in (high, low, *late))

@@ -54,7 +54,7 @@ def test_the_readmes_question_is_answered_at_once(sched_sim: Run) -> None:
     start = process_time()
     result = sched_sim(line)
     assert process_time() - start < 1.0
-    assert "lands at 45 of the 62 you allow" in result.out
+    assert "lands at 44 of the 62 you allow" in result.out
     assert "using every second measurement would cost 36 %" in result.out
     assert "landing in step L=N=80 instead of M=44 costs 3.7 %" in result.out
 
@@ -66,7 +66,8 @@ def test_what_is_said_of_a_part_is_true(sched_sim: Run) -> None:
     model = shipped_model("ins-gps").model(400.0)
     assert len(found["designs"]) >= 12
     for row in found["designs"]:
-        options = Options(low_rate_noise=row["low_rate_noise"] or "exact", gain=row["gain"] or "at-update")
+        chosen = {name: row[name] for name in ("low_rate_noise", "gain", "lr_propagate_by", "feedback") if row[name]}
+        options = Options(**chosen)
         timing = Timing(row["N"], row["M"], row["L"])
         for on in row["parts"]:
             costs = select(on_part(load_costs(row["costs"]), load_part(on["processor"])), row["method"], options)
@@ -110,18 +111,18 @@ def test_the_cheapest_part_is_the_first(sched_sim: Run, tmp_path: Path) -> None:
 
 
 def test_why_the_others_do_not(sched_sim: Run) -> None:
-    found = answer(sched_sim, f"--within 0.3731 {INS} --processor cortex-m0plus")
+    found = answer(sched_sim, f"--within 0.3731 {INS} --processor cortex-m0plus --feedback next-step")
     assert {"dual-rate", "px4-predictor"} <= {row["method"] for row in found["others"]}
     assert "0.3733 m at best, landing at L=45" in found["others"][0]["reason"]
     assert all(row["reason"].startswith("no part is fast enough") for row in found["designs"])
-    table = sched_sim(f"design --within 0.3731 {INS} --processor cortex-m0plus").out
+    table = sched_sim(f"design --within 0.3731 {INS} --processor cortex-m0plus --feedback next-step").out
     assert "not dual-rate, delayed-horizon: 0.3733 m at best" in table
     assert "too slow: cortex-m0plus" in table
 
 
 def test_that_no_part_will_do_is_an_answer_with_what_would_help(sched_sim: Run) -> None:
     """Exit code 0 as `minimum` and `processors` have; percentages in full."""
-    line = f"design --within 0.38 {INS} --processor cortex-m0plus"
+    line = f"design --within 0.38 {INS} --processor cortex-m0plus --feedback next-step --lr-propagate-by m"
     result = sched_sim(line)
     assert result.code == sched_sim("minimum -N 80 -M 44 --hr-hz 400 --processor cortex-m0plus").code == 0
     assert "no part will do: cortex-m0plus would need 209 % of its speed, with dual-rate; name a faster" in result.out
@@ -187,7 +188,7 @@ def test_costs_in_time_fit_the_loop_or_not_as_minimum_says(
     sched_sim: Run, tmp_path: Path, propagate: float, task: str, method: str
 ) -> None:
     (tmp_path / "mine.toml").write_text(MINE.format(propagate), encoding="utf-8")
-    line = f"--costs mine.toml --method {method}"
+    line = f"--costs mine.toml --method {method} --lr-propagate-by m --feedback next-step"
     if task:
         (tmp_path / "tasks.toml").write_text(
             f'[[task]]\nname = "control"\npriority = 5\noffset = 0\n{task}\n', encoding="utf-8"
@@ -223,7 +224,8 @@ def test_beside_tasks_of_any_phase_it_may_land_beyond_the_next_measurement(
     (tmp_path / "tasks.toml").write_text(
         '[[task]]\nname = "control"\nhz = 100\ncost_us = 300\npriority = 5\n', encoding="utf-8"
     )
-    line = f"--within 0.5 {INS} --method dual-rate --every 1 --processor rp2040 --tasks tasks.toml --policy {policy}"
+    line = f"--within 0.5 {INS} --method dual-rate --every 1 --processor rp2040 --tasks tasks.toml --policy {policy} "
+    line += "--lr-propagate-by m --feedback next-step"
     (row,) = answer(sched_sim, line)["designs"]
     assert row["L"] == L
     assert row["parts"][0]["fits"]
@@ -233,6 +235,27 @@ def test_choices_that_are_given_are_kept(sched_sim: Run) -> None:
     rows = answer(sched_sim, f"--within 0.38 {INS} --method dual-rate --gain at-update --low-rate-noise exact "
                   "--all-methods --processor leon3")["designs"]  # fmt: skip
     assert {(row["gain"], row["low_rate_noise"]) for row in rows} == {("at-update", "exact")}
+
+
+@pytest.mark.parametrize("line", ["-N 80 -M 1", "-N 80 -M 44"])
+def test_the_way_that_needs_least_is_the_least_of_all_ways(sched_sim: Run, line: str) -> None:
+    """Also of the deadline of LR propagate and of the feedback, and the column says so."""
+    asked = f"--within 0.38 --model ins-gps {line} --method dual-rate --every 1 --processor leon3"
+    (best,) = answer(sched_sim, asked)["designs"]
+    given = [
+        answer(sched_sim, f"{asked} --lr-propagate-by {by} --feedback {feedback}")["designs"][0]["min_speed"]
+        for by in ("m", "l")
+        for feedback in ("next-step", "same-step")
+    ]
+    assert best["min_speed"] == min(given) < given[0]
+    assert "propagate by l" in sched_sim(f"design {asked} --feedback next-step -M 1 -N 80".replace("-M 44", "")).out
+
+
+def test_ways_that_have_to_be_simulated_are_said_not_to_be_tried(sched_sim: Run) -> None:
+    asked = f"design --within 0.38 {INS} --method dual-rate --every 1 --processor leon3 --policy edf"
+    note = "dual-rate: --lr-propagate-by l and --feedback same-step, which may need less, are tried only"
+    assert note in sched_sim(asked).out
+    assert note not in sched_sim(asked.replace("--policy edf", "")).out
 
 
 def test_without_a_rate_there_is_no_part(sched_sim: Run) -> None:
@@ -283,9 +306,9 @@ def test_the_figure_is_the_same_every_time(sched_sim: Run, tmp_path: Path, kind:
         ),
         (
             "--within 0.3 --model ins-gps -N 80 -M 200",
-            ["0.436685 m, by recalculate, larsen, clone, carried-gain, landing"],
+            ["0.436685 m, by recalculate, larsen, clone, carried-gain, dual-rate, landing"],
         ),
-        (f"--within 0.36 {INS}", ["0.372935 m", "carried-gain, augmentation, landing at L=44"]),
+        (f"--within 0.36 {INS}", ["0.372935 m", "carried-gain, augmentation, dual-rate, landing at L=44"]),
         (f"--within 0.36 {INS} --method px4-predictor", ["0.382359 m, by px4-predictor", "allow --within 0.382359"]),
         ("--within 0.38 --model ins-gps --unit km", ["--unit km: position is in m"]),
         (f"--within -1 {INS}", ["--within is -1", "greater than 0"]),

@@ -77,7 +77,9 @@ def test_it_is_what_a_search_of_every_landing_finds(within: float, metric: str) 
             of.variant.options.gain,
         ): (of.L, of.least.speed)
         for of in found.keeping
-        if of.least is not None and of.variant.method in ("recalculate", "larsen", "dual-rate")
+        if of.least is not None
+        and of.variant.method in ("recalculate", "larsen", "dual-rate")
+        and not of.variant.is_beside(Options())
     }
     assert got == expected
     best = {of.variant.method for of in found.best}
@@ -134,7 +136,7 @@ def test_what_is_printed_is_a_table() -> None:
     for shown in (str(found), repr(found), str(accuracies)):
         assert "array(" not in shown
         assert shown.splitlines()[1].split()[0] == "method"
-        assert max(map(len, shown.splitlines()[:4])) < 160
+        assert max(map(len, shown.splitlines()[:4])) < 180
     assert "too slow: cortex-m0plus" in str(found)
     assert "no part will do: cortex-m0plus" in str(found)
     assert "not px4-predictor: 0.3824 m at best" in str(found)

@@ -75,6 +75,8 @@ def test_it_is_what_a_search_of_every_landing_finds(N: int, M: int, within: floa
     tables = tables_for(load_model(CV, None), None)
     kept = {key(of.variant): of for of in asked_for(N, M, within, metric).keeping}
     for way in variants(LATE, (1, 2), tables, Options()):
+        if way.is_beside(Options()):
+            continue
         using = N * way.every
         found = searched(way, using, M, within, metric)
         assert (found is None) == (key(way) not in kept)
@@ -102,6 +104,7 @@ def test_a_looser_bound_never_asks_for_more() -> None:
 def test_a_bound_that_every_landing_keeps_is_said_to_allow_more() -> None:
     """CV at N=3, M=1: L=4 by the arrival of the next, and a later one makes no difference."""
     found = asked_for(3, 1, 9.0)
-    (of,) = [of for of in found.best if of.variant.method == "dual-rate"]
+    of = next(of for of in found.keeping if (of.variant.options, of.variant.every) == (Options(), 1))
     assert (of.L, of.allowed) == (4, 5)
-    assert any(f"lands at {of.landed} of the 4 or more you allow" in remark for remark in found.remarks)
+    (best,) = [of for of in found.best if of.variant.method == "dual-rate"]
+    assert any(f"lands at {best.landed} of the {best.L} or more you allow" in remark for remark in found.remarks)
