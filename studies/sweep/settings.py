@@ -161,6 +161,12 @@ class _Settings(BaseModel):
             return None
         from studies.sweep.accuracy import output_accuracy
 
+        if self.model is not None and self.processor and not self.hr_hz:
+            raise InputError(
+                f"{option('model')} {self.model} and {option('processor')} {self.processor[0]} without "
+                f"{option('hr_hz')}: the rows have the rate that each design may reach, and the accuracy is of one "
+                f"rate; give it, such as {option('hr_hz')} 400"
+            )
         return output_accuracy(self.model, self.output, self.hr_hz)
 
     def _tasks(self, tables: Sequence[CostTable]) -> tuple[Task, ...]:

@@ -62,6 +62,7 @@ def test_a_method_that_has_no_such_figure_has_none() -> None:
         ({"model": "nix"}, "model 'nix' is unknown"),
         ({"model": 3}, "model '?3'?: give text"),
         ({"model": "camera", "output": "0:9"}, "output 0:9"),
+        ({"model": "camera", "processor": "leon3"}, "model camera and processor leon3 without hr_hz: the rows have"),
         (
             {"model": "camera", "processor": "leon3", "hr_hz": [100, 200]},
             "model camera with several hr_hz: it is another at each rate",
