@@ -24,7 +24,7 @@ from sched_sim.schedule.tasks import Task, phases_matter
 from sched_sim.ticks import Number, positive
 from studies.selection.choice import Candidate, Choice
 from studies.selection.compare import Metric, check_metric, undelayed
-from studies.selection.conditions import TAU_S, check_ages, chosen_methods, conditions_of
+from studies.selection.conditions import TAU_S, check_ages, check_every, chosen_methods, conditions_of
 from studies.selection.costs import tables_for
 from studies.selection.curve import Curve
 from studies.selection.landing import earliest
@@ -124,6 +124,7 @@ def parts_for(asked: Sequence[str | Part] | None, tables: Sequence[CostTable], s
 def chosen(question: Question, methods: Sequence[str] | None = None, every: Sequence[int] = (1, 2, 3, 4)) -> Choice:
     """`choose_filter` of what has been looked at."""
     check_metric(question.metric)
+    check_every(every)
     sampling, tables = question.sampling, question.tables
     if sampling.hr_hz is not None and question.second is not None:
         check_shares(question.tasks, sampling.hr_hz, question.second)

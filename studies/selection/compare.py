@@ -15,7 +15,15 @@ from sched_sim.errors import InputError, option
 from sched_sim.html_table import html_table
 from sched_sim.plain_table import plain_table
 from sched_sim.ticks import Number
-from studies.selection.conditions import TAU_S, Conditions, check_ages, chosen_methods, conditions_of, settling
+from studies.selection.conditions import (
+    TAU_S,
+    Conditions,
+    check_ages,
+    check_every,
+    chosen_methods,
+    conditions_of,
+    settling,
+)
 from studies.selection.landing import Landed, Processor, landed
 from studies.selection.methods import METHODS, Asked, by_reason
 from studies.selection.model import Model, load_model, shipped_defaults
@@ -149,6 +157,7 @@ def compared(
 ) -> Comparison:
     """`compare_accuracy` of what has been looked at. processor: where corrections land as it lets them."""
     check_metric(metric)
+    check_every(every)
     conditions = conditions_of(model, sampling, motion, tau_s)
     chosen = chosen_methods(methods, conditions)
     check_ages(model, sampling.using(max(every)).N + 1 + max(L or 0, sampling.M))

@@ -73,6 +73,15 @@ def _example(measured: int) -> str:
     return ",".join(["15"] + ["0"] * (measured - 1))
 
 
+def check_every(every: object) -> None:
+    """Raises InputError unless it is whole numbers, at least 1."""
+    said = f"{option('every')} is {short(repr(every))}: give whole numbers of at least 1, such as [1, 2]"
+    if not isinstance(every, list | tuple | range) or not every:
+        raise InputError(said)
+    if any(isinstance(number, bool) or not isinstance(number, int) or number < 1 for number in every):
+        raise InputError(said)
+
+
 class Chosen(NamedTuple):
     """left_out: what those lack that were not asked for."""
 

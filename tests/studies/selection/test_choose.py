@@ -105,6 +105,13 @@ def test_with_several_in_flight_those_that_bear_it_take_part() -> None:
     assert "one measurement is on its way at a time" in other.reason
 
 
+@pytest.mark.parametrize("every", [2, 0, [0], [1.5], [], [True], "1"])
+def test_every_is_whole_numbers(every: Any) -> None:
+    for ask in (lambda: choice(9.0, every=every), lambda: compare_accuracy("ins-gps", every=every)):
+        with pytest.raises(InputError, match=r"every is .*: give whole numbers of at least 1"):
+            ask()
+
+
 def test_parts_as_they_are() -> None:
     found = choice(9.0, hr_hz=100, processors=[load_part("leon3"), "cortex-m4f"])
     assert {on.part.name for of in found.best for on in of.parts} == {"leon3", "cortex-m4f"}
