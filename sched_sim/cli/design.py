@@ -104,7 +104,7 @@ def design(
     sched-sim design --within 0.5 --model mymodule:my_system --output position=0:3 --unit m --hr-hz 400 \
 --measurement-hz 5 --delay-ms 110 --figure front.svg
     """
-    from studies.selection.choose import chosen, parts_for, with_parts, within_of
+    from studies.selection.choose import check_rate, chosen, parts_for, with_parts, within_of
     from studies.selection.conditions import conditions_of
     from studies.selection.costs import tables_for
     from studies.selection.model import load_model, shipped_defaults
@@ -124,6 +124,7 @@ def design(
         check_picture(figure, "--figure")
     asked = flags.sampled(shipped_defaults(model), N, M, None, hr_hz, measurement_hz, delay_ms)
     rate = asked.sampling.hr_hz
+    check_rate(processor, asked.sampling)
     loaded = load_model(model, rate)
     outputs = outputs_of(loaded, output, unit)
     conditions = conditions_of(loaded, asked.sampling, motion, tau)

@@ -77,6 +77,7 @@ def choose_filter(
     the best that there is, and how.
     """
     sampling = Sampling.of(shipped_defaults(model), N, M, hr_hz, measurement_hz, delay_ms)
+    check_rate(processors, sampling)
     loaded = load_model(model, sampling.hr_hz)
     tables = tables_for(loaded, costs)
     return chosen(
@@ -109,8 +110,6 @@ def parts_for(asked: Sequence[str | Part] | None, tables: Sequence[CostTable], s
     asked for cannot be."""
     counted = all(table.operations for table in tables)
     if sampling.hr_hz is None or not counted:
-        if asked and sampling.hr_hz is None:
-            raise InputError(f"{option('processor')} without {option('hr_hz')}: give the rate of the HR loop")
         if asked:
             raise InputError(
                 f"{option('processor')} needs counted operations, and {option('costs')} {tables[0].shown} has none: "
@@ -119,6 +118,12 @@ def parts_for(asked: Sequence[str | Part] | None, tables: Sequence[CostTable], s
         return ()
     parts = [part if isinstance(part, Part) else load_part(part) for part in asked or shipped_parts()]
     return tuple({part.name: part for part in parts}.values())
+
+
+def check_rate(asked: Sequence[str | Part] | None, sampling: Sampling) -> None:
+    """Raises InputError for parts without a rate; before anything is counted, which may take long."""
+    if asked and sampling.hr_hz is None:
+        raise InputError(f"{option('processor')} without {option('hr_hz')}: give the rate of the HR loop")
 
 
 def chosen(question: Question, methods: Sequence[str] | None = None, every: Sequence[int] = (1, 2, 3, 4)) -> Choice:

@@ -112,6 +112,12 @@ def test_every_is_whole_numbers(every: Any) -> None:
             ask()
 
 
+def test_parts_without_a_rate_are_refused_before_anything_is_counted(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("studies.selection.choose.tables_for", lambda *_: pytest.fail("counted"))
+    with pytest.raises(InputError, match="processor without hr_hz"):
+        choice(9.0, processors=["leon3"])
+
+
 def test_parts_as_they_are() -> None:
     found = choice(9.0, hr_hz=100, processors=[load_part("leon3"), "cortex-m4f"])
     assert {on.part.name for of in found.best for on in of.parts} == {"leon3", "cortex-m4f"}
