@@ -44,9 +44,18 @@ Costs = Annotated[
     str | None,
     typer.Option(
         "--costs",
-        help="Cost table, shipped or your own file, with --speed or --processor; by default steffes2014, with "
-        "--processor the operations of filters of the model's size are counted.",
+        help="Cost table, shipped or your own file, with --speed or --processor alone; by default with --speed "
+        "steffes2014, with --processor the operations of filters of the model's size are counted.",
         rich_help_panel=opt.DESIGN,
+    ),
+]
+Speed = Annotated[
+    str | None,
+    typer.Option(
+        "--speed",
+        help="Cost units the processor does per HR period: corrections land as it lets them. Without it and "
+        "--processor they land as asked for, and no processor is looked at.",
+        rich_help_panel=opt.PROCESSOR,
     ),
 ]
 LandingStep = Annotated[
@@ -82,7 +91,7 @@ def accuracy(
     tau: flags.Tau = "0.25",
     trajectory: Trajectory = None,
     initial_std: InitialStd = None,
-    speed: opt.Speed = None,
+    speed: Speed = None,
     processor: opt.OnProcessor = None,
     costs: Costs = None,
     statistic: opt.WhichCost = "minimum",

@@ -105,7 +105,7 @@ def _caption(choice: Choice) -> str:
     unit = f" {choice.outputs.unit}" if choice.outputs.unit else ""
     return (
         f"{choice.model.name}: {choice.metric} of {choice.outputs.name} within {choice.within:g}{unit}; least speed in "
-        f"{choice.unit}s per HR period"
+        f"{choice.unit}{'s' if choice.unit in ('operation', 'second', 'standard step') else ''} per HR period"
     )
 
 

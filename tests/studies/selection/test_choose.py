@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from fractions import Fraction
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -116,6 +117,14 @@ def test_parts_without_a_rate_are_refused_before_anything_is_counted(monkeypatch
     monkeypatch.setattr("studies.selection.choose.tables_for", lambda *_: pytest.fail("counted"))
     with pytest.raises(InputError, match="processor without hr_hz"):
         choice(9.0, processors=["leon3"])
+
+
+def test_a_unit_that_is_no_word_stays_as_it_is(tmp_path: Path) -> None:
+    (tmp_path / "mine.toml").write_text(
+        'name = "mine"\nunit = "ms"\n[costs.larsen]\npropagate = 1\npropagate_accumulate = 2\nupdate = 3\n',
+        encoding="utf-8",
+    )
+    assert "least speed in ms per HR period" in str(choice(9.0, costs=[str(tmp_path / "mine.toml")]))
 
 
 def test_parts_as_they_are() -> None:
