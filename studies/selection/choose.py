@@ -24,7 +24,7 @@ from sched_sim.schedule.tasks import Task, phases_matter
 from sched_sim.ticks import Number, positive
 from studies.selection.choice import Candidate, Choice
 from studies.selection.compare import Metric, check_metric, undelayed
-from studies.selection.conditions import TAU_S, check_ages, check_every, chosen_methods, conditions_of
+from studies.selection.conditions import TAU_S, check_ages, check_every, check_names, chosen_methods, conditions_of
 from studies.selection.costs import tables_for
 from studies.selection.curve import Curve
 from studies.selection.landing import earliest
@@ -76,6 +76,7 @@ def choose_filter(
     Raises InputError that names what is wrong, its value and what to give; where no method keeps the accuracy, it says
     the best that there is, and how.
     """
+    check_names(methods=methods, processors=processors, costs=costs)
     sampling = Sampling.of(shipped_defaults(model), N, M, hr_hz, measurement_hz, delay_ms)
     check_rate(processors, sampling)
     loaded = load_model(model, sampling.hr_hz)

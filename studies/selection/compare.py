@@ -20,6 +20,7 @@ from studies.selection.conditions import (
     Conditions,
     check_ages,
     check_every,
+    check_names,
     chosen_methods,
     conditions_of,
     settling,
@@ -124,6 +125,7 @@ def compare_accuracy(
 
     Raises InputError that names what is wrong, its value and what to give.
     """
+    check_names(methods=methods)
     asked = Sampling.of(shipped_defaults(model), N, M, hr_hz, measurement_hz, delay_ms)
     loaded = load_model(model, asked.hr_hz)
     outputs = outputs_of(loaded, output, unit)

@@ -82,6 +82,13 @@ def check_every(every: object) -> None:
         raise InputError(said)
 
 
+def check_names(**lists: object) -> None:
+    """Raises InputError for a text where names are asked for, which would be taken letter by letter."""
+    for name, value in lists.items():
+        if isinstance(value, str):
+            raise InputError(f"{name} is {short(repr(value))}: give a list of names, [{short(repr(value))}]")
+
+
 class Chosen(NamedTuple):
     """left_out: what those lack that were not asked for."""
 

@@ -127,6 +127,12 @@ def test_a_unit_that_is_no_word_stays_as_it_is(tmp_path: Path) -> None:
     assert "least speed in ms per HR period" in str(choice(9.0, costs=[str(tmp_path / "mine.toml")]))
 
 
+@pytest.mark.parametrize("name", ["processors", "costs", "methods"])
+def test_a_text_in_place_of_names_is_refused(name: str) -> None:
+    with pytest.raises(InputError, match=rf"{name} is 'larsen': give a list of names, \['larsen'\]"):
+        choice(9.0, **{name: "larsen"})
+
+
 def test_parts_as_they_are() -> None:
     found = choice(9.0, hr_hz=100, processors=[load_part("leon3"), "cortex-m4f"])
     assert {on.part.name for of in found.best for on in of.parts} == {"leon3", "cortex-m4f"}
