@@ -152,9 +152,9 @@ def sampled(
     from studies.selection.sampling import Sampling, with_defaults
 
     if N is not None and N < 1:
-        raise InputError(f"-N {N}: give at least 1 step between measurements")
+        raise InputError(f"-N is {N}: give at least 1 step between measurements")
     if M is not None and M < 0:
-        raise InputError(f"-M {M}: give 0 or more steps of delay")
+        raise InputError(f"-M is {M}: give 0 or more steps of delay")
     asked = with_defaults(shipped, N, M, hr_hz, measurement_hz, delay_ms)
     rate = None if asked.hr_hz is None else positive(asked.hr_hz, "--hr-hz")
     design = make_design(

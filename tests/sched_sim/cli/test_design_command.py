@@ -299,9 +299,9 @@ def test_the_figure_is_the_same_every_time(sched_sim: Run, tmp_path: Path, kind:
     [
         (f"{INS}", ["--within is missing", "--within 0.38"]),
         ("--within 0.38", ["--model is missing"]),
-        ("--within 0.38 --model ins-gps -N 0", ["-N 0: give at least 1 step"]),
-        ("--within 0.38 --model ins-gps -N -5", ["-N -5: give at least 1 step"]),
-        ("--within 0.38 --model ins-gps -M -1", ["-M -1: give 0 or more steps"]),
+        ("--within 0.38 --model ins-gps -N 0", ["-N is 0: give at least 1 step"]),
+        ("--within 0.38 --model ins-gps -N -5", ["-N is -5: give at least 1 step"]),
+        ("--within 0.38 --model ins-gps -M -1", ["-M is -1: give 0 or more steps"]),
         (f"--within 0 {INS}", ["--within is 0", "greater than 0"]),
         (
             "--within 0.5 --model ins-gps -N 80 -M 200 --method clone-split",
