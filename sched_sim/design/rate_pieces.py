@@ -36,7 +36,7 @@ MOST_DIGITS = 12
 """A rate that fits alone, such as 1000/7 Hz, is not rounded."""
 
 SOON, FINER = 8, 10**6
-"""Intervals that repeat after so few measurements are looked at one by one, others as if after so many times as much."""
+"""Intervals that repeat after so few measurements are looked at one by one, others as if after many times as many."""
 
 
 class Pieces(NamedTuple):
