@@ -63,7 +63,7 @@ def gantt(
     from sched_sim.cli.caveats import caveat_note
     from sched_sim.cli.design_times import make_design
     from sched_sim.cli.measured_note import say_of_statistic
-    from sched_sim.cli.simulate import released_together
+    from sched_sim.cli.simulate import of_the_start, released_together
     from sched_sim.design.least_speed import least_speed
     from sched_sim.design.methods import select
 
@@ -83,12 +83,12 @@ def gantt(
             timing = design.timing(name, options)
             work = select(table, name, options, statistic)
             pace = opt.pace(speed, rate, part, partial(least_speed, work, timing, options, others))
-            together = released_together(work, timing, pace, options, others)
+            remarks = [remark(work, timing, pace, options, others) for remark in (released_together, of_the_start)]
             drawn = partial(method_panel, table, name, timing, pace, options=options, tasks=others, statistic=statistic)
             panels.append(drawn(cycles=cycles))
             longer.append((timing.N, drawn))
-            if together:
-                say(f"Note: {name}: {together}")
+            for words in filter(None, remarks):
+                say(f"Note: {name}: {words}")
     refused.say()
     if first is not None or until is not None:
         start, end = stretch(first, until, rate, max(panel.end for panel in panels))

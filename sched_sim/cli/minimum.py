@@ -46,6 +46,7 @@ def minimum(
     from sched_sim.cli.design_times import make_design
     from sched_sim.cli.measured_note import measured_row, range_note, say_of_statistic
     from sched_sim.cli.parts import MEANING, fit_row, fit_words, fixed_by, highest_note, least_row, no_less
+    from sched_sim.cli.uneven_note import uneven_note
     from sched_sim.cli.update_form import update_form, update_note
     from sched_sim.costs.table import COUNTED
     from sched_sim.design.fit import fit
@@ -118,6 +119,7 @@ def minimum(
     timings = {row["method"]: design.timing(row["method"], options) for row in rows}
     note = lines(
         design.words,
+        uneven_note({name: (select(table, name, options, statistic), of) for name, of in timings.items()}, others),
         caveat_note(timings),
         update_note(table, [*timings]),
         range_note(table, timings, options, others),

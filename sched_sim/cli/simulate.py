@@ -191,6 +191,8 @@ def simulate(
         say(f"Note: {together}")
     if not schedule.misses and (note := unseen(work, timing, pace, cycles, options, others)):
         say(f"Note: {note}")
+    if start := of_the_start(work, timing, pace, options, others):
+        say(f"Note: {start}")
     wait = Fraction(0) if rate is None or design.times is None else design.times.wait(rate)
     about_run = of_run(method, timing, pace, table.unit, rate, part)
     (about,) = with_caveats([about_run | update_form(table, method) | busy_row(table.provenance)])
@@ -237,6 +239,22 @@ def unseen(
     if steady.schedule.misses:
         return f"{shown}; a deadline is missed within {needed}: --cycles {needed}"
     return f"{shown}; work piles up slowly: after {needed} cycles it had not come to rest, and nothing was missed yet"
+
+
+def of_the_start(costs: Costs, timing: Timing, speed: Fraction, options: Options, tasks: Sequence[Task]) -> str | None:
+    """That a simulation begins before any measurement is there, and how busy the processor is once the filter runs, in
+    words; None where that is not known without a simulation, or no more are on their way later."""
+    from sched_sim.cli.parts import no_less
+    from sched_sim.design.least_speed import has_closed_form
+    from sched_sim.design.load import loads
+
+    if timing.M <= timing.N or not has_closed_form(options, tasks, costs, timing):
+        return None
+    load = loads(costs, timing, speed, options)[0]
+    return (
+        f"shown from the start on: no measurement is there before step {timing.M}; once the filter has been running, "
+        f"the load is {no_less(100 * load, 3)} %"
+    )
 
 
 def _at_another_phase(

@@ -115,3 +115,39 @@ def test_a_landing_before_arrival_is_refused_with_the_first_that_the_method_can_
     line = f"minimum -N 10 -M 31 --costs counted-9-3-3 --method {method}"
     is_refused(sched_sim(f"{line} -L 30"), ["L=30", "M=31", f"give L from {first} on"])
     assert sched_sim(f"{line} -L {first}").code == 0
+
+
+@pytest.mark.parametrize(("method", "load"), [("larsen", "5.92 %"), ("recalculate", "11.5 %")])
+def test_what_is_shown_of_the_start_has_the_load_of_later_beside_it(sched_sim: Run, method: str, load: str) -> None:
+    design = f"-N 25 -M 200 --hr-hz 100 --costs counted-9-3-3 --processor cortex-m4f --method {method}"
+    assert load in sched_sim(f"minimum {design}").out
+    for line in (f"simulate {design}", f"gantt {design} -o g.svg"):
+        assert f"no measurement is there before step 200; once the filter has been running, the load is {load}" in (
+            sched_sim(line).err.replace("\n", " ")
+        )
+
+
+@pytest.mark.parametrize(
+    ("hz", "method", "words"),
+    [
+        ("30", "larsen", "larsen: least speed with the intervals of 13 and 14 as they come"),
+        ("29.97", "dual-rate", "dual-rate: least speed is an upper bound, for each interval counts as 13"),
+    ],
+)
+def test_where_a_rate_does_not_divide_it_says_what_the_least_speed_is(
+    sched_sim: Run, hz: str, method: str, words: str
+) -> None:
+    line = f"minimum --hr-hz 400 --measurement-hz {hz} --delay-ms 67.5 --costs counted-9-3-3 --method {method}"
+    assert words in sched_sim(line).out
+    assert "as they come" not in sched_sim(line.replace("67.5", "20")).out
+
+
+def test_the_highest_rate_is_that_of_the_verdicts(sched_sim: Run) -> None:
+    """2 s are 8 intervals of 250 ms: each measurement lands in the step of another."""
+    line = "minimum --measurement-hz 4 --delay-ms 2000 --costs counted-9-3-3 --processor cortex-m4f --method larsen"
+    rows = [
+        json.loads(sched_sim(f"{line} --hr-hz {hz} --format json").out)[0]
+        for hz in ("100", "1288.2", "1288.5", "1392.5")
+    ]
+    assert [row["fits"] for row in rows] == [True, True, False, False]
+    assert {row["highest_hr_hz"] for row in rows} == {1288.2}
