@@ -121,7 +121,7 @@ def _uneven(costs: LarsenInFlightCosts[int] | CarriedCosts[int], timing: Timing)
     if isinstance(costs, LarsenInFlightCosts):
         each, at_once = (before + 1) * product(costs), costs.gain + costs.correct + with_m * costs.compensate
     else:
-        propagate, at_k, carry, landing = works(costs)[:4]
+        _propagate, at_k, carry, landing = works(costs)[:4]
         couple, compensate = beside_others(costs)
         each, at_once = (before + 1) * carry, at_k + landing + with_m * (couple + compensate)
     high = [costs.propagate + each] * timing.N
