@@ -16,7 +16,6 @@ from sched_sim.design.methods import METHODS as SCHEDULED
 from sched_sim.design.methods import select
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import Statistic
-from sched_sim.design.timing import Timing
 from sched_sim.errors import InputError, option
 from sched_sim.processors.part import Part
 from sched_sim.processors.part_file import load_part, shipped_parts
@@ -228,7 +227,7 @@ def _candidate(question: Question, accuracy: Accuracies, variant: Variant) -> Ca
         return replace(found, reason=NOT_TRIED)
     last = min(found.allowed, most) if later else found.first
     try:
-        timing = Timing(using.N, delay, max(last, delay))
+        timing = using.timing(delay, max(last, delay))
         SCHEDULED[variant.method].check(timing, variant.options.feedback)
         costs = select(variant.table, variant.method, variant.options, question.statistic)
         least = least_speed(costs, timing, variant.options, question.tasks_in_unit)
@@ -261,7 +260,7 @@ def _on_parts(question: Question, accuracy: Accuracies, parts: Parts, candidate:
     if rate is None or candidate.L is None:
         return candidate
     delay = 0 if METHODS[variant.method].landing == "at once" else question.sampling.M
-    timing = Timing(candidate.N, delay, candidate.L)
+    timing = question.sampling.using(variant.every).timing(delay, candidate.L)
     curve = accuracy.of(variant)
     looked = [
         replace(on, std=None if on.landed is None else curve.at(max(on.landed, candidate.first)))

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 from sched_sim.design.least_speed import has_closed_form, least_speed
 from sched_sim.design.methods import METHODS as SCHEDULED
 from sched_sim.design.methods import select
-from sched_sim.design.timing import Timing
 from sched_sim.errors import InputError
 from studies.selection.compare import undelayed
 from studies.selection.landing import earliest
@@ -88,7 +87,7 @@ def _points(question: Question, accuracy: Accuracies, variant: Variant) -> Itera
         return
     for L in _some(first, min(last, curve.first + len(curve.figures) - 1)):
         std = curve.at(L)
-        timing = Timing(using.N, delay, max(L, delay))
+        timing = using.timing(delay, max(L, delay))
         in_closed_form = has_closed_form(variant.options, question.tasks_in_unit, costs, timing)
         if variant.is_beside(question.options) and not in_closed_form:
             continue

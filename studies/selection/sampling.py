@@ -10,6 +10,7 @@ from filters.accuracy.pattern import Interval
 from filters.accuracy.shipped import ShippedModel
 from sched_sim.bounds import whole
 from sched_sim.design.times import Times
+from sched_sim.design.timing import Timing
 from sched_sim.errors import InputError, option
 from sched_sim.ticks import Number, exact, positive
 
@@ -70,6 +71,11 @@ class Sampling:
             return replace(self, N=every * self.N)
         hz = self.times.measurement_hz / every
         return replace(self, N=floor(self.hr_hz / hz), times=replace(self.times, measurement_hz=hz))
+
+    def timing(self, delay: int, L: int) -> Timing:
+        """Of the filter that has so many steps of delay, and lands at L."""
+        instants = None if self.times is None or self.hr_hz is None else self.times.instants(self.hr_hz)
+        return Timing(self.N, delay, L, instants)
 
     @property
     def between(self) -> Interval:

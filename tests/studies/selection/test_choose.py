@@ -257,3 +257,18 @@ def test_what_waits_for_one_measurement_is_told_once_with_what_would_do() -> Non
 
 def test_a_bound_is_a_number() -> None:
     assert within_of("0.38") == 0.38
+
+
+def test_where_rates_do_not_divide_the_least_speed_holds_for_the_intervals_as_they_come() -> None:
+    """By hand: the HR job of step 27 has a measurement of its own, a landing, and two on their way."""
+    found = choose_filter(
+        9.0,
+        "ins-gps",
+        hr_hz=400,
+        measurement_hz=30,
+        delay_ms=67.5,
+        methods=["larsen"],
+        costs=["counted-9-3-3"],
+        every=[1],
+    )
+    assert [of.least.speed for of in found.best if of.least] == [9390]
