@@ -38,6 +38,9 @@ MOST_DIGITS = 12
 SOON, FINER = 8, 10**6
 """Intervals that repeat after so few measurements are looked at one by one, others as if after many times as many."""
 
+MOST_CHANGES = 64
+"""Where so many may be on their way that there are more numbers of them than this, one rate in a piece is looked at."""
+
 
 class Pieces(NamedTuple):
     """Rates in whole units, of which `per_hz` make a hertz; between two at which a step changes lies one more.
@@ -203,6 +206,8 @@ class Pieces(NamedTuple):
         which so many of them are as long as it takes to arrive, or as a step more or less. Beside that, intervals that
         repeat soon are looked at, for which there may be less."""
         number = range(timing.M // (timing.N + 1), (timing.M + 1) // timing.N + 2)
+        if len(number) > MOST_CHANGES:
+            return self._highest_alike(low, high)
         changes = {Fraction(self.by_N * (timing.M + more), count) for count in number if count for more in (-1, 0, 1)}
         for count in number:
             if apart := Fraction(1, self.by_M) - Fraction(count, self.by_N):
