@@ -68,7 +68,7 @@ def test_what_has_not_landed_is_said_and_what_does_not_vary_is_drawn() -> None:
 
 def test_names_are_not_taken_for_formulas() -> None:
     of = scenario(100, {"predict": 1, "correct.a $1$ b": 1}, sensor("a $1$ b", 80, 20), steps=800, hr_hz=400)
-    figure, _, _ = drawn(of, output="x $1$ y=0,3", unit="$m$")
+    figure, _, _ = drawn(of, output="x $1$ y=0,2")
     assert not flaws(figure)
 
 

@@ -105,7 +105,9 @@ def test_what_is_missing_is_named_and_what_the_table_lacks_is_not_proposed(sched
     (tmp_path / "more.toml").write_text(f"{CARRIED}[costs.recalculate]\npropagate = 1\nupdate = 1\nreplay = 1\n")
     is_refused(sched_sim("minimum -N 10 -M 14 --method clone --costs more.toml"), ["or choose --method recalculate\n"])
     nothing_left = sched_sim("minimum -N 10 -M 14 --costs mine.toml")
-    is_refused(nothing_left, ["no clone", "no carried-gain", "no method of mine can have N=10 M=14"])
+    is_refused(
+        nothing_left, ["clone: where M is more than N", "no [costs.clone] couple", "no [costs.carried-gain] couple"]
+    )
 
 
 @pytest.mark.parametrize(("method", "first"), [("clone", 31), ("dual-rate", 32)])
