@@ -284,7 +284,7 @@ def test_csv_has_a_row_for_each(sched_sim: Run) -> None:
     assert all(row["processor"] and row["parts_that_do"] for row in rows)
 
 
-@pytest.mark.parametrize("kind", ["svg", "pdf"])
+@pytest.mark.parametrize("kind", ["svg", pytest.param("pdf", marks=pytest.mark.exhaust)])
 def test_the_figure_is_the_same_every_time(sched_sim: Run, tmp_path: Path, kind: str) -> None:
     pictures = []
     for _ in range(2):

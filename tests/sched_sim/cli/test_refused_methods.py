@@ -20,7 +20,7 @@ def methods(out: str) -> list[str]:
     return [row["method"] for row in json.loads(out)]
 
 
-@pytest.mark.parametrize("part", ["", " --processor cortex-m4f"])
+@pytest.mark.parametrize("part", ["", pytest.param(" --processor cortex-m4f", marks=pytest.mark.exhaust)])
 def test_minimum_with_times_has_the_rows_that_it_has_in_steps(sched_sim: Run, part: str) -> None:
     in_hz = sched_sim(f"minimum {IN_HZ} {COUNTED}{part} --format json")
     in_steps = sched_sim(f"minimum --hr-hz 100 -N 25 -M 200 {COUNTED}{part} --format json")
@@ -66,6 +66,7 @@ def test_tasks_of_any_phase_that_one_method_cannot_have_leave_the_others(
     assert "Note: no dual-rate: --policy edf with L=15 and N=5" in result.err
 
 
+@pytest.mark.exhaust
 def test_processors_names_a_method_that_waits_for_one_at_a_time(sched_sim: Run) -> None:
     line = f"processors {IN_HZ} --processor cortex-m7 --method clone-split --method dual-rate"
     result = sched_sim(line)

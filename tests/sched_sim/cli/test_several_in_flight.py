@@ -144,6 +144,7 @@ def test_where_a_rate_does_not_divide_it_says_what_the_least_speed_is(
     assert "as they come" not in sched_sim(line.replace("67.5", "20")).out
 
 
+@pytest.mark.exhaust
 def test_the_highest_rate_is_that_of_the_verdicts(sched_sim: Run) -> None:
     """2 s are 8 intervals of 250 ms: each measurement lands in the step of another."""
     line = "minimum --measurement-hz 4 --delay-ms 2000 --costs counted-9-3-3 --processor cortex-m4f --method larsen"

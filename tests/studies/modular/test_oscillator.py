@@ -127,6 +127,7 @@ def test_error_from_the_truth_is_more_than_doubled_at_80_percent_however_fast_on
     assert (ratio("error", CLAIMED) > 2.5).all()
 
 
+@pytest.mark.exhaust
 def test_error_of_position_is_about_that_of_one_measurement_at_80_percent_and_explodes_beyond() -> None:
     position = {dropout: pooled(row(dropout).error)[0] / POSITION_SIGMA_M for dropout in (0.5, 0.8, 0.9, 0.98, 0.99)}
     assert position[0.5] < 0.7
@@ -141,6 +142,7 @@ def test_at_98_percent_to_say_that_nothing_moves_would_be_better() -> None:
     assert (pooled(row(0.98).error) / AMPLITUDES > row(0.98).still).all()
 
 
+@pytest.mark.exhaust
 def test_innovation_of_position_rises_by_half_up_to_80_percent_and_that_of_acceleration_threefold() -> None:
     at_80, at_90 = ratio("innovation", CLAIMED), ratio("innovation", 0.9)
     assert 1.2 < at_80[0] < 1.7

@@ -125,6 +125,7 @@ def test_a_flight_is_the_same_for_all_cases() -> None:
     np.testing.assert_array_equal(early().x[0, :12], early(EXTENDED).x[0, :12])
 
 
+@pytest.mark.exhaust
 def test_unscented_and_extended_prediction_agree() -> None:
     """A step of 10 ms is as good as linear: they differ by less than a thousandth of a standard deviation."""
     sigma = np.sqrt(np.diagonal(early().P, axis1=1, axis2=2))

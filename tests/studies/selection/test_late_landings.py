@@ -91,6 +91,7 @@ def test_it_is_what_a_search_of_every_landing_finds(N: int, M: int, within: floa
         assert of.landed <= of.L
 
 
+@pytest.mark.exhaust
 def test_a_looser_bound_never_asks_for_more() -> None:
     """Of each way, over bounds from what the first landing keeps to what every landing does."""
     least: dict[Any, Fraction] = {}

@@ -111,6 +111,7 @@ def test_kill_9_of_the_parent(tmp_path, uninterrupted):
     assert_resumed_equals(tmp_path, uninterrupted)
 
 
+@pytest.mark.exhaust
 def test_kill_9_of_a_worker(tmp_path, uninterrupted):
     with begun(tmp_path) as process:
         wait_for(lambda: rows_in(tmp_path))
