@@ -230,6 +230,7 @@ def own_covariances(steps: int, measurements: Sequence[Measurement], late: Late)
     return np.asarray(maps @ stacked @ maps.transpose(0, 2, 1))
 
 
+@pytest.mark.exhaust
 @settings(max_examples=15, deadline=None)
 @given(
     measurements=arriving(4, 5),

@@ -79,6 +79,7 @@ def test_the_list_has_the_calibrations(sched_sim: Run) -> None:
     assert "calibration_least,calibration_most,calibration_source" in sched_sim("processors --format csv").out
 
 
+@pytest.mark.exhaust
 def test_a_task_takes_its_share_of_every_part(sched_sim: Run, tmp_path: Path) -> None:
     """100 us in every second period of 2.5 ms are 2 %, whatever the part."""
     (tmp_path / "tasks.toml").write_text(TASKS)

@@ -257,6 +257,7 @@ def test_with_several_on_their_way_it_holds_at_each_phase_of_a_grid(timing: Timi
         assert max(schedule.achieved) <= latest
 
 
+@pytest.mark.exhaust
 @pytest.mark.parametrize("task", [FAST, SLOW])
 def test_a_landing_beyond_the_next_measurement_asks_for_no_more_than_one_before_it(task: Task) -> None:
     costs = DualRateCosts(*map(Fraction, (10, 14, 3, 8, 0, 41)))

@@ -339,6 +339,7 @@ def test_misses_on_a_processor_that_has_time_are_not_laid_to_demand() -> None:
     assert causes(asked, outcome, [0.2, 0.511]) == []
 
 
+@pytest.mark.exhaust
 def test_many_sensors_without_a_common_step_are_soon_summed_up() -> None:
     """What is looked through does not grow with their number."""
     primes = (7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53, 59, 61, 67, 71, 73, 79, 83)

@@ -100,6 +100,7 @@ def run(way: int, urgency: str, clock_mhz: int) -> Run:
 # ---------------------------------------------------------------------------------------------- probability of a miss
 
 
+@pytest.mark.exhaust
 @pytest.mark.parametrize("way", [way.name for way in WAYS])
 @pytest.mark.parametrize("urgency", URGENCIES)
 def test_misses_go_from_none_to_all_as_the_processor_gets_slower(way: str, urgency: str) -> None:

@@ -42,6 +42,7 @@ def steady(all_of: list[Accuracy], reading: str, n: int) -> float:
     return next(row.steady_mean for row in rows(all_of, reading) if row.n == n)
 
 
+@pytest.mark.exhaust
 def test_no_gain_is_better_than_the_optimal_one(found: dict[str, list[Accuracy]]) -> None:
     for row in (row for of_one in found.values() for row in of_one):
         assert 1 - 1e-9 <= row.steady_mean <= row.steady_worst + 1e-12 <= row.worst + 2e-12

@@ -172,6 +172,7 @@ def test_what_is_printed_is_a_table() -> None:
     assert "augmentation: one measurement is on its way at a time" in str(accuracies)
 
 
+@pytest.mark.exhaust
 def test_the_front_is_what_no_other_design_beats() -> None:
     model = load_model("ins-gps", None)
     sampling = Sampling.of(shipped_model("ins-gps"))

@@ -165,6 +165,7 @@ def kill_many(part, number):
     assert done.returncode == 0, done.stderr
 
 
+@pytest.mark.exhaust
 @pytest.mark.skipif(not traceable(), reason="no process can be traced here")
 def test_random_kills_lose_nothing():
     kill_many(0, 12)
