@@ -15,6 +15,7 @@ from filters.arrays import FloatArray
 from filters.backends.choose import BackendName, arguments_for, function_for
 from filters.covariances import check_noise
 from filters.kernels.definite import is_covariance
+from filters.kernels.dense import are_equal, copy
 from filters.system import System
 
 
@@ -25,19 +26,26 @@ def check_noises(system: System, Q: range, R: range, backend: BackendName = "ref
 
 
 def first_unsound(
-    noise: Callable[..., FloatArray], parameters: Any, start: int, end: int, every: int, scratch: FloatArray
+    noise: Callable[..., FloatArray],
+    parameters: Any,
+    start: int,
+    end: int,
+    every: int,
+    sound: FloatArray,
+    scratch: FloatArray,
 ) -> int:
-    """The first step of range(start, end, every) in which the noise is no covariance, or end; scratch has its shape.
+    """The first step of range(start, end, every) in which the noise is no covariance, or end.
+
+    sound, of the shape of the noise: one that is known to be a covariance, or nan. scratch has its shape too.
 
     What is the same as before is not looked at again.
     """
-    sound = np.full_like(scratch, np.nan)
     for step in range(start, end, every):
         matrix = noise(step, parameters)
-        if not np.array_equal(matrix, sound):
+        if not are_equal(matrix, sound):
             if not is_covariance(matrix, scratch):
                 return step
-            sound = matrix.copy()
+            copy(matrix, sound)
     return end
 
 
@@ -47,7 +55,8 @@ def _check(name: Literal["Q", "R"], system: System, steps: range, backend: Backe
     bound = arguments_for(backend, noise), arguments_for(backend, system.parameters)
     step = steps.start
     while step < steps.stop:
-        step = function_for(backend, first_unsound)(*bound, step, steps.stop, steps.step, np.empty((size, size)))
+        sound, scratch = np.full((size, size), np.nan), np.empty((size, size))
+        step = function_for(backend, first_unsound)(*bound, step, steps.stop, steps.step, sound, scratch)
         if step < steps.stop:
             check_noise(name, noise(step, system.parameters), step)  # it may be less strict
         step += steps.step

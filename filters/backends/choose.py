@@ -8,10 +8,11 @@ from typing import Any, Literal, NamedTuple, TypeAlias
 
 from filters.backends.bind import bind
 from filters.backends.compiled import compiled, inlined
+from filters.backends.in_c import in_c
 from filters.backends.vectorised import vectorised
 from filters.choice import check_choice
 
-BackendName: TypeAlias = Literal["reference", "compiled", "numpy"]
+BackendName: TypeAlias = Literal["reference", "compiled", "numpy", "c"]
 
 
 class Backend(NamedTuple):
@@ -29,6 +30,7 @@ BACKENDS: dict[BackendName, Backend] = {
     "reference": Backend(_as_written, _as_written),
     "compiled": Backend(compiled, inlined),
     "numpy": Backend(vectorised, vectorised),
+    "c": Backend(in_c, _as_written),
 }
 
 

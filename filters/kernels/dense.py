@@ -192,6 +192,15 @@ def mirror(P: FloatArray) -> None:
             P[j, i] = P[i, j]
 
 
+def are_equal(A: FloatArray, B: FloatArray) -> bool:
+    """Whether matrices (n, m) have the same numbers; nan is equal to none."""
+    for i in range(A.shape[0]):
+        for j in range(A.shape[1]):
+            if A[i, j] != B[i, j]:
+                return False
+    return True
+
+
 def copy(A: FloatArray, out: FloatArray) -> None:
     """out = A, for matrices (n, m)."""
     for i in range(A.shape[0]):

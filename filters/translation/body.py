@@ -1,0 +1,80 @@
+"""One function while it is translated: what its names stand for, and the memory that it needs."""
+
+from __future__ import annotations
+
+import ast
+from dataclasses import dataclass, field
+from types import FunctionType
+from typing import TYPE_CHECKING
+
+from filters.translation.kinds import NOTHING, Array, Flag, Int, Kind, Record, lasts
+from filters.translation.names import c_name
+from filters.translation.scope import Place, escaping, places
+from filters.translation.source import Source, source_of
+from filters.translation.values import Value
+
+if TYPE_CHECKING:
+    from filters.translation.unit import Unit
+
+
+class Widened(Exception):  # noqa: N818 - no error: the function is translated again
+    """A variable turns out to hold another kind of number than it was declared for."""
+
+    def __init__(self, name: str, kind: Kind) -> None:
+        self.name, self.kind = name, kind
+
+
+@dataclass
+class Body:
+    """names: what each local name stands for now. wide: kinds of variables that a first translation found too narrow.
+
+    result: the kind of what it returns so far. memory: arrays that the caller gives it for what it returns; own: those
+    of its own. before: lines that an expression needs done before it. loops: the names that were declared when each
+    loop began that is being translated. target: the name that is being assigned to.
+    """
+
+    unit: Unit
+    function: FunctionType
+    kinds: tuple[Kind, ...]
+    wide: dict[str, Kind] = field(default_factory=dict)
+
+    source: Source = field(init=False)
+    places: dict[str, Place] = field(init=False)
+    escaping: set[str] = field(init=False)
+    names: dict[str, Value] = field(init=False, default_factory=dict)
+    result: Kind = field(init=False, default=NOTHING)
+    memory: dict[str, Array] = field(init=False, default_factory=dict)
+    own: dict[str, Array] = field(init=False, default_factory=dict)
+    before: list[str] = field(init=False, default_factory=list)
+    target: str = field(init=False, default="")
+    loops: list[set[str]] = field(init=False, default_factory=list)
+
+    def __post_init__(self) -> None:
+        self.source = source_of(self.function)
+        self.places = places(self.source.body)
+        self.escaping = escaping(self.source.body)
+        if len(self.source.parameters) != len(self.kinds):
+            raise self.source.refusal(
+                ast.Pass(), f"{self.function.__name__} is called with {len(self.kinds)} arguments"
+            )
+        for name, kind in zip(self.source.parameters, self.kinds, strict=True):
+            text = c_name(name) if lasts(kind) else ""
+            if isinstance(kind, Int | Flag) and kind.known is not None:
+                text = str(kind.known).lower()
+            rows = f"{text}_rows" if isinstance(kind, Array) and kind.is_long else ""
+            self.names[name] = Value(text, kind, by_pointer=isinstance(kind, Record), rows=rows)
+
+    def fresh(self, wanted: str) -> str:
+        """A name in C that nothing else has here."""
+        taken = {c_name(name) for name in (*self.source.parameters, *self.places)} | {*self.memory, *self.own}
+        name, number = wanted, 1
+        while name in taken:
+            number += 1
+            name = f"{wanted}_{number}"
+        return name
+
+    def array(self, wanted: str, kind: Array, *, returned: bool) -> Value:
+        """Memory for a new array: of the caller if it is returned."""
+        name = self.fresh(f"{c_name(self.target)}_memory" if self.target else wanted)
+        (self.memory if returned else self.own)[name] = kind
+        return Value(name, kind, passing=bool(self.loops))

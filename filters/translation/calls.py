@@ -1,0 +1,168 @@
+"""Calls: of functions that are translated too, of what Python and NumPy have, and of named tuples."""
+
+from __future__ import annotations
+
+import ast
+import math
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from filters.translation import arrays, expressions
+from filters.translation.body import Body
+from filters.translation.kinds import (
+    FLAG,
+    NOTHING,
+    REAL,
+    Array,
+    Constant,
+    Flag,
+    Function,
+    Int,
+    Real,
+    Record,
+    exactly,
+    lasts,
+    parameter_of,
+)
+from filters.translation.values import CHOICE, COMPARED, POSTFIX, UNARY, Value
+
+_OF_NUMBERS = {
+    "arccos": "acos",
+    "arcsin": "asin",
+    "arctan": "atan",
+    "arctan2": "atan2",
+    "absolute": "fabs",
+    **{name: name for name in ("sqrt", "sin", "cos", "tan", "sinh", "cosh", "tanh", "exp", "expm1", "log", "log1p")},
+    **{name: name for name in ("hypot", "floor", "ceil", "trunc", "copysign", "fabs", "cbrt", "exp2", "log2", "log10")},
+    **{name: name for name in ("acos", "asin", "atan", "atan2", "erf", "erfc", "fmod")},
+    "rint": "rint",
+    "fmax": "fmax",
+    "fmin": "fmin",
+}
+"""The names of NumPy and `math`, and those in C."""
+
+_QUESTIONS = ("isnan", "isinf", "isfinite")
+_OF_BOTH = {name: getattr(module, name) for module in (math, np) for name in _OF_NUMBERS if hasattr(module, name)}
+
+
+def call(body: Body, node: ast.Call, returned: bool) -> Value:
+    """Raises Untranslatable for a call that is not understood."""
+    if node.keywords and not _is_of(node, arrays.MAKERS, body):
+        raise body.source.refusal(node, "arguments are translated by position only")
+    if isinstance(node.func, ast.Attribute) and node.func.attr == "copy" and not node.args:
+        base = expressions.expression(body, node.func.value)
+        if isinstance(base.kind, Array):
+            return arrays.copied(body, node, base, returned)
+    callee = expressions.expression(body, node.func).kind
+    if isinstance(callee, Function):
+        return _translated(body, node, callee, returned)
+    target = callee.value if isinstance(callee, Constant) else None
+    if isinstance(target, type) and issubclass(target, tuple) and hasattr(target, "_fields"):
+        if len(node.args) != len(target._fields):
+            raise body.source.refusal(node, f"{target.__name__} has {len(target._fields)} fields")
+        return expressions.make_record(body, target, node.args, returned)
+    if target in arrays.MAKERS:
+        return arrays.made(body, node, target, returned)
+    values = [expressions.expression(body, argument) for argument in node.args]
+    if target is np.shape and len(values) == 1 and isinstance(values[0].kind, Array):
+        return expressions.shape_of(values[0])
+    if target is len and len(values) == 1:
+        return _length(body, node, values[0])
+    if any(isinstance(value.kind, Array) for value in values) and isinstance(target, np.ufunc):
+        return arrays.each(body, node, "all", values, lambda one: _of_numbers(body, node, target, one).text, returned)
+    if any(not isinstance(value.kind, Int | Real | Flag) for value in values):
+        raise body.source.refusal(node, "this call is not translated; call a kernel, or write its loops")
+    return _of_numbers(body, node, target, values)
+
+
+def _is_of(node: ast.Call, targets: Any, body: Body) -> bool:
+    callee = expressions.expression(body, node.func).kind
+    return isinstance(callee, Constant) and callee.value in targets
+
+
+def _length(body: Body, node: ast.Call, value: Value) -> Value:
+    match value.kind:
+        case Array(shape=(None, *_)):
+            return Value(value.rows, Int(0))
+        case Array(shape=(int(rows), *_)):
+            return Value(str(rows), exactly(rows))
+        case Record(fields=fields):
+            return Value(str(len(fields)), exactly(len(fields)))
+        case Constant(value=tuple(items)):
+            return Value(str(len(items)), exactly(len(items)))
+    raise body.source.refusal(node, "has no length that is known")
+
+
+def _translated(body: Body, node: ast.Call, callee: Function, returned: bool) -> Value:
+    """A call of a function of ours, or of the user's."""
+    values = [expressions.expression(body, argument, returned=returned) for argument in node.args]
+    done = body.unit.function(callee.function, tuple(parameter_of(value.kind) for value in values))
+    if isinstance(done.result, Int | Flag) and done.result.known is not None:
+        return expressions.constant(body, done.result.known)
+    given = dict(zip(done.parameters, values, strict=True))
+    texts = []
+    for name in done.used:
+        value = given[name]
+        if isinstance(value.kind, Record) and not value.by_pointer:
+            texts.append(f"&{value.within(UNARY)}")
+        else:
+            texts.append(value.text)
+        if value.rows:
+            texts.append(value.rows)
+    passing = any(value.passing for value in values)
+    for name, kind in done.memory.items():
+        memory = body.array(name, kind, returned=returned)
+        texts.append(memory.text)
+        passing |= memory.passing
+    text = f"{done.name}({', '.join(texts)})"
+    return Value(text if lasts(done.result) or done.result == NOTHING else "", done.result, POSTFIX, passing=passing)
+
+
+def _of_numbers(body: Body, node: ast.Call, target: Any, values: list[Value]) -> Value:
+    name = getattr(target, "__name__", "")
+    first = values[0] if values else None
+    if target in (abs, np.absolute) and first is not None and isinstance(first.kind, Int):
+        return Value(f"abs({first.text})", Int(0), POSTFIX) if not first.kind.counts else first
+    if target is abs or (target is not None and _OF_BOTH.get(name) is target) or _is_numpys(target, name):
+        function = body.unit.function_of_numbers(_OF_NUMBERS["fabs" if target is abs else name])
+        return Value(f"{function}({', '.join(value.text for value in values)})", REAL, POSTFIX)
+    if name in _QUESTIONS and target in (getattr(np, name), getattr(math, name)) and len(values) == 1:
+        return Value(f"{name}({values[0].text})", FLAG, POSTFIX)
+    if target in (min, max) and len(values) == 2:
+        return _extreme(body, node, target, *values)
+    if target is float and first is not None and isinstance(first.kind, Int | Real):
+        return first if isinstance(first.kind, Real) else Value(f"(real){first.within(UNARY)}", REAL, UNARY)
+    if target is bool and first is not None:
+        return expressions.truth(body, node, first)
+    if target is int and first is not None:
+        if isinstance(first.kind, Int):
+            return first
+        return Value(f"(int){first.within(UNARY)}", Int(), UNARY)
+    raise body.source.refusal(node, "this call is not translated")
+
+
+def _is_numpys(target: Any, name: str) -> bool:
+    return isinstance(target, np.ufunc) and name in _OF_NUMBERS and getattr(np, name, None) is target
+
+
+def _extreme(body: Body, node: ast.Call, target: Callable[..., Any], a: Value, b: Value) -> Value:
+    """As Python has it: the first, unless the second is less, or more."""
+    sign = "<" if target is min else ">"
+    if isinstance(a.kind, Int) and isinstance(b.kind, Int):
+        if a.kind.known is not None and b.kind.known is not None:
+            return expressions.constant(body, target(a.kind.known, b.kind.known))
+        kind = _bounds(target, [a.kind.low, b.kind.low], [a.kind.high, b.kind.high])
+        test = Value(f"{b.within(COMPARED - 1)} {sign} {a.within(COMPARED - 1)}", FLAG, COMPARED)
+        return Value(expressions.chosen(body, node, test, b, a).text, kind, CHOICE)
+    test = Value(f"{b.within(COMPARED - 1)} {sign} {a.within(COMPARED - 1)}", FLAG, COMPARED)
+    return expressions.chosen(body, node, test, b, a)
+
+
+def _bounds(target: Callable[..., Any], lows: list[int | None], highs: list[int | None]) -> Int:
+    """Of the smaller, or the larger, of two whole numbers."""
+    known = [[bound for bound in bounds if bound is not None] for bounds in (lows, highs)]
+    if target is max:
+        return Int(max(known[0], default=None), max(known[1]) if len(known[1]) == 2 else None)
+    return Int(min(known[0]) if len(known[0]) == 2 else None, min(known[1], default=None))

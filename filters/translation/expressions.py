@@ -1,0 +1,467 @@
+"""Expressions: names, fields, indices, arithmetic, comparisons."""
+
+from __future__ import annotations
+
+import ast
+from types import FunctionType
+from typing import Any
+
+import numpy as np
+
+from filters.backends.dependencies import is_of_library
+from filters.translation import arrays
+from filters.translation.body import Body
+from filters.translation.calls import call
+from filters.translation.kinds import (
+    FLAG,
+    REAL,
+    Array,
+    Constant,
+    Flag,
+    Function,
+    Int,
+    Kind,
+    Real,
+    Record,
+    exactly,
+    kind_of,
+    lasts,
+    variable_of,
+)
+from filters.translation.names import c_name
+from filters.translation.ranges import difference, negative, product, quotient, remainder, total
+from filters.translation.values import AND, CHOICE, COMPARED, OR, POSTFIX, PRIMARY, PRODUCT, SUM, UNARY, Value
+
+_COMPARED = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "==", ast.NotEq: "!="}
+
+
+def expression(body: Body, node: ast.expr, *, returned: bool = False) -> Value:
+    """returned: whether the function may return it, so that arrays it makes are in memory of the caller.
+
+    Raises:
+        Untranslatable: it is not understood.
+    """
+    match node:
+        case ast.Constant(value=value):
+            return constant(body, value)
+        case ast.Name(id=name):
+            return _name(body, node, name)
+        case ast.Attribute(value=base, attr=name):
+            return _attribute(body, node, expression(body, base), name)
+        case ast.Subscript(value=base, slice=index):
+            return _subscript(body, node, expression(body, base), index)
+        case ast.UnaryOp():
+            return _unary(body, node)
+        case ast.BinOp():
+            return binary(body, node, node.op, expression(body, node.left), expression(body, node.right))
+        case ast.Compare():
+            return _comparison(body, node)
+        case ast.BoolOp():
+            return _logic(body, node)
+        case ast.IfExp():
+            return _choice(body, node)
+        case ast.Call():
+            return call(body, node, returned)
+        case ast.Tuple(elts=parts):
+            return make_record(body, None, parts, returned)
+    raise body.source.refusal(node, f"a {type(node).__name__} is not translated")
+
+
+def make_record(body: Body, made_by: type[Any] | None, parts: list[ast.expr], returned: bool) -> Value:
+    """A new named tuple of these parts; of no class: a tuple."""
+    values = [expression(body, part, returned=returned) for part in parts]
+    names = made_by._fields if made_by else [f"f{i}" for i in range(len(parts))]
+    fields = tuple((name, value.kind) for name, value in zip(names, values, strict=True))
+    kind = Record(made_by.__name__, fields, made_by) if made_by else Record("Tuple", fields)
+    if not lasts(kind):
+        return Value("", kind)
+    texts = []
+    for value in values:
+        if lasts(value.kind):
+            texts.append(f"*{value.within(UNARY)}" if value.by_pointer else value.text)
+            texts += [value.rows] if value.rows else []
+    return Value(
+        f"({body.unit.record_name(kind)}){{{', '.join(texts)}}}",
+        kind,
+        POSTFIX,
+        passing=any(value.passing for value in values),
+    )
+
+
+def constant(body: Body, value: Any, name: str = "") -> Value:
+    """A value of Python that is known; name: of a constant, which keeps it."""
+    if isinstance(value, bool | np.bool_):
+        return Value("true" if value else "false", Flag(bool(value)))
+    if isinstance(value, int | np.integer):
+        return Value(str(int(value)), exactly(int(value)), PRIMARY if value >= 0 else UNARY)
+    if isinstance(value, float | np.floating):
+        text = body.unit.number(float(value))
+        if name.isupper() and len(name) > 1 and np.isfinite(value):
+            return Value(body.unit.constant(name, text), REAL)
+        return Value(text, REAL, UNARY if text.startswith("-") else PRIMARY)
+    if isinstance(value, FunctionType) and not is_of_library(value):
+        return Value("", Function(value))
+    if isinstance(value, np.ndarray):
+        kind = kind_of(value)
+        assert isinstance(kind, Array)
+        return Value(body.unit.table(name, value, kind), kind)
+    return Value("", Constant(value))
+
+
+def _name(body: Body, node: ast.expr, name: str) -> Value:
+    if name in body.names:
+        return body.names[name]
+    if name in body.places:
+        raise body.source.refusal(node, f"{name} may not have been assigned yet")
+    try:
+        return constant(body, body.source.value(name), name)
+    except KeyError:
+        raise body.source.refusal(node, f"{name} is not known") from None
+
+
+def _attribute(body: Body, node: ast.expr, base: Value, name: str) -> Value:
+    match base.kind:
+        case Array() if name == "shape":
+            return shape_of(base)
+        case Array():
+            raise body.source.refusal(node, f"of an array its shape is known, not its {name}")
+        case Record():
+            return field(body, node, base, name)
+        case Constant(value=value) if hasattr(value, name):
+            return constant(body, getattr(value, name), name)
+    raise body.source.refusal(node, f"{name} is not known")
+
+
+def shape_of(base: Value) -> Value:
+    """The shape of an array, as a tuple that is known but for the rows of a long one."""
+    assert isinstance(base.kind, Array)
+    lengths = [Value(str(n), exactly(n)) if n is not None else Value(base.rows, Int(0)) for n in base.kind.shape]
+    return Value("", Constant(tuple(lengths)))
+
+
+def field(body: Body, node: ast.expr, base: Value, name: str) -> Value:
+    """A field of a record."""
+    assert isinstance(base.kind, Record)
+    kind = base.kind.kind_of_field(name)
+    match kind:
+        case None:
+            raise body.source.refusal(node, f"{base.kind.name} has no field {name}")
+        case Int() | Flag() if kind.known is not None:
+            return constant(body, kind.known)
+    text = f"{base.within(POSTFIX)}{'->' if base.by_pointer else '.'}{c_name(name)}"
+    rows = f"{text}_rows" if isinstance(kind, Array) and kind.is_long else ""
+    return Value(text if lasts(kind) else "", kind, POSTFIX, rows=rows, passing=base.passing)
+
+
+def _subscript(body: Body, node: ast.Subscript, base: Value, index: ast.expr) -> Value:
+    items = index.elts if isinstance(index, ast.Tuple) else [index]
+    match base.kind:
+        case Constant(value=tuple(items_known)):
+            item = items_known[_known_index(body, node, items[0], len(items_known))]
+            return item if isinstance(item, Value) else constant(body, item)
+        case Record(fields=fields):
+            return field(body, node, base, fields[_known_index(body, node, items[0], len(fields))][0])
+        case Array():
+            return _element(body, node, base, base.kind, items)
+    raise body.source.refusal(node, "has no items")
+
+
+def _known_index(body: Body, node: ast.expr, item: ast.expr, length: int) -> int:
+    match expression(body, item).kind:
+        case Int(known=int(number)) if -length <= number < length:
+            return number % length
+    raise body.source.refusal(node, "which item is taken of a tuple must be known when it is translated")
+
+
+def _element(body: Body, node: ast.expr, base: Value, kind: Array, items: list[ast.expr]) -> Value:
+    """One number, one row, or a part that is itself an array."""
+    if len(items) > len(kind.shape):
+        raise body.source.refusal(node, f"has more indices than the array has axes, {len(kind.shape)}")
+    starts: list[str] = []
+    lengths: list[int | None] = []
+    sliced = False
+    for item, length in zip(items, kind.shape, strict=False):
+        slice_ = _slice_of(body, item)
+        if slice_ is None:
+            if sliced:
+                raise body.source.refusal(node, "an index behind a slice leaves numbers that do not lie side by side")
+            starts.append(_index(body, node, item, length, base.rows))
+        elif length is None:
+            if slice_ != slice(None):
+                raise body.source.refusal(
+                    node, f"a part of an array of so many rows is not translated, nor is {slice_}"
+                )
+            starts.append("0")
+            lengths.append(None)
+            sliced = True
+        else:
+            first, last, step = slice_.indices(length)
+            if step != 1:
+                raise body.source.refusal(node, "a slice with a step leaves numbers that do not lie side by side")
+            starts.append(str(first))
+            lengths.append(max(last - first, 0))
+            sliced = True
+    rest = kind.shape[len(items) :]
+    if not sliced:
+        text = base.within(POSTFIX) + "".join(f"[{start}]" for start in starts)
+        if not rest:
+            return Value(text, number_of(kind.item), POSTFIX)
+        return Value(text, Array(kind.item, rest, kind.inner[len(items) :]), POSTFIX, passing=base.passing)
+    whole = starts[: len(starts) - len(lengths)]
+    text = base.within(POSTFIX) + "".join(f"[{start}]" for start in whole)
+    inner = kind.inner[len(whole) :]
+    part = Array(kind.item, (*lengths, *rest), inner)
+    offsets = starts[len(whole) :]
+    if all(offset == "0" for offset in offsets):
+        return Value(text, part, POSTFIX, rows=base.rows, passing=base.passing)
+    at = f"&{text}" + "".join(f"[{offset}]" for offset in offsets)
+    if len(offsets) < 1 + len(inner):
+        at += "[0]" * (1 + len(inner) - len(offsets))
+    if not inner:
+        return Value(at, part, UNARY, passing=base.passing)
+    return Value(f"({pointer_type(part)}){at}", part, UNARY, passing=base.passing)
+
+
+def pointer_type(kind: Array) -> str:
+    """What a pointer to the rows of an array is."""
+    return f"{kind.item} (*)" + "".join(f"[{length}]" for length in kind.inner) if kind.inner else f"{kind.item} *"
+
+
+def _slice_of(body: Body, item: ast.expr) -> slice | None:
+    """None for an index; raises unless the bounds are known."""
+    if isinstance(item, ast.Slice):
+        bounds = []
+        for bound in (item.lower, item.upper, item.step):
+            known = None if bound is None else expression(body, bound).kind
+            if known is not None and not (isinstance(known, Int) and known.known is not None):
+                raise body.source.refusal(item, "the bounds of a slice must be known when it is translated")
+            bounds.append(known.known if isinstance(known, Int) else None)
+        return slice(*bounds)
+    match expression(body, item).kind:
+        case Constant(value=slice() as found):
+            return found
+    return None
+
+
+def _index(body: Body, node: ast.expr, item: ast.expr, length: int | None, rows: str) -> str:
+    at = expression(body, item)
+    if not isinstance(at.kind, Int):
+        raise body.source.refusal(node, "an index must be a whole number")
+    if length is not None and at.kind.low is not None and at.kind.low >= length:
+        raise body.source.refusal(node, f"the index is {at.kind.low}, of an axis of {length}")
+    if at.kind.counts:
+        return at.text
+    if at.kind.known is not None and length is not None:
+        if at.kind.known < -length:
+            raise body.source.refusal(node, f"the index is {at.kind.known}, of an axis of {length}")
+        return str(at.kind.known + length)
+    body.unit.helpers.add("from_end")
+    return f"from_end({at.text}, {rows if length is None else length})"
+
+
+def number_of(item: str) -> Kind:
+    kinds: dict[str, Kind] = {"real": REAL, "bool": FLAG}
+    return kinds.get(item, Int())
+
+
+def _unary(body: Body, node: ast.UnaryOp) -> Value:
+    value = expression(body, node.operand)
+    if isinstance(node.op, ast.Not):
+        flag = truth(body, node, value)
+        if isinstance(flag.kind, Flag) and flag.kind.known is not None:
+            return constant(body, not flag.kind.known)
+        return Value(f"!{flag.within(UNARY)}", FLAG, UNARY)
+    if isinstance(value.kind, Int) and value.kind.known is not None:
+        return constant(body, -value.kind.known if isinstance(node.op, ast.USub) else value.kind.known)
+    if isinstance(value.kind, Array) and isinstance(node.op, ast.USub):
+        return arrays.each(body, node, "all", [value], lambda items: f"-{items[0].text}")
+    if not isinstance(value.kind, Int | Real) or not isinstance(node.op, ast.USub | ast.UAdd):
+        raise body.source.refusal(node, "is no arithmetic of numbers or arrays")
+    if isinstance(node.op, ast.UAdd):
+        return value
+    operand = value.within(UNARY)
+    kind: Kind = negative(value.kind) if isinstance(value.kind, Int) else REAL
+    return Value(f"-({operand})" if operand.startswith("-") else f"-{operand}", kind, UNARY)
+
+
+def binary(body: Body, node: ast.AST, operator: ast.operator, a: Value, b: Value) -> Value:
+    """a + b and so on, of two numbers."""
+    if isinstance(operator, ast.MatMult):
+        raise body.source.refusal(
+            node, "call matmul or matvec of filters.kernels.dense, whose operations have an order"
+        )
+    if any(isinstance(value.kind, Array) for value in (a, b)):
+        return arrays.each(body, node, "all", [a, b], lambda items: binary(body, node, operator, *items).text)
+    if not (isinstance(a.kind, Int | Real | Flag) and isinstance(b.kind, Int | Real | Flag)):
+        raise body.source.refusal(node, "is no arithmetic of numbers or arrays")
+    whole = isinstance(a.kind, Int) and isinstance(b.kind, Int)
+    left, right = (x.kind if isinstance(x.kind, Int) else Int() for x in (a, b))
+    match operator:
+        case ast.Add():
+            kind, sign, level = total(left, right), "+", SUM
+        case ast.Sub():
+            kind, sign, level = difference(left, right), "-", SUM
+        case ast.Mult():
+            kind, sign, level = product(left, right), "*", PRODUCT
+        case ast.Div():
+            numerator = f"(real){a.within(UNARY)}" if whole else a.within(PRODUCT)
+            return Value(f"{numerator} / {b.within(UNARY)}", REAL, PRODUCT)
+        case ast.Mod() | ast.FloorDiv():
+            return _division(body, node, a, b, isinstance(operator, ast.Mod), (left, right) if whole else None)
+        case ast.Pow():
+            return _power(body, node, a, b)
+        case _:
+            raise body.source.refusal(node, "this operator is not translated")
+    if whole and kind.known is not None:
+        return Value(str(kind.known), kind, PRIMARY if kind.known >= 0 else UNARY)
+    text = f"{a.within(level)} {sign} {b.within(level - 1)}"
+    return Value(text, kind if whole else REAL, level)
+
+
+def _division(body: Body, node: ast.AST, a: Value, b: Value, is_rest: bool, whole: tuple[Int, Int] | None) -> Value:
+    """a % b, or a // b. whole: their kinds, of whole numbers."""
+    if whole is None:
+        if not is_rest:
+            raise body.source.refusal(node, "// of numbers that are not whole; use np.floor")
+        body.unit.helpers.add("real_mod")
+        return Value(f"real_mod({a.text}, {b.text})", REAL, POSTFIX)
+    left, right = whole
+    kind = remainder(left, right) if is_rest else quotient(left, right)
+    if kind.known is not None:
+        return Value(str(kind.known), kind, PRIMARY if kind.known >= 0 else UNARY)
+    if left.counts and right.counts:
+        return Value(f"{a.within(PRODUCT)} {'%' if is_rest else '/'} {b.within(UNARY)}", kind, PRODUCT)
+    helper = "floor_mod" if is_rest else "floor_div"
+    body.unit.helpers.add(helper)
+    return Value(f"{helper}({a.text}, {b.text})", kind, POSTFIX)
+
+
+def _power(body: Body, node: ast.AST, a: Value, b: Value) -> Value:
+    exponent = b.kind.known if isinstance(b.kind, Int) else None
+    if isinstance(a.kind, Int):
+        if a.kind.known is None or exponent is None or exponent < 0:
+            raise body.source.refusal(node, "a power of a whole number is not translated; multiply")
+        return Value(str(a.kind.known**exponent), exactly(a.kind.known**exponent))
+    if exponent == 2:
+        if a.level <= POSTFIX and "(" not in a.text:
+            return Value(f"{a.text} * {a.text}", REAL, PRODUCT)
+        body.unit.helpers.add("square")
+        return Value(f"square({a.text})", REAL, POSTFIX)
+    return Value(f"{body.unit.function_of_numbers('pow')}({a.text}, {b.text})", REAL, POSTFIX)
+
+
+def _comparison(body: Body, node: ast.Compare) -> Value:
+    terms = [expression(body, term) for term in (node.left, *node.comparators)]
+    known = [_known(term.kind) for term in terms]
+    if len(known) == 2 and None not in known and isinstance(node.ops[0], ast.Eq | ast.NotEq):
+        return constant(body, (known[0] == known[1]) == isinstance(node.ops[0], ast.Eq))
+    signs = [_COMPARED.get(type(operator)) for operator in node.ops]
+    if None in signs or not all(isinstance(term.kind, Int | Real | Flag) for term in terms):
+        raise body.source.refusal(node, "this comparison is not translated")
+    if len(terms) > 2 and any("(" in term.text for term in terms[1:-1]):
+        raise body.source.refusal(node, "give what stands in the middle a name first")
+    pairs = list(zip(terms, signs, terms[1:], strict=False))
+    answers = [_settled(a, str(sign), b) for a, sign, b in pairs]
+    if False in answers:
+        return constant(body, False)
+    left = [pair for pair, answer in zip(pairs, answers, strict=True) if answer is None]
+    if not left:
+        return constant(body, True)
+    text = " && ".join(f"{a.within(COMPARED - 1)} {sign} {b.within(COMPARED - 1)}" for a, sign, b in left)
+    return Value(text, FLAG, COMPARED if len(left) == 1 else AND)
+
+
+def _known(kind: Kind) -> tuple[int, ...] | None:
+    """A tuple of whole numbers, all of them known."""
+    match kind:
+        case Constant(value=tuple(items)):
+            parts = [item.kind if isinstance(item, Value) else kind_of(item, given=False) for item in items]
+        case Record(fields=fields):
+            parts = [part for _, part in fields]
+        case _:
+            return None
+    numbers = [part.known for part in parts if isinstance(part, Int) and part.known is not None]
+    return tuple(numbers) if len(numbers) == len(parts) else None
+
+
+def _settled(a: Value, sign: str, b: Value) -> bool | None:
+    """What the ranges of two whole numbers say."""
+    if not (isinstance(a.kind, Int) and isinstance(b.kind, Int)):
+        return None
+    gap = difference(a.kind, b.kind)
+    low, high = gap.low, gap.high
+    above, below = low is not None and low > 0, high is not None and high < 0
+    at_least, at_most = low is not None and low >= 0, high is not None and high <= 0
+    yes, no = {
+        "<": (below, at_least),
+        "<=": (at_most, above),
+        ">": (above, at_most),
+        ">=": (at_least, below),
+        "==": (gap.known == 0, above or below),
+        "!=": (above or below, gap.known == 0),
+    }[sign]
+    return True if yes else False if no else None
+
+
+def truth(body: Body, node: ast.AST, value: Value) -> Value:
+    """The value as a truth value."""
+    match value.kind:
+        case Flag():
+            return value
+        case Int(known=int(number)):
+            return Value("true" if number else "false", Flag(bool(number)))
+        case Int() | Real():
+            return Value(f"{value.within(COMPARED)} != 0", FLAG, COMPARED + 1)
+    raise body.source.refusal(node, "has no truth value that is translated")
+
+
+def _logic(body: Body, node: ast.BoolOp) -> Value:
+    is_and = isinstance(node.op, ast.And)
+    left = []
+    for part in node.values:
+        waiting = len(body.before)
+        value = truth(body, part, expression(body, part))
+        if len(body.before) > waiting:
+            raise body.source.refusal(part, "an array is made here on some occasions only; give it a name first")
+        assert isinstance(value.kind, Flag)
+        if value.kind.known is None:
+            left.append(value)
+        elif value.kind.known != is_and:
+            if not left:
+                return constant(body, not is_and)
+            left.append(value)
+            break
+    if not left:
+        return constant(body, is_and)
+    if len(left) == 1:
+        return left[0]
+    level = AND if is_and else OR
+    inside = AND if is_and else COMPARED + 1
+    return Value((" && " if is_and else " || ").join(value.within(inside) for value in left), FLAG, level)
+
+
+def _choice(body: Body, node: ast.IfExp) -> Value:
+    test = truth(body, node, expression(body, node.test))
+    assert isinstance(test.kind, Flag)
+    if test.kind.known is not None:
+        return expression(body, node.body if test.kind.known else node.orelse)
+    waiting = len(body.before)
+    a, b = expression(body, node.body), expression(body, node.orelse)
+    if len(body.before) > waiting:
+        raise body.source.refusal(node, "an array is made here on some occasions only; use if and else")
+    return chosen(body, node, test, a, b)
+
+
+def chosen(body: Body, node: ast.AST, test: Value, a: Value, b: Value) -> Value:
+    """test ? a : b."""
+    if isinstance(a.kind, Int) and isinstance(b.kind, Int):
+        low = None if a.kind.low is None or b.kind.low is None else min(a.kind.low, b.kind.low)
+        high = None if a.kind.high is None or b.kind.high is None else max(a.kind.high, b.kind.high)
+        kind: Kind = Int(low, high)
+    elif isinstance(a.kind, Int | Real) and isinstance(b.kind, Int | Real):
+        kind = REAL
+    elif variable_of(a.kind) == variable_of(b.kind) and isinstance(a.kind, Flag):
+        kind = FLAG
+    else:
+        raise body.source.refusal(node, "chooses among things that are no numbers; use if and else")
+    return Value(f"{test.within(OR)} ? {a.within(OR)} : {b.within(OR)}", kind, CHOICE)
