@@ -70,7 +70,10 @@ def item(value: Value, index: str) -> Value:
     """One number of an array; a number stays as it is."""
     if not isinstance(value.kind, Array):
         return value
-    return Value(f"{value.within(POSTFIX)}{index}", expressions.number_of(value.kind.item), POSTFIX)
+    parts = index[1:-1].split("][")
+    for axis, skipped in enumerate(value.kind.skipped, 1):
+        parts[axis] += f" + {skipped}" if skipped else ""
+    return Value(f"{value.within(POSTFIX)}[{']['.join(parts)}]", expressions.number_of(value.kind.item), POSTFIX)
 
 
 def filled(array: Value, shape: Sequence[int | str | None], number: Callable[[str], str]) -> list[str]:
@@ -80,7 +83,7 @@ def filled(array: Value, shape: Sequence[int | str | None], number: Callable[[st
         INDENT * axis + f"for (int i{axis} = 0; i{axis} < {length}; i{axis}++) {{" for axis, length in enumerate(shape)
     ]
     ends = [INDENT * axis + "}" for axis in reversed(range(len(shape)))]
-    return [*heads, INDENT * len(shape) + f"{array.within(POSTFIX)}{index} = {number(index)};", *ends]
+    return [*heads, INDENT * len(shape) + f"{item(array, index).text} = {number(index)};", *ends]
 
 
 def _entries(body: Body, node: ast.Call, maker: Any) -> Entries:

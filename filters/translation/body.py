@@ -30,7 +30,7 @@ class Body:
 
     result: the kind of what it returns so far. memory: arrays that the caller gives it for what it returns; own: those
     of its own. before: lines that an expression needs done before it. loops: the names that were declared when each
-    loop began that is being translated. target: the name that is being assigned to.
+    loop began that is being translated. target: the name that is being assigned to. taken: the names in C.
     """
 
     unit: Unit
@@ -46,12 +46,14 @@ class Body:
     memory: dict[str, Array] = field(init=False, default_factory=dict)
     own: dict[str, Array] = field(init=False, default_factory=dict)
     before: list[str] = field(init=False, default_factory=list)
+    taken: set[str] = field(init=False)
     target: str = field(init=False, default="")
     loops: list[set[str]] = field(init=False, default_factory=list)
 
     def __post_init__(self) -> None:
         self.source = source_of(self.function)
         self.places = places(self.source.body)
+        self.taken = {c_name(name) for name in (*self.source.parameters, *self.places)}
         self.escaping = escaping(self.source.body)
         if len(self.source.parameters) != len(self.kinds):
             raise self.source.refusal(
@@ -66,11 +68,11 @@ class Body:
 
     def fresh(self, wanted: str) -> str:
         """A name in C that nothing else has here."""
-        taken = {c_name(name) for name in (*self.source.parameters, *self.places)} | {*self.memory, *self.own}
         name, number = wanted, 1
-        while name in taken:
+        while name in self.taken:
             number += 1
             name = f"{wanted}_{number}"
+        self.taken.add(name)
         return name
 
     def array(self, wanted: str, kind: Array, *, returned: bool) -> Value:

@@ -43,8 +43,8 @@ _OF_NUMBERS = {
 }
 """The names of NumPy and `math`, and those in C."""
 
-_QUESTIONS = ("isnan", "isinf", "isfinite")
-_OF_BOTH = {name: getattr(module, name) for module in (math, np) for name in _OF_NUMBERS if hasattr(module, name)}
+_FUNCTIONS = {getattr(module, name) for module in (math, np) for name in _OF_NUMBERS if hasattr(module, name)}
+_QUESTIONS = {getattr(module, name) for module in (math, np) for name in ("isnan", "isinf", "isfinite")}
 
 
 def call(body: Body, node: ast.Call, returned: bool) -> Value:
@@ -125,10 +125,10 @@ def _of_numbers(body: Body, node: ast.Call, target: Any, values: list[Value]) ->
     first = values[0] if values else None
     if target in (abs, np.absolute) and first is not None and isinstance(first.kind, Int):
         return Value(f"abs({first.text})", Int(0), POSTFIX) if not first.kind.counts else first
-    if target is abs or (target is not None and _OF_BOTH.get(name) is target) or _is_numpys(target, name):
+    if target is abs or target in _FUNCTIONS:
         function = body.unit.function_of_numbers(_OF_NUMBERS["fabs" if target is abs else name])
         return Value(f"{function}({', '.join(value.text for value in values)})", REAL, POSTFIX)
-    if name in _QUESTIONS and target in (getattr(np, name), getattr(math, name)) and len(values) == 1:
+    if target in _QUESTIONS:
         return Value(f"{name}({values[0].text})", FLAG, POSTFIX)
     if target in (min, max) and len(values) == 2:
         return _extreme(body, node, target, *values)
@@ -141,10 +141,6 @@ def _of_numbers(body: Body, node: ast.Call, target: Any, values: list[Value]) ->
             return first
         return Value(f"(int){first.within(UNARY)}", Int(), UNARY)
     raise body.source.refusal(node, "this call is not translated")
-
-
-def _is_numpys(target: Any, name: str) -> bool:
-    return isinstance(target, np.ufunc) and name in _OF_NUMBERS and getattr(np, name, None) is target
 
 
 def _extreme(body: Body, node: ast.Call, target: Callable[..., Any], a: Value, b: Value) -> Value:

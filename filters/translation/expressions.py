@@ -14,6 +14,7 @@ from filters.translation.body import Body
 from filters.translation.calls import call
 from filters.translation.kinds import (
     FLAG,
+    LONG,
     REAL,
     Array,
     Constant,
@@ -139,7 +140,7 @@ def shape_of(base: Value) -> Value:
     return Value("", Constant(tuple(lengths)))
 
 
-def field(body: Body, node: ast.expr, base: Value, name: str) -> Value:
+def field(body: Body, node: ast.AST, base: Value, name: str) -> Value:
     """A field of a record."""
     assert isinstance(base.kind, Record)
     kind = base.kind.kind_of_field(name)
@@ -179,52 +180,35 @@ def _element(body: Body, node: ast.expr, base: Value, kind: Array, items: list[a
         raise body.source.refusal(node, f"has more indices than the array has axes, {len(kind.shape)}")
     starts: list[str] = []
     lengths: list[int | None] = []
-    sliced = False
-    for item, length in zip(items, kind.shape, strict=False):
-        slice_ = _slice_of(body, item)
-        if slice_ is None:
-            if sliced:
+    begins: tuple[int, ...] = (0, *(kind.skipped or [0] * len(kind.inner)))
+    for item, length, begin in zip(items, kind.shape, begins, strict=False):
+        part = _slice_of(body, item)
+        if part is None:
+            if lengths:
                 raise body.source.refusal(node, "an index behind a slice leaves numbers that do not lie side by side")
-            starts.append(_index(body, node, item, length, base.rows))
-        elif length is None:
-            if slice_ != slice(None):
-                raise body.source.refusal(
-                    node, f"a part of an array of so many rows is not translated, nor is {slice_}"
-                )
-            starts.append("0")
-            lengths.append(None)
-            sliced = True
-        else:
-            first, last, step = slice_.indices(length)
-            if step != 1:
-                raise body.source.refusal(node, "a slice with a step leaves numbers that do not lie side by side")
-            starts.append(str(first))
-            lengths.append(max(last - first, 0))
-            sliced = True
+            starts.append(_moved(_index(body, node, item, length, base.rows), begin))
+            continue
+        first, last, step = part.indices(length or LONG)
+        if step != 1 or (length is None and part != slice(None)):
+            raise body.source.refusal(node, "slices without a step are translated, of arrays whose length is known")
+        starts.append(str(first + begin))
+        lengths.append(None if length is None else max(last - first, 0))
     rest = kind.shape[len(items) :]
-    if not sliced:
-        text = base.within(POSTFIX) + "".join(f"[{start}]" for start in starts)
-        if not rest:
-            return Value(text, number_of(kind.item), POSTFIX)
-        return Value(text, Array(kind.item, rest, kind.inner[len(items) :]), POSTFIX, passing=base.passing)
-    whole = starts[: len(starts) - len(lengths)]
-    text = base.within(POSTFIX) + "".join(f"[{start}]" for start in whole)
-    inner = kind.inner[len(whole) :]
-    part = Array(kind.item, (*lengths, *rest), inner)
-    offsets = starts[len(whole) :]
-    if all(offset == "0" for offset in offsets):
-        return Value(text, part, POSTFIX, rows=base.rows, passing=base.passing)
-    at = f"&{text}" + "".join(f"[{offset}]" for offset in offsets)
-    if len(offsets) < 1 + len(inner):
-        at += "[0]" * (1 + len(inner) - len(offsets))
-    if not inner:
-        return Value(at, part, UNARY, passing=base.passing)
-    return Value(f"({pointer_type(part)}){at}", part, UNARY, passing=base.passing)
+    at = len(starts) - len(lengths)
+    text = base.within(POSTFIX) + "".join(f"[{start}]" for start in starts[:at])
+    if not lengths and not rest:
+        return Value(text, number_of(kind.item), POSTFIX)
+    begins = (*map(int, starts[at:]), *begins[len(starts) :])
+    result = Array(kind.item, (*lengths, *rest), kind.inner[at:], begins[1:] if any(begins[1:]) else ())
+    if begins[0]:
+        return Value(f"&{text}[{begins[0]}]", result, UNARY, passing=base.passing)
+    return Value(text, result, POSTFIX, rows=base.rows if at == 0 else "", passing=base.passing)
 
 
-def pointer_type(kind: Array) -> str:
-    """What a pointer to the rows of an array is."""
-    return f"{kind.item} (*)" + "".join(f"[{length}]" for length in kind.inner) if kind.inner else f"{kind.item} *"
+def _moved(index: str, offset: int) -> str:
+    if not offset:
+        return index
+    return str(int(index) + offset) if index.isdecimal() else f"{index} + {offset}"
 
 
 def _slice_of(body: Body, item: ast.expr) -> slice | None:

@@ -54,11 +54,13 @@ class Array:
     """item: the type of its numbers in C. shape: None for a number of rows that the program knows.
 
     inner: the lengths of rows in memory, of the axes behind the first; longer than the shape says for part of an array.
+    skipped: of each of these axes, how many come before the part begins; nothing where none does.
     """
 
     item: str
     shape: tuple[int | None, ...]
     inner: tuple[int, ...]
+    skipped: tuple[int, ...] = ()
 
     @property
     def is_long(self) -> bool:

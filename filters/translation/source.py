@@ -31,7 +31,7 @@ class Source:
 
     def refusal(self, node: ast.AST, why: str) -> Untranslatable:
         line = self.first_line + getattr(node, "lineno", 1) - 1
-        return Untranslatable(f"{self.file}:{line}: {ast.unparse(node):.100}: {why}")
+        return Untranslatable(f"{self.file}:{line}: {ast.unparse(node).splitlines()[0]:.100}: {why}")
 
     def value(self, name: str) -> Any:
         """What the name stands for outside the function; raises KeyError."""

@@ -335,18 +335,25 @@ def _unpacked(
 ) -> list[str]:
     if isinstance(value, ast.Tuple) and len(value.elts) == len(targets):
         return _in_parallel(body, statement, targets, value.elts, undeclared)
-    right = expression(body, value)
-    if isinstance(right.kind, Constant) and isinstance(right.kind.value, tuple):
-        items = [item if isinstance(item, Value) else constant(body, item) for item in right.kind.value]
-        return _each(body, statement, targets, items, undeclared)
-    if isinstance(right.kind, Record):
-        lines, fields = [], right.kind.fields
-        if right.level > POSTFIX or "(" in right.text:
-            name = body.fresh("both" if len(targets) == 2 else "all")
-            lines.append(f"const {variable(right.kind, name, body.unit.record_name)} = {right.text};")
-            right = Value(name, right.kind, passing=right.passing)
-        items = [field(body, value, right, name) for name, _ in fields]
-        return lines + _each(body, statement, targets, items, undeclared)
+    return _parts_to(body, statement, targets, expression(body, value), undeclared)
+
+
+def _parts_to(
+    body: Body, statement: ast.stmt, targets: list[ast.expr], value: Value, undeclared: set[str]
+) -> list[str]:
+    """The items of a tuple to names or elements."""
+    match value.kind:
+        case Constant(value=tuple(known)):
+            items = [part if isinstance(part, Value) else constant(body, part) for part in known]
+            return _each(body, statement, targets, items, undeclared)
+        case Record(fields=fields):
+            lines = []
+            if value.level > POSTFIX or "(" in value.text:
+                name = body.fresh("parts")
+                lines.append(f"const {variable(value.kind, name, body.unit.record_name)} = {value.text};")
+                value = Value(name, value.kind, passing=value.passing)
+            items = [field(body, statement, value, name) for name, _ in fields]
+            return lines + _each(body, statement, targets, items, undeclared)
     raise body.source.refusal(statement, "what is unpacked must be a tuple whose length is known")
 
 
@@ -389,6 +396,8 @@ def _each(
                 lines += _to_name(body, statement, name, value, undeclared)
             case ast.Subscript():
                 lines += _to_element(body, statement, target, value)
+            case ast.Tuple(elts=parts):
+                lines += _parts_to(body, statement, parts, value, undeclared)
             case _:
                 raise body.source.refusal(statement, "unpack into names or elements")
     return lines

@@ -234,7 +234,7 @@ class Unit:
         return _wrapped(f"{'' if is_public else 'static '}{head}{', '.join(declared) or 'void'}{tail}")
 
     def _fresh(self, wanted: str) -> str:
-        name = wanted.strip("_") or "function"
+        name = c_name(wanted)
         self._taken[name] = self._taken.get(name, 0) + 1
         return name if self._taken[name] == 1 else self._fresh(f"{name}_{self._taken[name]}")
 

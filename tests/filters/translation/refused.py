@@ -1,0 +1,110 @@
+"""Functions that are refused, each with why; the line that is to blame says so."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from filters.arrays import FloatArray
+
+
+def product(A: FloatArray) -> FloatArray:
+    return A @ A  # call matmul or matvec
+
+
+def recursive(n: int) -> int:
+    return recursive(n - 1) if n > 0 else 0
+
+
+def behind_its_loop(x: FloatArray) -> float:
+    for i in range(len(x)):
+        x[i] = 0.0
+    return x[i]  # is used behind its loop
+
+
+def limit_that_changes(x: FloatArray, n: int) -> None:
+    m = n
+    for i in range(m):  # m changes in the loop
+        m = m - 1
+        x[i] = 0.0
+
+
+def list_of_numbers(x: FloatArray) -> float:
+    return sum([2.0 * value for value in x])  # a ListComp is not translated
+
+
+def shape_not_known(n: int) -> FloatArray:
+    return np.zeros(n)  # the shape of an array must be known
+
+
+def out_of_range(x: FloatArray) -> float:
+    return x[4]  # the index is 4, of an axis of 4
+
+
+def changed_shape(x: FloatArray) -> float:
+    y = x
+    y = x[1:]  # another shape
+    return y[0]
+
+
+def maybe_never_assigned(x: FloatArray) -> float:
+    if x[0] > 0.0:
+        return y  # noqa: F821  # y is not known
+    return 0.0
+
+
+def kept_from_round_to_round(x: FloatArray) -> float:
+    before = x
+    for _ in range(3):
+        total = before[0]
+        before = np.array([total, 1.0, 2.0, 3.0])  # kept from one round of the loop to the next
+    return before[0]
+
+
+def by_name(x: float) -> float:
+    return helper(x, scale=2.0)  # by position
+
+
+def helper(x: float, scale: float) -> float:
+    return x * scale
+
+
+def caught(x: float) -> float:
+    try:  # a Try is not translated
+        return 1.0 / x
+    except ZeroDivisionError:
+        return 0.0
+
+
+def strings(x: float) -> str:
+    return f"{x}"  # JoinedStr
+
+
+def with_step(x: FloatArray) -> float:
+    return x[::2][0]  # slices without a step
+
+
+def sorted_numbers(x: FloatArray) -> FloatArray:
+    return np.sort(x)  # this call is not translated
+
+
+X = np.array([1.0, 2.0, 3.0, 4.0])
+P = np.eye(3)
+
+REFUSED: list[tuple[Any, tuple[Any, ...]]] = [
+    (product, (P,)),
+    (behind_its_loop, (X,)),
+    (limit_that_changes, (X, 3)),
+    (list_of_numbers, (X,)),
+    (shape_not_known, (3,)),
+    (out_of_range, (X,)),
+    (changed_shape, (X,)),
+    (maybe_never_assigned, (X,)),
+    (kept_from_round_to_round, (X,)),
+    (by_name, (1.0,)),
+    (caught, (1.0,)),
+    (strings, (1.0,)),
+    (with_step, (X,)),
+    (sorted_numbers, (X,)),
+]

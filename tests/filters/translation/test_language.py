@@ -1,0 +1,36 @@
+"""What of the language is translated: the same numbers come out of C, to the last bit."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from filters.translation.kinds import kind_of
+from filters.translation.unit import Unit
+from tests.filters.translation.cases import check_same, needs_compiler
+from tests.filters.translation.functions import CASES
+
+
+@needs_compiler
+@pytest.mark.parametrize(("function", "sets"), CASES, ids=lambda value: getattr(value, "__name__", ""))
+def test_python_and_c_agree(function: Any, sets: list[tuple[Any, ...]]) -> None:
+    for arguments in sets:
+        check_same(function, *arguments)
+
+
+@needs_compiler
+def test_the_strictest_warnings_find_nothing(tmp_path: Path) -> None:
+    unit = Unit(public=frozenset(function for function, _ in CASES))
+    for function, sets in CASES:
+        for arguments in sets:
+            unit.function(function, tuple(kind_of(argument) for argument in arguments))
+    (tmp_path / "filter.h").write_text(unit.header("FILTER_H"))
+    (tmp_path / "filter.c").write_text(unit.source("filter.h"))
+    compiler = shutil.which("gcc") or shutil.which("cc") or "clang"
+    flags = ["-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wshadow", "-Werror", "-O2", "-c"]
+    done = subprocess.run([compiler, *flags, "filter.c"], cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr

@@ -1,0 +1,48 @@
+"""What is not understood is refused, with file, line and what to write instead; nothing is guessed."""
+
+from __future__ import annotations
+
+import inspect
+import re
+from typing import Any
+
+import numpy as np
+import pytest
+
+from filters.translation.kinds import kind_of
+from filters.translation.refusal import Untranslatable
+from filters.translation.unit import Unit
+from tests.filters.translation.refused import REFUSED, recursive
+
+
+def translate(function: Any, arguments: tuple[Any, ...]) -> None:
+    Unit().function(function, tuple(kind_of(argument) for argument in arguments))
+
+
+@pytest.mark.parametrize(("function", "arguments"), REFUSED, ids=lambda value: getattr(value, "__name__", ""))
+def test_the_line_and_the_reason(function: Any, arguments: tuple[Any, ...]) -> None:
+    lines, first = inspect.getsourcelines(function)
+    (line, why) = next(
+        (first + number, text.rpartition("# ")[2].strip()) for number, text in enumerate(lines) if "# " in text
+    )
+    with pytest.raises(Untranslatable, match=rf"tests/filters/translation/refused.py:{line}: .*{re.escape(why)}"):
+        translate(function, arguments)
+
+
+def test_recursion() -> None:
+    with pytest.raises(Untranslatable, match=r"refused\.recursive calls itself; write a loop"):
+        translate(recursive, (3,))
+
+
+@pytest.mark.parametrize(
+    ("argument", "what"),
+    [
+        ("text", "'text' is a str, for which there is nothing in C"),
+        (np.zeros((2, 2), complex), "an array of complex128"),
+        (np.zeros((4, 4))[:, ::2], "whose rows lie side by side"),
+        (None, "None is a NoneType"),
+    ],
+)
+def test_arguments(argument: Any, what: str) -> None:
+    with pytest.raises(Untranslatable, match=what):
+        kind_of(argument)
