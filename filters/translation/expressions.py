@@ -31,6 +31,7 @@ from filters.translation.kinds import (
 )
 from filters.translation.names import c_name
 from filters.translation.ranges import difference, negative, product, quotient, remainder, total
+from filters.translation.single import check_threshold, held
 from filters.translation.values import AND, CHOICE, COMPARED, OR, POSTFIX, PRIMARY, PRODUCT, SUM, UNARY, Value
 
 _COMPARED = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "==", ast.NotEq: "!="}
@@ -44,7 +45,7 @@ def expression(body: Body, node: ast.expr, *, returned: bool = False) -> Value:
     """
     match node:
         case ast.Constant(value=value):
-            return constant(body, value)
+            return constant(body, held(body, node, value))
         case ast.Name(id=name):
             return _name(body, node, name)
         case ast.Attribute(value=base, attr=name):
@@ -115,7 +116,7 @@ def _name(body: Body, node: ast.expr, name: str) -> Value:
     if name in body.places:
         raise body.source.refusal(node, f"{name} may not have been assigned yet")
     try:
-        return constant(body, body.source.value(name), name)
+        return constant(body, held(body, node, body.source.value(name), name), name)
     except KeyError:
         raise body.source.refusal(node, f"{name} is not known") from None
 
@@ -129,7 +130,7 @@ def _attribute(body: Body, node: ast.expr, base: Value, name: str) -> Value:
         case Record():
             return field(body, node, base, name)
         case Constant(value=value) if hasattr(value, name):
-            return constant(body, getattr(value, name), name)
+            return constant(body, held(body, node, getattr(value, name), name), name)
     raise body.source.refusal(node, f"{name} is not known")
 
 
@@ -335,6 +336,7 @@ def _power(body: Body, node: ast.AST, a: Value, b: Value) -> Value:
 
 
 def _comparison(body: Body, node: ast.Compare) -> Value:
+    check_threshold(body, node)
     terms = [expression(body, term) for term in (node.left, *node.comparators)]
     known = [_known(term.kind) for term in terms]
     if len(known) == 2 and None not in known and isinstance(node.ops[0], ast.Eq | ast.NotEq):

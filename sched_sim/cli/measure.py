@@ -20,6 +20,10 @@ if TYPE_CHECKING:
     from sched_sim.costs.table import CostTable
 
 SYSTEM = "System"
+BOARD = "Board"
+BackendName = Literal["compiled", "counted", "numpy", "emulated"]
+OF_A_BOARD = ("target", "precision")
+"""Options of `measure` that say which core is emulated, and how."""
 WITHOUT_SYSTEM = "Not with --system, --filter or --robust, which have their own."
 WITHOUT_FILTER = "Not with --filter or --robust."
 
@@ -32,11 +36,29 @@ def _size(text: str) -> int:
 
 
 Backend = Annotated[
-    Literal["compiled", "counted", "numpy"],
+    BackendName,
     typer.Option(
         "--backend",
         help="compiled: time of code compiled by numba; counted: exact operation counts, of a model written with "
-        "+ - * /, functions of single numbers (np.sin, math.sin) and products of arrays; numpy: time of NumPy calls.",
+        "+ - * /, functions of single numbers (np.sin, math.sin) and products of arrays; numpy: time of NumPy calls; "
+        "emulated: instructions, not cycles, of C on a board's core, with --target.",
+    ),
+]
+OnTarget = Annotated[
+    str | None,
+    typer.Option(
+        "--target",
+        help="With --backend emulated: cortex-m4f (single precision), cortex-m7 (double), cortex-m4-soft (double, in "
+        "software) or cortex-m33 (single). Needs QEMU and the cross compiler.",
+        rich_help_panel=BOARD,
+    ),
+]
+InPrecision = Annotated[
+    str | None,
+    typer.Option(
+        "--precision",
+        help="With --backend emulated: single or double; by default that of the target.",
+        rich_help_panel=BOARD,
     ),
 ]
 UpdateForm = Annotated[
@@ -127,6 +149,8 @@ def measure(
     parallel: Parallel = None,
     method: Wanted = None,
     backend: Backend = "compiled",
+    target: OnTarget = None,
+    precision: InPrecision = None,
     update: UpdateForm = "textbook",
     thorough: Annotated[bool, typer.Option("--thorough", help="Ten times as many rounds.")] = False,
     output: CostFile = None,
@@ -138,20 +162,31 @@ def measure(
     sched-sim measure --system mymodule:my_system -o costs.toml
     sched-sim measure --robust position --backend counted -o erkf.toml
     sched-sim measure --filter mymodule:my_filter -o samples.toml
+    sched-sim measure --backend emulated --target cortex-m4f -o m4f.toml
     """
     from filters.systems.example import example_system
+    from sched_sim.cli.instructions import built_note, target_note, target_row
     from sched_sim.cli.measured_note import busy_note, busy_row, say_busy
     from sched_sim.cli.own_note import own_note, own_share
     from sched_sim.cli.progress import progress_bar
     from sched_sim.cli.update_form import update_form
     from sched_sim.costs.table_file import write_costs
     from sched_sim.files.writable import check_writable
+    from studies.measurement.emulation.targets import precision_of, target_of
+    from studies.measurement.emulation.toolchain import check_installed
     from studies.measurement.methods import measure as run
     from studies.measurement.user_function import explained
     from studies.measurement.user_system import load_system
 
     if output is not None:
         check_writable(output, "--output")
+    if backend != "emulated" and (options := opt.given_options(context, lambda name: name in OF_A_BOARD)):
+        raise InputError(f"{', '.join(options)}: only with --backend emulated, which --backend {backend} is not")
+    if backend == "emulated" and (options := opt.given_options(context, lambda name: name == "thorough")):
+        raise InputError("--thorough: leave it out: instructions on an emulated core are the same in each run")
+    if backend == "emulated":
+        precision = precision_of(target_of(target), precision)
+        check_installed()
     if own_filter is not None:
         refuse_with_filter(own_filter, context)
         measure_own_filter(own_filter, backend, thorough, output, format)
@@ -166,17 +201,17 @@ def measure(
         raise InputError(f"--system {system!r}: leave out {', '.join(options)}: the system has its own")
     with progress_bar("Measuring") as progress:
         if robust is not None:
-            table = _robust(robust, parallel, backend, thorough, progress)
+            table = _robust(robust, parallel, backend, thorough, progress, target, precision)
         else:
             methods = opt.known_methods(["standard", *(method or SYSTEM_METHODS)], SYSTEM_METHODS)
             if system is None:
                 model, x0 = example_system(states, inputs, measurements), None
-                name = f"{backend}-{states}-{inputs}-{measurements}"
+                name = f"{target if backend == 'emulated' else backend}-{states}-{inputs}-{measurements}"
                 the_system = f"--states {states} --inputs {inputs} --measurements {measurements}"
             else:
                 model, x0 = load_system(system)
                 refuse_one_file_for_two([("--output", output)], [("--system", file) for file in module_files()])
-                name = f"{backend}-{system.replace(':', '.')}"
+                name = f"{target if backend == 'emulated' else backend}-{system.replace(':', '.')}"
                 the_system = f"--system {system!r}"
             with explained(f"{the_system}: cannot be measured by --backend {backend}"):
                 table = run(
@@ -189,6 +224,8 @@ def measure(
                     progress=progress,
                     methods=methods,
                     own=system is not None,
+                    target=target,
+                    precision=precision,
                 )
     unit = table.normalised() if "standard" in table.costs else None
     rows = [
@@ -204,6 +241,7 @@ def measure(
             "standard_steps": None if unit is None else float(unit.entry(method, kind).minimum),
             "standard_steps_p95": None if unit is None else float(unit.entry(method, kind).p95),
             **busy_row(table.provenance),
+            **target_row(table, method),
         }
         for method, kinds in table.costs.items()
         for kind, cost in kinds.items()
@@ -218,7 +256,7 @@ def measure(
             f"{'ns' if table.unit == 'second' else units(table.unit)}",
             rows,
             timed=table.unit == "second",
-            note=lines(own_note(table), busy_note(table.provenance)),
+            note=lines(own_note(table), busy_note(table.provenance), target_note(table), built_note(table)),
         )
     if format != "table":
         say_busy(table.name, table.provenance)
@@ -234,7 +272,7 @@ def _show(title: str, rows: list[dict[str, Any]], timed: bool, note: str) -> Non
         figures = (
             {name: f"{1e9 * row[name]:.1f}" for name in ("minimum", "median", "p95")}
             if timed
-            else {"operations": f"{row['minimum']:.0f}"}
+            else {units(row["unit"]): " to ".join(dict.fromkeys(f"{row[name]:.0f}" for name in ("minimum", "p95")))}
         )
         steps = row["standard_steps"]
         until = f" to {row['standard_steps_p95']:.3f}" if timed and steps is not None else ""
@@ -250,14 +288,16 @@ def _show(title: str, rows: list[dict[str, Any]], timed: bool, note: str) -> Non
 def _robust(
     name: Literal["attitude", "position"],
     parallel: int | None,
-    backend: Literal["compiled", "counted", "numpy"],
+    backend: BackendName,
     thorough: bool,
     progress: Callable[[int, int, str], None],
+    target: str | None,
+    precision: str | None,
 ) -> CostTable:
     from studies.robust.costs import parallel_costs, robust_costs
 
     if parallel is None:
-        return robust_costs(name, backend, thorough=thorough, progress=progress)
+        return robust_costs(name, backend, thorough=thorough, progress=progress, target=target, precision=precision)
     if backend != "counted":
         raise InputError(f"--parallel {parallel} is counted, not timed: give --backend counted too")
     return parallel_costs(name, parallel)

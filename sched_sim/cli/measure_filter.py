@@ -37,7 +37,7 @@ def refuse_with_filter(name: str, context: typer.Context) -> None:
 
 def measure_own_filter(
     name: str,
-    backend: Literal["compiled", "counted", "numpy"],
+    backend: Literal["compiled", "counted", "numpy", "emulated"],
     thorough: bool,
     output: Path | None,
     format: Format,
@@ -47,8 +47,8 @@ def measure_own_filter(
     from studies.measurement.user_filter import load_filter
     from studies.measurement.user_function import explained
 
-    if backend == "numpy":
-        raise InputError(f"--backend numpy does not go with --filter {name}: give --backend compiled or counted")
+    if backend == "numpy" or backend == "emulated":
+        raise InputError(f"--backend {backend} does not go with --filter {name}: give --backend compiled or counted")
     with progress_bar("Measuring") as progress:
         user = load_filter(name)
         refuse_one_file_for_two([("--output", output)], [("--filter", file) for file in module_files()])

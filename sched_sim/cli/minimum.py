@@ -8,6 +8,15 @@ from typing import Any
 
 from sched_sim.cli import options as opt
 from sched_sim.cli.design_flags import with_options
+from sched_sim.cli.instructions import (
+    ClockMhz,
+    CyclesEach,
+    RamKb,
+    instructions_note,
+    part_and_costs,
+    ram_row,
+    ram_words,
+)
 from sched_sim.cli.output import lines, print_csv, print_json, print_table, units
 from sched_sim.cli.progress import simulations
 from sched_sim.cli.refused import Refused
@@ -31,6 +40,9 @@ def minimum(
     costs: opt.Costs = None,
     statistic: opt.WhichCost = "minimum",
     processor: opt.OnProcessor = None,
+    clock_mhz: ClockMhz = None,
+    cycles_per_instruction: CyclesEach = None,
+    ram_kb: RamKb = None,
     options: Options = Options(),
     tasks: opt.Tasks = None,
     format: opt.Format = "table",
@@ -55,8 +67,8 @@ def minimum(
     from sched_sim.design.methods import select
     from sched_sim.design.pieces import converted
 
-    part = opt.make_processor(processor)
-    table, rate = opt.costs_on(costs, part), opt.hr_rate(hr_hz)
+    part, table = part_and_costs(costs, processor, clock_mhz, cycles_per_instruction)
+    rate = opt.hr_rate(hr_hz)
     others = opt.make_tasks(tasks, table.unit, rate)
     design = make_design(N, M, L, rate, measurement_hz, delay_ms, land_within_ms)
     timed = rate is not None and table.unit in SECONDS
@@ -106,7 +118,8 @@ def minimum(
                         f"{units(table.unit)} per s": f"{row['work_per_second']:.4g}",
                     }
         scale = second if timed else Fraction(1)
-        return row | measured_row(table, name, timing, options, others, scale), person
+        row |= ram_row(table, name, ram_kb)
+        return row | measured_row(table, name, timing, options, others, scale), person | ram_words(row)
 
     rows, shown = [], []
     for name in names:
@@ -123,6 +136,7 @@ def minimum(
         caveat_note(timings),
         update_note(table, [*timings]),
         range_note(table, timings, options, others),
+        instructions_note(table, rows, part),
     )
     rows = with_caveats(rows)
     if format == "json":
@@ -130,7 +144,8 @@ def minimum(
     elif format == "csv":
         print_csv(rows)
     elif rate is not None and timed:
-        where = f"{part.title} (operations: {costs or COUNTED})" if part else f"the machine of {table.name}"
+        counted = "operations" if table.target is None else "instructions"
+        where = f"{part.title} ({counted}: {costs or COUNTED})" if part else f"the machine of {table.name}"
         title = f"On {where}, HR loop at {float(rate):g} Hz, {design.shown}"
         print_table(title, shown, lines(MEANING, highest_note(others), note))
     else:

@@ -21,7 +21,12 @@ Format = Literal["table", "json", "csv"]
 UNBOUNDED = 10**6
 """Columns of a file or a pipe, unless COLUMNS says how many."""
 
-PLURALS = {"standard step": "standard steps", "second": "seconds", "operation": "operations"}
+PLURALS = {
+    "standard step": "standard steps",
+    "second": "seconds",
+    "operation": "operations",
+    "instruction": "instructions",
+}
 
 
 def units(unit: str) -> str:

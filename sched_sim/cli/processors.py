@@ -10,6 +10,7 @@ import typer
 
 from sched_sim.cli import options as opt
 from sched_sim.cli.design_flags import with_options
+from sched_sim.cli.instructions import CyclesEach, RamKb, instructions_note, ram_row, ram_words, suited
 from sched_sim.cli.output import lines, print_csv, print_json, print_table
 from sched_sim.cli.parts import MEANING, TASKS_ON_PARTS, highest_note
 from sched_sim.cli.refused import Refused
@@ -79,6 +80,8 @@ def processors(
     costs: Counts = None,
     statistic: opt.WhichCost = "minimum",
     processor: Parts = None,
+    cycles_per_instruction: CyclesEach = None,
+    ram_kb: RamKb = None,
     options: Options = Options(),
     tasks: opt.Tasks = None,
     scenario: OneScenario = None,
@@ -93,6 +96,7 @@ def processors(
     sched-sim processors --scenario rocket.toml
     """
     from sched_sim.cli.design_times import make_design
+    from sched_sim.costs.table_file import load_costs
     from sched_sim.errors import InputError
     from sched_sim.processors.part_file import load_part
     from sched_sim.ticks import positive
@@ -124,9 +128,14 @@ def processors(
                 timings[name] = design.timing(name, options)
         others = opt.make_tasks(tasks, "second", rate)
         assert design.times is not None
-        rows, shown, remarks = _verdicts(parts, timings, costs, statistic, rate, options, others, design.times, refused)
+        counts = load_costs(COUNTED if costs is None else costs)
+        parts = suited(parts, processor or (), counts, cycles_per_instruction)
+        rows, shown, remarks = _verdicts(
+            parts, timings, counts, statistic, rate, options, others, design.times, refused, ram_kb
+        )
         named = ", ".join(name for name in methods if name not in refused.notes)
-        title = f"{named}, HR loop at {hr_hz} Hz, {design.shown} (operations: {costs or COUNTED})"
+        what = "operations" if counts.target is None else "instructions"
+        title = f"{named}, HR loop at {hr_hz} Hz, {design.shown} ({what}: {costs or COUNTED})"
         same = TASKS_ON_PARTS if others and len(parts) > 1 else ""
         note = lines(MEANING, highest_note(others), same, design.words, *remarks)
     if format == "json":
@@ -201,13 +210,14 @@ OTHER_FIGURES = ("clock_mhz", "logic_per_arithmetic")
 def _verdicts(
     parts: Sequence[Part],
     timings: Mapping[str, Timing],
-    costs: str | None,
+    counts: CostTable,
     statistic: Statistic,
     rate: Fraction,
     options: Options,
     tasks: Sequence[Task],
     times: Times,
     refused: Refused,
+    ram_kb: str | None,
 ) -> tuple[list[dict[str, Any]], list[dict[str, Any]], list[str]]:
     """A row for each processor and method that is not refused; the same in words, in the order of `_by_slack`; and
     remarks: which covariance update the operations are of, the ground, and why some processors cannot be told of."""
@@ -217,16 +227,15 @@ def _verdicts(
     from sched_sim.cli.parts import fit_row, fit_words, fixed_by, least_row
     from sched_sim.cli.progress import simulations
     from sched_sim.cli.update_form import form_note, ground_note, update_form
-    from sched_sim.costs.table_file import load_costs
     from sched_sim.design.fit import fit
     from sched_sim.design.methods import select
     from sched_sim.errors import InputError
-    from sched_sim.processors.part import on_part, without_time
+    from sched_sim.processors.part import on_part, ranged, without_time
 
     rows, shown = [], []
     lacking: dict[str, list[str]] = {}
     verdicts: list[Fit | None] = []
-    counts = load_costs(COUNTED if costs is None else costs)
+    parts = [ranged(counts, part) for part in parts]
     tables = [on_part(counts, part) for part in parts]
     say_of_statistic(statistic, tables)
 
@@ -259,12 +268,13 @@ def _verdicts(
                 least_row(method, timing, least)
                 | update_form(counts, method)
                 | fit_row(part, rate, times, verdict, bool(tasks))
+                | ram_row(counts, method, ram_kb)
             )
             rows.append(row | measured_row(table, method, timing, options, tasks) | {"reason": reason})
             name = {"method": method} if len(refused.methods) > 1 else {}
-            about = {"processor": part.name, "precision": part.precision, **name}
+            about: dict[str, str | None] = {"processor": part.name, "precision": part.precision, **name}
             words = fit_words(part, rate, times, verdict, bool(tasks))
-            shown.append(about | words | {"fixed by": fixed_by(row["binding"])})
+            shown.append(about | words | {"fixed by": fixed_by(row["binding"]), **ram_words(row)})
     calibrations = {part.name: None if part.calibration is None else part.calibration.text for part in parts}
     in_order = sorted(range(len(shown)), key=lambda index: _by_slack(verdicts[index]))
     return (
@@ -275,6 +285,7 @@ def _verdicts(
             form_note(counts, timings),
             ground_note(counts, timings, calibrations),
             no_time_note(lacking),
+            instructions_note(counts, rows, *parts),
         ],
     )
 

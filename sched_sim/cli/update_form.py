@@ -37,6 +37,8 @@ def update_note(table: CostTable, methods: Iterable[str]) -> str:
 
 def ground_note(table: CostTable, methods: Iterable[str], calibrations: Mapping[str, str | None]) -> str:
     """What verdicts on parts rest on; calibrations: of each part by its name, None if it has none."""
+    if table.target is not None:
+        return ""
     forms = _forms(table, methods)
     counts = f"dense counts, {forms[0]} form" if forms else "operations as counted"
     known = [f"{text} on {name}" for name, text in calibrations.items() if text]

@@ -24,6 +24,10 @@ SECONDS: Mapping[str, Fraction] = {
 """The units of costs that are times."""
 
 
+INSTRUCTION = "instruction"
+"""The unit of costs that were counted on an emulated core: no cycles, and so no times."""
+
+
 def measured_on_busy_machine(provenance: Mapping[str, Any]) -> bool | None:
     """Whether something else had the machine while costs of this provenance were timed; None if `sched-sim measure`
     did not time them."""
@@ -119,6 +123,23 @@ class CostTable:
         about = self.provenance.get("processor")
         name = about.get("name") if isinstance(about, Mapping) else about
         return None if name is None else str(name)
+
+    @property
+    def target(self) -> str | None:
+        """The core on which instructions were counted; None for other costs."""
+        target = self.provenance.get("target")
+        return None if target is None else str(target)
+
+    def memory_bytes(self, method: str) -> int:
+        """RAM and stack of all tasks of a method. Raises InputError if the table does not say."""
+        try:
+            parts = self.provenance["memory"][method].values()
+            return sum(int(part["ram"]) + int(part["stack"]) for part in parts)
+        except (KeyError, TypeError, AttributeError, ValueError):
+            raise InputError(
+                f"cost table {self.shown} does not say what memory {method} needs: use {option('costs')} with a table "
+                f"that `sched-sim measure --backend emulated` writes"
+            ) from None
 
     def _remedy(self, method: str, kind: str) -> str:
         others = self.found_in(method, kind)

@@ -16,7 +16,7 @@ from fractions import Fraction
 
 from sched_sim.bounds import check_kind
 from sched_sim.costs.operations import Counts, arithmetic
-from sched_sim.costs.table import Cost, CostTable
+from sched_sim.costs.table import INSTRUCTION, Cost, CostTable
 from sched_sim.errors import InputError, option
 
 FUNCTION = {"multiply": 13, "add": 17}
@@ -52,6 +52,24 @@ class Calibration:
 
 
 @dataclass(frozen=True)
+class CyclesPerInstruction:
+    """What instructions of a core, the mean of a job's, take at least and at most.
+
+    target: the core, as `sched-sim measure --target` names it.
+    """
+
+    least: Fraction
+    most: Fraction
+    target: str
+    source: str = ""
+
+    @property
+    def text(self) -> str:
+        """Of people: "1 to 2"."""
+        return " to ".join(dict.fromkeys(f"{float(end):.3g}" for end in (self.least, self.most)))
+
+
+@dataclass(frozen=True)
 class Part:
     """What each kind of operation takes on one processor.
 
@@ -60,6 +78,7 @@ class Part:
     operations around each arithmetic one, for jobs that do not count their own. sources: where each figure is from,
     by its name in the file. path: where the file was read from, for messages. calibration: None where nothing was
     measured; it changes no time. price: of one, in whatever currency all files have it; None where it is not known.
+    cycles_per_instruction: for tables of instructions; None where it is not stated.
     """
 
     name: str
@@ -72,6 +91,7 @@ class Part:
     path: str = ""
     calibration: Calibration | None = None
     price: Fraction | None = None
+    cycles_per_instruction: CyclesPerInstruction | None = None
 
 
 def on_part(table: CostTable, processor: Part) -> CostTable:
@@ -80,10 +100,13 @@ def on_part(table: CostTable, processor: Part) -> CostTable:
     A job's time is the sum over its operations, one after another. Logic that a job does not count is
     `logic_per_arithmetic` for each arithmetic operation, a function that the processor does not time is `FUNCTION`. A
     job with another kind of operation that it does not give has no cost: `CostTable.entry` raises InputError for it.
-    Raises InputError for a table without counts.
+    Instructions take the most cycles that are stated for them.
+    Raises InputError for a table without counts, and for instructions of another core or precision.
     """
     check_kind(table, CostTable, "table", "a cost table, as `load_costs` returns it")
     check_kind(processor, Part, "processor", "a part, as `load_part` returns it")
+    if table.unit == INSTRUCTION:
+        return _instructions_on_part(table, processor)
     if not table.operations:
         raise InputError(
             f"cost table {table.shown} has no operation counts to run on processor {processor.name!r}: use "
@@ -110,6 +133,58 @@ def on_part(table: CostTable, processor: Part) -> CostTable:
         },
         lacking=lacking,
     )
+
+
+def _instructions_on_part(table: CostTable, processor: Part) -> CostTable:
+    if why := why_not_instructions(table, processor):
+        raise InputError(why)
+    assert processor.cycles_per_instruction is not None
+    assert processor.clock_hz is not None
+    rate = processor.clock_hz / processor.cycles_per_instruction.most
+    costs = {method: {kind: cost / rate for kind, cost in kinds.items()} for method, kinds in table.costs.items()}
+    about = _about(replace(processor, calibration=None, sources={}))
+    source = processor.cycles_per_instruction.source
+    return replace(
+        table,
+        name=f"{table.name} on {processor.name}",
+        unit="second",
+        costs=costs,
+        provenance={
+            **table.provenance,
+            "machine": processor.title,
+            "processor": {
+                **about,
+                "cycles_per_instruction": processor.cycles_per_instruction.text,
+                **({"cycles_per_instruction_source": source} if source else {}),
+            },
+        },
+    )
+
+
+def why_not_instructions(table: CostTable, processor: Part) -> str:
+    """Why a table of instructions cannot become times on a processor; empty if it can."""
+    said = f"cost table {table.shown} has instructions of {table.target}"
+    stated = processor.cycles_per_instruction
+    if processor.clock_hz is None:
+        return f"{said}, and processor {processor.name!r} has no clock: choose another, or give clock_mhz in its file"
+    if stated is None or stated.target != table.target:
+        return (
+            f"{said}, and processor {processor.name!r} does not state the cycles of such: choose another, or state "
+            f"them in [cycles_per_instruction] of its file, or with {option('cycles_per_instruction')}"
+        )
+    precision = table.provenance.get("precision")
+    if processor.precision != "unstated" and precision not in (None, processor.precision):
+        return f"{said} in {precision} precision, and processor {processor.name!r} computes in {processor.precision}"
+    return ""
+
+
+def ranged(table: CostTable, processor: Part) -> Part:
+    """The processor, whose calibration is what it may take over what costs of this table say: of instructions, which
+    are charged the most cycles, from the least cycles to those."""
+    stated = processor.cycles_per_instruction
+    if table.target is None or stated is None:
+        return processor
+    return replace(processor, calibration=Calibration(stated.least / stated.most, Fraction(1)))
 
 
 def seconds_for(counts: Counts, processor: Part, job: str) -> Fraction:

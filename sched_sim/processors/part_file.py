@@ -14,7 +14,7 @@ from sched_sim.errors import InputError, option
 from sched_sim.files.kinds import refuse_other_kind
 from sched_sim.files.toml_problems import problems
 from sched_sim.files.toml_reader import read_toml
-from sched_sim.processors.part import Calibration, Part
+from sched_sim.processors.part import Calibration, CyclesPerInstruction, Part
 from sched_sim.text import did_you_mean
 from sched_sim.ticks import exact, positive
 
@@ -68,6 +68,10 @@ class _Calibration(BaseModel):
         return self
 
 
+class _CyclesPerInstruction(_Calibration):
+    target: str
+
+
 def _range(value: Any) -> Any:
     """A plain number stands for a range of one."""
     return value if isinstance(value, dict) else {"least": value, "most": value}
@@ -113,6 +117,7 @@ class _ProcessorFile(BaseModel):
     clock_mhz: Annotated[_Figure, _figure("value"), AfterValidator(_positive)] | None = None
     logic_per_arithmetic: Annotated[_Figure, _figure("value"), AfterValidator(_not_negative)]
     calibration: Annotated[_Calibration, BeforeValidator(_range)] | None = None
+    cycles_per_instruction: _CyclesPerInstruction | None = None
     price: Annotated[_Number, AfterValidator(lambda price: positive(price, "the number"))] | None = None
     cycles: _InCycles = {}
     microseconds: _InMicroseconds = {}
@@ -125,6 +130,8 @@ class _ProcessorFile(BaseModel):
             raise ValueError("[cycles] need the clock: add the line `clock_mhz = ...`, or give [microseconds]")
         if self.microseconds and self.clock_mhz:
             raise ValueError("clock_mhz has no meaning for [microseconds]: delete it, or give [cycles]")
+        if self.cycles_per_instruction and not self.clock_mhz:
+            raise ValueError("[cycles_per_instruction] need the clock: give clock_mhz and [cycles]")
         if self.logic_per_arithmetic.value and "logic" not in self.figures:
             raise ValueError("logic_per_arithmetic needs the time of one: add the line `logic = ...`, or set it to 0")
         return self
@@ -180,4 +187,9 @@ def read_part(path: Path, shown: str = "", argument: str | None = None) -> Part:
         path=shown,
         calibration=None if checked.calibration is None else Calibration(**dict(checked.calibration)),
         price=checked.price,
+        cycles_per_instruction=(
+            None
+            if checked.cycles_per_instruction is None
+            else CyclesPerInstruction(**dict(checked.cycles_per_instruction))
+        ),
     )

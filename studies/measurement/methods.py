@@ -1,4 +1,4 @@
-"""What each job of each filter costs, from its real code: counted, compiled or as NumPy calls.
+"""What each job of each filter costs, from its real code: counted, compiled, as NumPy calls, or on an emulated core.
 
 How the timed backends go about it: see `job_times`. A round gives one figure per job: its mean time. Minimum, median
 and 95th percentile are over rounds.
@@ -26,10 +26,12 @@ from filters.seed import check_seed
 from filters.system import System
 from sched_sim.costs.table import Cost, CostTable
 from sched_sim.errors import InputError
+from studies.measurement.emulation.table import emulated_table
+from studies.measurement.emulation.targets import precision_of, target_of
 from studies.measurement.job_times import ARGUMENT_SETS, Progress, Protocol, silent, time_jobs
 from studies.measurement.own_functions import with_own, with_shares
 
-BackendName = Literal["compiled", "counted", "numpy"]
+BackendName = Literal["compiled", "counted", "numpy", "emulated"]
 
 QUICK = Protocol(rounds=61, repetitions=1000)
 THOROUGH = Protocol(rounds=601, repetitions=1000)
@@ -49,16 +51,21 @@ def measure(
     progress: Progress = silent,
     methods: Sequence[str] = tuple(ALL_METHODS),
     own: bool = False,
+    target: str | None = None,
+    precision: str | None = None,
 ) -> CostTable:
     """The cost table of these methods on one system.
 
-    unit: "operation" (each multiply, add, divide, square root counts one) for counted, else "second".
+    unit: "operation" (each multiply, add, divide, square root counts one) for counted, "instruction" for emulated, else
+        "second".
     update: the covariance form, of no use to methods that keep factors of the covariance.
     x0 (n,): a typical state of the system, zero if not given.
+    target: of emulated code, the core, see `emulation.targets`; precision: that of the core if not given.
     own: of compiled code, time the functions of the system too: the table's `own_share` is that of each job.
 
     Raises InputError for an argument that is none of these, if the standard filter, with which typical arguments are
-    made, cannot be run from there, or if a function of the system cannot be counted or compiled.
+    made, cannot be run from there, if a function of the system cannot be counted, compiled or translated to C, or if
+    the emulator or its compiler is missing.
     """
     try:
         check_system("system", system)
@@ -83,7 +90,17 @@ def measure(
         "measurements": system.measurements,
     }
     try:
-        table = cost_table(timed, backend, about, name=name, thorough=thorough, seed=seed, progress=progress)
+        table = cost_table(
+            timed,
+            backend,
+            about,
+            name=name,
+            thorough=thorough,
+            seed=seed,
+            progress=progress,
+            target=target,
+            precision=precision,
+        )
         return with_shares(table, timed) if own else table
     except InputError:
         raise
@@ -112,9 +129,14 @@ def cost_table(
     thorough: bool = False,
     seed: int = 0,
     progress: Progress = silent,
+    target: str | None = None,
+    precision: str | None = None,
 ) -> CostTable:
     """The cost table of these jobs, by method and kind; about: what else is to be said of them."""
     about = {"backend": backend, **about}
+    if backend == "emulated":
+        core = target_of(target)
+        return emulated_table(jobs, core, precision_of(core, precision), about, name=name, progress=progress)
     if backend == "counted":
         operations = counted(jobs, progress)
         about["source"] = COUNTED_SOURCE

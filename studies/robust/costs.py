@@ -51,6 +51,8 @@ def robust_costs(
     thorough: bool = False,
     seed: int = 0,
     progress: Progress = silent,
+    target: str | None = None,
+    precision: str | None = None,
 ) -> CostTable:
     """The cost table erkf-NAME: the methods robust-inverse, robust-givens, robust-lu and robust-closed."""
     case = robust_case(name)
@@ -62,7 +64,17 @@ def robust_costs(
         "ways": ", ".join(WAYS),
     }
     jobs = robust_jobs(case, seed)
-    return cost_table(jobs, backend, about, name=f"erkf-{name}", thorough=thorough, seed=seed, progress=progress)
+    return cost_table(
+        jobs,
+        backend,
+        about,
+        name=f"erkf-{name}",
+        thorough=thorough,
+        seed=seed,
+        progress=progress,
+        target=target,
+        precision=precision,
+    )
 
 
 def parallel_costs(name: SystemName, units: int) -> CostTable:
