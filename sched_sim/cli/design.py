@@ -175,6 +175,7 @@ def _draw(path: Path, question: Question, found: Choice, every: Sequence[int]) -
 
 
 def _show(found: Choice, ways: Sequence[Candidate], question: Question, words: str) -> None:
+    from sched_sim.cli.instructions import target_note
     from sched_sim.cli.update_form import ground_note
     from studies.selection.methods import by_reason
 
@@ -208,6 +209,7 @@ def _show(found: Choice, ways: Sequence[Candidate], question: Question, words: s
             words,
             f"costs: {_names(question)}",
             ground_note(table, [of.variant.method for of in ways], calibrations) if question.parts else "",
+            *(target_note(table) for table in question.tables),
         ),
     )
 

@@ -50,11 +50,17 @@ RamKb = Annotated[
 
 
 def target_note(table: CostTable) -> str:
-    """A line that says what was counted where; empty for other costs."""
+    """A line that says what was counted where, and how it became times; empty for other costs."""
     if table.target is None:
         return ""
-    precision, compiler = table.provenance.get("precision"), table.provenance.get("compiler")
-    return f"instructions, not cycles, on an emulated {table.target}, {precision} precision, {compiler}"
+    about = table.provenance
+    processor = about.get("processor")
+    cycles = processor.get("cycles_per_instruction") if isinstance(processor, Mapping) else None
+    taken = "" if cycles is None else f"; times by the most of {cycles} cycles for each"
+    return (
+        f"instructions, not cycles, on an emulated {table.target}, {about.get('precision')} precision, "
+        f"{about.get('compiler')}{taken}"
+    )
 
 
 def target_row(table: CostTable, method: str) -> dict[str, Any]:
@@ -150,11 +156,9 @@ def suited(parts: Sequence[Part], named: Sequence[str], table: CostTable, cycles
 
 
 def instructions_note(table: CostTable, rows: Sequence[Mapping[str, Any]], *parts: Part | None) -> str:
-    """Lines below verdicts on parts: what was counted, and from the least to the most cycles what is needed of each;
+    """Lines below verdicts on parts: from the least to the most cycles for an instruction, what is needed of each part;
     empty for other costs."""
-    if table.target is None:
-        return ""
-    return lines(target_note(table), *(_needed(part, rows) for part in parts if part is not None))
+    return "" if table.target is None else lines(*(_needed(part, rows) for part in parts if part is not None))
 
 
 def _needed(part: Part, rows: Sequence[Mapping[str, Any]]) -> str:
@@ -168,8 +172,8 @@ def _needed(part: Part, rows: Sequence[Mapping[str, Any]]) -> str:
         for row in rows
         if row.get("processor") == part.name and row.get("needed_share_least") is not None
     )
-    taken = f"{part.name}: verdicts at {float(part.cycles_per_instruction.most):.3g} cycles an instruction"
-    return f"{taken}; at {part.cycles_per_instruction.text}, of its speed: {shares}" if shares else taken
+    cycles = part.cycles_per_instruction.text
+    return f"at {cycles} cycles an instruction, of the speed of {part.name}: {shares}" if shares else ""
 
 
 def ram_row(table: CostTable, method: str, ram_kb: str | None) -> dict[str, Any]:
@@ -180,7 +184,10 @@ def ram_row(table: CostTable, method: str, ram_kb: str | None) -> dict[str, Any]
     if ram_kb is None:
         return {}
     limit = positive(ram_kb, "--ram-kb") * KB
-    needed = table.memory_bytes(method)
+    try:
+        needed = table.memory_bytes(method)
+    except InputError as error:
+        raise InputError(f"--ram-kb {ram_kb}: {error}") from None
     return {"ram_bytes": needed, "fits_ram": needed <= limit}
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
+from sched_sim.cli.instructions import target_note
 from sched_sim.cli.measured_note import busy_note
 from sched_sim.cli.output import lines
 from sched_sim.costs.methods import DELAYED_METHODS
@@ -36,7 +37,7 @@ def update_note(table: CostTable, methods: Iterable[str]) -> str:
 
 
 def ground_note(table: CostTable, methods: Iterable[str], calibrations: Mapping[str, str | None]) -> str:
-    """What verdicts on parts rest on; calibrations: of each part by its name, None if it has none."""
+    """What verdicts on parts by counts rest on; calibrations: of each part by its name, None if it has none."""
     if table.target is not None:
         return ""
     forms = _forms(table, methods)
@@ -46,9 +47,10 @@ def ground_note(table: CostTable, methods: Iterable[str], calibrations: Mapping[
 
 
 def form_note(table: CostTable, methods: Iterable[str]) -> str:
-    """For people, a line below a table; empty where there is nothing to say."""
+    """For people, a line below a table, of instructions another; empty where there is nothing to say."""
     forms = _forms(table, methods)
-    return f"covariance update: {FORMS.get(forms[0], forms[0])}" if forms else ""
+    update = f"covariance update: {FORMS.get(forms[0], forms[0])}" if forms else ""
+    return lines(update, target_note(table))
 
 
 def _forms(table: CostTable, methods: Iterable[str]) -> list[str]:

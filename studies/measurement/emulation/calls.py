@@ -12,8 +12,6 @@ from filters.translation.declarations import memory, variable
 from filters.translation.kinds import Array, Kind, Nothing, Real, Record, lasts
 from filters.translation.unit import Translated, Unit
 
-LARGEST = {"single": float(np.finfo(np.float32).max), "double": float(np.finfo(np.float64).max)}
-
 
 @dataclass
 class Calls:
@@ -31,11 +29,7 @@ class Calls:
     _kept: list[Any] = field(default_factory=list)
 
     def add(self, job: Translated, arguments: tuple[Any, ...]) -> None:
-        """One call of a job.
-
-        Raises:
-            ValueError: a number is too large for the precision.
-        """
+        """One call of a job."""
         given = dict(zip(job.parameters, arguments, strict=True))
         kinds = dict(zip(job.parameters, job.kinds, strict=True))
         texts = [text for name in job.used for text in self._argument(given[name], kinds[name])]
@@ -97,11 +91,11 @@ class Calls:
         return self._number(float(value)) if value.dtype.kind == "f" else str(int(value))
 
     def _number(self, value: float) -> str:
-        if not np.isfinite(value):
-            return self.unit.number(value)
-        if abs(value) > LARGEST[self.unit.precision]:
-            raise ValueError(f"{value:g} is too large for {self.unit.precision} precision")
-        return value.hex() + ("f" if self.unit.precision == "single" else "")
+        if self.unit.precision == "double":
+            return value.hex() if np.isfinite(value) else self.unit.number(value)
+        with np.errstate(over="ignore"):  # what a job is going to fill may hold anything
+            nearest = float(np.float32(value))
+        return f"{nearest.hex()}f" if np.isfinite(nearest) else self.unit.number(nearest)
 
     def _sizes(self, value: Any) -> Iterator[tuple[Any, str]]:
         """Arrays that the program has, and their size in C."""

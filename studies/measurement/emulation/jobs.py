@@ -8,13 +8,14 @@ then worth an instruction in ten, or two in a hundred thousand, and the figure i
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from types import FunctionType
 from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
 from filters.jobs import Job
+from filters.system import System
 from filters.translation.kinds import Kind, kind_of
 from filters.translation.unit import Precision, Unit
 from studies.measurement.emulation.calls import Calls
@@ -61,7 +62,9 @@ def emulate(
     for job in jobs.values():
         translated = unit.function(_plain(job), _kinds(job.arguments(0)))
         for index in range(sets):
-            calls.add(translated, job.arguments(index))
+            arguments = job.arguments(index)
+            _check_parameters(arguments, precision)
+            calls.add(translated, arguments)
     counts, shown = counted(run(target, {**files, "jobs.c": calls.text("filter.h")}), target)
     found = {}
     for number, key in enumerate(jobs):
@@ -93,6 +96,25 @@ def as_shown(arguments: Any, precision: Precision) -> bytes:
         as_real = arguments.dtype.kind == "f" and precision == "single"
         return (arguments.astype(np.float32) if as_real else arguments).tobytes()
     return b""
+
+
+def _check_parameters(arguments: tuple[Any, ...], precision: Precision) -> None:
+    for system in arguments:
+        if isinstance(system, System) and precision == "single":
+            largest = max(
+                (abs(array[np.isfinite(array)]).max(initial=0.0) for array in arrays(system.parameters)), default=0.0
+            )
+            if largest > np.finfo(np.float32).max:
+                raise ValueError(f"parameters of the system hold {largest:g}, which is too large for single precision")
+
+
+def arrays(value: Any) -> Iterator[Any]:
+    """Those in a value, however deep."""
+    if isinstance(value, np.ndarray):
+        yield value
+    elif isinstance(value, tuple):
+        for item in value:
+            yield from arrays(item)
 
 
 def _kinds(arguments: tuple[Any, ...]) -> tuple[Kind, ...]:

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any, TypeAlias
-
-import numpy as np
 
 from filters.jobs import Job
 from filters.system import System
 from filters.translation.unit import Precision
 from sched_sim.costs.methods import MULTIRATE_METHODS, ROBUST_METHODS
-from studies.measurement.emulation.jobs import Emulated, sources
+from studies.measurement.emulation.jobs import Emulated, arrays, sources
 from studies.measurement.emulation.targets import Target
 from studies.measurement.emulation.toolchain import code_bytes
 
@@ -89,12 +87,4 @@ def _model(parameters: Any, precision: Precision) -> dict[str, int]:
 
 def _bytes(value: Any, precision: Precision) -> int:
     real = 4 if precision == "single" else 8
-    return sum(array.size * (real if array.dtype.kind == "f" else array.itemsize) for array in _arrays(value))
-
-
-def _arrays(value: Any) -> Iterator[Any]:
-    if isinstance(value, np.ndarray):
-        yield value
-    elif isinstance(value, tuple):
-        for item in value:
-            yield from _arrays(item)
+    return sum(array.size * (real if array.dtype.kind == "f" else array.itemsize) for array in arrays(value))

@@ -51,6 +51,8 @@ def emulated_table(
             memory[method] = memory_of(method, kinds, found, target, precision)
         except Untranslatable as error:
             raise InputError(f"{method} cannot be translated to C for {target.name}: {error}") from error
+        except ValueError as error:
+            raise InputError(f"{method} cannot be measured on {target.name}: {error}") from error
         costs[method] = {kind: _cost(emulated.instructions) for kind, emulated in found.items()}
     provenance = {
         **about,
