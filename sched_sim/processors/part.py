@@ -163,6 +163,8 @@ def _instructions_on_part(table: CostTable, processor: Part) -> CostTable:
 
 def why_not_instructions(table: CostTable, processor: Part) -> str:
     """Why a table of instructions cannot become times on a processor; empty if it can."""
+    if table.target is None:
+        return f"cost table {table.shown} does not say of which core its instructions are: add the line `target = ...`"
     said = f"cost table {table.shown} has instructions of {table.target}"
     stated = processor.cycles_per_instruction
     if processor.clock_hz is None:

@@ -88,7 +88,8 @@ def _compile(target: Target, folder: Path, rest: Sequence[str]) -> None:
     command = [COMPILER, *FLAGS, *target.flags, f"-I{folder}", f"-I{BOARD}", "-include", "board.h", *rest]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     if done.returncode:
-        raise ValueError(f"{COMPILER} cannot compile what was made of the filter: {done.stderr[:400]}")
+        said = " ".join(done.stderr.replace(f"{folder}/", "").split())
+        raise ValueError(f"{COMPILER} cannot compile what was made of the filter: {said:.400}")
 
 
 def _said(*command: str) -> str:

@@ -1,0 +1,120 @@
+"""Costs in instructions at `minimum`, `processors` and others: a clock, cycles, memory, and that they are no cycles."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from tests.command_line import Run, is_refused
+
+TABLE = """
+name = "m4f"
+unit = "instruction"
+update_form = "textbook"
+target = "cortex-m4f"
+precision = "single"
+compiler = "gcc 12"
+
+[memory.standard]
+HR = { code = 1704, ram = 2784, stack = 120 }
+
+[memory.dual-rate]
+HR = { code = 644, ram = 3336, stack = 120 }
+LR = { code = 1484, ram = 3384, stack = 144 }
+model = { code = 7200, ram = 0, stack = 0 }
+
+[costs.standard]
+propagate = 13232
+update = 13747
+
+[costs.dual-rate]
+hr_restart = 819
+hr_propagate = 18912
+hr_update = 597
+lr_propagate = 12448
+lr_update = 13675
+"""
+NOTE = "instructions, not cycles, on an emulated cortex-m4f, single precision, gcc 12"
+DESIGN = "-N 80 -M 40 --hr-hz 400 --costs m4f.toml --method dual-rate"
+
+
+@pytest.fixture(autouse=True)
+def table(tmp_path: Path) -> None:
+    (tmp_path / "m4f.toml").write_text(TABLE)
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        f"minimum {DESIGN}",
+        f"minimum {DESIGN} --processor cortex-m4f",
+        f"minimum {DESIGN} --clock-mhz 84 --cycles-per-instruction 1:2",
+        f"processors {DESIGN}",
+        f"simulate {DESIGN} --processor cortex-m4f",
+        "sweep -N 80 -M 40 --costs m4f.toml",
+    ],
+)
+def test_every_table_says_that_they_are_no_cycles(sched_sim: Run, line: str) -> None:
+    found = sched_sim(line)
+    assert found.code == 0, found.err
+    assert found.out.count(NOTE) == 1
+
+
+def test_a_clock_and_cycles_do_what_a_part_that_states_them_does(sched_sim: Run) -> None:
+    (on_part,) = json.loads(sched_sim(f"minimum {DESIGN} --processor cortex-m4f --format json").out)
+    flags = "--clock-mhz 168 --cycles-per-instruction 1:2"
+    (by_flags,) = json.loads(sched_sim(f"minimum {DESIGN} {flags} --format json").out)
+    assert on_part == by_flags
+    (listed,) = json.loads(sched_sim(f"processors {DESIGN} --format json").out)
+    assert listed.pop("reason") is None
+    assert listed == {key: value for key, value in on_part.items() if key != "cost_unit"}
+
+
+def test_verdicts_are_by_the_most_cycles_and_say_the_least(sched_sim: Run) -> None:
+    line = f"minimum {DESIGN} --clock-mhz 10 --cycles-per-instruction 1:2"
+    (row,) = json.loads(sched_sim(f"{line} --format json").out)
+    assert row["needed_share_least"] < 1 < row["needed_share_most"]
+    assert not row["fits"]
+    assert row["needed_share_most"] == row["needed_share"] == 2 * row["needed_share_least"]
+    assert "at 1 to 2 cycles an instruction, of the speed of cortex-m4f: dual-rate 78.1 to 157 %" in sched_sim(line).out
+
+
+@pytest.mark.parametrize(("kb", "fits"), [("128", True), ("6.9", True), ("6.8", False)])
+def test_arrays_and_stacks_of_all_tasks_fit_a_ram_or_not(sched_sim: Run, kb: str, fits: bool) -> None:
+    needed = 3336 + 120 + 3384 + 144
+    for command in (f"minimum {DESIGN} --processor cortex-m4f", f"processors {DESIGN}"):
+        (row,) = json.loads(sched_sim(f"{command} --ram-kb {kb} --format json").out)
+        assert row["ram_bytes"] == needed
+        assert row["fits_ram"] == fits == (needed <= float(kb) * 1024)
+    assert "RAM, KB   in RAM" in sched_sim(f"minimum {DESIGN} --ram-kb {kb}").out
+
+
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        ("minimum -N 10 -M 4 --ram-kb 4", ["--ram-kb 4", "steffes2014", "measure --backend emulated"]),
+        (f"minimum {DESIGN} --ram-kb much", ["--ram-kb", "much"]),
+        ("minimum -N 10 -M 4 --clock-mhz 84", ["--clock-mhz", "measure --backend emulated"]),
+        ("minimum -N 10 -M 4 --costs counted-9-3-3 --cycles-per-instruction 1", ["--cycles-per-instruction"]),
+        (f"minimum {DESIGN} --clock-mhz 84", ["--cycles-per-instruction is missing"]),
+        (f"minimum {DESIGN} --cycles-per-instruction 1:2", ["--clock-mhz, or --processor, is missing"]),
+        (f"minimum {DESIGN} --clock-mhz 0 --cycles-per-instruction 1", ["--clock-mhz"]),
+        (f"minimum {DESIGN} --clock-mhz 84 --cycles-per-instruction 2:1", ["2:1", "less than the least"]),
+        (f"minimum {DESIGN} --clock-mhz 84 --cycles-per-instruction 1:x", ["--cycles-per-instruction is 'x'"]),
+        (f"minimum {DESIGN} --clock-mhz 84 --processor leon3 --cycles-per-instruction 1", ["exclude each other"]),
+        (f"minimum {DESIGN} --processor leon3", ["'leon3' does not state", "[cycles_per_instruction]"]),
+        (f"processors {DESIGN} --processor cortex-m7", ["'cortex-m7' does not state", "--cycles-per-instruction"]),
+        (f"processors {DESIGN} --cycles-per-instruction 1:2", ["name the parts", "--processor"]),
+        ("processors -N 10 -M 4 --hr-hz 400 --processor leon3 --cycles-per-instruction 1:2", ["counted-9-3-3"]),
+    ],
+)
+def test_wrong_flags_are_refused(sched_sim: Run, line: str, said: list[str]) -> None:
+    is_refused(sched_sim(line), said)
+
+
+def test_cycles_that_are_given_stand_for_those_of_a_part(sched_sim: Run) -> None:
+    line = f"processors {DESIGN} --processor cortex-m4f --format json"
+    (stated,), (given,) = (json.loads(sched_sim(line + more).out) for more in ("", " --cycles-per-instruction 4"))
+    assert given["needed_share"] == 2 * stated["needed_share"]
