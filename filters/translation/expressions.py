@@ -45,7 +45,7 @@ def expression(body: Body, node: ast.expr, *, returned: bool = False) -> Value:
     """
     match node:
         case ast.Constant(value=value):
-            return constant(body, held(body, node, value))
+            return constant(body, _held(body, node, value))
         case ast.Name(id=name):
             return _name(body, node, name)
         case ast.Attribute(value=base, attr=name):
@@ -110,13 +110,17 @@ def constant(body: Body, value: Any, name: str = "") -> Value:
     return Value("", Constant(value))
 
 
+def _held(body: Body, node: ast.expr, value: Any, name: str = "") -> Any:
+    return held(body.source, node, value, name) if body.unit.precision == "single" else value
+
+
 def _name(body: Body, node: ast.expr, name: str) -> Value:
     if name in body.names:
         return body.names[name]
     if name in body.places:
         raise body.source.refusal(node, f"{name} may not have been assigned yet")
     try:
-        return constant(body, held(body, node, body.source.value(name), name), name)
+        return constant(body, _held(body, node, body.source.value(name), name), name)
     except KeyError:
         raise body.source.refusal(node, f"{name} is not known") from None
 
@@ -130,7 +134,7 @@ def _attribute(body: Body, node: ast.expr, base: Value, name: str) -> Value:
         case Record():
             return field(body, node, base, name)
         case Constant(value=value) if hasattr(value, name):
-            return constant(body, held(body, node, getattr(value, name), name), name)
+            return constant(body, _held(body, node, getattr(value, name), name), name)
     raise body.source.refusal(node, f"{name} is not known")
 
 
@@ -336,7 +340,8 @@ def _power(body: Body, node: ast.AST, a: Value, b: Value) -> Value:
 
 
 def _comparison(body: Body, node: ast.Compare) -> Value:
-    check_threshold(body, node)
+    if body.unit.precision == "single":
+        check_threshold(body.source, node, body.names)
     terms = [expression(body, term) for term in (node.left, *node.comparators)]
     known = [_known(term.kind) for term in terms]
     if len(known) == 2 and None not in known and isinstance(node.ops[0], ast.Eq | ast.NotEq):

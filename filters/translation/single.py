@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import ast
 import math
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from typing import Any
 
-from filters.translation.body import Body
+from filters.translation.source import Source
 
 RESOLUTION, LEAST, LARGEST = 2.0**-23, 2.0**-126, 2.0**128
 """Of a float: it resolves no smaller share of a number; and between these it has all its digits."""
@@ -26,39 +26,41 @@ OWN: Mapping[tuple[str, float], float] = {
 """What stands for thresholds of kernels and filters, by their name and their value in double precision."""
 
 
-def held(body: Body, node: ast.expr, value: Any, name: str = "") -> Any:
-    """A constant as the program has it.
+def held(source: Source, node: ast.expr, value: Any, name: str = "") -> Any:
+    """A constant as a program of floats has it.
 
     Raises:
-        Untranslatable: single precision has no such number.
+        Untranslatable: there is no such float.
     """
-    if body.unit.precision == "double" or not isinstance(value, float):
+    if not isinstance(value, float):
         return value
     if (name, value) in OWN:
         return OWN[name, value]
     if value and math.isfinite(value) and not LEAST <= abs(value) < LARGEST:
-        raise body.source.refusal(node, f"single precision has no {value:g}; choose double")
+        raise source.refusal(node, f"single precision has no {value:g}; choose double")
     return value
 
 
-def check_threshold(body: Body, comparison: ast.Compare) -> None:
-    """Raises Untranslatable where something is compared with less than single precision resolves."""
-    if body.unit.precision == "double":
-        return
+def check_threshold(source: Source, comparison: ast.Compare, local: Collection[str]) -> None:
+    """local: the names that are the function's own.
+
+    Raises:
+        Untranslatable: something is compared with less than single precision resolves.
+    """
     for node in ast.walk(comparison):
         name, value = "", None
         if isinstance(node, ast.Constant):
             value = node.value
-        elif isinstance(node, ast.Name) and node.id not in body.names:
-            name, value = node.id, _outside(body, node.id)
+        elif isinstance(node, ast.Name) and node.id not in local:
+            name, value = node.id, _outside(source, node.id)
         if isinstance(value, float) and 0.0 < abs(value) < RESOLUTION and (name, value) not in OWN:
-            raise body.source.refusal(
+            raise source.refusal(
                 comparison, f"{value:g} is less than single precision resolves; choose double, or a larger threshold"
             )
 
 
-def _outside(body: Body, name: str) -> Any:
+def _outside(source: Source, name: str) -> Any:
     try:
-        return body.source.value(name)
+        return source.value(name)
     except KeyError:
         return None

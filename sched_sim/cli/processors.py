@@ -173,6 +173,7 @@ def _flat(row: dict[str, Any]) -> dict[str, Any]:
 
 
 def _figures(part: Part) -> dict[str, Any]:
+    cycles = part.cycles_per_instruction
     return {
         "processor": part.name,
         "title": part.title,
@@ -183,6 +184,9 @@ def _figures(part: Part) -> dict[str, Any]:
         "calibration_least": None if part.calibration is None else float(part.calibration.least),
         "calibration_most": None if part.calibration is None else float(part.calibration.most),
         "calibration_source": None if part.calibration is None else part.calibration.source,
+        "cycles_per_instruction_least": None if cycles is None else float(cycles.least),
+        "cycles_per_instruction_most": None if cycles is None else float(cycles.most),
+        "cycles_per_instruction_source": None if cycles is None else cycles.source,
         "sources": dict(part.sources),
     }
 

@@ -114,6 +114,13 @@ def test_wrong_flags_are_refused(sched_sim: Run, line: str, said: list[str]) -> 
     is_refused(sched_sim(line), said)
 
 
+def test_the_list_has_the_cycles_and_where_they_are_from(sched_sim: Run) -> None:
+    rows = {row["processor"]: row for row in json.loads(sched_sim("processors --format json").out)}
+    assert [rows["cortex-m4f"][f"cycles_per_instruction_{end}"] for end in ("least", "most")] == [1, 2]
+    assert "one instruction a cycle" in rows["cortex-m4f"]["cycles_per_instruction_source"]
+    assert rows["leon3"]["cycles_per_instruction_least"] is None
+
+
 def test_cycles_that_are_given_stand_for_those_of_a_part(sched_sim: Run) -> None:
     line = f"processors {DESIGN} --processor cortex-m4f --format json"
     (stated,), (given,) = (json.loads(sched_sim(line + more).out) for more in ("", " --cycles-per-instruction 4"))
