@@ -45,7 +45,10 @@ class Calls:
         self._calls.append(f"static void job_{number}(void)\n{{\n    {call}\n}}\n")
         shown = "0, 0"
         if self.shows:
-            items = [f"{{{self._names[id(array)]}, {size}}}" for array, size in self._sizes(arguments)]
+            items = [
+                f"{{{self._names[id(array)]}, {size}}}"
+                for array, size in self._sizes(tuple(given[name] for name in job.used))
+            ]
             self._calls.append(f"static const Shown shown_{number}[] = {{{', '.join(items)}}};\n")
             shown = f"shown_{number}, {len(items)}"
         self._jobs.append(f"{{job_{number}, {shown}}}")

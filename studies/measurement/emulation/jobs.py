@@ -101,20 +101,19 @@ def as_shown(arguments: Any, precision: Precision) -> bytes:
 def _check_parameters(arguments: tuple[Any, ...], precision: Precision) -> None:
     for system in arguments:
         if isinstance(system, System) and precision == "single":
-            largest = max(
-                (abs(array[np.isfinite(array)]).max(initial=0.0) for array in arrays(system.parameters)), default=0.0
-            )
-            if largest > np.finfo(np.float32).max:
-                raise ValueError(f"parameters of the system hold {largest:g}, which is too large for single precision")
+            numbers = np.concatenate([np.ravel(each) for each in numbers_of(system.parameters)] or [np.zeros(0)])
+            too_large = numbers[np.isfinite(numbers) & (abs(numbers) > np.finfo(np.float32).max)]
+            if too_large.size:
+                raise ValueError(f"the system has the parameter {too_large[0]:g}, too large for single precision")
 
 
-def arrays(value: Any) -> Iterator[Any]:
-    """Those in a value, however deep."""
-    if isinstance(value, np.ndarray):
-        yield value
-    elif isinstance(value, tuple):
+def numbers_of(value: Any) -> Iterator[Any]:
+    """Arrays and numbers in a value, however deep."""
+    if isinstance(value, tuple):
         for item in value:
-            yield from arrays(item)
+            yield from numbers_of(item)
+    elif isinstance(value, np.ndarray | float | int):
+        yield value
 
 
 def _kinds(arguments: tuple[Any, ...]) -> tuple[Kind, ...]:

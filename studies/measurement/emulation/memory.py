@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any, TypeAlias
 
+import numpy as np
+
 from filters.jobs import Job
 from filters.system import System
 from filters.translation.unit import Precision
 from sched_sim.costs.methods import MULTIRATE_METHODS, ROBUST_METHODS
-from studies.measurement.emulation.jobs import Emulated, arrays, sources
+from studies.measurement.emulation.jobs import Emulated, numbers_of, sources
 from studies.measurement.emulation.targets import Target
 from studies.measurement.emulation.toolchain import code_bytes
 
@@ -87,4 +89,5 @@ def _model(parameters: Any, precision: Precision) -> dict[str, int]:
 
 def _bytes(value: Any, precision: Precision) -> int:
     real = 4 if precision == "single" else 8
-    return sum(array.size * (real if array.dtype.kind == "f" else array.itemsize) for array in arrays(value))
+    arrays = [each for each in numbers_of(value) if isinstance(each, np.ndarray)]
+    return sum(array.size * (real if array.dtype.kind == "f" else array.itemsize) for array in arrays)

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+from types import FunctionType
+
 import numpy as np
 import pytest
 
 from filters.backends.choose import arguments_for, function_for
 from filters.backends.in_c import compiler
+from filters.covariance_forms import COVARIANCE_FORMS, CovarianceFormName
 from filters.jobs import Job
 from filters.registry import ALL_METHODS
 from filters.systems.example import example_system
+from filters.translation.kinds import kind_of
+from filters.translation.unit import Unit
 from sched_sim.design.least_speed import least_speed
 from sched_sim.design.methods import select
 from sched_sim.design.options import Options
@@ -31,6 +36,16 @@ def jobs(method: str) -> dict[str, Job]:
     return {kind: every[kind] for kind in KINDS[method]}
 
 
+def shown_by_native(job: Job, index: int) -> bytes:
+    """What is in its arguments after a run as C on this machine."""
+    assert isinstance(job.function, FunctionType)
+    arguments = job.arguments(index)
+    function_for("c", job.function)(*arguments_for("c", arguments))
+    translated = Unit("double").function(job.function, tuple(map(kind_of, arguments)))
+    given = zip(translated.parameters, arguments, strict=True)
+    return as_shown(tuple(value for name, value in given if name in translated.used), "double")
+
+
 def has_c() -> bool:
     try:
         return bool(compiler())
@@ -45,9 +60,7 @@ def test_doubles_are_those_of_native_c_to_the_last_bit(method: str, target: str)
     found = emulate(jobs(method), TARGETS[target], "double", sets=2, shows=True)
     for kind, job in jobs(method).items():
         for index in range(2):
-            arguments = job.arguments(index)
-            function_for("c", job.function)(*arguments_for("c", arguments))
-            assert found[kind].shown[index] == as_shown(arguments, "double")
+            assert found[kind].shown[index] == shown_by_native(job, index)
 
 
 @pytest.mark.parametrize("target", ["cortex-m4f", "cortex-m33"])
@@ -81,6 +94,26 @@ def test_instructions_rank_methods_as_counted_operations_do(target: str) -> None
             for table in (counted, emulated)
         )
         assert by_instructions == pytest.approx(by_counts, rel=0.02)
+
+
+@pytest.mark.exhaust
+@pytest.mark.skipif(not has_c(), reason="there is no C compiler")
+@pytest.mark.parametrize("form", COVARIANCE_FORMS)
+@pytest.mark.parametrize("target", ["cortex-m7", "cortex-m4-soft"])
+def test_every_job_gives_the_bits_of_native_c(target: str, form: CovarianceFormName) -> None:
+    for method in ALL_METHODS.values():
+        every = method.jobs(SMALL, form, 0, None)
+        found = emulate(every, TARGETS[target], "double", sets=1, shows=True)
+        for kind, job in every.items():
+            assert found[kind].shown[0] == shown_by_native(job, 0)
+
+
+def test_a_parameter_that_no_float_holds_is_refused() -> None:
+    large = SMALL._replace(parameters=SMALL.parameters._replace(Q=1e60 * SMALL.parameters.Q))
+    job = ALL_METHODS["standard"].jobs(SMALL, "textbook", 0, None)["propagate"]
+    with_large = job._replace(arguments=lambda index: (large, *job.arguments(index)[1:]))
+    with pytest.raises(ValueError, match=r"parameter .*e\+5.*, too large for single precision"):
+        emulate({"propagate": with_large}, TARGETS["cortex-m4f"], "single", sets=1)
 
 
 def test_memory_of_the_dual_rate_filter_is_that_of_its_arrays_by_task() -> None:
