@@ -54,8 +54,7 @@ def target_note(table: CostTable) -> str:
     if table.target is None:
         return ""
     about = table.provenance
-    processor = about.get("processor")
-    cycles = processor.get("cycles_per_instruction") if isinstance(processor, Mapping) else None
+    cycles = _cycles(table)
     taken = "" if cycles is None else f"; times by the most of {cycles} cycles for each"
     return (
         f"instructions, not cycles, on an emulated {table.target}, {about.get('precision')} precision, "
@@ -69,7 +68,7 @@ def target_row(table: CostTable, method: str) -> dict[str, Any]:
         return {}
     parts = table.provenance["memory"][method].values()
     sizes = {f"{what}_bytes": sum(part[what] for part in parts) for what in ("code", "ram", "stack")}
-    return {"target": table.target, **sizes}
+    return {"instructions_of": table.target, **sizes}
 
 
 def built_note(table: CostTable) -> str:
@@ -176,26 +175,35 @@ def _needed(part: Part, rows: Sequence[Mapping[str, Any]]) -> str:
     return f"at {cycles} cycles an instruction, of the speed of {part.name}: {shares}" if shares else ""
 
 
-def ram_row(table: CostTable, method: str, ram_kb: str | None) -> dict[str, Any]:
-    """For scripts: RAM and stacks of a method, and whether they fit; nothing if that was not asked.
+def board_row(table: CostTable, method: str, ram_kb: str | None = None) -> dict[str, Any]:
+    """For scripts: of instructions the core, and the cycles that they were taken for; if it was asked, arrays and
+    stacks of the method's tasks, and whether they fit.
 
-    Raises InputError for a table that does not say.
+    Raises InputError for a table that does not say what memory a method needs.
     """
+    row: dict[str, Any] = {}
+    if table.target is not None:
+        row = {"instructions_of": table.target, "cycles_per_instruction": _cycles(table)}
     if ram_kb is None:
-        return {}
+        return row
     limit = positive(ram_kb, "--ram-kb") * KB
     try:
         needed = table.memory_bytes(method)
     except InputError as error:
         raise InputError(f"--ram-kb {ram_kb}: {error}") from None
-    return {"ram_bytes": needed, "fits_ram": needed <= limit}
+    return row | {"ram_and_stack_bytes": needed, "fits_ram": needed <= limit}
+
+
+def _cycles(table: CostTable) -> str | None:
+    processor = table.provenance.get("processor")
+    return processor.get("cycles_per_instruction") if isinstance(processor, Mapping) else None
 
 
 def ram_words(row: Mapping[str, Any]) -> dict[str, str]:
-    """The same in words."""
-    if "ram_bytes" not in row:
+    """Memory of a `board_row` in words."""
+    if "fits_ram" not in row:
         return {}
-    return {"RAM, KB": f"{row['ram_bytes'] / KB:.1f}", "in RAM": "yes" if row["fits_ram"] else "no"}
+    return {"RAM, KB": f"{row['ram_and_stack_bytes'] / KB:.1f}", "in RAM": "yes" if row["fits_ram"] else "no"}
 
 
 def _core(table: CostTable, clock_mhz: Fraction) -> Part:

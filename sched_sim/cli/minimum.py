@@ -12,9 +12,9 @@ from sched_sim.cli.instructions import (
     ClockMhz,
     CyclesEach,
     RamKb,
+    board_row,
     instructions_note,
     part_and_costs,
-    ram_row,
     ram_words,
 )
 from sched_sim.cli.output import lines, print_csv, print_json, print_table, units
@@ -118,7 +118,7 @@ def minimum(
                         f"{units(table.unit)} per s": f"{row['work_per_second']:.4g}",
                     }
         scale = second if timed else Fraction(1)
-        row |= ram_row(table, name, ram_kb)
+        row |= board_row(table, name, ram_kb)
         return row | measured_row(table, name, timing, options, others, scale), person | ram_words(row)
 
     rows, shown = [], []

@@ -10,7 +10,7 @@ import typer
 
 from sched_sim.cli import options as opt
 from sched_sim.cli.design_flags import with_options
-from sched_sim.cli.instructions import CyclesEach, RamKb, instructions_note, ram_row, ram_words, suited
+from sched_sim.cli.instructions import CyclesEach, RamKb, board_row, instructions_note, ram_words, suited
 from sched_sim.cli.output import lines, print_csv, print_json, print_table
 from sched_sim.cli.parts import MEANING, TASKS_ON_PARTS, highest_note
 from sched_sim.cli.refused import Refused
@@ -272,7 +272,7 @@ def _verdicts(
                 least_row(method, timing, least)
                 | update_form(counts, method)
                 | fit_row(part, rate, times, verdict, bool(tasks))
-                | ram_row(counts, method, ram_kb)
+                | board_row(table, method, ram_kb)
             )
             rows.append(row | measured_row(table, method, timing, options, tasks) | {"reason": reason})
             name = {"method": method} if len(refused.methods) > 1 else {}

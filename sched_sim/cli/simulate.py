@@ -131,6 +131,7 @@ def simulate(
 
     from sched_sim.cli.caveats import caveat_note, with_caveats
     from sched_sim.cli.design_times import make_design
+    from sched_sim.cli.instructions import board_row
     from sched_sim.cli.measured_note import busy_row, say_of_statistic
     from sched_sim.cli.simulated import of_run, outcome, responses, show
     from sched_sim.cli.update_form import update_form, update_note
@@ -195,7 +196,9 @@ def simulate(
         say(f"Note: {start}")
     wait = Fraction(0) if rate is None or design.times is None else design.times.wait(rate)
     about_run = of_run(method, timing, pace, table.unit, rate, part)
-    (about,) = with_caveats([about_run | update_form(table, method) | busy_row(table.provenance)])
+    (about,) = with_caveats(
+        [about_run | update_form(table, method) | board_row(table, method) | busy_row(table.provenance)]
+    )
     if format == "json":
         print_json(about | outcome(schedule, achieved, rate, wait))
     elif format == "csv":

@@ -77,6 +77,7 @@ def test_verdicts_are_by_the_most_cycles_and_say_the_least(sched_sim: Run) -> No
     (row,) = json.loads(sched_sim(f"{line} --format json").out)
     assert row["needed_share_least"] < 1 < row["needed_share_most"]
     assert not row["fits"]
+    assert (row["instructions_of"], row["cycles_per_instruction"]) == ("cortex-m4f", "1 to 2")
     assert row["needed_share_most"] == row["needed_share"] == 2 * row["needed_share_least"]
     assert "at 1 to 2 cycles an instruction, of the speed of cortex-m4f: dual-rate 78.1 to 157 %" in sched_sim(line).out
 
@@ -86,7 +87,7 @@ def test_arrays_and_stacks_of_all_tasks_fit_a_ram_or_not(sched_sim: Run, kb: str
     needed = 3336 + 120 + 3384 + 144
     for command in (f"minimum {DESIGN} --processor cortex-m4f", f"processors {DESIGN}"):
         (row,) = json.loads(sched_sim(f"{command} --ram-kb {kb} --format json").out)
-        assert row["ram_bytes"] == needed
+        assert row["ram_and_stack_bytes"] == needed
         assert row["fits_ram"] == fits == (needed <= float(kb) * 1024)
     assert "RAM, KB   in RAM" in sched_sim(f"minimum {DESIGN} --ram-kb {kb}").out
 
