@@ -201,9 +201,14 @@ def _cycles(table: CostTable) -> str | None:
 
 def ram_words(row: Mapping[str, Any]) -> dict[str, str]:
     """Memory of a `board_row` in words."""
+    from sched_sim.cli.parts import no_less
+
     if "fits_ram" not in row:
         return {}
-    return {"RAM, KB": f"{row['ram_and_stack_bytes'] / KB:.1f}", "in RAM": "yes" if row["fits_ram"] else "no"}
+    return {
+        "RAM, KB": no_less(Fraction(row["ram_and_stack_bytes"], KB), 3),
+        "in RAM": "yes" if row["fits_ram"] else "no",
+    }
 
 
 def _core(table: CostTable, clock_mhz: Fraction) -> Part:
