@@ -23,12 +23,22 @@ import numpy as np
 
 from filters.backends.disk_cache import cache_folder
 from filters.translation.kinds import Array, Flag, Int, Kind, Nothing, Real, Record, kind_of, lasts
+from filters.translation.library import Translated
 from filters.translation.names import c_name
-from filters.translation.unit import Translated, Unit
+from filters.translation.unit import Unit
 
 FLAGS = ("-std=c99", "-O3", "-march=native", "-ffp-contract=off", "-fno-math-errno", "-fPIC", "-shared")
 _FAULT = """static const char *fault;
 #define FAULT(message) (fault = (message))
+"""
+_LOOP = """
+void repeat_job({declared})
+{{
+    for (int round = 0; round < times; round++) {{
+        {name}({passed});
+        __asm__ volatile("" ::: "memory");
+    }}
+}}
 """
 _TAKE_FAULT = """
 const char *take_fault(void)
@@ -40,9 +50,9 @@ const char *take_fault(void)
 """
 
 
-def in_c(function: FunctionType) -> Callable[..., Any]:
+def in_c(function: FunctionType) -> InC:
     """The version of a plain function that runs as C, translated and compiled for each new kind of arguments."""
-    return _InC(function)
+    return InC(function)
 
 
 def compiler() -> str:
@@ -53,21 +63,36 @@ def compiler() -> str:
     raise ValueError("backend='c' needs a C compiler: install gcc or clang, name one in CC, or use backend='compiled'")
 
 
-class _InC:
+@cache
+def compiler_version() -> str:
+    """The first line of what the compiler says of itself."""
+    done = subprocess.run([compiler(), "--version"], capture_output=True, text=True, check=False)
+    return done.stdout.partition("\n")[0]
+
+
+class InC:
     def __init__(self, function: FunctionType) -> None:
         self._function = function
         self.__name__ = function.__name__
 
     def __call__(self, *arguments: Any) -> Any:
-        kinds = tuple(kind_of(argument) for argument in arguments)
-        return _loaded(self._function, kinds)(arguments)
+        return self._for(arguments)(arguments)
+
+    def loop(self, *arguments: Any) -> Callable[[int], None]:
+        """A function that runs it so many times in one call."""
+        return self._for(arguments).loop(arguments)
+
+    def _for(self, arguments: tuple[Any, ...]) -> _Loaded:
+        return _loaded(self._function, tuple(kind_of(argument) for argument in arguments))
 
 
 @cache
 def _loaded(function: FunctionType, kinds: tuple[Kind, ...]) -> _Loaded:
     unit = Unit(public=frozenset({function}))
     translated = unit.function(function, kinds)
-    source = _FAULT + unit.header("FILTER_H") + unit.source("").partition("\n")[2] + _TAKE_FAULT
+    declared, passed = ", ".join([*translated.declared, "int times"]), ", ".join(translated.passed)
+    loop = _LOOP.format(declared=declared, name=translated.name, passed=passed)
+    source = _FAULT + unit.header("FILTER_H") + unit.source("").partition("\n")[2] + _TAKE_FAULT + loop
     return _Loaded(translated, _library(source))
 
 
@@ -79,22 +104,34 @@ class _Loaded:
         self._translated = translated
         self._function = getattr(library, translated.name)
         self._function.restype = _result_type(translated.result)
+        self._loop = library.repeat_job
+        self._loop.restype = None
         self._take_fault = library.take_fault
         self._take_fault.restype = ctypes.c_char_p
 
     def __call__(self, arguments: tuple[Any, ...]) -> Any:
-        translated = self._translated
-        given = dict(zip(translated.parameters, arguments, strict=True))
-        passed: list[Any] = []
-        for name in translated.used:
-            passed += _passed(given[name], self._kinds[name])
-        memory = [np.empty([length or 0 for length in kind.shape], _dtype(kind)) for kind in translated.memory.values()]
-        passed += [ctypes.c_void_p(array.ctypes.data) for array in memory]
+        passed, _memory = self._passed(arguments)
         result = self._function(*passed)
         message = self._take_fault()
         if message is not None:
             raise ValueError(message.decode())
-        return _returned(result, translated.result)
+        return _returned(result, self._translated.result)
+
+    def loop(self, arguments: tuple[Any, ...]) -> Callable[[int], None]:
+        passed, memory = self._passed(arguments)
+
+        def loop(times: int, _kept: Any = (arguments, memory)) -> None:
+            self._loop(*passed, times)
+
+        return loop
+
+    def _passed(self, arguments: tuple[Any, ...]) -> tuple[list[Any], list[np.ndarray[Any, Any]]]:
+        """What the function is given, and memory that it needs as long as it runs."""
+        translated = self._translated
+        given = dict(zip(translated.parameters, arguments, strict=True))
+        memory = [np.empty([length or 0 for length in kind.shape], _dtype(kind)) for kind in translated.memory.values()]
+        passed = [part for name in translated.used for part in _passed(given[name], self._kinds[name])]
+        return [*passed, *(ctypes.c_void_p(array.ctypes.data) for array in memory)], memory
 
 
 def _passed(value: Any, kind: Kind) -> list[Any]:
@@ -179,8 +216,7 @@ def _returned(result: Any, kind: Kind) -> Any:
 @cache
 def _library(source: str) -> ctypes.CDLL:
     path = compiler()
-    version = subprocess.run([path, "--version"], capture_output=True, text=True, check=False).stdout
-    digest = hashlib.sha256(repr((source, FLAGS, version, os.uname().machine)).encode()).hexdigest()[:40]
+    digest = hashlib.sha256(repr((source, FLAGS, compiler_version(), os.uname().machine)).encode()).hexdigest()[:40]
     folder = cache_folder()
     with tempfile.TemporaryDirectory() as scratch:
         kept = (folder.parent / "c" if folder else Path(scratch)) / f"{digest}.so"

@@ -8,12 +8,12 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from filters.translation import expressions
 from filters.translation.body import Body
-from filters.translation.kinds import Array, Int, Real
+from filters.translation.kinds import Array, Constant, Int, Real
+from filters.translation.library import INDENT
+from filters.translation.made import number_of
 from filters.translation.values import POSTFIX, Value
 
-INDENT = "    "
 MAKERS = (np.array, np.asarray, np.zeros, np.ones, np.empty, np.eye, np.identity, np.diag, np.zeros_like, np.empty_like)
 Entries: TypeAlias = "np.ndarray[Any, np.dtype[np.object_]]"
 """The text of each number; None where it is left as it is."""
@@ -25,8 +25,10 @@ def made(body: Body, node: ast.Call, maker: Any, returned: bool) -> Value:
     Raises:
         Untranslatable: its shape or its numbers are not known one by one.
     """
-    if node.keywords:
-        raise body.source.refusal(node, "an array of reals is made; leave out what else is asked for by name")
+    for keyword in node.keywords:
+        kind = body.expression(keyword.value).kind
+        if keyword.arg != "dtype" or not (isinstance(kind, Constant) and kind.value in (float, np.float64)):
+            raise body.source.refusal(node, f"an array of reals is made; leave {keyword.arg} out")
     entries = _entries(body, node, maker)
     kind = Array("real", entries.shape, entries.shape[1:])
     array = body.array("made", kind, returned=returned)
@@ -73,7 +75,7 @@ def item(value: Value, index: str) -> Value:
     parts = index[1:-1].split("][")
     for axis, skipped in enumerate(value.kind.skipped, 1):
         parts[axis] += f" + {skipped}" if skipped else ""
-    return Value(f"{value.within(POSTFIX)}[{']['.join(parts)}]", expressions.number_of(value.kind.item), POSTFIX)
+    return Value(f"{value.within(POSTFIX)}[{']['.join(parts)}]", number_of(value.kind.item), POSTFIX)
 
 
 def filled(array: Value, shape: Sequence[int | str | None], number: Callable[[str], str]) -> list[str]:
@@ -89,7 +91,7 @@ def filled(array: Value, shape: Sequence[int | str | None], number: Callable[[st
 def _entries(body: Body, node: ast.Call, maker: Any) -> Entries:
     one, zero = body.unit.number(1.0), body.unit.number(0.0)
     if maker in (np.zeros_like, np.empty_like):
-        like = expressions.expression(body, node.args[0]).kind
+        like = body.expression(node.args[0]).kind
         if not isinstance(like, Array) or None in like.shape:
             raise body.source.refusal(node, "is like nothing whose shape is known")
         return np.full(like.shape, zero if maker is np.zeros_like else None, dtype=object)
@@ -117,7 +119,7 @@ def _shape(body: Body, node: ast.Call) -> tuple[int, ...]:
     parts = first.elts if isinstance(first, ast.Tuple) else node.args
     lengths = []
     for part in parts:
-        kind = expressions.expression(body, part).kind
+        kind = body.expression(part).kind
         if not isinstance(kind, Int) or kind.known is None or kind.known < 0:
             raise body.source.refusal(node, "the shape of an array must be known when it is translated")
         lengths.append(kind.known)
@@ -138,7 +140,7 @@ def _listed(body: Body, node: ast.Call, list_: ast.expr) -> Entries:
 def _numbers(body: Body, node: ast.Call, part: ast.expr) -> Any:
     if isinstance(part, ast.List | ast.Tuple):
         return [_numbers(body, node, item) for item in part.elts]
-    value = expressions.expression(body, part)
+    value = body.expression(part)
     if not isinstance(value.kind, Int | Real):
         raise body.source.refusal(node, "np.array is translated of a list of numbers, or of rows of one length")
     if isinstance(value.kind, Real):

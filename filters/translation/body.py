@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 import ast
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from types import FunctionType
-from typing import TYPE_CHECKING
 
 from filters.translation.kinds import NOTHING, Array, Flag, Int, Kind, Record, lasts
+from filters.translation.library import Library
 from filters.translation.names import c_name
 from filters.translation.scope import Place, escaping, places
 from filters.translation.source import Source, source_of
 from filters.translation.values import Value
-
-if TYPE_CHECKING:
-    from filters.translation.unit import Unit
 
 
 class Widened(Exception):  # noqa: N818 - no error: the function is translated again
@@ -33,9 +31,10 @@ class Body:
     loop began that is being translated. target: the name that is being assigned to. taken: the names in C.
     """
 
-    unit: Unit
+    unit: Library
     function: FunctionType
     kinds: tuple[Kind, ...]
+    translate: Callable[[Body, ast.expr, bool], Value]
     wide: dict[str, Kind] = field(default_factory=dict)
 
     source: Source = field(init=False)
@@ -65,6 +64,10 @@ class Body:
                 text = str(kind.known).lower()
             rows = f"{text}_rows" if isinstance(kind, Array) and kind.is_long else ""
             self.names[name] = Value(text, kind, by_pointer=isinstance(kind, Record), rows=rows)
+
+    def expression(self, node: ast.expr, *, returned: bool = False) -> Value:
+        """See `expressions.expression`."""
+        return self.translate(self, node, returned)
 
     def fresh(self, wanted: str) -> str:
         """A name in C that nothing else has here."""

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from filters.translation import arrays, expressions
+from filters.translation import arrays
 from filters.translation.body import Body
 from filters.translation.kinds import (
     FLAG,
@@ -26,6 +26,7 @@ from filters.translation.kinds import (
     lasts,
     parameter_of,
 )
+from filters.translation.made import chosen, constant, make_record, shape_of, truth
 from filters.translation.values import CHOICE, COMPARED, POSTFIX, UNARY, Value
 
 _OF_NUMBERS = {
@@ -52,22 +53,22 @@ def call(body: Body, node: ast.Call, returned: bool) -> Value:
     if node.keywords and not _is_of(node, arrays.MAKERS, body):
         raise body.source.refusal(node, "arguments are translated by position only")
     if isinstance(node.func, ast.Attribute) and node.func.attr == "copy" and not node.args:
-        base = expressions.expression(body, node.func.value)
+        base = body.expression(node.func.value)
         if isinstance(base.kind, Array):
             return arrays.copied(body, node, base, returned)
-    callee = expressions.expression(body, node.func).kind
+    callee = body.expression(node.func).kind
     if isinstance(callee, Function):
         return _translated(body, node, callee, returned)
     target = callee.value if isinstance(callee, Constant) else None
     if isinstance(target, type) and issubclass(target, tuple) and hasattr(target, "_fields"):
         if len(node.args) != len(target._fields):
             raise body.source.refusal(node, f"{target.__name__} has {len(target._fields)} fields")
-        return expressions.make_record(body, target, node.args, returned)
+        return make_record(body, target, [body.expression(part, returned=returned) for part in node.args])
     if target in arrays.MAKERS:
         return arrays.made(body, node, target, returned)
-    values = [expressions.expression(body, argument) for argument in node.args]
+    values = [body.expression(argument) for argument in node.args]
     if target is np.shape and len(values) == 1 and isinstance(values[0].kind, Array):
-        return expressions.shape_of(values[0])
+        return shape_of(values[0])
     if target is len and len(values) == 1:
         return _length(body, node, values[0])
     if any(isinstance(value.kind, Array) for value in values) and isinstance(target, np.ufunc):
@@ -78,7 +79,7 @@ def call(body: Body, node: ast.Call, returned: bool) -> Value:
 
 
 def _is_of(node: ast.Call, targets: Any, body: Body) -> bool:
-    callee = expressions.expression(body, node.func).kind
+    callee = body.expression(node.func).kind
     return isinstance(callee, Constant) and callee.value in targets
 
 
@@ -97,10 +98,10 @@ def _length(body: Body, node: ast.Call, value: Value) -> Value:
 
 def _translated(body: Body, node: ast.Call, callee: Function, returned: bool) -> Value:
     """A call of a function of ours, or of the user's."""
-    values = [expressions.expression(body, argument, returned=returned) for argument in node.args]
+    values = [body.expression(argument, returned=returned) for argument in node.args]
     done = body.unit.function(callee.function, tuple(parameter_of(value.kind) for value in values))
     if isinstance(done.result, Int | Flag) and done.result.known is not None:
-        return expressions.constant(body, done.result.known)
+        return constant(body, done.result.known)
     given = dict(zip(done.parameters, values, strict=True))
     texts = []
     for name in done.used:
@@ -135,7 +136,7 @@ def _of_numbers(body: Body, node: ast.Call, target: Any, values: list[Value]) ->
     if target is float and first is not None and isinstance(first.kind, Int | Real):
         return first if isinstance(first.kind, Real) else Value(f"(real){first.within(UNARY)}", REAL, UNARY)
     if target is bool and first is not None:
-        return expressions.truth(body, node, first)
+        return truth(body, node, first)
     if target is int and first is not None:
         if isinstance(first.kind, Int):
             return first
@@ -148,12 +149,12 @@ def _extreme(body: Body, node: ast.Call, target: Callable[..., Any], a: Value, b
     sign = "<" if target is min else ">"
     if isinstance(a.kind, Int) and isinstance(b.kind, Int):
         if a.kind.known is not None and b.kind.known is not None:
-            return expressions.constant(body, target(a.kind.known, b.kind.known))
+            return constant(body, target(a.kind.known, b.kind.known))
         kind = _bounds(target, [a.kind.low, b.kind.low], [a.kind.high, b.kind.high])
         test = Value(f"{b.within(COMPARED - 1)} {sign} {a.within(COMPARED - 1)}", FLAG, COMPARED)
-        return Value(expressions.chosen(body, node, test, b, a).text, kind, CHOICE)
+        return Value(chosen(body, node, test, b, a).text, kind, CHOICE)
     test = Value(f"{b.within(COMPARED - 1)} {sign} {a.within(COMPARED - 1)}", FLAG, COMPARED)
-    return expressions.chosen(body, node, test, b, a)
+    return chosen(body, node, test, b, a)
 
 
 def _bounds(target: Callable[..., Any], lows: list[int | None], highs: list[int | None]) -> Int:

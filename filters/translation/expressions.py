@@ -3,12 +3,8 @@
 from __future__ import annotations
 
 import ast
-from types import FunctionType
 from typing import Any
 
-import numpy as np
-
-from filters.backends.dependencies import is_of_library
 from filters.translation import arrays
 from filters.translation.body import Body
 from filters.translation.calls import call
@@ -19,25 +15,22 @@ from filters.translation.kinds import (
     Array,
     Constant,
     Flag,
-    Function,
     Int,
     Kind,
     Real,
     Record,
     exactly,
     kind_of,
-    lasts,
-    variable_of,
 )
-from filters.translation.names import c_name
+from filters.translation.made import chosen, constant, field, make_record, number_of, shape_of, truth
 from filters.translation.ranges import difference, negative, product, quotient, remainder, total
 from filters.translation.single import check_threshold, held
-from filters.translation.values import AND, CHOICE, COMPARED, OR, POSTFIX, PRIMARY, PRODUCT, SUM, UNARY, Value
+from filters.translation.values import AND, COMPARED, OR, POSTFIX, PRIMARY, PRODUCT, SUM, UNARY, Value
 
 _COMPARED = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "==", ast.NotEq: "!="}
 
 
-def expression(body: Body, node: ast.expr, *, returned: bool = False) -> Value:
+def expression(body: Body, node: ast.expr, returned: bool = False) -> Value:
     """returned: whether the function may return it, so that arrays it makes are in memory of the caller.
 
     Raises:
@@ -65,49 +58,8 @@ def expression(body: Body, node: ast.expr, *, returned: bool = False) -> Value:
         case ast.Call():
             return call(body, node, returned)
         case ast.Tuple(elts=parts):
-            return make_record(body, None, parts, returned)
+            return make_record(body, None, [expression(body, part, returned=returned) for part in parts])
     raise body.source.refusal(node, f"a {type(node).__name__} is not translated")
-
-
-def make_record(body: Body, made_by: type[Any] | None, parts: list[ast.expr], returned: bool) -> Value:
-    """A new named tuple of these parts; of no class: a tuple."""
-    values = [expression(body, part, returned=returned) for part in parts]
-    names = made_by._fields if made_by else [f"f{i}" for i in range(len(parts))]
-    fields = tuple((name, value.kind) for name, value in zip(names, values, strict=True))
-    kind = Record(made_by.__name__, fields, made_by) if made_by else Record("Tuple", fields)
-    if not lasts(kind):
-        return Value("", kind)
-    texts = []
-    for value in values:
-        if lasts(value.kind):
-            texts.append(f"*{value.within(UNARY)}" if value.by_pointer else value.text)
-            texts += [value.rows] if value.rows else []
-    return Value(
-        f"({body.unit.record_name(kind)}){{{', '.join(texts)}}}",
-        kind,
-        POSTFIX,
-        passing=any(value.passing for value in values),
-    )
-
-
-def constant(body: Body, value: Any, name: str = "") -> Value:
-    """A value of Python that is known; name: of a constant, which keeps it."""
-    if isinstance(value, bool | np.bool_):
-        return Value("true" if value else "false", Flag(bool(value)))
-    if isinstance(value, int | np.integer):
-        return Value(str(int(value)), exactly(int(value)), PRIMARY if value >= 0 else UNARY)
-    if isinstance(value, float | np.floating):
-        text = body.unit.number(float(value))
-        if name.isupper() and len(name) > 1 and np.isfinite(value):
-            return Value(body.unit.constant(name, text), REAL)
-        return Value(text, REAL, UNARY if text.startswith("-") else PRIMARY)
-    if isinstance(value, FunctionType) and not is_of_library(value):
-        return Value("", Function(value))
-    if isinstance(value, np.ndarray):
-        kind = kind_of(value)
-        assert isinstance(kind, Array)
-        return Value(body.unit.table(name, value, kind), kind)
-    return Value("", Constant(value))
 
 
 def _held(body: Body, node: ast.expr, value: Any, name: str = "") -> Any:
@@ -136,27 +88,6 @@ def _attribute(body: Body, node: ast.expr, base: Value, name: str) -> Value:
         case Constant(value=value) if hasattr(value, name):
             return constant(body, _held(body, node, getattr(value, name), name), name)
     raise body.source.refusal(node, f"{name} is not known")
-
-
-def shape_of(base: Value) -> Value:
-    """The shape of an array, as a tuple that is known but for the rows of a long one."""
-    assert isinstance(base.kind, Array)
-    lengths = [Value(str(n), exactly(n)) if n is not None else Value(base.rows, Int(0)) for n in base.kind.shape]
-    return Value("", Constant(tuple(lengths)))
-
-
-def field(body: Body, node: ast.AST, base: Value, name: str) -> Value:
-    """A field of a record."""
-    assert isinstance(base.kind, Record)
-    kind = base.kind.kind_of_field(name)
-    match kind:
-        case None:
-            raise body.source.refusal(node, f"{base.kind.name} has no field {name}")
-        case Int() | Flag() if kind.known is not None:
-            return constant(body, kind.known)
-    text = f"{base.within(POSTFIX)}{'->' if base.by_pointer else '.'}{c_name(name)}"
-    rows = f"{text}_rows" if isinstance(kind, Array) and kind.is_long else ""
-    return Value(text if lasts(kind) else "", kind, POSTFIX, rows=rows, passing=base.passing)
 
 
 def _subscript(body: Body, node: ast.Subscript, base: Value, index: ast.expr) -> Value:
@@ -246,11 +177,6 @@ def _index(body: Body, node: ast.expr, item: ast.expr, length: int | None, rows:
         return str(at.kind.known + length)
     body.unit.helpers.add("from_end")
     return f"from_end({at.text}, {rows if length is None else length})"
-
-
-def number_of(item: str) -> Kind:
-    kinds: dict[str, Kind] = {"real": REAL, "bool": FLAG}
-    return kinds.get(item, Int())
 
 
 def _unary(body: Body, node: ast.UnaryOp) -> Value:
@@ -394,18 +320,6 @@ def _settled(a: Value, sign: str, b: Value) -> bool | None:
     return True if yes else False if no else None
 
 
-def truth(body: Body, node: ast.AST, value: Value) -> Value:
-    """The value as a truth value."""
-    match value.kind:
-        case Flag():
-            return value
-        case Int(known=int(number)):
-            return Value("true" if number else "false", Flag(bool(number)))
-        case Int() | Real():
-            return Value(f"{value.within(COMPARED)} != 0", FLAG, COMPARED + 1)
-    raise body.source.refusal(node, "has no truth value that is translated")
-
-
 def _logic(body: Body, node: ast.BoolOp) -> Value:
     is_and = isinstance(node.op, ast.And)
     left = []
@@ -441,18 +355,3 @@ def _choice(body: Body, node: ast.IfExp) -> Value:
     if len(body.before) > waiting:
         raise body.source.refusal(node, "an array is made here on some occasions only; use if and else")
     return chosen(body, node, test, a, b)
-
-
-def chosen(body: Body, node: ast.AST, test: Value, a: Value, b: Value) -> Value:
-    """test ? a : b."""
-    if isinstance(a.kind, Int) and isinstance(b.kind, Int):
-        low = None if a.kind.low is None or b.kind.low is None else min(a.kind.low, b.kind.low)
-        high = None if a.kind.high is None or b.kind.high is None else max(a.kind.high, b.kind.high)
-        kind: Kind = Int(low, high)
-    elif isinstance(a.kind, Int | Real) and isinstance(b.kind, Int | Real):
-        kind = REAL
-    elif variable_of(a.kind) == variable_of(b.kind) and isinstance(a.kind, Flag):
-        kind = FLAG
-    else:
-        raise body.source.refusal(node, "chooses among things that are no numbers; use if and else")
-    return Value(f"{test.within(OR)} ? {a.within(OR)} : {b.within(OR)}", kind, CHOICE)

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import ast
 
-from filters.translation.arrays import INDENT, copied, filled, item
+from filters.translation.arrays import copied, filled, item
 from filters.translation.body import Body, Widened
 from filters.translation.declarations import variable
-from filters.translation.expressions import binary, constant, expression, field, number_of, truth
+from filters.translation.expressions import binary, expression
 from filters.translation.kinds import (
     NOTHING,
     REAL,
@@ -23,6 +23,8 @@ from filters.translation.kinds import (
     lasts,
     variable_of,
 )
+from filters.translation.library import INDENT
+from filters.translation.made import constant, field, number_of, truth
 from filters.translation.names import c_name
 from filters.translation.scope import TOP, Block, assigned, mentions, times_assigned
 from filters.translation.values import POSTFIX, SUM, UNARY, Value

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 SYSTEM = "System"
 BOARD = "Board"
-BackendName = Literal["compiled", "counted", "numpy", "emulated"]
+BackendName = Literal["compiled", "counted", "numpy", "c", "emulated"]
 OF_A_BOARD = ("target", "precision")
 """Options of `measure` that say which core is emulated, and how."""
 WITHOUT_SYSTEM = "Not with --system, --filter or --robust, which have their own."
@@ -41,6 +41,7 @@ Backend = Annotated[
         "--backend",
         help="compiled: time of code compiled by numba; counted: exact operation counts, of a model written with "
         "+ - * /, functions of single numbers (np.sin, math.sin) and products of arrays; numpy: time of NumPy calls; "
+        "c: time of C that this machine's compiler makes of the same source; "
         "emulated: instructions, not cycles, of C on a board's core, with --target.",
     ),
 ]

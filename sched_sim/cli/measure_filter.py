@@ -37,7 +37,7 @@ def refuse_with_filter(name: str, context: typer.Context) -> None:
 
 def measure_own_filter(
     name: str,
-    backend: Literal["compiled", "counted", "numpy", "emulated"],
+    backend: Literal["compiled", "counted", "numpy", "c", "emulated"],
     thorough: bool,
     output: Path | None,
     format: Format,
@@ -47,7 +47,7 @@ def measure_own_filter(
     from studies.measurement.user_filter import load_filter
     from studies.measurement.user_function import explained
 
-    if backend == "numpy" or backend == "emulated":
+    if backend not in ("compiled", "counted"):
         raise InputError(f"--backend {backend} does not go with --filter {name}: give --backend compiled or counted")
     with progress_bar("Measuring") as progress:
         user = load_filter(name)

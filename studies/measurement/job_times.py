@@ -50,7 +50,7 @@ def silent(_done: int, _total: int, _what: str) -> None:
 
 def time_jobs(
     jobs: Mapping[Key, Job],
-    backend: Literal["compiled", "numpy"],
+    backend: Literal["compiled", "numpy", "c"],
     protocol: Protocol,
     seed: int,
     progress: Progress,
@@ -69,7 +69,10 @@ def time_jobs(
             if is_numbas(error):
                 raise InputError(f"{' '.join(key)} cannot be compiled by numba: {gist(error)}") from error
             raise
-        empty_runs[key] = _timer(_nothing, job.arguments, backend, protocol.repetitions)
+        if backend == "c":
+            empty_runs[key] = _timer_in_c(job.function, job.arguments, 0)
+        else:
+            empty_runs[key] = _timer(_nothing, job.arguments, backend, protocol.repetitions)
     times: dict[Key, list[int]] = {key: [] for key in jobs}
     overhead: dict[Key, list[int]] = {key: [] for key in jobs}
     order, shuffle = list(jobs), random.Random(seed)
@@ -91,10 +94,12 @@ def time_jobs(
 def _timer(
     function: Callable[..., Any],
     arguments: Callable[[int], tuple[Any, ...]],
-    backend: Literal["compiled", "numpy"],
+    backend: Literal["compiled", "numpy", "c"],
     repetitions: int,
 ) -> Callable[[int], int]:
     """A function that runs the job and says how many nanoseconds all repetitions took; compiled and warm."""
+    if backend == "c":
+        return _timer_in_c(function, arguments, repetitions)
     sets = [arguments_for(backend, arguments(index)) for index in range(ARGUMENT_SETS)]
     if backend == "compiled":
         loop, job = function_for(backend, repeat), arguments_for(backend, function)
@@ -105,6 +110,22 @@ def _timer(
         chosen = sets[number % ARGUMENT_SETS]
         start = thread_time_ns()
         loop(job, chosen, repetitions)
+        return thread_time_ns() - start
+
+    for number in range(ARGUMENT_SETS):
+        run(number)
+    return run
+
+
+def _timer_in_c(
+    function: Callable[..., Any], arguments: Callable[[int], tuple[Any, ...]], repetitions: int
+) -> Callable[[int], int]:
+    loops = [function_for("c", function).loop(*arguments(index)) for index in range(ARGUMENT_SETS)]
+
+    def run(number: int) -> int:
+        loop = loops[number % ARGUMENT_SETS]
+        start = thread_time_ns()
+        loop(repetitions)
         return thread_time_ns() - start
 
     for number in range(ARGUMENT_SETS):

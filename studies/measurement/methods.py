@@ -16,6 +16,7 @@ from typing import Any, Literal, TypeVar, get_args
 
 from filters.arrays import as_array
 from filters.backends.counted import Operations, count
+from filters.backends.in_c import FLAGS, compiler_version
 from filters.backends.uncountable import UncountableError
 from filters.choice import check_choice
 from filters.covariance_forms import COVARIANCE_FORMS, CovarianceFormName
@@ -31,7 +32,7 @@ from studies.measurement.emulation.targets import precision_of, target_of
 from studies.measurement.job_times import ARGUMENT_SETS, Progress, Protocol, silent, time_jobs
 from studies.measurement.own_functions import with_own, with_shares
 
-BackendName = Literal["compiled", "counted", "numpy", "emulated"]
+BackendName = Literal["compiled", "counted", "numpy", "c", "emulated"]
 
 QUICK = Protocol(rounds=61, repetitions=1000)
 THOROUGH = Protocol(rounds=601, repetitions=1000)
@@ -148,6 +149,7 @@ def cost_table(
     about |= {
         "source": "means over the repetitions of a round; minimum, median and 95th percentile over rounds",
         **where_timed(protocol, seed, timed.busy),
+        **({"compiler": f"{compiler_version()}, {' '.join(FLAGS)}"} if backend == "c" else {}),
     }
     return CostTable(name, "second", _by_method({key: _cost(rounds) for key, rounds in timed.seconds.items()}), about)
 

@@ -10,7 +10,8 @@ import numpy as np
 
 from filters.translation.declarations import memory, variable
 from filters.translation.kinds import Array, Kind, Nothing, Real, Record, lasts
-from filters.translation.unit import Translated, Unit
+from filters.translation.library import Translated
+from filters.translation.unit import Unit
 
 
 @dataclass

@@ -17,7 +17,8 @@ import numpy as np
 from filters.jobs import Job
 from filters.system import System
 from filters.translation.kinds import Kind, kind_of
-from filters.translation.unit import Precision, Unit
+from filters.translation.library import Precision
+from filters.translation.unit import Unit
 from studies.measurement.emulation.calls import Calls
 from studies.measurement.emulation.targets import Target
 from studies.measurement.emulation.toolchain import run

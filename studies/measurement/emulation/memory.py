@@ -9,7 +9,7 @@ import numpy as np
 
 from filters.jobs import Job
 from filters.system import System
-from filters.translation.unit import Precision
+from filters.translation.library import Precision
 from sched_sim.costs.methods import MULTIRATE_METHODS, ROBUST_METHODS
 from studies.measurement.emulation.jobs import Emulated, numbers_of, sources
 from studies.measurement.emulation.targets import Target

@@ -8,8 +8,8 @@ from fractions import Fraction
 from typing import Any
 
 from filters.jobs import Job
+from filters.translation.library import Precision
 from filters.translation.refusal import Untranslatable
-from filters.translation.unit import Precision
 from sched_sim.costs.table import INSTRUCTION, Cost, CostTable
 from sched_sim.errors import InputError
 from studies.measurement.emulation.jobs import ARGUMENT_SETS, emulate

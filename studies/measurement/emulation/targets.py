@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from filters.translation.unit import Precision
+from filters.translation.library import Precision
 from sched_sim.errors import InputError, option
 from sched_sim.text import did_you_mean
 

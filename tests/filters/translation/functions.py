@@ -143,7 +143,7 @@ def declared_in_branches(x: float) -> float:
 def made(x: FloatArray) -> FloatArray:
     A = np.array([[x[0], 1, 0.0], [2.0, x[1], -1]])
     B = np.diag([x[2], 3.0])
-    C = np.zeros((2, 3))
+    C = np.zeros((2, 3), dtype=np.float64)
     D = np.eye(2, 3)
     out = np.ones((2, 3))
     C[:, :] = 0.25

@@ -12,9 +12,10 @@ import pytest
 import filters
 from filters.kernels import u_d
 from filters.translation.kinds import Kind, kind_of
+from filters.translation.library import Precision
 from filters.translation.refusal import Untranslatable
 from filters.translation.single import OWN, RESOLUTION
-from filters.translation.unit import Precision, Unit
+from filters.translation.unit import Unit
 
 
 def translated(function: Any, *arguments: Any, precision: Precision = "single") -> str:

@@ -16,6 +16,7 @@ from sched_sim.errors import InputError
 from studies.measurement.methods import BackendName, measure
 from studies.measurement.user_system import load_system
 from tests.command_line import Run
+from tests.filters.translation.cases import needs_compiler
 
 OWN_SYSTEM = """
 import numpy as np
@@ -107,6 +108,7 @@ def system():
     ("backend", "methods"),
     [
         pytest.param("compiled", ("standard",), marks=pytest.mark.exhaust),
+        pytest.param("c", ("standard",), marks=needs_compiler),
         ("counted", SYSTEM_METHODS),
         ("numpy", ("standard", "dual-rate")),
     ],
