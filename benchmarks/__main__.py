@@ -4,10 +4,21 @@ from __future__ import annotations
 
 import sys
 
-from benchmarks import accuracy, analysis, factored, filter_step, processor, robust, simulation, start_up, unscented
+from benchmarks import (
+    accuracy,
+    analysis,
+    factored,
+    filter_step,
+    in_c,
+    processor,
+    robust,
+    simulation,
+    start_up,
+    unscented,
+)
 
 missed = 0
-for part in (simulation, analysis, accuracy, filter_step, unscented, factored, robust, processor, start_up):
+for part in (simulation, analysis, accuracy, filter_step, in_c, unscented, factored, robust, processor, start_up):
     for result in part.results():
         missed += not result.met
         bound = "at least" if result.higher else "at most"

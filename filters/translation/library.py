@@ -25,8 +25,8 @@ INDENT = "    "
 class Translated:
     """A function in C.
 
-    parameters: as in Python. used: those that are left in C. memory: arrays that the caller gives behind them. declared:
-    what stands in the parentheses of its prototype, passed: what is given for it, of the same names.
+    parameters: as in Python. used: those that are left in C. memory: arrays that the caller gives behind them.
+    declared: what stands in the parentheses of its prototype; passed: what is given for it, of the same names.
     calls: what it calls itself.
     """
 
