@@ -51,7 +51,9 @@ class Body:
 
     def __post_init__(self) -> None:
         self.source = source_of(self.function)
-        self.places = places(self.source.body)
+        self.places = {
+            name: place for name, place in places(self.source.body).items() if name not in self.source.parameters
+        }
         self.taken = {c_name(name) for name in (*self.source.parameters, *self.places)}
         self.escaping = escaping(self.source.body)
         if len(self.source.parameters) != len(self.kinds):

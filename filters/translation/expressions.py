@@ -133,7 +133,8 @@ def _element(body: Body, node: ast.expr, base: Value, kind: Array, items: list[a
     at = len(starts) - len(lengths)
     text = base.within(POSTFIX) + "".join(f"[{start}]" for start in starts[:at])
     if not lengths and not rest:
-        return Value(text, number_of(kind.item), POSTFIX)
+        found = number_of(kind.item)
+        return Value(f"(int){text}", found, UNARY) if isinstance(found, Int) else Value(text, found, POSTFIX)
     begins = (*map(int, starts[at:]), *begins[len(starts) :])
     result = Array(kind.item, (*lengths, *rest), kind.inner[at:], begins[1:] if any(begins[1:]) else ())
     if begins[0]:
@@ -188,6 +189,8 @@ def _unary(body: Body, node: ast.UnaryOp) -> Value:
         return Value(f"!{flag.within(UNARY)}", FLAG, UNARY)
     if isinstance(value.kind, Int) and value.kind.known is not None:
         return constant(body, -value.kind.known if isinstance(node.op, ast.USub) else value.kind.known)
+    if isinstance(value.kind, Flag):
+        value = Value(value.text, Int(0, 1), value.level)
     if isinstance(value.kind, Array) and isinstance(node.op, ast.USub):
         return arrays.each(body, node, "all", [value], lambda items: f"-{items[0].text}")
     if not isinstance(value.kind, Int | Real) or not isinstance(node.op, ast.USub | ast.UAdd):
@@ -209,6 +212,7 @@ def binary(body: Body, node: ast.AST, operator: ast.operator, a: Value, b: Value
         return arrays.each(body, node, "all", [a, b], lambda items: binary(body, node, operator, *items).text)
     if not (isinstance(a.kind, Int | Real | Flag) and isinstance(b.kind, Int | Real | Flag)):
         raise body.source.refusal(node, "is no arithmetic of numbers or arrays")
+    a, b = (Value(x.text, Int(0, 1), x.level) if isinstance(x.kind, Flag) else x for x in (a, b))
     whole = isinstance(a.kind, Int) and isinstance(b.kind, Int)
     left, right = (x.kind if isinstance(x.kind, Int) else Int() for x in (a, b))
     match operator:

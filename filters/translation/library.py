@@ -139,7 +139,8 @@ class Library(ABC):
             f"#define {name} {text}\n" for name, text in self._constants.items() if re.search(rf"\b{name}\b", bodies)
         )
         tables = "".join(f"{text}\n" for name, text in self._tables.values() if re.search(rf"\b{name}\b", bodies))
-        parts = [f'#include "{header}"\n\n#include <math.h>\n', constants, tables, helpers, bodies]
+        includes = "#include <math.h>\n" + ("#include <stdlib.h>\n" if re.search(r"\babs\(", bodies) else "")
+        parts = [f'#include "{header}"\n\n{includes}', constants, tables, helpers, bodies]
         return "\n".join(part for part in parts if part)
 
     def _reached(self) -> list[Translated]:

@@ -31,6 +31,9 @@ from filters.translation.values import POSTFIX, SUM, UNARY, Value
 
 _SIGNS: dict[type[ast.operator], str] = {ast.Add: "+=", ast.Sub: "-=", ast.Mult: "*=", ast.Div: "/="}
 
+GIVEN_UP = "return @;"
+"""Of a function that cannot go on; what it returns is known when all of it is translated."""
+
 
 def block(body: Body, statements: Block) -> tuple[list[str], bool]:
     """Its lines, and whether it ends the block that it is in: nothing behind it is reached."""
@@ -84,7 +87,7 @@ def _translated(body: Body, statement: ast.stmt, undeclared: set[str]) -> tuple[
         case ast.Return():
             return _return(body, statement), True
         case ast.Raise():
-            return [f'FAULT("{_message(statement)}");'], False
+            return [f'FAULT("{_message(statement)}");', GIVEN_UP], True
         case ast.Break():
             return ["break;"], True
         case ast.Continue():
@@ -121,7 +124,7 @@ def _loop(body: Body, statement: ast.For) -> list[str]:
     if statement.orelse or not isinstance(statement.target, ast.Name):
         raise body.source.refusal(statement.iter, "a loop over one name and without else is translated")
     name = statement.target.id
-    if name in body.places:
+    if name in assigned(body.source.body):
         raise body.source.refusal(statement.iter, f"{name} is also assigned elsewhere; give it another name there")
     _check_unused_behind(body, name)
     text, kept = c_name(name), body.names.get(name)
@@ -168,6 +171,11 @@ def _counting(body: Body, statement: ast.For, name: str, text: str, bounds: list
         raise body.source.refusal(statement.iter, "whether the step of a range is positive is not known, or it is 0")
     if stride and first.known is not None and last.known is not None and not range(first.known, last.known, stride):
         return []
+    lines = []
+    if last.known is None and not stop.text.isidentifier():  # the loop may change what it is made of
+        limit = body.fresh(f"{text}_end")
+        lines.append(f"const int {limit} = {stop.text};")
+        stop = Value(limit, last)
     if stride is None or stride > 0:
         body.names[name] = Value(text, Int(first.low, None if last.high is None else last.high - 1))
         test = f"{text} < {stop.within(SUM)}"
@@ -178,7 +186,7 @@ def _counting(body: Body, statement: ast.For, name: str, text: str, bounds: list
         move = f"{text}++" if stride == 1 else f"{text}--"
     else:
         move = f"{text} += {step.text}" if stride is None or stride > 0 else f"{text} -= {-stride}"
-    return _braced(f"for (int {text} = {start.text}; {test}; {move})", _in_loop(body, statement.body))
+    return [*lines, *_braced(f"for (int {text} = {start.text}; {test}; {move})", _in_loop(body, statement.body))]
 
 
 def _over_items(body: Body, statement: ast.For, name: str, text: str, over: Value) -> list[str]:
@@ -232,11 +240,19 @@ def _augmented(body: Body, statement: ast.AugAssign) -> list[str]:
     target, value = expression(body, statement.target), expression(body, statement.value)
     sign = _SIGNS.get(type(statement.op))
     result = binary(body, statement, statement.op, target, value)
+    if isinstance(target.kind, Array):
+        shape = [target.rows if length is None else length for length in target.kind.shape]
+        return filled(target, shape, lambda index: item(result, index).text)
     if isinstance(statement.target, ast.Name):
         _check_fits(statement.target.id, target, variable_of(result.kind))
     if sign is None:
-        return [f"{target.text} = {result.text};"]
-    return [f"{target.text} {sign} {value.text};"]
+        return [f"{_place(target)} = {result.text};"]
+    return [f"{_place(target)} {sign} {value.text};"]
+
+
+def _place(element: Value) -> str:
+    """A number where it is written to, not as it is read."""
+    return element.text.removeprefix("(int)")
 
 
 def _check_fits(name: str, known: Value, kind: Kind) -> None:
@@ -312,7 +328,7 @@ def _to_name(body: Body, statement: ast.stmt, name: str, value: Value, undeclare
 
 def _is_within_loop(body: Body, name: str) -> bool:
     """Whether the variable begins anew in each round of the innermost loop."""
-    return not body.loops or (name not in body.loops[-1] and body.places[name] != TOP)
+    return not body.loops or (name not in body.loops[-1] and body.places.get(name, TOP) != TOP)
 
 
 def _to_element(body: Body, statement: ast.stmt, target: ast.Subscript, value: Value) -> list[str]:
@@ -320,7 +336,7 @@ def _to_element(body: Body, statement: ast.stmt, target: ast.Subscript, value: V
     if not isinstance(left.kind, Array):
         if not isinstance(value.kind, Int | Real | Flag):
             raise body.source.refusal(statement, "one number is given something that is none")
-        return [f"{left.text} = {value.text};"]
+        return [f"{_place(left)} = {value.text};"]
     if isinstance(value.kind, Array):
         if value.kind.shape != left.kind.shape:
             raise body.source.refusal(statement, f"{value.kind.shape} numbers are put in place of {left.kind.shape}")

@@ -8,11 +8,11 @@ from types import FunctionType
 from filters.translation.body import Body, Widened
 from filters.translation.declarations import memory, parameter, scalar, variable
 from filters.translation.expressions import expression
-from filters.translation.kinds import Array, Kind, Record, lasts
+from filters.translation.kinds import Array, Kind, Nothing, Record, lasts
 from filters.translation.library import INDENT, Library, Translated
 from filters.translation.names import c_name
 from filters.translation.scope import TOP
-from filters.translation.statements import block
+from filters.translation.statements import GIVEN_UP, block
 
 WIDTH = 110
 
@@ -52,6 +52,7 @@ class Unit(Library):
         prototype = self._prototype(body.result, name, declared, is_public)
         if lines and lines[-1] == "return;":
             lines.pop()
+        lines = [line.replace(GIVEN_UP, self._given_up(body.result)) for line in lines]
         inside = "\n".join(_wrapped(INDENT + line) if line else "" for line in [*own, *lines])
         return Translated(
             name,
@@ -66,6 +67,14 @@ class Unit(Library):
             f"{_comment(body.source.doc)}{prototype}\n{{\n{inside}\n}}\n",
             tuple(dict.fromkeys(self._calls[-1])),
         )
+
+    def _given_up(self, result: Kind) -> str:
+        match result:
+            case Nothing():
+                return "return;"
+            case Record():
+                return f"return ({self.record_name(result)}){{0}};"
+        return "return 0;"
 
     def _parameter(self, kind: Kind, name: str) -> list[str]:
         match kind:

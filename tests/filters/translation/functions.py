@@ -57,6 +57,30 @@ def questions(x: float) -> float:
     return 1.0 if np.isnan(x) or math.isinf(x) or not np.isfinite(x) else HALF
 
 
+def flags_are_numbers(x: float, i: int) -> float:
+    return (x > 1.0) / 2 + (i > 2) * 3 + abs(i - 4) + -(x < 0.0)
+
+
+def in_place(x: FloatArray, out: FloatArray) -> None:
+    out += x
+    out[1:3] *= 2.0
+    out -= 0.5
+
+
+def limit_in_an_array(counts: Any, x: FloatArray) -> float:
+    total = 0.0
+    for i in range(counts[0]):
+        counts[0] = 2
+        total += x[i]
+    return total
+
+
+def guarded(x: float) -> float:
+    if x < -100.0:
+        raise ValueError("it is too cold")
+    return np.sqrt(x + 100.0)
+
+
 def negative_indices(x: FloatArray, i: int) -> float:
     return x[-1] + 10.0 * x[i - 2] + 100.0 * x[-2]
 
@@ -234,6 +258,10 @@ CASES: list[tuple[Any, list[tuple[Any, ...]]]] = [
     (extremes, [(1.0, 2.0, 1), (np.nan, 1.0, 5), (1.0, np.nan, 0)]),
     (functions, [(2.5, 7.0)]),
     (questions, [(1.0,), (np.nan,), (-np.inf,)]),
+    (flags_are_numbers, [(2.0, 1), (-0.5, 7)]),
+    (in_place, [(X4, np.ones(4))]),
+    (limit_in_an_array, [(np.array([4]), X4)]),
+    (guarded, [(1.0,)]),
     (negative_indices, [(X4, 0), (X4, 1), (X4, 3)]),
     (part_of, [(P3, X4)]),
     (block_given_away, [(P3,)]),

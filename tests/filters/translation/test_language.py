@@ -9,10 +9,11 @@ from typing import Any
 
 import pytest
 
+from filters.backends.in_c import in_c
 from filters.translation.kinds import kind_of
 from filters.translation.unit import Unit
 from tests.filters.translation.cases import check_same, needs_compiler
-from tests.filters.translation.functions import CASES
+from tests.filters.translation.functions import CASES, guarded
 
 
 @needs_compiler
@@ -20,6 +21,13 @@ from tests.filters.translation.functions import CASES
 def test_python_and_c_agree(function: Any, sets: list[tuple[Any, ...]]) -> None:
     for arguments in sets:
         check_same(function, *arguments)
+
+
+@needs_compiler
+def test_what_a_function_raises_is_raised() -> None:
+    with pytest.raises(ValueError, match="it is too cold"):
+        in_c(guarded)(-200.0)
+    assert in_c(guarded)(0.0) == 10.0
 
 
 @needs_compiler
