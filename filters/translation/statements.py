@@ -130,9 +130,6 @@ def _loop(body: Body, statement: ast.For) -> list[str]:
     text, kept = c_name(name), body.names.get(name)
     match statement.iter:
         case ast.Call(func=ast.Name(id="range"), args=bounds) if "range" not in body.names:
-            for changed in assigned(statement.body):
-                if any(mentions(bound, changed) for bound in bounds):
-                    raise body.source.refusal(statement.iter, f"{changed} changes in the loop that it limits")
             lines = _counting(body, statement, name, text, bounds)
         case over:
             lines = _over_items(body, statement, name, text, expression(body, over))
@@ -172,7 +169,8 @@ def _counting(body: Body, statement: ast.For, name: str, text: str, bounds: list
     if stride and first.known is not None and last.known is not None and not range(first.known, last.known, stride):
         return []
     lines = []
-    if last.known is None and not stop.text.isidentifier():  # the loop may change what it is made of
+    changing = stop.text in {c_name(changed) for changed in assigned(statement.body)}
+    if last.known is None and (changing or not stop.text.isidentifier()):  # it is read once
         limit = body.fresh(f"{text}_end")
         lines.append(f"const int {limit} = {stop.text};")
         stop = Value(limit, last)

@@ -75,6 +75,14 @@ def limit_in_an_array(counts: Any, x: FloatArray) -> float:
     return total
 
 
+def limit_that_changes(x: FloatArray, n: int) -> float:
+    total = 0.0
+    for i in range(n):
+        n = 1
+        total += x[i]
+    return total + n
+
+
 def guarded(x: float) -> float:
     if x < -100.0:
         raise ValueError("it is too cold")
@@ -261,6 +269,7 @@ CASES: list[tuple[Any, list[tuple[Any, ...]]]] = [
     (flags_are_numbers, [(2.0, 1), (-0.5, 7)]),
     (in_place, [(X4, np.ones(4))]),
     (limit_in_an_array, [(np.array([4]), X4)]),
+    (limit_that_changes, [(X4, 3), (X4, 0)]),
     (guarded, [(1.0,)]),
     (negative_indices, [(X4, 0), (X4, 1), (X4, 3)]),
     (part_of, [(P3, X4)]),

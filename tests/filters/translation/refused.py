@@ -23,13 +23,6 @@ def behind_its_loop(x: FloatArray) -> float:
     return x[i]  # is used behind its loop
 
 
-def limit_that_changes(x: FloatArray, n: int) -> None:
-    m = n
-    for i in range(m):  # m changes in the loop
-        m = m - 1
-        x[i] = 0.0
-
-
 def list_of_numbers(x: FloatArray) -> float:
     return sum([2.0 * value for value in x])  # a ListComp is not translated
 
@@ -95,7 +88,6 @@ P = np.eye(3)
 REFUSED: list[tuple[Any, tuple[Any, ...]]] = [
     (product, (P,)),
     (behind_its_loop, (X,)),
-    (limit_that_changes, (X, 3)),
     (list_of_numbers, (X,)),
     (shape_not_known, (3,)),
     (out_of_range, (X,)),
