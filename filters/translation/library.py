@@ -115,6 +115,10 @@ class Library(ABC):
             self.records[record] = self._fresh(record.name)
         return self.records[record]
 
+    def functions(self) -> dict[str, Translated]:
+        """Those of the file, by their name in C."""
+        return {each.name: each for each in self._reached()}
+
     def header(self, guard: str) -> str:
         """What others see: types and public functions."""
         functions = "\n\n".join(f"{each.prototype};" for each in self._reached() if self._is_public(each))

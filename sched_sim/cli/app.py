@@ -10,7 +10,7 @@ from typing import Annotated, Any
 import typer
 from typer.core import TyperCommand, TyperGroup
 
-from sched_sim.cli import accuracy, design, gantt, measure, minimum, processors, report, simulate, sweep
+from sched_sim.cli import accuracy, code, design, gantt, measure, minimum, processors, report, simulate, sweep
 from sched_sim.errors import InputError
 from sched_sim.text import did_you_mean, visible_lines
 
@@ -121,4 +121,5 @@ app.command("processors", cls=Command)(processors.processors)
 app.command("accuracy", cls=Command)(accuracy.accuracy)
 app.command("design", cls=Command)(design.design)
 app.command("measure", cls=Command)(measure.measure)
+app.command("code", cls=Command)(code.code)
 app.command("report", cls=Command)(report.report)

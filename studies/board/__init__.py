@@ -1,0 +1,10 @@
+"""A filter as a folder of C for a board: `sched-sim code`.
+
+jobs        its jobs in C, see `filters.translation`, and how they are called
+memory      the arrays of a task, and the records that point at them
+dual_rate   the dual rate filter as two tasks, with the messages between them
+bits        a program that compares what jobs and tasks give with what Python gave
+compiled    code and stack in bytes, where a cross compiler is installed
+readme      what to do with the folder
+folder      the folder itself
+"""

@@ -1,0 +1,184 @@
+"""The dual rate filter as two tasks that an RTOS calls, with all their memory."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from filters.jobs import Job
+from filters.records import new_correction, new_workspace
+from filters.system import System
+from filters.translation.data import Data, Kept
+from filters.translation.kinds import Kind, Record
+from sched_sim.errors import InputError, option
+from studies.board.compiled import Compiled, stack_of
+from studies.board.jobs import Jobs, call, translated
+from studies.board.memory import add_model, add_workspace
+from studies.board.template import filled
+
+TASKS = {"hr": ("hr_restart", "hr_propagate", "hr_update"), "lr": ("lr_propagate", "lr_update")}
+"""The jobs of each task."""
+
+
+class Steps(NamedTuple):
+    """N: HR steps from one measurement to the next. M: until it arrives. L: until the correction lands."""
+
+    N: int
+    M: int
+    L: int
+
+
+def check_steps(steps: Steps) -> None:
+    """Raises InputError unless M < L <= N: of one measurement at a time, taken in at the start of an HR step."""
+    N, M, L = steps
+    if N < 2:
+        raise InputError(
+            f"{option('N')} {N} must be at least 2: the dual rate filter spreads an update over several HR steps; "
+            f"for a measurement in every step choose {option('method')} standard"
+        )
+    if not 0 <= M < N:
+        raise InputError(
+            f"{option('M')} {M} must be from 0 to {N - 1}: as C the tasks have one measurement on its way at a time, "
+            f"and the next is taken {option('N')} {N} steps later"
+        )
+    if not M < L <= N:
+        raise InputError(
+            f"{option('L')} {L} must be from {M + 1} to {N}: as C the correction lands behind the arrival, "
+            f"{option('M')} {M}, and before the next measurement is taken, {option('N')} {N}"
+        )
+
+
+class Files(NamedTuple):
+    """files: texts by name. sizes: of the arrays in RAM, how many numbers each has; by task, hr_ and lr_."""
+
+    files: dict[str, str]
+    sizes: dict[str, int]
+
+
+def tasks(system: System, jobs: Mapping[str, Job], in_c: Jobs, steps: Steps) -> Files:
+    """The files tasks.h, tasks.c and state.h. in_c: those of TASKS."""
+    n, m, p = system.states, system.inputs, system.measurements
+    reads_u = any("u" in in_c.by_kind[kind].used for kind in ("hr_restart", "hr_propagate"))
+    data = _memory(system, jobs, in_c)
+    values = {
+        **{"n": n, "m": m, "p": p, **steps._asdict()},
+        "u_parameter": f"real u[{m}]" if m else "void",
+        "u_doc": ", with the input u of the step before" if m else "",
+        "unused_u": "    (void)u; /* the model does not ask for it */\n" if m and not reads_u else "",
+        "Transition": _record(in_c, "hr_propagate", "transition"),
+        "Estimate": _record(in_c, "lr_update", "reference"),
+        "memory": "\n".join(data.lines),
+        **_calls(in_c),
+    }
+    return Files({name: filled(name, values) for name in ("tasks.h", "tasks.c", "state.h")}, data.sizes)
+
+
+def freertos_c(system: System, in_c: Jobs, on_core: Compiled | None) -> str:
+    """The example for FreeRTOS, with room on the stacks for the deepest job."""
+    m = system.inputs
+    deepest = max(stacks(in_c, on_core).values()) if on_core else 0
+    return filled(
+        "freertos.c",
+        {
+            "n": system.states,
+            "p": system.measurements,
+            "u": "u" if m else "",
+            "read_u": f"/* The input u of the step that begins. */\nextern void read_inputs(real u[{m}]);\n\n"
+            if m
+            else "",
+            "read_call": f"        real u[{m}];\n        read_inputs(u);\n" if m else "",
+            "stack_words": 256 + 8 * (-(-deepest // 32)),
+        },
+    )
+
+
+def stacks(in_c: Jobs, on_core: Compiled) -> dict[str, int]:
+    """Bytes of the stack that the jobs of each task take at most."""
+    functions = in_c.unit.functions()
+    return {
+        task: max(stack_of(in_c.by_kind[kind], functions, on_core.frames) for kind in kinds)
+        for task, kinds in TASKS.items()
+    }
+
+
+def _record(jobs: Jobs, kind: str, name: str) -> str:
+    record = jobs.parameter(kind, name)
+    assert isinstance(record, Record)
+    return jobs.unit.record_name(record)
+
+
+def _calls(jobs: Jobs) -> dict[str, str]:
+    high = {
+        "system": "&hr_model",
+        "j": "hr.j",
+        "x": "hr_x[hr.x]",
+        "u": "u",
+        "x_next": "hr_x[x_next]",
+        "transition": "&hr.transition",
+        "following": "&following",
+        "work": "&hr_work",
+        "Phi_from_k": "hr.transition.Phi",
+        "delta_x": "lr_correction.delta_x",
+        "x_corrected": "hr_x[corrected]",
+    }
+    low = {
+        "system": "&lr_model",
+        "k": "message.k",
+        "y": "y",
+        "P": "lr_P[lr.posterior]",
+        "P_next": "lr_P[lr.prior]",
+        "P_posterior": "lr_P[lr.posterior]",
+        "reference": "&reference",
+        "correction": "&lr_correction",
+        "transition": "&message.transition",
+        "work": "&lr_work",
+    }
+    texts = dict.fromkeys(TASKS["hr"], high) | dict.fromkeys(TASKS["lr"], low)
+    return {
+        kind: call(jobs.by_kind[kind], arguments, {name: f"{kind}_{name}" for name in jobs.by_kind[kind].memory})
+        for kind, arguments in texts.items()
+    }
+
+
+def _memory(system: System, jobs: Mapping[str, Job], in_c: Jobs) -> Data:
+    """The declarations of the model, of HR and of LR."""
+    data, n = Data(in_c.unit), system.states
+    data.lines.append("/* The model. Nothing writes to it but to its scratch, of which each task has its own. */")
+    for task, kinds in TASKS.items():
+        if (kind := _parameter(in_c, kinds, "system")) is not None:
+            add_model(data, task, system, kind)
+    data.lines.append(
+        "\n/* HR: x_j, Phi_{k->j} and Q_{k->j}, three of each in turn; what F makes at k; its workspace. */"
+    )
+    data.array(Kept("hr_x"), np.zeros((3, n)))
+    data.array(Kept("hr_Phi"), np.zeros((3, n, n)))
+    data.array(Kept("hr_Q"), np.zeros((3, n, n)))
+    _add_own(data, "hr", system, jobs, in_c)
+    data.lines.append("\n/* LR: P_{k^-} and P_{k^+}; z, K and delta_x_{k^+}; its workspace. */")
+    data.array(Kept("lr_P"), np.zeros((2, n, n)))
+    kind = in_c.parameter("lr_update", "correction")
+    assert isinstance(kind, Record)
+    data.record("lr_correction", new_correction(system), kind, lambda names: Kept("_".join(names)))
+    _add_own(data, "lr", system, jobs, in_c)
+    return data
+
+
+def _add_own(data: Data, task: str, system: System, jobs: Mapping[str, Job], in_c: Jobs) -> None:
+    """Memory of what its jobs return, and its workspace."""
+    for job in TASKS[task]:
+        for name, array in in_c.by_kind[job].memory.items():
+            data.array(Kept(f"{job}_{name}"), np.zeros([length or 0 for length in array.shape]))
+    if (kind := _parameter(in_c, TASKS[task], "work")) is not None:
+        assert isinstance(kind, Record)
+        own = translated({name: jobs[name] for name in TASKS[task]}, in_c.unit.precision)
+        add_workspace(data, task, new_workspace(system), kind, own.fields(kind))
+
+
+def _parameter(in_c: Jobs, kinds: Sequence[str], name: str) -> Kind | None:
+    """What it is in C in the first job that has it; None if it is left in none."""
+    for kind in kinds:
+        if name in in_c.by_kind[kind].used:
+            return in_c.parameter(kind, name)
+    return None

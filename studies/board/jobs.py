@@ -1,0 +1,57 @@
+"""Jobs in C, and how they are called."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from types import FunctionType
+from typing import NamedTuple
+
+from filters.jobs import Job
+from filters.translation.kinds import Kind, Record, kind_of
+from filters.translation.names import c_name
+from filters.translation.unit import Precision, Translated, Unit
+
+
+class Jobs(NamedTuple):
+    """unit: the file in the making. by_kind: each job in C."""
+
+    unit: Unit
+    by_kind: dict[str, Translated]
+
+    def parameter(self, kind: str, name: str) -> Kind:
+        """What a parameter of a job is in C."""
+        job = self.by_kind[kind]
+        return dict(zip(job.parameters, job.kinds, strict=True))[name]
+
+    def fields(self, record: Record) -> frozenset[str]:
+        """Those of its fields that anything in the file reads or writes."""
+        text = self.unit.source("")
+        return frozenset(name for name, _ in record.fields if re.search(rf"(->|\.){c_name(name)}\b", text))
+
+
+def translated(jobs: Mapping[str, Job], precision: Precision) -> Jobs:
+    """Raises:
+    Untranslatable: something in a job, or in the model, cannot be translated; with its file and line.
+    """
+    functions: dict[str, FunctionType] = {kind: plain(job) for kind, job in jobs.items()}
+    unit = Unit(precision, frozenset(functions.values()))
+    return Jobs(
+        unit,
+        {
+            kind: unit.function(function, tuple(kind_of(argument) for argument in jobs[kind].arguments(0)))
+            for kind, function in functions.items()
+        },
+    )
+
+
+def call(job: Translated, arguments: Mapping[str, str], memory: Mapping[str, str]) -> str:
+    """The call of a job. arguments: the text of each parameter that may be left; memory: of what it returns."""
+    texts = [arguments[name] for name in job.used] + [memory[name] for name in job.memory]
+    return f"{job.name}({', '.join(texts)})"
+
+
+def plain(job: Job) -> FunctionType:
+    """The function itself."""
+    assert isinstance(job.function, FunctionType)
+    return job.function

@@ -1,0 +1,63 @@
+"""A short record of data, and the states that Python makes of it."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from filters.arrays import FloatArray
+from filters.covariance_forms import CovarianceFormName
+from filters.delayed import dual_rate
+from filters.simulation import simulate_truth
+from filters.system import System
+from filters.translation.data import Data, Kept
+from filters.translation.unit import Precision, Unit
+from studies.board.dual_rate import Steps
+
+MEASURED, SEED = 3, 0
+"""Measurements of a record, of which all have landed at its end; and that of its random numbers."""
+
+
+class Record(NamedTuple):
+    """x0 (n,), P0 (n, n); u (steps, m): from j to j + 1; y (MEASURED, p): of k = 0, N, 2N; x (steps + 1, n): Python's
+    states."""
+
+    x0: FloatArray
+    P0: FloatArray
+    u: FloatArray
+    y: FloatArray
+    x: FloatArray
+
+
+def simulated(system: System, x0: FloatArray, update: CovarianceFormName, steps: Steps, precision: Precision) -> Record:
+    """A record from x0 with unit covariance and normal inputs, as the jobs that are costed have it.
+
+    Numbers are those that the program has, also in single precision; the states are always computed in double.
+    Raises ValueError where the system cannot be filtered from there.
+    """
+    N, M, L = steps
+    number = (MEASURED - 1) * N + L
+    P0 = np.eye(system.states)
+    u = np.random.default_rng(SEED).normal(size=(number, system.inputs))
+    truth = simulate_truth(system, N, x0, P0, u, SEED)
+    x0, u, y = (_held(values, precision) for values in (x0, u, truth.measurements[:MEASURED]))
+    return Record(x0, P0, u, y, dual_rate.run(system, N, M, L, x0, P0, u, y, update=update).x)
+
+
+def record_h(record: Record, precision: Precision) -> str:
+    """The record as a header."""
+    data = Data(Unit(precision))
+    for name, values in record._asdict().items():
+        if values.size:
+            data.array(Kept(f"record_{name}"), values)
+    declarations = "\n".join(data.lines)
+    return (
+        f"/* A simulated record of data, and record_x, the states that Python makes of it. */\n"
+        f'#ifndef RECORD_H\n#define RECORD_H\n\n#include "filter.h"\n\n'
+        f"enum {{ RECORD_STEPS = {len(record.u)}, RECORD_MEASURED = {MEASURED} }};\n\n{declarations}\n\n#endif\n"
+    )
+
+
+def _held(values: FloatArray, precision: Precision) -> FloatArray:
+    return values if precision == "double" else values.astype(np.float32).astype(np.float64)

@@ -1,0 +1,93 @@
+/* Whether the jobs give the numbers that Python gave. Ends with status 0 if they do.
+
+   cc -std=c99 -O2 -ffp-contract=off $sources -lm
+
+   The bits are the same where the compiler fuses no multiplication with an addition (-ffp-contract=off) and the model
+   calls no sin or cos, which differ between C libraries. TOLERANCE: how far a number may be off, in units of the last
+   place of the largest number of its array; with -DTOLERANCE=0 the bits must be the same.
+
+   With CYCLES, an expression that reads a counter of 32 bits, and CLOCK_HZ, its rate, each job is timed too, and a cost
+   table printed for `sched-sim minimum --costs`. On a Cortex-M with DWT, whose counter is switched on before:
+   -D'CYCLES=(*(volatile uint32_t *)0xE0001004)' -DCLOCK_HZ=168e6 */
+#include <float.h>
+#include <math.h>
+#include <stddef.h>
+#include <stdio.h>
+
+#include "filter.h"$includes
+
+#ifndef TOLERANCE
+#define TOLERANCE 1000.0
+#endif
+
+static const double resolution = sizeof(real) == sizeof(float) ? (double)FLT_EPSILON : DBL_EPSILON;
+static double most;
+static int failed;
+
+static void begin(const char *name)
+{
+    printf("# %-24s", name);
+    most = 0.0;
+}
+
+/* Of two arrays of so many numbers. What is not finite must be so in both. */
+static void compare(const real *found, const real *expected, int size)
+{
+    double largest = 0.0;
+    double off = 0.0;
+    for (int i = 0; i < size; i++) {
+        const double a = (double)found[i];
+        const double b = (double)expected[i];
+        if (!isfinite(a) || !isfinite(b)) {
+            off = (isnan(a) && isnan(b)) || a == b ? off : INFINITY;
+        } else {
+            largest = fmax(largest, fabs(b));
+            off = fmax(off, fabs(a - b));
+        }
+    }
+    most = fmax(most, off > 0.0 ? off / (resolution * largest) : 0.0);
+}
+
+static void end(void)
+{
+    if (most == 0.0) {
+        printf("the same bits\n");
+    } else {
+        printf("off by %.1f in the last place\n", most);
+    }
+    failed += most > TOLERANCE;
+}
+
+$data
+
+$jobs
+$functions
+#ifdef CYCLES
+enum { TIMES = 100 };
+
+static void timed(const char *name, void (*run)(void))
+{
+    const uint32_t start = (uint32_t)(CYCLES);
+    for (int i = 0; i < TIMES; i++) {
+        run();
+    }
+    const uint32_t stop = (uint32_t)(CYCLES);
+    printf("%s = %.4f\n", name, 1e6 * (double)(stop - start) / (TIMES * (double)(CLOCK_HZ)));
+}
+
+static void print_costs(void)
+{
+    printf("name = \"board\"\nunit = \"us\"\n\n[costs.$method]\n");
+$times
+}
+#endif
+
+int main(void)
+{
+$calls$run
+    printf(failed == 0 ? "# passed\n" : "# FAILED\n");
+#ifdef CYCLES
+    print_costs();
+#endif
+    return failed != 0;
+}
