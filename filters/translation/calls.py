@@ -26,7 +26,7 @@ from filters.translation.kinds import (
     lasts,
     parameter_of,
 )
-from filters.translation.made import chosen, constant, make_record, shape_of, truth
+from filters.translation.made import as_real, chosen, constant, make_record, shape_of, truth
 from filters.translation.values import CHOICE, COMPARED, POSTFIX, UNARY, Value
 
 _OF_NUMBERS = {
@@ -128,7 +128,7 @@ def _of_numbers(body: Body, node: ast.Call, target: Any, values: list[Value]) ->
         return Value(f"abs({first.text})", Int(0), POSTFIX) if not first.kind.counts else first
     if target is abs or target in _FUNCTIONS:
         function = body.unit.function_of_numbers(_OF_NUMBERS["fabs" if target is abs else name])
-        return Value(f"{function}({', '.join(value.text for value in values)})", REAL, POSTFIX)
+        return Value(f"{function}({', '.join(as_real(value).text for value in values)})", REAL, POSTFIX)
     if target in _QUESTIONS:
         return Value(f"{name}({values[0].text})", FLAG, POSTFIX)
     if target in (min, max) and len(values) == 2:
@@ -153,6 +153,7 @@ def _extreme(body: Body, node: ast.Call, target: Callable[..., Any], a: Value, b
         kind = _bounds(target, [a.kind.low, b.kind.low], [a.kind.high, b.kind.high])
         test = Value(f"{b.within(COMPARED - 1)} {sign} {a.within(COMPARED - 1)}", FLAG, COMPARED)
         return Value(chosen(body, node, test, b, a).text, kind, CHOICE)
+    a, b = as_real(a), as_real(b)
     test = Value(f"{b.within(COMPARED - 1)} {sign} {a.within(COMPARED - 1)}", FLAG, COMPARED)
     return chosen(body, node, test, b, a)
 

@@ -22,7 +22,7 @@ from filters.translation.kinds import (
     exactly,
     kind_of,
 )
-from filters.translation.made import chosen, constant, field, make_record, number_of, shape_of, truth
+from filters.translation.made import as_real, chosen, constant, field, make_record, number_of, shape_of, truth
 from filters.translation.ranges import difference, negative, product, quotient, remainder, total
 from filters.translation.single import check_threshold, held
 from filters.translation.values import AND, COMPARED, OR, POSTFIX, PRIMARY, PRODUCT, SUM, UNARY, Value
@@ -214,6 +214,8 @@ def binary(body: Body, node: ast.AST, operator: ast.operator, a: Value, b: Value
         raise body.source.refusal(node, "is no arithmetic of numbers or arrays")
     a, b = (Value(x.text, Int(0, 1), x.level) if isinstance(x.kind, Flag) else x for x in (a, b))
     whole = isinstance(a.kind, Int) and isinstance(b.kind, Int)
+    if not whole and not isinstance(operator, ast.Pow):
+        a, b = as_real(a), as_real(b)
     left, right = (x.kind if isinstance(x.kind, Int) else Int() for x in (a, b))
     match operator:
         case ast.Add():
@@ -276,6 +278,8 @@ def _comparison(body: Body, node: ast.Compare) -> Value:
     known = [_known(term.kind) for term in terms]
     if len(known) == 2 and None not in known and isinstance(node.ops[0], ast.Eq | ast.NotEq):
         return constant(body, (known[0] == known[1]) == isinstance(node.ops[0], ast.Eq))
+    if any(isinstance(term.kind, Real) for term in terms):
+        terms = [as_real(term) for term in terms]
     signs = [_COMPARED.get(type(operator)) for operator in node.ops]
     if None in signs or not all(isinstance(term.kind, Int | Real | Flag) for term in terms):
         raise body.source.refusal(node, "this comparison is not translated")

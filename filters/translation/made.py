@@ -108,6 +108,13 @@ def truth(body: Body, node: ast.AST, value: Value) -> Value:
     raise body.source.refusal(node, "has no truth value that is translated")
 
 
+def as_real(value: Value) -> Value:
+    """A number among reals: C says where a whole number becomes one."""
+    if not isinstance(value.kind, Int) or value.kind.known is not None:
+        return value
+    return Value(f"(real){value.within(UNARY)}", REAL, UNARY)
+
+
 def chosen(body: Body, node: ast.AST, test: Value, a: Value, b: Value) -> Value:
     """test ? a : b."""
     if isinstance(a.kind, Int) and isinstance(b.kind, Int):
@@ -115,7 +122,7 @@ def chosen(body: Body, node: ast.AST, test: Value, a: Value, b: Value) -> Value:
         high = None if a.kind.high is None or b.kind.high is None else max(a.kind.high, b.kind.high)
         kind: Kind = Int(low, high)
     elif isinstance(a.kind, Int | Real) and isinstance(b.kind, Int | Real):
-        kind = REAL
+        kind, a, b = REAL, as_real(a), as_real(b)
     elif variable_of(a.kind) == variable_of(b.kind) and isinstance(a.kind, Flag):
         kind = FLAG
     else:

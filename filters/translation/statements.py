@@ -24,7 +24,7 @@ from filters.translation.kinds import (
     variable_of,
 )
 from filters.translation.library import INDENT
-from filters.translation.made import constant, field, number_of, truth
+from filters.translation.made import as_real, constant, field, number_of, truth
 from filters.translation.names import c_name
 from filters.translation.scope import TOP, Block, assigned, mentions, times_assigned
 from filters.translation.values import POSTFIX, SUM, UNARY, Value
@@ -245,7 +245,7 @@ def _augmented(body: Body, statement: ast.AugAssign) -> list[str]:
         _check_fits(statement.target.id, target, variable_of(result.kind))
     if sign is None:
         return [f"{_place(target)} = {result.text};"]
-    return [f"{_place(target)} {sign} {value.text};"]
+    return [f"{_place(target)} {sign} {(as_real(value) if isinstance(target.kind, Real) else value).text};"]
 
 
 def _place(element: Value) -> str:
@@ -308,6 +308,8 @@ def _to_name(body: Body, statement: ast.stmt, name: str, value: Value, undeclare
     kind = body.wide.get(name, variable_of(value.kind))
     if isinstance(kind, Array) and value.passing and not _is_within_loop(body, name):
         raise body.source.refusal(statement, f"{name} is kept from one round of the loop to the next; copy the numbers")
+    if isinstance(known.kind if known else kind, Real):
+        value = as_real(value)
     right = f"*{value.within(UNARY)}" if value.by_pointer else value.text
     if known is None:
         body.names[name] = Value(text, kind, passing=value.passing)
@@ -334,7 +336,7 @@ def _to_element(body: Body, statement: ast.stmt, target: ast.Subscript, value: V
     if not isinstance(left.kind, Array):
         if not isinstance(value.kind, Int | Real | Flag):
             raise body.source.refusal(statement, "one number is given something that is none")
-        return [f"{_place(left)} = {value.text};"]
+        return [f"{_place(left)} = {(as_real(value) if isinstance(left.kind, Real) else value).text};"]
     if isinstance(value.kind, Array):
         if value.kind.shape != left.kind.shape:
             raise body.source.refusal(statement, f"{value.kind.shape} numbers are put in place of {left.kind.shape}")
@@ -342,6 +344,8 @@ def _to_element(body: Body, statement: ast.stmt, target: ast.Subscript, value: V
             value = copied(body, statement, value)  # it may be part of what is written
     elif not isinstance(value.kind, Int | Real | Flag):
         raise body.source.refusal(statement, "an array is given something that is no number")
+    elif left.kind.item == "real":
+        value = as_real(value)
     shape = [left.rows if length is None else length for length in left.kind.shape]
     return filled(left, shape, lambda index: item(value, index).text)
 

@@ -12,7 +12,8 @@ from filters.delayed import dual_rate
 from filters.simulation import simulate_truth
 from filters.system import System
 from filters.translation.data import Data, Kept
-from filters.translation.unit import Precision, Unit
+from filters.translation.library import Precision
+from filters.translation.unit import Unit
 from studies.board.dual_rate import Steps
 
 MEASURED, SEED = 3, 0

@@ -10,7 +10,7 @@ from filters.arrays import FloatArray
 from filters.covariance_forms import CovarianceFormName
 from filters.registry import ALL_METHODS
 from filters.system import System
-from filters.translation.unit import Precision
+from filters.translation.library import Precision
 from studies.board import dual_rate
 from studies.board.bits import test_c
 from studies.board.compiled import compiled

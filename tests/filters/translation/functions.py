@@ -252,6 +252,16 @@ def many_rows(rows: FloatArray, out: FloatArray) -> None:
         out[rows.shape[0] - 1 - j, 0] = rows[j, 0] - rows[-1, 1]
 
 
+def whole_among_reals(x: FloatArray, n: int) -> float:
+    total = 0.5
+    total += n
+    x[0] = n - 1
+    x[1:] = n
+    y = x[0]
+    y = n
+    return total * n + np.sqrt(n) - n / x[1] + (y if x[3] > n else n) + max(x[2], n) - n % 1.5
+
+
 X4, P3 = np.array([3.0, -1.5, 0.25, 8.0]), np.arange(9.0).reshape(3, 3)
 MANY = np.random.default_rng(1).normal(size=(100, 2))
 SCALED = Pair(_model(2.0), _model(3.0))
@@ -289,5 +299,6 @@ CASES: list[tuple[Any, list[tuple[Any, ...]]]] = [
     (calls, [(X4,)]),
     (given_functions, [(SCALED, X4[:2].copy())]),
     (one_after_another, [(SCALED, X4[:2].copy())]),
+    (whole_among_reals, [(X4, 7), (X4, 2)]),
     (many_rows, [(MANY, np.zeros((100, 1)))]),
 ]

@@ -11,6 +11,7 @@ import pytest
 
 from filters.backends.in_c import in_c
 from filters.translation.kinds import kind_of
+from filters.translation.library import Precision
 from filters.translation.unit import Unit
 from tests.filters.translation.cases import check_same, needs_compiler
 from tests.filters.translation.functions import CASES, guarded
@@ -31,8 +32,9 @@ def test_what_a_function_raises_is_raised() -> None:
 
 
 @needs_compiler
-def test_the_strictest_warnings_find_nothing(tmp_path: Path) -> None:
-    unit = Unit(public=frozenset(function for function, _ in CASES))
+@pytest.mark.parametrize("precision", ["single", "double"])
+def test_the_strictest_warnings_find_nothing(precision: Precision, tmp_path: Path) -> None:
+    unit = Unit(precision, public=frozenset(function for function, _ in CASES))
     for function, sets in CASES:
         for arguments in sets:
             unit.function(function, tuple(kind_of(argument) for argument in arguments))
