@@ -87,20 +87,6 @@ def _add_argument(data: Data, name: str, value: Any, kind: Array | Record, in_c:
         data.record(name, _zero(value), kind, lambda names: Kept("_".join(names)))
 
 
-def check_constant(before: Any, after: Any) -> None:
-    """Raises ValueError, naming the field, where parameters of a model have changed, other than its scratch."""
-    for name in getattr(before, "_fields", ()):
-        old, new = getattr(before, name), getattr(after, name)
-        if name == SCRATCH:
-            continue
-        if isinstance(old, np.ndarray) and not np.array_equal(old, new, equal_nan=True):
-            raise ValueError(
-                f"a function of the system writes to {name} of its parameters, which is constant on the board; move it "
-                f"to a named tuple in the field {SCRATCH}"
-            )
-        check_constant(old, new)
-
-
 def _with_own_scratch(system: System) -> System:
     parameters = system.parameters
     if not hasattr(parameters, SCRATCH):

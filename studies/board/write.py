@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-import numpy as np
-
 from filters.arrays import FloatArray
 from filters.covariance_forms import CovarianceFormName
 from filters.registry import ALL_METHODS
@@ -16,7 +14,7 @@ from studies.board.bits import test_c
 from studies.board.compiled import compiled
 from studies.board.dual_rate import TASKS, Steps, check_steps, tasks
 from studies.board.jobs import translated
-from studies.board.memory import check_constant, each_array, jobs_memory
+from studies.board.memory import jobs_memory
 from studies.board.readme import readme
 from studies.board.record import record_h, simulated
 from studies.board.template import filled
@@ -56,10 +54,9 @@ def board_files(wanted: Filter) -> dict[str, str]:
     Raises:
         Untranslatable: something in a job or the model has nothing in C; its file and line are named.
         InputError: the steps do not fit.
-        ValueError: the system cannot be filtered from x0, or its functions change its parameters.
+        ValueError: the system cannot be filtered from x0.
     """
     method, system, x0, update, precision, steps, _ = wanted
-    constants = each_array(system.parameters, np.copy)
     jobs = ALL_METHODS[method].jobs(system, update, 0, x0)
     if method == "dual-rate":
         assert steps is not None
@@ -86,7 +83,6 @@ def board_files(wanted: Filter) -> dict[str, str]:
     else:
         files["state.h"], sizes = jobs_memory(jobs, in_c)
     files["test.c"] = test_c(method, jobs, in_c, more)
-    check_constant(constants, system.parameters)
     on_core = compiled(files, sources, precision)
     if "tasks.c" in files:
         files["freertos.c"] = dual_rate.freertos_c(system, in_c, on_core)

@@ -1,0 +1,55 @@
+"""Folders of C, compiled and run here."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from filters.arrays import FloatArray
+from filters.covariance_forms import CovarianceFormName
+from filters.system import System
+from filters.translation.unit import Precision
+from studies.board.dual_rate import Steps
+from studies.board.write import Filter, board_files
+
+HERE = Path(__file__).parent
+STRICT = ["-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror", "-ffp-contract=off"]
+ARM = ["arm-none-eabi-gcc", "-mcpu=cortex-m4", "-mthumb", "-mfpu=fpv4-sp-d16", "-mfloat-abi=hard"]
+
+needs_gcc = pytest.mark.skipif(shutil.which("gcc") is None, reason="gcc is not installed here")
+needs_arm_gcc = pytest.mark.skipif(shutil.which(ARM[0]) is None, reason="arm-none-eabi-gcc is not installed here")
+
+
+def written(
+    system: System,
+    *,
+    method: str = "dual-rate",
+    x0: FloatArray | None = None,
+    update: CovarianceFormName = "textbook",
+    precision: Precision = "double",
+    steps: Steps | None = None,
+) -> dict[str, str]:
+    """The files of a filter."""
+    start = np.zeros(system.states) if x0 is None else x0
+    return board_files(Filter(method, system, start, update, precision, steps, "sched-sim code"))
+
+
+def put(folder: Path, files: Mapping[str, str]) -> None:
+    for name, text in files.items():
+        (folder / name).write_text(text)
+
+
+def build(folder: Path, *arguments: str, compiler: Sequence[str] = ("gcc",)) -> None:
+    done = subprocess.run([*compiler, *STRICT, *arguments], cwd=folder, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+
+
+def ran(folder: Path, program: str) -> tuple[int, str]:
+    """Its status, and what it prints."""
+    done = subprocess.run([folder / program], capture_output=True, text=True, check=False, timeout=60)
+    return done.returncode, done.stdout

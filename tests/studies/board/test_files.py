@@ -1,0 +1,142 @@
+"""What is written compiles under the strictest warnings, gives Python's bits, and is the same each time."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from filters.registry import ALL_METHODS
+from filters.systems.example import example_system
+from filters.systems.navigation import vehicle
+from filters.translation.unit import Precision
+from sched_sim.costs.table_file import load_costs
+from studies.board.compiled import compiled
+from studies.board.dual_rate import Steps
+from tests.studies.board.build import ARM, HERE, STRICT, build, needs_arm_gcc, needs_gcc, put, ran, written
+from tests.studies.board.systems import beyond_floats, pendulum, writing_to_its_parameters
+
+STEPS = Steps(10, 4, 8)
+DRIVING = np.array([0.0, 0.0, 0.5, 15.0, 0.0, 0.0])
+MODELS = {
+    "linear": (example_system(5, 2, 3), np.zeros(5)),
+    "no-inputs": (example_system(3, 0, 2), np.zeros(3)),
+    "vehicle": (vehicle(), DRIVING),
+    "scratch": (pendulum(), np.array([0.1, 0.0])),
+}
+SOURCES = ("filter.c", "tasks.c")
+FEW = [("larsen", "double"), ("clone", "single"), ("multirate-ud", "single")]
+each_precision = pytest.mark.parametrize("precision", ["single", "double"])
+
+
+@needs_gcc
+@each_precision
+@pytest.mark.parametrize("name", MODELS)
+def test_jobs_and_tasks_give_the_numbers_of_python(name: str, precision: Precision, tmp_path: Path) -> None:
+    system, x0 = MODELS[name]
+    put(tmp_path, written(system, x0=x0, precision=precision, steps=STEPS))
+    exact = precision == "double"
+    build(tmp_path, "-O2", *(["-DTOLERANCE=0"] if exact else []), *SOURCES, "test.c", "-lm", "-o", "test")
+    status, said = ran(tmp_path, "test")
+    assert status == 0, said
+    assert said.count("the same bits") == 6 if exact else said.count("the same bits") >= 3
+
+
+@needs_gcc
+@pytest.mark.parametrize(
+    ("method", "precision"),
+    [
+        pytest.param(method, precision, marks=() if (method, precision) in FEW else pytest.mark.exhaust)
+        for method in ALL_METHODS
+        if method != "dual-rate"
+        for precision in ("single", "double")
+    ],
+)
+def test_jobs_of_other_methods(method: str, precision: Precision, tmp_path: Path) -> None:
+    files = written(example_system(3, 1, 2), method=method, precision=precision)
+    put(tmp_path, files)
+    build(tmp_path, "-O2", "filter.c", "test.c", "-lm", "-o", "test")
+    status, said = ran(tmp_path, "test")
+    assert status == 0, said
+    put(tmp_path, {"state.c": '#include "state.h"\n'})
+    build(tmp_path, "-Wno-unused-variable", "-Wno-unused-const-variable", "-c", "state.c")
+    assert "What is missing" in files["README.md"]
+
+
+@needs_gcc
+def test_two_threads_land_every_correction(tmp_path: Path) -> None:
+    put(tmp_path, written(*MODELS["linear"][:1], steps=STEPS))
+    build(tmp_path, "-O2", *SOURCES, "posix.c", "-lm", "-lpthread", "-o", "threads")
+    status, said = ran(tmp_path, "threads")
+    assert status == 0
+    assert said.startswith("3 of 3 corrections have landed")
+
+
+@needs_gcc
+def test_times_of_jobs_are_a_cost_table(tmp_path: Path) -> None:
+    put(tmp_path, written(MODELS["linear"][0], steps=STEPS))
+    clock = ["-DCYCLES=clock()", "-DCLOCK_HZ=CLOCKS_PER_SEC", "-include", "time.h"]
+    build(tmp_path, "-O2", *clock, *SOURCES, "test.c", "-lm", "-o", "test")
+    table = tmp_path / "board.toml"
+    table.write_text(ran(tmp_path, "test")[1].replace("= 0.0000", "= 0.0001"))
+    costs = load_costs(str(table))
+    assert costs.unit == "us"
+    assert set(costs.costs["dual-rate"]) == {"hr_restart", "hr_propagate", "hr_update", "lr_propagate", "lr_update"}
+
+
+@needs_gcc
+@pytest.mark.parametrize("name", ["linear", "no-inputs"])
+def test_the_example_for_freertos_compiles(name: str, tmp_path: Path) -> None:
+    put(tmp_path, written(MODELS[name][0], steps=STEPS))
+    build(tmp_path, "-I", str(HERE / "stubs"), "-c", "freertos.c")
+
+
+@needs_arm_gcc
+@each_precision
+def test_for_a_cortex_m(precision: Precision, tmp_path: Path) -> None:
+    files = written(MODELS["vehicle"][0], x0=DRIVING, precision=precision, steps=STEPS)
+    put(tmp_path, files)
+    build(tmp_path, "-O2", "-c", *SOURCES, "test.c", compiler=ARM)
+    found = compiled(files, SOURCES, precision)
+    assert found is not None
+    assert 1000 < found.code["filter.c"] < 10_000
+    assert 0 < max(found.frames.values()) < 1000
+    assert "stack of lr_update" in files["README.md"]
+
+
+def test_without_a_cross_compiler_the_rest_is_written(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(shutil, "which", lambda _: None)
+    said = written(MODELS["linear"][0], steps=STEPS)["README.md"]
+    assert "code and stack are not known" in said
+    assert "| RAM of LR: arrays of state.h |" in said
+
+
+def test_the_same_files_each_time() -> None:
+    assert written(pendulum(), steps=STEPS) == written(pendulum(), steps=STEPS)
+
+
+@pytest.mark.parametrize("name", MODELS)
+def test_no_memory_but_in_state_h_and_no_path_of_a_machine(name: str) -> None:
+    system, x0 = MODELS[name]
+    files = written(system, x0=x0, steps=STEPS)
+    for line in files["filter.c"].splitlines():
+        assert not line.startswith("static real ") or "(" in line
+    for text in files.values():
+        assert str(Path.cwd()) not in text
+        assert "malloc(" not in text
+
+
+def test_what_a_model_writes_to_is_not_constant() -> None:
+    with pytest.raises(ValueError, match="changes p, which is not its own"):
+        written(writing_to_its_parameters(), x0=np.array([0.3, 0.0]), steps=STEPS)
+
+
+def test_a_model_beyond_single_precision() -> None:
+    with pytest.raises(ValueError, match="R: single precision has no 1e-60; choose double"):
+        written(beyond_floats(), precision="single", steps=STEPS)
+
+
+def test_warnings_are_errors() -> None:
+    assert {"-Wconversion", "-Wpedantic", "-Werror"} <= set(STRICT)
