@@ -1,0 +1,110 @@
+"""`sched-sim code`: what it writes, and what it refuses."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from tests.command_line import Run, is_refused
+
+MODEL = """
+import numpy as np
+from filters import System
+
+def f(j, x, u, p, out):
+    out[0] = x[0] + u[0]
+
+def F(j, x, u, p):
+    return {F}
+
+def h(k, x, p, out):
+    out[0] = x[0]
+
+def H(k, x, p):
+    return np.array([[1.0]])
+
+def Q(j, p):
+    return np.array([[0.1]])
+
+def R(k, p):
+    return np.array([[{R}]])
+
+def system():
+    return System(1, 1, 1, f, F, Q, h, H, R, ())
+"""
+
+
+def write_model(F: str = "np.array([[1.0]])", R: str = "1.0") -> None:
+    Path("own.py").write_text(MODEL.replace("{F}", F).replace("{R}", R))
+
+
+def test_the_two_tasks_are_written_and_said(sched_sim: Run) -> None:
+    result = sched_sim("code --states 3 --inputs 1 --measurements 1 --precision single -N 8 -M 2 -o new/board")
+    assert result.code == 0
+    assert result.out == ""
+    assert "Wrote new/board: filter.h, filter.c, tasks.h" in result.err
+    assert "N=8 M=2 L=3" in result.err
+    folder = Path("new/board")
+    assert "CYCLE_STEPS = 8, DELAY_STEPS = 2, LANDING_STEPS = 3" in (folder / "tasks.h").read_text()
+    assert "typedef float real;" in (folder / "filter.h").read_text()
+    assert (
+        "--states 3 --inputs 1 --measurements 1 --update textbook --precision single -N 8 -M 2 -L 3"
+        in (folder / "README.md").read_text()
+    )
+    assert "(16)" in (folder / "filter.c").read_text()
+
+
+def test_files_of_another_method_are_not_left_behind(sched_sim: Run) -> None:
+    sizes = "--states 2 --inputs 1 --measurements 1 -o board"
+    assert sched_sim(f"code {sizes}").code == 0
+    assert sched_sim(f"code --method larsen {sizes}").code == 0
+    assert {path.name for path in Path("board").iterdir()} == {"filter.h", "filter.c", "state.h", "test.c", "README.md"}
+
+
+def test_a_model_of_ones_own(sched_sim: Run) -> None:
+    write_model()
+    assert sched_sim("code --system own:system --update short -o board").code == 0
+    assert "own_F" in Path("board/filter.c").read_text()
+
+
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        ("code -o board --precision half", ["--precision", "half", "single", "double"]),
+        ("code -o board --method larson", ["--method 'larson'", "did you mean larsen?"]),
+        ("code -o board --method robust-lu", ["--method 'robust-lu' is unknown here"]),
+        ("code -o board -N 1 -M 0", ["-N 1", "at least 2"]),
+        ("code -o board -N 10 -M 10", ["-M 10 must be from 0 to 9"]),
+        ("code -o board -N 10 -M -1", ["-M -1 must be from 0 to 9"]),
+        ("code -o board -N 10 -M 4 -L 4", ["-L 4 must be from 5 to 10"]),
+        ("code -o board -N 10 -M 4 -L 11", ["-L 11 must be from 5 to 10"]),
+        ("code -o board --method larsen -N 10 -L 5", ["--method larsen: leave out -N, -L"]),
+        ("code -o board --system own:system --states 3", ["leave out --states"]),
+        ("code -o own.py", ["--output 'own.py' is a file"]),
+        ("code -o full", ["--output 'full' holds a.txt, b.txt, c.txt and 1 more"]),
+        ("code -o own.py/board", ["own.py/board", "cannot be"]),
+        ("code", ["--output"]),
+        ("code -o board --system own:nothing", ["own", "has no function 'nothing'"]),
+    ],
+)
+def test_what_is_refused(line: str, said: list[str], sched_sim: Run) -> None:
+    write_model()
+    Path("full").mkdir()
+    for name in "abcd":
+        Path(f"full/{name}.txt").touch()
+    is_refused(sched_sim(line), said)
+    assert not Path("board").exists()
+
+
+@pytest.mark.parametrize(
+    ("change", "options", "said"),
+    [
+        ({"F": "np.linalg.inv(np.array([[1.0]]))"}, "", ["own.py:9", "np.linalg.inv", "not translated"]),
+        ({"R": "1e-60 + 1.0"}, "--precision single", ["own.py:21", "single precision has no 1e-60"]),
+    ],
+)
+def test_a_model_that_is_not_translated(change: dict[str, str], options: str, said: list[str], sched_sim: Run) -> None:
+    write_model(**change)
+    is_refused(sched_sim(f"code --system own:system {options} -o board"), said)
+    assert not Path("board").exists()
