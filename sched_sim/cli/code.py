@@ -18,7 +18,8 @@ Method = Annotated[
     str,
     typer.Option(
         "--method",
-        help=f"{', '.join(SYSTEM_METHODS)}. dual-rate is written with its two tasks, others as jobs.",
+        help=f"{', '.join(SYSTEM_METHODS)}. dual-rate is written as two tasks, standard, "
+        "recalculate and larsen step by step, others as jobs.",
         rich_help_panel=opt.DESIGN,
     ),
 ]
@@ -34,7 +35,7 @@ Cycle = Annotated[
     int,
     typer.Option(
         "-N",
-        help="With dual-rate: HR steps from one measurement to the next.",
+        help="HR steps from one measurement to the next; with dual-rate, standard, recalculate, larsen.",
         parser=opt.whole,
         metavar="STEPS",
         rich_help_panel=opt.DESIGN,
@@ -44,7 +45,7 @@ Delay = Annotated[
     int,
     typer.Option(
         "-M",
-        help="With dual-rate: delay of the measurement in HR steps, less than N.",
+        help="Delay of the measurement in HR steps, less than N; with dual-rate, recalculate, larsen.",
         parser=opt.whole,
         metavar="STEPS",
         rich_help_panel=opt.DESIGN,
@@ -99,24 +100,24 @@ def code(
     import numpy as np
 
     from filters.systems.example import example_system
-    from studies.board.dual_rate import Steps, check_steps
     from studies.board.folder import check_folder, write_folder
-    from studies.board.write import NAMES, Filter, board_files
+    from studies.board.steps import Steps
+    from studies.board.wanted import Filter
+    from studies.board.write import NAMES, board_files, check_steps
     from studies.measurement.user_function import explained
     from studies.measurement.user_system import load_system
 
     opt.known_methods([method], SYSTEM_METHODS)
-    has_tasks = method == "dual-rate"
-    if not has_tasks and (given := opt.given_options(context, lambda name: name in ("N", "M", "L"))):
-        raise InputError(
-            f"--method {method}: leave out {', '.join(given)}: its jobs are written, without the steps around them; "
-            f"dual-rate is written with its tasks"
-        )
+    without = STEPS.get(method, "NML")
+    if given := opt.given_options(context, lambda name: name in without):
+        raise InputError(f"--method {method}: leave out {', '.join(given)}: {_why_without(method)}")
     if system is not None and (given := opt.given_options(context, lambda name: name in SIZES)):
         raise InputError(f"--system {system!r}: leave out {', '.join(given)}: the system has its own")
-    steps = Steps(N, M, M + 1 if L is None else L) if has_tasks else None
-    if steps is not None:
-        check_steps(steps)
+    steps = None
+    if method in STEPS:
+        delay = 0 if method == "standard" else M
+        steps = Steps(N, delay, L if L is not None else delay + (method == "dual-rate"))
+    check_steps(method, steps)
     check_folder(output, NAMES, "--output")
     if system is None:
         the_system = f"--states {states} --inputs {inputs} --measurements {measurements}"
@@ -124,7 +125,7 @@ def code(
     else:
         the_system = f"--system {system}"
         model, x0 = load_system(system)
-    in_steps = "" if steps is None else f" -N {steps.N} -M {steps.M} -L {steps.L}"
+    in_steps = "" if steps is None else "".join(f" -{name} {getattr(steps, name)}" for name in _asked(method))
     said = (
         f"sched-sim code --method {method} {the_system} --update {update} --precision {precision}{in_steps} -o FOLDER"
     )
@@ -134,11 +135,26 @@ def code(
     say(
         lines(
             f"Wrote {output}: {', '.join(files)}",
-            "" if steps is None else f"N={steps.N} M={steps.M} L={steps.L}: -N, -M and -L say otherwise",
+            in_steps and f"Written for{in_steps}",
             f"Try it: cc -std=c99 -O2 -ffp-contract=off {' '.join(_tested(files))} -lm -o test && ./test",
         )
     )
 
 
 def _tested(files: dict[str, str]) -> list[str]:
-    return [name for name in ("filter.c", "tasks.c", "test.c") if name in files]
+    return [name for name in ("filter.c", "tasks.c", "steps.c", "test.c") if name in files]
+
+
+STEPS = {"dual-rate": "", "standard": "ML", "recalculate": "L", "larsen": "L"}
+"""Methods that are written with what is around the jobs, and what of N, M, L they have no use for."""
+
+
+def _asked(method: str) -> str:
+    """What of N, M, L it is written for."""
+    return "".join(name for name in "NML" if name not in STEPS[method])
+
+
+def _why_without(method: str) -> str:
+    if method not in STEPS:
+        return f"its jobs are written, without the steps around them; {', '.join(STEPS)} are written as a whole"
+    return "it uses a measurement in the step in which it is there"

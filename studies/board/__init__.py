@@ -3,6 +3,7 @@
 jobs        its jobs in C, see `filters.translation`, and how they are called
 memory      the arrays of a task, and the records that point at them
 dual_rate   the dual rate filter as two tasks, with the messages between them
+serial      methods that do all in the HR step, step by step
 bits        a program that compares what jobs and tasks give with what Python gave
 compiled    code and stack in bytes, where a cross compiler is installed
 readme      what to do with the folder

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import NamedTuple
 
 import numpy as np
 
@@ -16,18 +15,11 @@ from sched_sim.errors import InputError, option
 from studies.board.compiled import Compiled, stack_of
 from studies.board.jobs import Jobs, call, translated
 from studies.board.memory import add_model, add_workspace
+from studies.board.steps import Files, Steps
 from studies.board.template import filled
 
 TASKS = {"hr": ("hr_restart", "hr_propagate", "hr_update"), "lr": ("lr_propagate", "lr_update")}
 """The jobs of each task."""
-
-
-class Steps(NamedTuple):
-    """N: HR steps from one measurement to the next. M: until it arrives. L: until the correction lands."""
-
-    N: int
-    M: int
-    L: int
 
 
 def check_steps(steps: Steps) -> None:
@@ -48,13 +40,6 @@ def check_steps(steps: Steps) -> None:
             f"{option('L')} {L} must be from {M + 1} to {N}: as C the correction lands behind the arrival, "
             f"{option('M')} {M}, and before the next measurement is taken, {option('N')} {N}"
         )
-
-
-class Files(NamedTuple):
-    """files: texts by name. sizes: of the arrays in RAM, how many numbers each has; by task, hr_ and lr_."""
-
-    files: dict[str, str]
-    sizes: dict[str, int]
 
 
 def tasks(system: System, jobs: Mapping[str, Job], in_c: Jobs, steps: Steps) -> Files:

@@ -2,26 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from collections.abc import Mapping, Sequence
 
 from studies.board.compiled import CORES, Compiled, stack_of
 from studies.board.dual_rate import TASKS
 from studies.board.jobs import Jobs
 from studies.board.template import filled
-
-if TYPE_CHECKING:
-    from studies.board.write import Filter
+from studies.board.wanted import Filter
 
 BYTES = {"single": 4, "double": 8}
 
 
-def readme(wanted: Filter, in_c: Jobs, sizes: Mapping[str, int], on_core: Compiled | None) -> str:
-    """The file README.md. sizes: numbers in each array of state.h that is no constant."""
+def readme(
+    wanted: Filter, in_c: Jobs, sizes: Mapping[str, int], sources: Sequence[str], on_core: Compiled | None
+) -> str:
+    """The file README.md. sizes: numbers in each array of state.h that is no constant. sources: for the board."""
     n, m, p = wanted.system[:3]
-    has_tasks = wanted.method == "dual-rate"
     core, flags = CORES[wanted.precision]
-    sources = "filter.c tasks.c" if has_tasks else "filter.c"
+    part = "tasks" if wanted.method == "dual-rate" else "steps" if wanted.steps is not None else "jobs"
     values = {
         "method": wanted.method,
         "said": wanted.said,
@@ -32,13 +30,12 @@ def readme(wanted: Filter, in_c: Jobs, sizes: Mapping[str, int], on_core: Compil
         "update": wanted.update,
         "core": core,
         "flags": " ".join(flags),
-        "sources": sources,
+        "sources": " ".join(sources),
         "kinds": ", ".join(f"`{kind}`" for kind in in_c.by_kind),
         "memory": "\n".join(_memory(wanted, in_c, sizes, on_core)),
         "j_wraps": _wraps(in_c),
     }
-    parts = ["readme_head.md", "readme_tasks.md" if has_tasks else "readme_jobs.md", "readme_end.md"]
-    return "".join(filled(part, values) for part in parts)
+    return "".join(filled(f"readme_{name}.md", values) for name in ("head", part, "end"))
 
 
 def _memory(wanted: Filter, in_c: Jobs, sizes: Mapping[str, int], on_core: Compiled | None) -> list[str]:
@@ -53,8 +50,8 @@ def _memory(wanted: Filter, in_c: Jobs, sizes: Mapping[str, int], on_core: Compi
     if on_core is None:
         return [*lines, "", "No arm-none-eabi-gcc was found when this was written: code and stack are not known."]
     lines += [f"| code and constants of {name} | {size} |" for name, size in on_core.code.items()]
-    if tasks:
-        lines.append(f"| RAM of tasks.c, all | {on_core.ram} |")
+    if len(on_core.code) > 1:
+        lines.append(f"| RAM of {[*on_core.code][-1]}, all | {on_core.ram} |")
     functions = in_c.unit.functions()
     for kind, job in in_c.by_kind.items():
         lines.append(f"| stack of {kind} | {stack_of(job, functions, on_core.frames)} |")

@@ -7,14 +7,13 @@ from typing import NamedTuple
 import numpy as np
 
 from filters.arrays import FloatArray
-from filters.covariance_forms import CovarianceFormName
-from filters.delayed import dual_rate
+from filters.registry import ALL_METHODS
 from filters.simulation import simulate_truth
-from filters.system import System
 from filters.translation.data import Data, Kept
 from filters.translation.library import Precision
 from filters.translation.unit import Unit
-from studies.board.dual_rate import Steps
+from studies.board.steps import Steps
+from studies.board.wanted import Filter
 
 MEASURED, SEED = 3, 0
 """Measurements of a record, of which all have landed at its end; and that of its random numbers."""
@@ -31,19 +30,19 @@ class Record(NamedTuple):
     x: FloatArray
 
 
-def simulated(system: System, x0: FloatArray, update: CovarianceFormName, steps: Steps, precision: Precision) -> Record:
+def simulated(wanted: Filter, steps: Steps) -> Record:
     """A record from x0 with unit covariance and normal inputs, as the jobs that are costed have it.
 
     Numbers are those that the program has, also in single precision; the states are always computed in double.
     Raises ValueError where the system cannot be filtered from there.
     """
-    N, M, L = steps
+    (method, system, x0, update, precision, _, _), (N, M, L) = wanted, steps
     number = (MEASURED - 1) * N + L
     P0 = np.eye(system.states)
     u = np.random.default_rng(SEED).normal(size=(number, system.inputs))
     truth = simulate_truth(system, N, x0, P0, u, SEED)
     x0, u, y = (_held(values, precision) for values in (x0, u, truth.measurements[:MEASURED]))
-    return Record(x0, P0, u, y, dual_rate.run(system, N, M, L, x0, P0, u, y, update=update).x)
+    return Record(x0, P0, u, y, ALL_METHODS[method].run(system, N, M, L, x0, P0, u, y, update=update).x)
 
 
 def record_h(record: Record, precision: Precision) -> str:

@@ -2,92 +2,108 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
-from filters.arrays import FloatArray
-from filters.covariance_forms import CovarianceFormName
+from filters.jobs import Job
 from filters.registry import ALL_METHODS
-from filters.system import System
-from filters.translation.library import Precision
-from studies.board import dual_rate
+from studies.board import dual_rate, serial
 from studies.board.bits import test_c
 from studies.board.compiled import compiled
-from studies.board.dual_rate import TASKS, Steps, check_steps, tasks
-from studies.board.jobs import translated
+from studies.board.jobs import Jobs, translated
 from studies.board.memory import jobs_memory
 from studies.board.readme import readme
 from studies.board.record import record_h, simulated
+from studies.board.steps import Steps
 from studies.board.template import filled
+from studies.board.wanted import Filter
 
+OF_TASKS = ("tasks.h", "tasks.c", "posix.c", "freertos.c")
 NAMES = frozenset(
-    (
-        "filter.c",
-        "filter.h",
-        "state.h",
-        "tasks.c",
-        "tasks.h",
-        "record.h",
-        "test.c",
-        "posix.c",
-        "freertos.c",
-        "README.md",
-    )
+    ("filter.h", "filter.c", "state.h", "steps.h", "steps.c", "record.h", "test.c", "README.md", *OF_TASKS)
 )
 """All files that a folder may have."""
 
 
-class Filter(NamedTuple):
-    """What is to be written. x0 (n,): a typical state. steps: of the dual rate filter. said: the command that asks."""
-
-    method: str
-    system: System
-    x0: FloatArray
-    update: CovarianceFormName
-    precision: Precision
-    steps: Steps | None
-    said: str
+def check_steps(method: str, steps: Steps | None) -> None:
+    """Raises InputError unless the method can have these steps as C."""
+    if method == "dual-rate":
+        assert steps is not None
+        dual_rate.check_steps(steps)
+    elif method in serial.SERIAL:
+        assert steps is not None
+        serial.check_serial(method, steps)
 
 
 def board_files(wanted: Filter) -> dict[str, str]:
-    """The files of a method; of the dual rate filter with its tasks, of others the jobs.
+    """The files of a method: of the dual rate filter with its tasks, of serial ones with steps, of others the jobs.
 
     Raises:
         Untranslatable: something in a job or the model has nothing in C; its file and line are named.
         InputError: the steps do not fit.
         ValueError: the system cannot be filtered from x0.
     """
-    method, system, x0, update, precision, steps, _ = wanted
+    method, system, x0, update, precision, _, _ = wanted
+    check_steps(method, wanted.steps)
     jobs = ALL_METHODS[method].jobs(system, update, 0, x0)
-    if method == "dual-rate":
-        assert steps is not None
-        check_steps(steps)
-        jobs = {kind: jobs[kind] for kinds in TASKS.values() for kind in kinds}
+    jobs = {kind: jobs[kind] for kind in _kinds(method, tuple(jobs))}
     in_c = translated(jobs, precision)
-    files = {"filter.h": _banner(wanted) + in_c.unit.header("FILTER_H")}
-    files["filter.c"] = _banner(wanted) + in_c.unit.source("filter.h")
-    more = {"sources": "filter.c test.c", "includes": "", "functions": "", "run": ""}
-    sources, sizes = ["filter.c"], {}
-    if steps is not None and method == "dual-rate":
-        written = tasks(system, jobs, in_c, steps)
-        sizes, sources = written.sizes, ["filter.c", "tasks.c"]
-        files |= written.files
-        files["record.h"] = record_h(simulated(system, x0, update, steps, precision), precision)
-        words = {"u": "record_u[j - 1]" if system.inputs else ""}
-        files["posix.c"] = filled("posix.c", words)
-        more = {
-            "sources": "filter.c tasks.c test.c",
-            "includes": '\n#include "record.h"\n#include "tasks.h"',
-            "functions": filled("run.c", words),
-            "run": "\n    tasks_test();",
-        }
-    else:
-        files["state.h"], sizes = jobs_memory(jobs, in_c)
-    files["test.c"] = test_c(method, jobs, in_c, more)
-    on_core = compiled(files, sources, precision)
-    if "tasks.c" in files:
+    files = {
+        "filter.h": _banner(wanted) + in_c.unit.header("FILTER_H"),
+        "filter.c": _banner(wanted) + in_c.unit.source("filter.h"),
+    }
+    around = _around(wanted, jobs, in_c)
+    files |= around.files
+    files["test.c"] = test_c(method, jobs, in_c, around.tested)
+    on_core = compiled(files, around.sources, precision)
+    if method == "dual-rate":
         files["freertos.c"] = dual_rate.freertos_c(system, in_c, on_core)
-    files["README.md"] = readme(wanted, in_c, sizes, on_core)
+    files["README.md"] = readme(wanted, in_c, around.sizes, around.sources, on_core)
     return files
+
+
+class Around(NamedTuple):
+    """What is around the jobs. sources: what is compiled for a board. sizes: of the arrays in RAM. tested: words of
+    test.c."""
+
+    files: dict[str, str]
+    sources: Sequence[str]
+    sizes: Mapping[str, int]
+    tested: Mapping[str, str]
+
+
+def _kinds(method: str, kinds: Sequence[str]) -> Sequence[str]:
+    """The jobs that are written."""
+    if method == "dual-rate":
+        return [kind for kinds in dual_rate.TASKS.values() for kind in kinds]
+    return serial.SERIAL[method].jobs if method in serial.SERIAL else kinds
+
+
+def _around(wanted: Filter, jobs: Mapping[str, Job], in_c: Jobs) -> Around:
+    method, system, steps = wanted.method, wanted.system, wanted.steps
+    if steps is None:
+        state, sizes = jobs_memory(jobs, in_c)
+        tested = {"sources": "filter.c test.c", "includes": "", "functions": "", "run": ""}
+        return Around({"state.h": state}, ["filter.c"], sizes, tested)
+    record = record_h(simulated(wanted, steps), wanted.precision)
+    words = {"u": "record_u[j - 1]" if system.inputs else ""}
+    if method == "dual-rate":
+        files, sizes = dual_rate.tasks(system, jobs, in_c, steps)
+        files = {**files, "record.h": record, "posix.c": filled("posix.c", words)}
+        return Around(files, ["filter.c", "tasks.c"], sizes, _tested("tasks", filled("tasks_run.c", words)))
+    files, sizes = serial.steps_files(method, system, in_c, steps)
+    tested = _tested("steps", filled("steps_run.c", words))
+    return Around({**files, "record.h": record}, ["filter.c", "steps.c"], sizes, tested)
+
+
+def _tested(name: str, functions: str) -> dict[str, str]:
+    """Words of test.c for what is run on the record, in `name`.c."""
+    return {
+        "sources": f"filter.c {name}.c test.c",
+        "includes": f'\n#include "record.h"\n#include "{name}.h"',
+        "functions": functions,
+        "run": f"\n    {name}_test();",
+    }
 
 
 def _banner(wanted: Filter) -> str:

@@ -44,7 +44,7 @@ def test_the_two_tasks_are_written_and_said(sched_sim: Run) -> None:
     assert result.code == 0
     assert result.out == ""
     assert "Wrote new/board: filter.h, filter.c, tasks.h" in result.err
-    assert "N=8 M=2 L=3" in result.err
+    assert "Written for -N 8 -M 2 -L 3" in result.err
     folder = Path("new/board")
     assert "CYCLE_STEPS = 8, DELAY_STEPS = 2, LANDING_STEPS = 3" in (folder / "tasks.h").read_text()
     assert "typedef float real;" in (folder / "filter.h").read_text()
@@ -58,8 +58,12 @@ def test_the_two_tasks_are_written_and_said(sched_sim: Run) -> None:
 def test_files_of_another_method_are_not_left_behind(sched_sim: Run) -> None:
     sizes = "--states 2 --inputs 1 --measurements 1 -o board"
     assert sched_sim(f"code {sizes}").code == 0
-    assert sched_sim(f"code --method larsen {sizes}").code == 0
-    assert {path.name for path in Path("board").iterdir()} == {"filter.h", "filter.c", "state.h", "test.c", "README.md"}
+    written = {"filter.h", "filter.c", "state.h", "test.c", "README.md"}
+    assert sched_sim(f"code --method clone {sizes}").code == 0
+    assert {path.name for path in Path("board").iterdir()} == written
+    assert sched_sim(f"code --method larsen -N 6 -M 2 {sizes}").code == 0
+    assert {path.name for path in Path("board").iterdir()} == written | {"steps.h", "steps.c", "record.h"}
+    assert "-N 6 -M 2 -o FOLDER" in Path("board/README.md").read_text()
 
 
 def test_a_model_of_ones_own(sched_sim: Run) -> None:
@@ -79,7 +83,10 @@ def test_a_model_of_ones_own(sched_sim: Run) -> None:
         ("code -o board -N 10 -M -1", ["-M -1 must be from 0 to 9"]),
         ("code -o board -N 10 -M 4 -L 4", ["-L 4 must be from 5 to 10"]),
         ("code -o board -N 10 -M 4 -L 11", ["-L 11 must be from 5 to 10"]),
-        ("code -o board --method larsen -N 10 -L 5", ["--method larsen: leave out -N, -L"]),
+        ("code -o board --method clone -N 10 -L 5", ["--method clone: leave out -N, -L", "its jobs are written"]),
+        ("code -o board --method larsen -N 10 -L 5", ["--method larsen: leave out -L", "in the step in which"]),
+        ("code -o board --method standard -M 3", ["--method standard: leave out -M"]),
+        ("code -o board --method larsen -M 0", ["-M 0 must be from 1 to 9", "--method standard"]),
         ("code -o board --system own:system --states 3", ["leave out --states"]),
         ("code -o own.py", ["--output 'own.py' is a file"]),
         ("code -o full", ["--output 'full' holds a.txt, b.txt, c.txt and 1 more"]),

@@ -13,9 +13,10 @@ import pytest
 from filters.arrays import FloatArray
 from filters.covariance_forms import CovarianceFormName
 from filters.system import System
-from filters.translation.unit import Precision
-from studies.board.dual_rate import Steps
-from studies.board.write import Filter, board_files
+from filters.translation.library import Precision
+from studies.board.steps import Steps
+from studies.board.wanted import Filter
+from studies.board.write import board_files
 
 HERE = Path(__file__).parent
 STRICT = ["-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror", "-ffp-contract=off"]

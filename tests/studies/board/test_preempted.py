@@ -13,8 +13,9 @@ from filters.delayed import dual_rate
 from filters.system import System
 from filters.systems.example import example_system
 from filters.systems.navigation import vehicle
-from studies.board.dual_rate import Steps
 from studies.board.record import simulated
+from studies.board.steps import Steps
+from studies.board.wanted import Filter
 from tests.studies.board.build import HERE, build, needs_gcc, put, ran, written
 from tests.studies.board.systems import pendulum
 
@@ -82,7 +83,7 @@ def test_a_measurement_that_is_lost_or_left_out(name: str, which: str, tmp_path:
     status, said = ran(tmp_path, "late")
     skipped, *numbers = said.split()
     x = np.array([float.fromhex(number) for number in numbers])
-    record = simulated(system, np.zeros(system.states), "textbook", steps, "double")
+    record = simulated(Filter("dual-rate", system, np.zeros(system.states), "textbook", "double", steps, ""), steps)
     y = [record.y[0], None, record.y[2]]
     expected = dual_rate.run(system, *steps, record.x0, record.P0, record.u, y).x[-1]
     assert status == 0
@@ -95,6 +96,6 @@ def test_a_measurement_that_is_lost_or_left_out(name: str, which: str, tmp_path:
 
 def test_the_record_is_what_the_system_makes() -> None:
     system: System = SYSTEMS["linear"]
-    record = simulated(system, np.zeros(4), "textbook", STEPS[0], "double")
+    record = simulated(Filter("dual-rate", system, np.zeros(4), "textbook", "double", STEPS[0], ""), STEPS[0])
     assert [len(values) for values in record] == [4, 4, 28, 3, 29]
     assert np.isfinite(record.x).all()
