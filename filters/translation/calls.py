@@ -100,8 +100,6 @@ def _translated(body: Body, node: ast.Call, callee: Function, returned: bool) ->
     """A call of a function of ours, or of the user's."""
     values = [body.expression(argument, returned=returned) for argument in node.args]
     done = body.unit.function(callee.function, tuple(parameter_of(value.kind) for value in values))
-    if isinstance(done.result, Int | Flag) and done.result.known is not None:
-        return constant(body, done.result.known)
     given = dict(zip(done.parameters, values, strict=True))
     texts = []
     for name in done.used:
@@ -118,7 +116,11 @@ def _translated(body: Body, node: ast.Call, callee: Function, returned: bool) ->
         texts.append(memory.text)
         passing |= memory.passing
     text = f"{done.name}({', '.join(texts)})"
-    return Value(text if lasts(done.result) or done.result == NOTHING else "", done.result, POSTFIX, passing=passing)
+    if lasts(done.result) or done.result == NOTHING:
+        return Value(text, done.result, POSTFIX, passing=passing)
+    if not done.is_known:
+        body.before.append(f"(void){text};")
+    return constant(body, done.result.known) if isinstance(done.result, Int | Flag) else Value("", done.result)
 
 
 def _of_numbers(body: Body, node: ast.Call, target: Any, values: list[Value]) -> Value:

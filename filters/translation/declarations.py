@@ -23,7 +23,7 @@ def scalar(kind: Kind) -> str | None:
 
 def pointer(kind: Array, name: str) -> str:
     """A variable that points to the rows of an array."""
-    inner = "".join(f"[{length}]" for length in kind.inner)
+    inner = "".join(f"[{length or 1}]" for length in kind.inner)
     return f"{kind.item} (*{name}){inner}" if inner else f"{kind.item} *{name}"
 
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from filters.translation.declarations import memory, variable
 from filters.translation.helpers import HELPERS
-from filters.translation.kinds import Array, Kind, Record, lasts
+from filters.translation.kinds import NOTHING, Array, Kind, Record, lasts
 from filters.translation.names import c_name
 from filters.translation.refusal import Untranslatable
 
@@ -41,6 +41,14 @@ class Translated:
     prototype: str
     text: str
     calls: tuple[str, ...]
+
+    @property
+    def is_known(self) -> bool:
+        """Whether what it returns is known while translating, and it can do nothing else."""
+        if self.result == NOTHING or lasts(self.result) or self.calls or "FAULT(" in self.text:
+            return False
+        kinds = dict(zip(self.parameters, self.kinds, strict=True))
+        return not any(isinstance(kinds[name], Array | Record) for name in self.used)
 
 
 @dataclass
@@ -76,7 +84,7 @@ class Library(ABC):
                 self._open.pop()
                 self._calls.pop()
         done = self._functions[function, kinds]
-        if self._calls:
+        if self._calls and not done.is_known:
             self._calls[-1].append(done.name)
         return done
 

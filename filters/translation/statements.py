@@ -214,7 +214,7 @@ def _return(body: Body, statement: ast.Return) -> list[str]:
     elif body.result != kind:
         body.result = _common(body, statement, body.result, kind)
     text = f"*{value.within(UNARY)}" if value.by_pointer else value.text
-    return [f"return {text};"]
+    return [f"return {text};" if text else "return;"]
 
 
 def _common(body: Body, statement: ast.stmt, a: Kind, b: Kind) -> Kind:

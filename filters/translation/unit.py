@@ -72,6 +72,8 @@ class Unit(Library):
         match result:
             case Nothing():
                 return "return;"
+            case Record() if not lasts(result):
+                return "return;"
             case Record():
                 return f"return ({self.record_name(result)}){{0}};"
         return "return 0;"
@@ -90,8 +92,10 @@ class Unit(Library):
     def _prototype(self, result: Kind, name: str, declared: list[str], is_public: bool) -> str:
         match result:
             case Array():
-                inner = "".join(f"[{length}]" for length in result.inner)
+                inner = "".join(f"[{length or 1}]" for length in result.inner)
                 head, tail = (f"{result.item} (*{name}(", f")){inner}") if inner else (f"{result.item} *{name}(", ")")
+            case Record() if not lasts(result):
+                head, tail = f"void {name}(", ")"
             case Record():
                 head, tail = f"{self.record_name(result)} {name}(", ")"
             case _:

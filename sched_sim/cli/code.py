@@ -103,7 +103,7 @@ def code(
     from studies.board.folder import check_folder, write_folder
     from studies.board.steps import Steps
     from studies.board.wanted import Filter
-    from studies.board.write import NAMES, board_files, check_steps
+    from studies.board.write import NAMES, board_files, check_wanted
     from studies.measurement.user_function import explained
     from studies.measurement.user_system import load_system
 
@@ -117,14 +117,15 @@ def code(
     if method in STEPS:
         delay = 0 if method == "standard" else M
         steps = Steps(N, delay, L if L is not None else delay + (method == "dual-rate"))
-    check_steps(method, steps)
     check_folder(output, NAMES, "--output")
     if system is None:
+        check_wanted(method, (states, inputs, measurements), steps)
         the_system = f"--states {states} --inputs {inputs} --measurements {measurements}"
         model, x0 = example_system(states, inputs, measurements), np.zeros(states)
     else:
         the_system = f"--system {system}"
         model, x0 = load_system(system)
+        check_wanted(method, model[:3], steps)
     in_steps = "" if steps is None else "".join(f" -{name} {getattr(steps, name)}" for name in _asked(method))
     said = (
         f"sched-sim code --method {method} {the_system} --update {update} --precision {precision}{in_steps} -o FOLDER"

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import partial
 from typing import NamedTuple
 
 from filters.jobs import Job
 from filters.registry import ALL_METHODS
+from filters.translation.kinds import LONG
+from sched_sim.errors import InputError, option
 from studies.board import dual_rate, serial
 from studies.board.bits import test_c
 from studies.board.compiled import compiled
@@ -25,14 +28,22 @@ NAMES = frozenset(
 """All files that a folder may have."""
 
 
-def check_steps(method: str, steps: Steps | None) -> None:
-    """Raises InputError unless the method can have these steps as C."""
-    if method == "dual-rate":
-        assert steps is not None
-        dual_rate.check_steps(steps)
-    elif method in serial.SERIAL:
-        assert steps is not None
-        serial.check_serial(method, steps)
+MOST_STEPS = 1000
+"""From one measurement to the next: the record that is written with the filter has three of them."""
+
+
+def check_wanted(method: str, sizes: Sequence[int], steps: Steps | None) -> None:
+    """Raises InputError unless the method can have these steps as C. sizes: states, inputs and measurements."""
+    for name, size in zip(("states", "inputs", "measurements"), sizes, strict=True):
+        if size > LONG:
+            raise InputError(f"{option(name)} {size} are too many for a board: as C at most {LONG} are written")
+    if steps is not None and steps.N > MOST_STEPS:
+        raise InputError(
+            f"{option('N')} {steps.N} is too large: give at most {MOST_STEPS}, for test.c has a record of two cycles "
+            f"and more; CYCLE_STEPS, in the header that is written, may be changed"
+        )
+    if steps is not None:
+        (dual_rate.check_steps if method == "dual-rate" else partial(serial.check_serial, method))(steps)
 
 
 def board_files(wanted: Filter) -> dict[str, str]:
@@ -40,11 +51,11 @@ def board_files(wanted: Filter) -> dict[str, str]:
 
     Raises:
         Untranslatable: something in a job or the model has nothing in C; its file and line are named.
-        InputError: the steps do not fit.
+        InputError: steps or sizes do not fit.
         ValueError: the system cannot be filtered from x0.
     """
     method, system, x0, update, precision, _, _ = wanted
-    check_steps(method, wanted.steps)
+    check_wanted(method, system[:3], wanted.steps)
     jobs = ALL_METHODS[method].jobs(system, update, 0, x0)
     jobs = {kind: jobs[kind] for kind in _kinds(method, tuple(jobs))}
     in_c = translated(jobs, precision)

@@ -262,6 +262,27 @@ def whole_among_reals(x: FloatArray, n: int) -> float:
     return total * n + np.sqrt(n) - n / x[1] + (y if x[3] > n else n) + max(x[2], n) - n % 1.5
 
 
+def _put(x: FloatArray, value: float) -> int:
+    x[0] = value
+    return 1
+
+
+def known_and_done(x: FloatArray) -> float:
+    """What is returned is known, and something is done too."""
+    where = _put(x, 5.0)
+    first, last = _put_at_ends(x, 4.0)
+    return x[0] + x[where] + x[_row(2)] + x[first] - 2 * x[last]
+
+
+def _put_at_ends(x: FloatArray, value: float) -> tuple[int, int]:
+    x[0], x[3] = value, 2.0 * value
+    return 0, 3
+
+
+def _row(i: int) -> int:
+    return 0 if i >= 0 else 1
+
+
 X4, P3 = np.array([3.0, -1.5, 0.25, 8.0]), np.arange(9.0).reshape(3, 3)
 MANY = np.random.default_rng(1).normal(size=(100, 2))
 SCALED = Pair(_model(2.0), _model(3.0))
@@ -299,6 +320,7 @@ CASES: list[tuple[Any, list[tuple[Any, ...]]]] = [
     (calls, [(X4,)]),
     (given_functions, [(SCALED, X4[:2].copy())]),
     (one_after_another, [(SCALED, X4[:2].copy())]),
+    (known_and_done, [(X4,)]),
     (whole_among_reals, [(X4, 7), (X4, 2)]),
     (many_rows, [(MANY, np.zeros((100, 1)))]),
 ]

@@ -88,6 +88,8 @@ def test_a_model_of_ones_own(sched_sim: Run) -> None:
         ("code -o board --method standard -M 3", ["--method standard: leave out -M"]),
         ("code -o board --method larsen -M 0", ["-M 0 must be from 1 to 9", "--method standard"]),
         ("code -o board --system own:system --states 3", ["leave out --states"]),
+        ("code -o board --states 65", ["--states 65", "at most 64"]),
+        ("code -o board -N 1001 -M 4", ["-N 1001", "at most 1000", "CYCLE_STEPS"]),
         ("code -o own.py", ["--output 'own.py' is a file"]),
         ("code -o full", ["--output 'full' holds a.txt, b.txt, c.txt and 1 more"]),
         ("code -o own.py/board", ["own.py/board", "cannot be"]),
