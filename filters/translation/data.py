@@ -43,8 +43,7 @@ class Data:
     def record(self, name: str, value: Any, kind: Record, placing: Placing) -> None:
         """A record that never changes, behind the arrays that it points at."""
         text = self.text(value, kind, (name,), placing)
-        line = f"static const {self.unit.record_name(kind)} {name} = {text};"
-        self.lines.append(textwrap.fill(line, WIDTH, subsequent_indent="    ", break_on_hyphens=False))
+        self.lines.append(_broken(f"static const {self.unit.record_name(kind)} {name} = {text};"))
 
     def text(self, value: Any, kind: Kind, names: tuple[str, ...], placing: Placing) -> str:
         """The value as an initialiser, behind the arrays that it needs.
@@ -76,7 +75,7 @@ class Data:
             begin += f" = {'{' * value.ndim}0{'}' * value.ndim}"
         if not kept.constant:
             self.sizes[kept.name] = value.size
-        self.lines.append(f"{begin};")
+        self.lines += map(_broken, f"{begin};".splitlines())
 
     def _array(self, value: Any, kind: Array, names: tuple[str, ...], placing: Placing) -> str:
         kept = placing(names)
@@ -94,8 +93,13 @@ class Data:
             rows = ",\n".join(textwrap.indent(self._listed(row, name), "    ") for row in value)
             return f"{{\n{rows}\n}}"
         texts = [number(self.unit, float(x), name) if value.dtype.kind == "f" else str(int(x)) for x in value]
-        line = "{" + ", ".join(texts) + "}"
-        return line if len(line) <= WIDTH else textwrap.fill(line, WIDTH, break_on_hyphens=False)
+        return "{" + ", ".join(texts) + "}"
+
+
+def _broken(line: str) -> str:
+    """In lines that are not too long."""
+    indent = " " * (len(line) - len(line.lstrip()) + 4)
+    return textwrap.fill(line, WIDTH, subsequent_indent=indent, break_on_hyphens=False, break_long_words=False)
 
 
 def number(unit: Unit, value: float, what: str) -> str:

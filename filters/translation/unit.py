@@ -53,7 +53,7 @@ class Unit(Library):
         if lines and lines[-1] == "return;":
             lines.pop()
         lines = [line.replace(GIVEN_UP, self._given_up(body.result)) for line in lines]
-        inside = "\n".join(_wrapped(INDENT + line) if line else "" for line in [*own, *lines])
+        inside = "\n".join(wrapped(INDENT + line) if line else "" for line in [*own, *lines])
         return Translated(
             name,
             body.source.parameters,
@@ -100,7 +100,7 @@ class Unit(Library):
                 head, tail = f"{self.record_name(result)} {name}(", ")"
             case _:
                 head, tail = f"{scalar(result)} {name}(", ")"
-        return _wrapped(f"{'' if is_public else 'static '}{head}{', '.join(declared) or 'void'}{tail}")
+        return wrapped(f"{'' if is_public else 'static '}{head}{', '.join(declared) or 'void'}{tail}")
 
 
 def _comment(doc: str) -> str:
@@ -122,7 +122,7 @@ def _version(body: Body) -> str:
     return f"{own}_{'x'.join(map(str, lengths))}" if lengths else own
 
 
-def _wrapped(line: str) -> str:
+def wrapped(line: str) -> str:
     """Broken behind commas where it is too long."""
     if len(line) <= WIDTH or ", " not in line or "/*" in line:
         return line

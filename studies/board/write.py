@@ -9,6 +9,7 @@ from typing import NamedTuple
 from filters.jobs import Job
 from filters.registry import ALL_METHODS
 from filters.translation.kinds import LONG
+from filters.translation.unit import wrapped
 from sched_sim.errors import InputError, option
 from studies.board import dual_rate, serial
 from studies.board.bits import test_c
@@ -70,7 +71,12 @@ def board_files(wanted: Filter) -> dict[str, str]:
     if method == "dual-rate":
         files["freertos.c"] = dual_rate.freertos_c(system, in_c, on_core)
     files["README.md"] = readme(wanted, in_c, around.sizes, around.sources, on_core)
-    return files
+    return {name: _readable(text) if name.endswith((".c", ".h")) else text for name, text in files.items()}
+
+
+def _readable(text: str) -> str:
+    """With no line that is too long."""
+    return "\n".join(map(wrapped, text.splitlines())) + "\n"
 
 
 class Around(NamedTuple):

@@ -1,7 +1,7 @@
 /* The two tasks on FreeRTOS: an example to start from.
 
-   The priorities must leave HR above LR, and both above whatever may wait. What reads your sensors is declared here and
-   yours to write. A task's stack: see README.md, and what FreeRTOS itself asks for. */
+   HR must have a higher priority than LR. What reads your sensors is declared here, and yours to write. STACK_WORDS is
+   what the deepest job takes and some for FreeRTOS itself. */
 #include <stdbool.h>
 #include <stddef.h>
 

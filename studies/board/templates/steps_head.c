@@ -1,8 +1,6 @@
 /* The $title; see steps.h. */
 #include "steps.h"
 
-#include <stddef.h>
-
 #include "state.h"
 
 /* A memory for an estimate that is neither this one nor the one kept for k. */

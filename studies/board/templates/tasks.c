@@ -5,8 +5,6 @@
    alternates between the others; so with the three states. `stage` says whose turn it is with what both share. */
 #include "tasks.h"
 
-#include <stddef.h>
-
 #include "state.h"
 
 /* Nothing is read or written across it, by the compiler or by the core. */

@@ -4,9 +4,9 @@
    lr_receive when hr_step has returned HR_SENT, and lr_measure when the measurement of that step has arrived. Nobody
    waits for anybody within these functions.
 
-   N = $N, M = $M, L = $L: a measurement is taken at k = 0, N, 2N, ...; it arrives at m = k + M; the correction lands at l = k + L,
-   or, if LR has not finished by then, in the first step after it has. If that is not before the next k, the
-   measurement of that k is left out (HR_SKIPPED): the filter stays exact, as if it had been lost. */
+   N = $N, M = $M, L = $L: a measurement is taken at k = 0, N, 2N, ...; it arrives at m = k + M; the correction lands at
+   l = k + L or, if LR has not finished by then, in the first step after it has. If that is not before the next k,
+   the measurement of that k is left out (HR_SKIPPED): the filter stays exact, as if it had been lost. */
 #ifndef TASKS_H
 #define TASKS_H
 

@@ -61,8 +61,7 @@ static void end(void)
 $data
 
 $jobs
-$functions
-#ifdef CYCLES
+$functions#ifdef CYCLES
 enum { TIMES = 100 };
 
 static void timed(const char *name, void (*run)(void))
