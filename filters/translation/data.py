@@ -38,6 +38,7 @@ class Data:
     lines: list[str] = field(default_factory=list)
     sizes: dict[str, int] = field(default_factory=dict)
     _names: dict[int, str] = field(default_factory=dict)
+    _taken: set[str] = field(default_factory=set)
     _held: list[Any] = field(default_factory=list)  # so that no other array gets the identity of one that is named
 
     def record(self, name: str, value: Any, kind: Record, placing: Placing) -> None:
@@ -73,6 +74,7 @@ class Data:
             begin += f" = {self._listed(value, kept.name)}"
         elif kept.constant:
             begin += f" = {'{' * value.ndim}0{'}' * value.ndim}"
+        self._taken.add(kept.name)
         if not kept.constant:
             self.sizes[kept.name] = value.size
         self.lines += map(_broken, f"{begin};".splitlines())
@@ -83,6 +85,8 @@ class Data:
             return "NULL"
         if id(value) not in self._names:
             self._held.append(value)
+            while kept.name in self._taken:  # a.b_c and a_b.c
+                kept = kept._replace(name=f"{kept.name}_")
             self.array(kept, value, kind.item)
             cast = f"({pointer(kind, '')})" if kept.constant else ""
             self._names[id(value)] = f"{cast}{kept.name}"

@@ -48,11 +48,8 @@ def _of_job(kind: str, job: Job, in_c: Jobs, data: Data, shared: dict[int, tuple
     """What runs it, and what compares. shared: see `rounded`."""
     done, unit = in_c.by_kind[kind], in_c.unit
     arguments = rounded(job.arguments(ARGUMENTS), unit.precision, shared)
-    given, kinds = (
-        dict(zip(done.parameters, arguments, strict=True)),
-        dict(zip(done.parameters, done.kinds, strict=True)),
-    )
-    texts = {name: _argument(f"{kind}_{name}", given[name], kinds[name], data) for name in done.used}
+    given = {name: (value, part) for name, value, part in zip(done.parameters, arguments, done.kinds, strict=True)}
+    texts = {name: _argument(f"{kind}_{name}", *given[name], data) for name in done.used}
     memory = {name: f"{kind}_{name}" for name in done.memory}
     for name, array in done.memory.items():
         data.array(Kept(memory[name]), np.zeros([length or 0 for length in array.shape]))

@@ -61,6 +61,4 @@ def _memory(wanted: Filter, in_c: Jobs, sizes: Mapping[str, int], on_core: Compi
 
 def _wraps(in_c: Jobs) -> str:
     used = any(name in job.used for job in in_c.by_kind.values() for name in ("j", "k"))
-    return (
-        "The model depends on the step, which is counted in an `int`: " if used else "Steps are counted in an `int`: "
-    )
+    return f"{'The model depends on the step, which is' if used else 'Steps are'} counted in an `int`: "

@@ -50,6 +50,18 @@ def test_constants_are_cast_where_they_are_pointed_at() -> None:
     ]
 
 
+def test_no_two_arrays_have_one_name() -> None:
+    class Other(NamedTuple):
+        a_b: Any
+        a: Any
+
+    data, value = Data(Unit()), Other(np.zeros(1), Pair(np.zeros(2), np.zeros(3)))
+    kind = kind_of(value)
+    assert isinstance(kind, Record)
+    data.record("x", value, kind, lambda names: Kept("_".join(names)))
+    assert data.lines[-1] == "static const Other x = {x_a_b, {x_a_a, x_a_b_}};"
+
+
 def test_what_nothing_needs_takes_no_memory() -> None:
     lines = declared(Pair(np.zeros(2), np.zeros(3)), without="b")
     assert lines == ["static real pair_a[2];", "static const Pair pair = {pair_a, NULL};"]
