@@ -6,6 +6,7 @@ import shutil
 import subprocess
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from unittest.mock import patch
 
 import numpy as np
 import pytest
@@ -34,10 +35,15 @@ def written(
     update: CovarianceFormName = "textbook",
     precision: Precision = "double",
     steps: Steps | None = None,
+    for_a_core: bool = False,
 ) -> dict[str, str]:
-    """The files of a filter."""
+    """The files of a filter. for_a_core: whether the cross compiler is asked for sizes, which takes a while."""
     start = np.zeros(system.states) if x0 is None else x0
-    return board_files(Filter(method, system, start, update, precision, steps, "sched-sim code"))
+    wanted = Filter(method, system, start, update, precision, steps, "sched-sim code")
+    if for_a_core:
+        return board_files(wanted)
+    with patch("studies.board.write.compiled", lambda *_: None):
+        return board_files(wanted)
 
 
 def put(folder: Path, files: Mapping[str, str]) -> None:

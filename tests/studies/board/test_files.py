@@ -76,7 +76,7 @@ def test_jobs_of_other_methods(method: str, precision: Precision, tmp_path: Path
         ("larsen", Steps(6, 4, 4)),
     ],
 )
-@pytest.mark.parametrize("name", ["scratch", "vehicle"])
+@pytest.mark.parametrize("name", ["scratch", pytest.param("vehicle", marks=pytest.mark.exhaust)])
 def test_serial_methods_give_the_bits_of_python(name: str, method: str, steps: Steps, tmp_path: Path) -> None:
     """Whole runs: `steps` in what is said."""
     system, x0 = MODELS[name]
@@ -118,7 +118,7 @@ def test_the_example_for_freertos_compiles(name: str, tmp_path: Path) -> None:
 @needs_arm_gcc
 @each_precision
 def test_for_a_cortex_m(precision: Precision, tmp_path: Path) -> None:
-    files = written(MODELS["vehicle"][0], x0=DRIVING, precision=precision, steps=STEPS)
+    files = written(MODELS["vehicle"][0], x0=DRIVING, precision=precision, steps=STEPS, for_a_core=True)
     put(tmp_path, files)
     build(tmp_path, "-O2", "-c", *SOURCES, "test.c", compiler=ARM)
     found = compiled(files, SOURCES, precision)
@@ -130,13 +130,13 @@ def test_for_a_cortex_m(precision: Precision, tmp_path: Path) -> None:
 
 def test_without_a_cross_compiler_the_rest_is_written(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(shutil, "which", lambda _: None)
-    said = written(MODELS["linear"][0], steps=STEPS)["README.md"]
+    said = written(MODELS["linear"][0], steps=STEPS, for_a_core=True)["README.md"]
     assert "code and stack are not known" in said
     assert "| RAM of LR: arrays of state.h |" in said
 
 
 def test_the_same_files_each_time() -> None:
-    assert written(pendulum(), steps=STEPS) == written(pendulum(), steps=STEPS)
+    assert written(pendulum(), steps=STEPS, for_a_core=True) == written(pendulum(), steps=STEPS, for_a_core=True)
 
 
 @pytest.mark.parametrize("name", MODELS)
