@@ -9,8 +9,8 @@ from typing import NamedTuple
 
 from filters.jobs import Job
 from filters.translation.kinds import Kind, Record, kind_of
-from filters.translation.names import c_name
 from filters.translation.library import Precision, Translated
+from filters.translation.names import c_name
 from filters.translation.unit import Unit
 
 
