@@ -17,7 +17,6 @@ As in `clone` the HR job of step m corrects the estimate that the step before ha
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -29,6 +28,7 @@ from filters.covariance_forms import CovarianceFormName, covariance_form
 from filters.covariance_forms.form import CovarianceForm
 from filters.delayed.clone import CARRY
 from filters.delayed.cloned import carry, compensate
+from filters.delayed.flights import steps
 from filters.delayed.standard import PROPAGATE, propagate
 from filters.history import History, HistoryRecorder
 from filters.jobs import JobKind
@@ -149,6 +149,10 @@ class CarriedGain:
                 self._compensate(expected, later.missed.pop(landed.k), correction.z, later.expected)
         return correction._replace(K=landed.flight.K, delta_x=landed.flight.K @ correction.z)
 
+    def reference(self) -> Estimate:
+        """The estimate, and its covariance once all on its way has landed; for the record."""
+        return Estimate(self.x, self.P)
+
     def error_covariance(self) -> FloatArray:
         """That of x, now: P + sum of B S B^T."""
         return sum((flight.B @ flight.flight.S @ flight.B.T for flight in self._flights), start=self.P)
@@ -176,7 +180,7 @@ def run(
     """
     problem = check_problem(system, N, M, L, x0, P0, inputs, measurements, several=True)
     recorder = HistoryRecorder(system)
-    for filtered in _steps(problem, system, N, M, update, backend, recorder):
+    for filtered in steps(CarriedGain(problem, system, update, backend), problem, N, M, recorder):
         recorder.state(filtered.x)
     return check_history(recorder.history(), recorder.references().x, problem, N, sturdier(update), backend)
 
@@ -200,40 +204,11 @@ def error_covariances(
     """
     problem = check_problem(system, N, M, M, x0, P0, inputs, measurements, several=True)
     recorder, covariances = HistoryRecorder(system), []
-    for filtered in _steps(problem, system, N, M, update, backend, recorder):
+    for filtered in steps(CarriedGain(problem, system, update, backend), problem, N, M, recorder):
         recorder.state(filtered.x)
         covariances.append(filtered.error_covariance())
     check_history(recorder.history(), recorder.references().x, problem, N, sturdier(update), backend)
     return np.array(covariances)
-
-
-def _steps(
-    problem: Problem,
-    system: System,
-    N: int,
-    M: int,
-    update: CovarianceFormName,
-    backend: BackendName,
-    recorder: HistoryRecorder,
-) -> Iterator[CarriedGain]:
-    """The filter at the end of every step; references and corrections are recorded."""
-    moves, y = problem.inputs, problem.measured.y
-    filtered = CarriedGain(problem, system, update, backend)
-    for j in range(len(moves) + 1):
-        k = j - M
-        arrives = k >= 0 and k % N == 0 and k // N < len(y)
-        if arrives and M > 0:
-            recorder.correction(filtered.land(y[k // N]))
-        if j > 0:
-            filtered.propagate(j - 1, moves[j - 1])
-        if j % N == 0:
-            recorder.reference(filtered.x, filtered.P)
-            if j // N < len(y):
-                filtered.take(j)
-        if arrives and M == 0:
-            recorder.correction(filtered.land(y[k // N]))
-        yield filtered
-    recorder.keep_known(len(y))
 
 
 def _take(system: System, form: CovarianceForm, at: Sample) -> tuple[Any, ...]:

@@ -24,8 +24,9 @@ from filters.backends.choose import BackendName
 from filters.breakdown import check_history, sturdier
 from filters.covariance_forms import CovarianceFormName, covariance_form
 from filters.covariance_forms.form import CovarianceForm
-from filters.delayed.clone_loop import Jobs, steps
 from filters.delayed.cloned import Clone, carry, compensate, correct, couple, cross, divide, new_clone
+from filters.delayed.cloning import Cloning, Jobs
+from filters.delayed.flights import steps
 from filters.delayed.standard import PROPAGATE
 from filters.history import History, HistoryRecorder
 from filters.jobs import JobKind
@@ -86,10 +87,9 @@ def run(
     """
     problem = check_problem(system, N, M, L, x0, P0, inputs, measurements, several=True)
     recorder = HistoryRecorder(system)
-    for estimate in steps(
-        problem, system, N, M, covariance_form(update), Jobs(start, cloned_update), backend, recorder
-    ):
-        recorder.state(estimate.x)
+    cloning = Cloning(problem, system, covariance_form(update), Jobs(start, cloned_update), backend)
+    for filtered in steps(cloning, problem, N, M, recorder):
+        recorder.state(filtered.now.x)
     return check_history(recorder.history(), recorder.references().x, problem, N, sturdier(update), backend)
 
 

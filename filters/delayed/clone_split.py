@@ -21,8 +21,9 @@ from filters.breakdown import check_history, sturdier
 from filters.covariance_forms import CovarianceFormName, covariance_form, short
 from filters.covariance_forms.form import CovarianceForm
 from filters.delayed.clone import CARRY, sampled, start_arguments
-from filters.delayed.clone_loop import Jobs, steps
 from filters.delayed.cloned import Clone, correct, cross, divide
+from filters.delayed.cloning import Cloning, Jobs
+from filters.delayed.flights import steps
 from filters.delayed.standard import PROPAGATE
 from filters.history import History, HistoryRecorder
 from filters.jobs import JobKind
@@ -95,8 +96,9 @@ def run(
     """
     problem = check_problem(system, N, M, L, x0, P0, inputs, measurements)
     recorder = HistoryRecorder(system)
-    for estimate in steps(problem, system, N, M, split_form(update), Jobs(start, late_update), backend, recorder):
-        recorder.state(estimate.x)
+    cloning = Cloning(problem, system, split_form(update), Jobs(start, late_update), backend)
+    for filtered in steps(cloning, problem, N, M, recorder):
+        recorder.state(filtered.now.x)
     return check_history(recorder.history(), recorder.references().x, problem, N, sturdier(update), backend)
 
 

@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 
 from filters.covariance_forms import COVARIANCE_FORMS, covariance_form
 from filters.delayed import carried_gain, clone, clone_split, larsen, recalculate
-from filters.delayed.clone_loop import Jobs, steps
+from filters.delayed.cloning import Cloning, Jobs
+from filters.delayed.flights import steps
 from filters.history import HistoryRecorder
 from filters.problem import check_problem
 from filters.systems.example import example_system
@@ -39,11 +40,12 @@ def test_its_covariance_is_that_of_its_error_in_every_step(form: str, of: Proble
     """Which the carried gain knows from what is on its way, and a test holds to the joint distribution."""
     checked = check_problem(*of, several=True)
     jobs, recorder = Jobs(clone.start, clone.cloned_update), HistoryRecorder(of.system)
-    run = steps(checked, of.system, of.N, of.M, covariance_form(form), jobs, "numpy", recorder)
+    cloning = Cloning(checked, of.system, covariance_form(form), jobs, "numpy")
+    run = steps(cloning, checked, of.N, of.M, recorder)
     system, N, M, _, *data = of
     expected = carried_gain.error_covariances(system, N, M, *data, backend="numpy")
-    for estimate, P in zip(run, expected, strict=True):
-        assert relative_difference(estimate.P, P) <= RELATIVE
+    for filtered, P in zip(run, expected, strict=True):
+        assert relative_difference(filtered.now.P, P) <= RELATIVE
 
 
 @pytest.mark.slow

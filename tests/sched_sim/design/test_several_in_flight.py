@@ -11,7 +11,7 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from filters.delayed import clone, clone_loop, high_rate_task, larsen, larsen_in_flight, low_rate_task
+from filters.delayed import clone, cloning, high_rate_task, larsen, larsen_in_flight, low_rate_task
 from filters.delayed import dual_rate as dual_rate_filter
 from filters.systems.example import example_system
 from sched_sim.costs.table_file import load_costs
@@ -378,7 +378,7 @@ def test_the_filter_does_the_products_that_are_scheduled(monkeypatch: pytest.Mon
 def test_the_filter_does_the_cloning_that_is_scheduled(monkeypatch: pytest.MonkeyPatch) -> None:
     """Each kind of job as often as its parts say; a start is what is crossed, coupled apart, and divided."""
     N, M, steps = 4, 11, 39
-    counter = Counter(monkeypatch, clone_loop)
+    counter = Counter(monkeypatch, cloning)
     clone.run(*problem(example_system(3, 1, 1), N, M, M, steps, seed=1), backend="reference")
     starts = counter.calls["start"] + counter.calls["divide"]
     assert counter.calls["divide"] == counter.calls["cross"]

@@ -1,9 +1,9 @@
-"""Stochastic cloning, step by step, with any number of measurements on their way."""
+"""Stochastic cloning with any number of measurements on their way."""
 
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
@@ -14,7 +14,6 @@ from filters.backends.choose import BackendName, arguments_for, function_for
 from filters.covariance_forms.form import CovarianceForm
 from filters.delayed.cloned import Clone, carry, compensate, correct, couple, cross, divide, gain_at_k, new_clone
 from filters.delayed.standard import propagate
-from filters.history import HistoryRecorder
 from filters.problem import Problem
 from filters.records import Correction, Estimate, new_correction, new_estimate, new_workspace
 from filters.system import System
@@ -100,33 +99,3 @@ class Cloning:
             as_expected, z = flight.clone.expected, np.empty(self._size.measurements)
             self._correct(self._form, as_expected, flight.clone, flight.W, before, estimate, z, self._work)
         return estimate
-
-
-def steps(
-    problem: Problem,
-    system: System,
-    N: int,
-    M: int,
-    form: CovarianceForm,
-    jobs: Jobs,
-    backend: BackendName,
-    recorder: HistoryRecorder,
-) -> Iterator[Estimate]:
-    """The estimate at the end of every step; references and corrections are recorded."""
-    moves, y = problem.inputs, problem.measured.y
-    filtered = Cloning(problem, system, form, jobs, backend)
-    for j in range(len(moves) + 1):
-        k = j - M
-        arrives = k >= 0 and k % N == 0 and k // N < len(y)
-        if arrives and M > 0:
-            recorder.correction(filtered.land(y[k // N]))
-        if j > 0:
-            filtered.propagate(j - 1, moves[j - 1])
-        if j % N == 0:
-            recorder.reference(*filtered.reference())
-            if j // N < len(y):
-                filtered.take(j)
-        if arrives and M == 0:
-            recorder.correction(filtered.land(y[k // N]))
-        yield filtered.now
-    recorder.keep_known(len(y))
