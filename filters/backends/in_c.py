@@ -13,8 +13,9 @@ import os
 import shutil
 import subprocess
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
 from functools import cache
+from itertools import count
 from pathlib import Path
 from types import FunctionType
 from typing import Any
@@ -23,8 +24,11 @@ import numpy as np
 
 from filters.backends.disk_cache import cache_folder
 from filters.translation.kinds import Array, Flag, Int, Kind, Nothing, Real, Record, kind_of, lasts
-from filters.translation.library import Translated
 from filters.translation.names import c_name
+from filters.translation.origins import Path as Origin
+from filters.translation.overlaps import Pair
+from filters.translation.prototype import declared, passed
+from filters.translation.translated import Translated
 from filters.translation.unit import Unit
 
 FLAGS = ("-std=c99", "-O3", "-march=native", "-ffp-contract=off", "-fno-math-errno", "-fPIC", "-shared")
@@ -83,15 +87,40 @@ class InC:
         return self._for(arguments).loop(arguments)
 
     def _for(self, arguments: tuple[Any, ...]) -> _Loaded:
-        return _loaded(self._function, tuple(kind_of(argument) for argument in arguments))
+        names = self._function.__code__.co_varnames
+        given = [(c_name(name), argument) for name, argument in zip(names, arguments, strict=False)]
+        kinds = tuple(kind_of(argument) for argument in arguments)
+        return _loaded(self._function, kinds, overlapping(given))
+
+
+def overlapping(arguments: Iterable[tuple[str, Any]]) -> frozenset[Pair]:
+    """Which arrays among arguments of these names share memory."""
+    spans = sorted(span for name, value in arguments for span in _spans(value, (name,)))
+    pairs: set[Pair] = set()
+    for index, (_, end, path) in enumerate(spans):
+        for start, _, other in spans[index + 1 :]:
+            if start >= end:
+                break
+            pairs.add(frozenset((path, other)))
+    return frozenset(pairs)
+
+
+def _spans(value: Any, path: Origin) -> Iterator[tuple[int, int, Origin]]:
+    """Where each array in it begins and ends."""
+    if isinstance(value, np.ndarray):
+        start = value.ctypes.data
+        yield start, start + value.nbytes, path
+    elif isinstance(value, tuple):
+        for name, item in zip(getattr(value, "_fields", None) or map("f{}".format, count()), value, strict=False):
+            yield from _spans(item, (*path, name))
 
 
 @cache
-def _loaded(function: FunctionType, kinds: tuple[Kind, ...]) -> _Loaded:
-    unit = Unit(public=frozenset({function}))
+def _loaded(function: FunctionType, kinds: tuple[Kind, ...], pairs: frozenset[Pair]) -> _Loaded:
+    unit = Unit(public=frozenset({function}), overlapping=pairs)
     translated = unit.function(function, kinds)
-    declared, passed = ", ".join([*translated.declared, "int times"]), ", ".join(translated.passed)
-    loop = _LOOP.format(declared=declared, name=translated.name, passed=passed)
+    head = ", ".join([*declared(translated, unit.record_name), "int times"])
+    loop = _LOOP.format(declared=head, name=translated.name, passed=", ".join(passed(translated)))
     source = _FAULT + unit.header("FILTER_H") + unit.source("").partition("\n")[2] + _TAKE_FAULT + loop
     return _Loaded(translated, _library(source))
 

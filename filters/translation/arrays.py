@@ -75,7 +75,8 @@ def item(value: Value, index: str) -> Value:
     parts = index[1:-1].split("][")
     for axis, skipped in enumerate(value.kind.skipped, 1):
         parts[axis] += f" + {skipped}" if skipped else ""
-    return Value(f"{value.within(POSTFIX)}[{']['.join(parts)}]", number_of(value.kind.item), POSTFIX)
+    text = f"{value.within(POSTFIX)}[{']['.join(parts)}]"
+    return Value(text, number_of(value.kind.item), POSTFIX, origins=value.origins)
 
 
 def filled(array: Value, shape: Sequence[int | str | None], number: Callable[[str], str]) -> list[str]:

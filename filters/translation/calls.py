@@ -27,6 +27,8 @@ from filters.translation.kinds import (
     parameter_of,
 )
 from filters.translation.made import as_real, chosen, constant, make_record, shape_of, truth
+from filters.translation.names import c_name
+from filters.translation.origins import in_caller
 from filters.translation.values import CHOICE, COMPARED, POSTFIX, UNARY, Value
 
 _OF_NUMBERS = {
@@ -111,13 +113,18 @@ def _translated(body: Body, node: ast.Call, callee: Function, returned: bool) ->
         if value.rows:
             texts.append(value.rows)
     passing = any(value.passing for value in values)
+    origins = {c_name(name): value.origins for name, value in given.items()}
     for name, kind in done.memory.items():
         memory = body.array(name, kind, returned=returned)
         texts.append(memory.text)
         passing |= memory.passing
+        origins[name] = memory.origins
+    if not done.is_known:
+        body.calls(done, origins)
     text = f"{done.name}({', '.join(texts)})"
     if lasts(done.result) or done.result == NOTHING:
-        return Value(text, done.result, POSTFIX, passing=passing)
+        result_origins = in_caller(done.result_origins, origins)
+        return Value(text, done.result, POSTFIX, passing=passing, origins=result_origins)
     if not done.is_known:
         body.before.append(f"(void){text};")
     return constant(body, done.result.known) if isinstance(done.result, Int | Flag) else Value("", done.result)

@@ -12,8 +12,9 @@ import numpy as np
 from filters.translation.declarations import memory, pointer
 from filters.translation.kinds import Array, Kind, Real, Record, lasts
 from filters.translation.library import Precision
+from filters.translation.prototype import WIDTH
 from filters.translation.refusal import Untranslatable
-from filters.translation.unit import WIDTH, Unit
+from filters.translation.unit import Unit
 
 
 class Kept(NamedTuple):

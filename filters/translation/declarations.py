@@ -27,10 +27,12 @@ def pointer(kind: Array, name: str) -> str:
     return f"{kind.item} (*{name}){inner}" if inner else f"{kind.item} *{name}"
 
 
-def parameter(kind: Array, name: str) -> str:
-    """An array as a parameter."""
-    lengths = [kind.shape[0], *kind.inner]
-    return f"{kind.item} {name}" + "".join("[]" if length is None else f"[{length or 1}]" for length in lengths)
+def parameter(kind: Array, name: str, *, apart: bool) -> str:
+    """An array as a parameter. apart: whether it shares no memory with others."""
+    lengths = ["" if length is None else str(length or 1) for length in (kind.shape[0], *kind.inner)]
+    if apart:
+        lengths[0] = f"restrict {lengths[0]}".rstrip()
+    return f"{kind.item} {name}" + "".join(f"[{length}]" for length in lengths)
 
 
 def memory(kind: Array, name: str) -> str:

@@ -134,12 +134,14 @@ def _element(body: Body, node: ast.expr, base: Value, kind: Array, items: list[a
     text = base.within(POSTFIX) + "".join(f"[{start}]" for start in starts[:at])
     if not lengths and not rest:
         found = number_of(kind.item)
-        return Value(f"(int){text}", found, UNARY) if isinstance(found, Int) else Value(text, found, POSTFIX)
+        text, level = (f"(int){text}", UNARY) if isinstance(found, Int) else (text, POSTFIX)
+        return Value(text, found, level, origins=base.origins)
     begins = (*map(int, starts[at:]), *begins[len(starts) :])
     result = Array(kind.item, (*lengths, *rest), kind.inner[at:], begins[1:] if any(begins[1:]) else ())
     if begins[0]:
-        return Value(f"&{text}[{begins[0]}]", result, UNARY, passing=base.passing)
-    return Value(text, result, POSTFIX, rows=base.rows if at == 0 else "", passing=base.passing)
+        return Value(f"&{text}[{begins[0]}]", result, UNARY, passing=base.passing, origins=base.origins)
+    rows = base.rows if at == 0 else ""
+    return Value(text, result, POSTFIX, rows=rows, passing=base.passing, origins=base.origins)
 
 
 def _moved(index: str, offset: int) -> str:

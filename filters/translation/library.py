@@ -13,50 +13,28 @@ import numpy as np
 
 from filters.translation.declarations import memory, variable
 from filters.translation.helpers import HELPERS
-from filters.translation.kinds import NOTHING, Array, Kind, Record, lasts
+from filters.translation.kinds import Array, Kind, Record, lasts
 from filters.translation.names import c_name
+from filters.translation.overlaps import Pair, apart
+from filters.translation.prototype import prototype
 from filters.translation.refusal import Untranslatable
+from filters.translation.source import source_of
+from filters.translation.translated import Translated
 
 Precision: TypeAlias = Literal["single", "double"]
 INDENT = "    "
 
 
-@dataclass(frozen=True)
-class Translated:
-    """A function in C.
-
-    parameters: as in Python. used: those that are left in C. memory: arrays that the caller gives behind them.
-    declared: what stands in the parentheses of its prototype; passed: what is given for it, of the same names.
-    calls: what it calls itself.
-    """
-
-    name: str
-    parameters: tuple[str, ...]
-    kinds: tuple[Kind, ...]
-    used: tuple[str, ...]
-    memory: dict[str, Array]
-    declared: tuple[str, ...]
-    passed: tuple[str, ...]
-    result: Kind
-    prototype: str
-    text: str
-    calls: tuple[str, ...]
-
-    @property
-    def is_known(self) -> bool:
-        """Whether what it returns is known while translating, and it can do nothing else."""
-        if self.result == NOTHING or lasts(self.result) or self.calls or "FAULT(" in self.text:
-            return False
-        kinds = dict(zip(self.parameters, self.kinds, strict=True))
-        return not any(isinstance(kinds[name], Array | Record) for name in self.used)
-
-
 @dataclass
 class Library(ABC):
-    """precision: of `real`. public: the functions that others call, whose names stay as they are."""
+    """precision: of `real`. public: the functions that others call, whose names stay as they are.
+
+    overlapping: what may share memory among the arguments of these; None: anything.
+    """
 
     precision: Precision = "double"
     public: frozenset[FunctionType] = frozenset()
+    overlapping: frozenset[Pair] | None = None
     records: dict[Record, str] = field(default_factory=dict)
     helpers: set[str] = field(default_factory=set)
 
@@ -65,7 +43,6 @@ class Library(ABC):
     _taken: dict[str, int] = field(default_factory=dict)
     _constants: dict[str, str] = field(default_factory=dict)
     _tables: dict[bytes, tuple[str, str]] = field(default_factory=dict)
-    _calls: list[list[str]] = field(default_factory=list)
 
     def function(self, function: FunctionType, kinds: tuple[Kind, ...]) -> Translated:
         """The function for arguments of these kinds, translated when it is first asked for.
@@ -77,16 +54,11 @@ class Library(ABC):
             raise Untranslatable(f"{function.__module__}.{function.__qualname__} calls itself; write a loop")
         if (function, kinds) not in self._functions:
             self._open.append(function)
-            self._calls.append([])
             try:
                 self._functions[function, kinds] = self._translate(function, kinds)
             finally:
                 self._open.pop()
-                self._calls.pop()
-        done = self._functions[function, kinds]
-        if self._calls and not done.is_known:
-            self._calls[-1].append(done.name)
-        return done
+        return self._functions[function, kinds]
 
     def number(self, value: float) -> str:
         """A number as it is written in C."""
@@ -127,9 +99,18 @@ class Library(ABC):
         """Those of the file, by their name in C."""
         return {each.name: each for each in self._reached()}
 
+    def apart(self) -> dict[str, frozenset[str]]:
+        """By function, its parameters that share no memory with others, see `overlaps`."""
+        reached, known = self._reached(), self.overlapping
+        called = {each.name: each.effects.pairs() if known is None else known for each in reached if each.is_public}
+        return apart({each.name: each.effects for each in reached}, called)
+
     def header(self, guard: str) -> str:
         """What others see: types and public functions."""
-        functions = "\n\n".join(f"{each.prototype};" for each in self._reached() if self._is_public(each))
+        apart = self.apart()
+        functions = "\n\n".join(
+            f"{prototype(each, self.record_name, apart[each.name])};" for each in self._reached() if each.is_public
+        )
         real = {"single": "float", "double": "double"}[self.precision]
         return (
             f"#ifndef {guard}\n#define {guard}\n\n#include <stdbool.h>\n#include <stdint.h>\n\ntypedef {real} real;\n\n"
@@ -140,8 +121,12 @@ class Library(ABC):
 
     def source(self, header: str) -> str:
         """The file itself."""
-        reached = self._reached()
-        bodies = "\n".join(each.text for each in reached)
+        apart = self.apart()
+        bodies = "\n".join(
+            f"{_comment(source_of(each.function).doc)}{prototype(each, self.record_name, apart[each.name])}\n"
+            f"{{\n{each.inside}\n}}\n"
+            for each in self._reached()
+        )
         helpers = "\n".join(
             text.replace("{f}", "f" if self.precision == "single" else "")
             for name, text in HELPERS.items()
@@ -159,16 +144,13 @@ class Library(ABC):
         """Those that public ones need: a translation that was begun again may have left others."""
         by_name = {each.name: each for each in self._functions.values()}
         needed: set[str] = set()
-        waiting = [each.name for each in by_name.values() if self._is_public(each)]
+        waiting = [each.name for each in by_name.values() if each.is_public]
         while waiting:
             name = waiting.pop()
             if name not in needed:
                 needed.add(name)
                 waiting += by_name[name].calls
         return [each for each in by_name.values() if each.name in needed]
-
-    def _is_public(self, each: Translated) -> bool:
-        return not each.prototype.startswith("static")
 
     def _types(self) -> str:
         texts = []
@@ -196,3 +178,8 @@ class Library(ABC):
     @abstractmethod
     def _translate(self, function: FunctionType, kinds: tuple[Kind, ...]) -> Translated:
         """The function for arguments of these kinds."""
+
+
+def _comment(doc: str) -> str:
+    lines = doc.replace("*/", "* /").splitlines()
+    return "/* " + "\n".join([*lines[:1], *(f"   {line}".rstrip() for line in lines[1:])]) + " */\n" if doc else ""

@@ -27,6 +27,7 @@ from filters.translation.kinds import (
     variable_of,
 )
 from filters.translation.names import c_name
+from filters.translation.origins import TABLES, as_field, of_field, wholly
 from filters.translation.values import CHOICE, COMPARED, OR, POSTFIX, PRIMARY, UNARY, Value
 
 
@@ -46,7 +47,7 @@ def constant(body: Body, value: Any, name: str = "") -> Value:
     if isinstance(value, np.ndarray):
         kind = kind_of(value)
         assert isinstance(kind, Array)
-        return Value(body.unit.table(name, value, kind), kind)
+        return Value(body.unit.table(name, value, kind), kind, origins=wholly(TABLES))
     return Value("", Constant(value))
 
 
@@ -67,6 +68,7 @@ def make_record(body: Body, made_by: type[Any] | None, values: list[Value]) -> V
         kind,
         POSTFIX,
         passing=any(value.passing for value in values),
+        origins=frozenset().union(*(as_field(value.origins, name) for name, value in zip(names, values, strict=True))),
     )
 
 
@@ -88,7 +90,8 @@ def field(body: Body, node: ast.AST, base: Value, name: str) -> Value:
             return constant(body, kind.known)
     text = f"{base.within(POSTFIX)}{'->' if base.by_pointer else '.'}{c_name(name)}"
     rows = f"{text}_rows" if isinstance(kind, Array) and kind.is_long else ""
-    return Value(text if lasts(kind) else "", kind, POSTFIX, rows=rows, passing=base.passing)
+    origins = of_field(base.origins, name)
+    return Value(text if lasts(kind) else "", kind, POSTFIX, rows=rows, passing=base.passing, origins=origins)
 
 
 def number_of(item: str) -> Kind:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 
 from filters.translation.arrays import copied, filled, item
-from filters.translation.body import Body, Widened
+from filters.translation.body import Body, Elsewhere, Widened
 from filters.translation.declarations import variable
 from filters.translation.expressions import binary, expression
 from filters.translation.kinds import (
@@ -196,7 +196,7 @@ def _over_items(body: Body, statement: ast.For, name: str, text: str, over: Valu
         return []
     rest = over.kind.shape[1:]
     item: Kind = Array(over.kind.item, rest, over.kind.inner[1:]) if rest else number_of(over.kind.item)
-    body.names[name] = Value(text, item)
+    body.names[name] = Value(text, item, origins=over.origins)
     declared = f"{variable(item, text, body.unit.record_name)} = {over.within(POSTFIX)}[{index}];"
     inside = _in_loop(body, statement.body)
     return _braced(f"for (int {index} = 0; {index} < {rows}; {index}++)", [declared, *inside])
@@ -213,6 +213,7 @@ def _return(body: Body, statement: ast.Return) -> list[str]:
         body.result = kind
     elif body.result != kind:
         body.result = _common(body, statement, body.result, kind)
+    body.result_origins |= value.origins
     text = f"*{value.within(UNARY)}" if value.by_pointer else value.text
     return [f"return {text};" if text else "return;"]
 
@@ -238,6 +239,8 @@ def _augmented(body: Body, statement: ast.AugAssign) -> list[str]:
     target, value = expression(body, statement.target), expression(body, statement.value)
     sign = _SIGNS.get(type(statement.op))
     result = binary(body, statement, statement.op, target, value)
+    if isinstance(statement.target, ast.Subscript) or isinstance(target.kind, Array):
+        body.writes |= target.origins
     if isinstance(target.kind, Array):
         shape = [target.rows if length is None else length for length in target.kind.shape]
         return filled(target, shape, lambda index: item(result, index).text)
@@ -312,7 +315,8 @@ def _to_name(body: Body, statement: ast.stmt, name: str, value: Value, undeclare
         value = as_real(value)
     right = f"*{value.within(UNARY)}" if value.by_pointer else value.text
     if known is None:
-        body.names[name] = Value(text, kind, passing=value.passing)
+        origins = value.origins | body.also.get(name, frozenset())
+        body.names[name] = Value(text, kind, passing=value.passing, origins=origins)
         if name in undeclared:
             undeclared.discard(name)
             const = "const " if once and not isinstance(kind, Array) else ""
@@ -323,6 +327,8 @@ def _to_name(body: Body, statement: ast.stmt, name: str, value: Value, undeclare
         raise body.source.refusal(statement, f"{name} is a parameter; give the new value another name")
     if variable_of(value.kind) != known.kind and not isinstance(known.kind, Int | Real | Flag):
         raise body.source.refusal(statement, f"{name} gets another kind of value, or another shape, than before")
+    if isinstance(kind, Array | Record) and not value.origins <= known.origins:
+        raise Elsewhere(name, value.origins | known.origins)
     return [f"{text} = {right};"]
 
 
@@ -333,6 +339,7 @@ def _is_within_loop(body: Body, name: str) -> bool:
 
 def _to_element(body: Body, statement: ast.stmt, target: ast.Subscript, value: Value) -> list[str]:
     left = expression(body, target)
+    body.writes |= left.origins
     if not isinstance(left.kind, Array):
         if not isinstance(value.kind, Int | Real | Flag):
             raise body.source.refusal(statement, "one number is given something that is none")
@@ -371,7 +378,7 @@ def _parts_to(
             if value.level > POSTFIX or "(" in value.text:
                 name = body.fresh("parts")
                 lines.append(f"const {variable(value.kind, name, body.unit.record_name)} = {value.text};")
-                value = Value(name, value.kind, passing=value.passing)
+                value = Value(name, value.kind, passing=value.passing, origins=value.origins)
             items = [field(body, statement, value, name) for name, _ in fields]
             return lines + _each(body, statement, targets, items, undeclared)
     raise body.source.refusal(statement, "what is unpacked must be a tuple whose length is known")
@@ -394,7 +401,7 @@ def _in_parallel(
             kind = variable_of(right.kind)
             const = "" if isinstance(kind, Array) else "const "
             lines.append(f"{const}{variable(kind, name, body.unit.record_name)} = {text};")
-            rights[index] = Value(name, right.kind, passing=right.passing)
+            rights[index] = Value(name, right.kind, passing=right.passing, origins=right.origins)
     return lines + _each(body, statement, targets, rights, undeclared)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from filters.translation.kinds import Kind
+from filters.translation.origins import ANYWHERE, Origins
 
 PRIMARY, POSTFIX, UNARY, PRODUCT, SUM, COMPARED, AND, OR, CHOICE = 0, 1, 2, 3, 4, 6, 11, 12, 13
 """How tightly operators bind, the tightest first, as the C standard numbers them."""
@@ -15,7 +16,8 @@ class Value:
     """text, and the level at which its outermost operator binds.
 
     by_pointer: it is a record, and the text a pointer to one. rows: of a long array, how many it has.
-    passing: it is in memory that the next round of a loop fills anew.
+    passing: it is in memory that the next round of a loop fills anew. origins: of an array, of those in a record, or of
+    the array that it is a number of.
     """
 
     text: str
@@ -24,6 +26,7 @@ class Value:
     by_pointer: bool = False
     rows: str = ""
     passing: bool = False
+    origins: Origins = ANYWHERE
 
     def within(self, level: int) -> str:
         """The text, in parentheses where operators of this level would tear it apart."""

@@ -9,7 +9,8 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import NamedTuple
 
-from filters.translation.library import Precision, Translated
+from filters.translation.library import Precision
+from filters.translation.translated import Translated
 
 COMPILER, SIZE = "arm-none-eabi-gcc", "arm-none-eabi-size"
 FLAGS = ("-std=c99", "-O2", "-mthumb", "-ffp-contract=off", "-fno-math-errno", "-fstack-usage", "-c")

@@ -9,8 +9,9 @@ from typing import NamedTuple
 
 from filters.jobs import Job
 from filters.translation.kinds import Kind, Record, kind_of
-from filters.translation.library import Precision, Translated
+from filters.translation.library import Precision
 from filters.translation.names import c_name
+from filters.translation.translated import Translated
 from filters.translation.unit import Unit
 
 

@@ -9,7 +9,7 @@ from typing import NamedTuple
 from filters.jobs import Job
 from filters.registry import ALL_METHODS
 from filters.translation.kinds import LONG
-from filters.translation.unit import wrapped
+from filters.translation.prototype import wrapped
 from sched_sim.errors import InputError, option
 from studies.board import dual_rate, serial
 from studies.board.bits import test_c

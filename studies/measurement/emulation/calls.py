@@ -10,7 +10,7 @@ import numpy as np
 
 from filters.translation.declarations import memory, variable
 from filters.translation.kinds import Array, Kind, Nothing, Real, Record, lasts
-from filters.translation.library import Translated
+from filters.translation.translated import Translated
 from filters.translation.unit import Unit
 
 

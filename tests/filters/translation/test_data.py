@@ -9,8 +9,10 @@ import pytest
 
 from filters.translation.data import Data, Kept, number, rounded
 from filters.translation.kinds import Record, kind_of
+from filters.translation.library import Precision
+from filters.translation.prototype import WIDTH
 from filters.translation.refusal import Untranslatable
-from filters.translation.unit import WIDTH, Precision, Unit
+from filters.translation.unit import Unit
 
 
 class Pair(NamedTuple):

@@ -1,0 +1,70 @@
+"""Functions as they are declared in C."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection
+
+from filters.translation.declarations import parameter, scalar
+from filters.translation.kinds import Array, Kind, Record, lasts
+from filters.translation.names import c_name
+from filters.translation.translated import Translated
+
+WIDTH = 110
+
+
+def prototype(each: Translated, record_name: Callable[[Record], str], apart: Collection[str] = ()) -> str:
+    """Its first line. apart: the parameters that share no memory with others, see `overlaps`."""
+    inside = ", ".join(declared(each, record_name, apart)) or "void"
+    match each.result:
+        case Array(item=item, inner=lengths):
+            inner = "".join(f"[{length or 1}]" for length in lengths)
+            head, tail = (f"{item} (*{each.name}(", f")){inner}") if inner else (f"{item} *{each.name}(", ")")
+        case Record() if not lasts(each.result):
+            head, tail = f"void {each.name}(", ")"
+        case Record():
+            head, tail = f"{record_name(each.result)} {each.name}(", ")"
+        case _:
+            head, tail = f"{scalar(each.result)} {each.name}(", ")"
+    return wrapped(f"{'' if each.is_public else 'static '}{head}{inside}{tail}")
+
+
+def declared(each: Translated, record_name: Callable[[Record], str], apart: Collection[str] = ()) -> list[str]:
+    """Its parameters with their types."""
+    kinds = dict(zip(each.parameters, each.kinds, strict=True))
+    own = [part for name in each.used for part in _parameter(kinds[name], c_name(name), record_name, apart)]
+    return own + [parameter(kind, name, apart=name in apart) for name, kind in each.memory.items()]
+
+
+def passed(each: Translated) -> list[str]:
+    """What is given for them, of the same names."""
+    kinds = dict(zip(each.parameters, each.kinds, strict=True))
+    own = [part for name in each.used for part in _passed(kinds[name], c_name(name))]
+    return own + list(each.memory)
+
+
+def _parameter(kind: Kind, name: str, record_name: Callable[[Record], str], apart: Collection[str]) -> list[str]:
+    match kind:
+        case Array():
+            return [parameter(kind, name, apart=name in apart), *([f"int {name}_rows"] if kind.is_long else [])]
+        case Record():
+            return [f"const {record_name(kind)} *{name}"]
+    return [f"{scalar(kind)} {name}"]
+
+
+def _passed(kind: Kind, name: str) -> list[str]:
+    return [name, f"{name}_rows"] if isinstance(kind, Array) and kind.is_long else [name]
+
+
+def wrapped(line: str) -> str:
+    """Broken behind commas where it is too long."""
+    if len(line) <= WIDTH or ", " not in line or "/*" in line:
+        return line
+    indent = " " * (len(line) - len(line.lstrip()) + 4)
+    lines, rest = [], line
+    while len(rest) > WIDTH:
+        at = rest.rfind(", ", len(indent), WIDTH)
+        if at < 0:
+            break
+        lines.append(rest[: at + 1])
+        rest = indent + rest[at + 2 :]
+    return "\n".join([*lines, rest])
