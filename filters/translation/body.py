@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from types import FunctionType
@@ -34,13 +35,13 @@ class Elsewhere(Exception):  # noqa: N818 - no error either
 
 @dataclass
 class Body:
-    """names: what each local name stands for now. wide: kinds of variables that a first translation found too narrow.
+    """names: what each local name stands for now. wide: kinds of variables that a first translation found too narrow;
     also: origins of variables that it found too few.
 
-    result: the kind of what it returns so far; result_origins: those of all that. writes: origins of what it writes.
-    sites: the calls in it. memory: arrays that the caller gives it for what it returns; own: those
-    of its own. before: lines that an expression needs done before it. loops: the names that were declared when each
-    loop began that is being translated. target: the name that is being assigned to. taken: the names in C.
+    result: the kind of what it returns so far; result_origins: those of all that. memory: arrays that the caller gives
+    it for what it returns; own: those of its own. writes: origins of what it writes. sites: the calls in it. before:
+    lines that an expression needs done before it. loops: the names that were declared when each loop began that is
+    being translated. target: the name that is being assigned to. assigned: how often each is. taken: the names in C.
     """
 
     unit: Library
@@ -52,6 +53,7 @@ class Body:
 
     source: Source = field(init=False)
     places: dict[str, Place] = field(init=False)
+    assigned: Counter[str] = field(init=False)
     escaping: set[str] = field(init=False)
     names: dict[str, Value] = field(init=False, default_factory=dict)
     result: Kind = field(init=False, default=NOTHING)
@@ -67,6 +69,7 @@ class Body:
 
     def __post_init__(self) -> None:
         self.source = source_of(self.function)
+        self.assigned = assigned(self.source.body)
         self.places = {
             name: place for name, place in places(self.source.body).items() if name not in self.source.parameters
         }
@@ -113,7 +116,7 @@ class Body:
         return Effects(
             arguments,
             frozenset(written | {(name,) for name in self.memory}),
-            frozenset(map(c_name, assigned(self.source.body))),
+            frozenset(map(c_name, self.assigned)),
             tuple(self.sites),
         )
 

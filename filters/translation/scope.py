@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from typing import TypeAlias
 
@@ -19,20 +20,14 @@ def places(body: Block) -> dict[str, Place]:
     return {name: _place(name, body) or TOP for name in assigned(body)}
 
 
-def assigned(block: Block) -> set[str]:
-    """The names that are written in it, other than the variables of `for`."""
-    loops = {id(node.target) for node in _nodes(block) if isinstance(node, ast.For)}
-    return {
+def assigned(block: Block) -> Counter[str]:
+    """How often each name is written in it, other than the variables of `for`."""
+    nodes = [*_nodes(block)]
+    loops = {id(node.target) for node in nodes if isinstance(node, ast.For)}
+    return Counter(
         node.id
-        for node in _nodes(block)
+        for node in nodes
         if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store) and id(node) not in loops
-    }
-
-
-def times_assigned(name: str, block: Block) -> int:
-    """How often it is written there."""
-    return sum(
-        isinstance(node, ast.Name) and node.id == name and isinstance(node.ctx, ast.Store) for node in _nodes(block)
     )
 
 

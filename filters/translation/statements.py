@@ -26,7 +26,7 @@ from filters.translation.kinds import (
 from filters.translation.library import INDENT
 from filters.translation.made import as_real, constant, field, number_of, truth
 from filters.translation.names import c_name
-from filters.translation.scope import TOP, Block, assigned, mentions, times_assigned
+from filters.translation.scope import TOP, Block, assigned, mentions
 from filters.translation.values import POSTFIX, SUM, UNARY, Value
 
 _SIGNS: dict[type[ast.operator], str] = {ast.Add: "+=", ast.Sub: "-=", ast.Mult: "*=", ast.Div: "/="}
@@ -124,7 +124,7 @@ def _loop(body: Body, statement: ast.For) -> list[str]:
     if statement.orelse or not isinstance(statement.target, ast.Name):
         raise body.source.refusal(statement.iter, "a loop over one name and without else is translated")
     name = statement.target.id
-    if name in assigned(body.source.body):
+    if name in body.assigned:
         raise body.source.refusal(statement.iter, f"{name} is also assigned elsewhere; give it another name there")
     _check_unused_behind(body, name)
     text, kept = c_name(name), body.names.get(name)
@@ -297,7 +297,7 @@ def _assignment(
 
 def _to_name(body: Body, statement: ast.stmt, name: str, value: Value, undeclared: set[str]) -> list[str]:
     text, known = c_name(name), body.names.get(name)
-    once = times_assigned(name, body.source.body) == 1 and name not in body.source.parameters
+    once = body.assigned[name] == 1 and name not in body.source.parameters
     if not lasts(value.kind) and (once or not isinstance(value.kind, Int | Flag)):
         if known is not None and known.kind != value.kind and not once:
             raise body.source.refusal(statement, f"{name} is one thing here and another elsewhere")

@@ -15,8 +15,8 @@ from importlib.metadata import version
 from typing import Any, Literal, TypeVar, get_args
 
 from filters.arrays import as_array
+from filters.backends.c_compiler import FLAGS, compiler_version
 from filters.backends.counted import Operations, count
-from filters.backends.in_c import FLAGS, compiler_version
 from filters.backends.uncountable import UncountableError
 from filters.choice import check_choice
 from filters.covariance_forms import COVARIANCE_FORMS, CovarianceFormName

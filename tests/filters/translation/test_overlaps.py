@@ -11,10 +11,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from filters.backends.in_c import in_c, overlapping
+from filters.backends.c_arguments import overlapping
+from filters.backends.in_c import in_c
 from filters.jobs import Job
 from filters.translation.kinds import Array, Kind, kind_of
-from filters.translation.names import c_name
+from filters.translation.source import source_of
 from filters.translation.translated import Translated
 from filters.translation.unit import Unit
 from tests.filters.translation.cases import needs_compiler, numbers
@@ -33,12 +34,8 @@ from tests.filters.translation.test_jobs import jobs_of_methods, jobs_of_robust_
 Make = Callable[[], tuple[Any, ...]]
 
 
-def named(function: Any, arguments: tuple[Any, ...]) -> dict[str, Any]:
-    return dict(zip(map(c_name, function.__code__.co_varnames), arguments, strict=False))
-
-
 def unit_of(function: Any, arguments: tuple[Any, ...]) -> Unit:
-    unit = Unit(public=frozenset({function}), overlapping=overlapping(named(function, arguments).items()))
+    unit = Unit(public=frozenset({function}), overlapping=overlapping(source_of(function).parameters, arguments))
     unit.function(function, tuple(map(kind_of, arguments)))
     return unit
 
@@ -115,7 +112,7 @@ def test_arrays_of_jobs_are_apart_where_it_is_said(job: Job) -> None:
             for each in versions.get(frame.f_code, ()):
                 values = tuple(frame.f_locals[name] for name in each.parameters)
                 if all(map(has_shape, values, each.kinds)):
-                    for pair in overlapping(named(each.function, values).items()):
+                    for pair in overlapping(each.parameters, values):
                         assert not (pair & each.effects.writes and {path[0] for path in pair} & apart[each.name]), each
                     checked.add(each.name)
 

@@ -7,8 +7,8 @@ from types import FunctionType
 import numpy as np
 import pytest
 
+from filters.backends.c_compiler import compiler
 from filters.backends.choose import arguments_for, function_for
-from filters.backends.in_c import compiler
 from filters.covariance_forms import COVARIANCE_FORMS, CovarianceFormName
 from filters.jobs import Job
 from filters.registry import ALL_METHODS
