@@ -11,15 +11,14 @@ from sched_sim.cli import options as opt
 from sched_sim.cli.measure import SYSTEM, Inputs, Size, UpdateForm
 from sched_sim.cli.measure_filter import SIZES
 from sched_sim.cli.output import lines, say
-from sched_sim.costs.methods import SYSTEM_METHODS
+from sched_sim.costs.methods import MULTIRATE_METHODS, SYSTEM_METHODS
 from sched_sim.errors import InputError
 
 Method = Annotated[
     str,
     typer.Option(
         "--method",
-        help=f"{', '.join(SYSTEM_METHODS)}. dual-rate is written as two tasks, standard, "
-        "recalculate and larsen step by step, others as jobs.",
+        help=f"{', '.join(SYSTEM_METHODS)}. dual-rate is written as two tasks, others step by step.",
         rich_help_panel=opt.DESIGN,
     ),
 ]
@@ -35,7 +34,7 @@ Cycle = Annotated[
     int,
     typer.Option(
         "-N",
-        help="HR steps from one measurement to the next; with dual-rate, standard, recalculate, larsen.",
+        help="HR steps from one measurement to the next; with multirate, from one gain to the next.",
         parser=opt.whole,
         metavar="STEPS",
         rich_help_panel=opt.DESIGN,
@@ -45,7 +44,7 @@ Delay = Annotated[
     int,
     typer.Option(
         "-M",
-        help="Delay of the measurement in HR steps, less than N; with dual-rate, recalculate, larsen.",
+        help="Delay of the measurement in HR steps; more than N with recalculate, larsen, clone and carried-gain.",
         parser=opt.whole,
         metavar="STEPS",
         rich_help_panel=opt.DESIGN,
@@ -55,8 +54,8 @@ Landing = Annotated[
     int | None,
     typer.Option(
         "-L",
-        help="With dual-rate: step in which the correction lands, M < L <= N, however early it is ready; by default "
-        "M + 1, as soon as it is ready.",
+        help="Step in which the correction lands, M < L <= N, by default M + 1; with dual-rate, or later if it is not "
+        "ready, and delayed-horizon. With multirate: step from which a gain is used, by default 0.",
         parser=opt.whole,
         metavar="STEPS",
         rich_help_panel=opt.DESIGN,
@@ -101,6 +100,7 @@ def code(
 
     from filters.systems.example import example_system
     from studies.board.folder import check_folder, write_folder
+    from studies.board.serial.methods import check_model
     from studies.board.steps import Steps
     from studies.board.wanted import Filter
     from studies.board.write import NAMES, board_files, check_wanted
@@ -108,15 +108,13 @@ def code(
     from studies.measurement.user_system import load_system
 
     opt.known_methods([method], SYSTEM_METHODS)
-    without = STEPS.get(method, "NML")
+    without = UNUSED.get(method, "L")
     if given := opt.given_options(context, lambda name: name in without):
         raise InputError(f"--method {method}: leave out {', '.join(given)}: {_why_without(method)}")
     if system is not None and (given := opt.given_options(context, lambda name: name in SIZES)):
         raise InputError(f"--system {system!r}: leave out {', '.join(given)}: the system has its own")
-    steps = None
-    if method in STEPS:
-        delay = 0 if method == "standard" else M
-        steps = Steps(N, delay, L if L is not None else delay + (method == "dual-rate"))
+    delay = 0 if "M" in without else M
+    steps = Steps(N, delay, L if L is not None else delay + (method in LANDING))
     check_folder(output, NAMES, "--output")
     if system is None:
         check_wanted(method, (states, inputs, measurements), steps)
@@ -126,17 +124,25 @@ def code(
         the_system = f"--system {system}"
         model, x0 = load_system(system)
         check_wanted(method, model[:3], steps)
-    in_steps = "" if steps is None else "".join(f" -{name} {getattr(steps, name)}" for name in _asked(method))
+    alone = False
+    try:
+        check_model(method, model, steps)
+    except InputError:
+        if opt.given_options(context, lambda name: name in "NL"):
+            raise
+        alone = True
+    asked = "" if alone else "".join(name for name in "NML" if name not in without)
+    in_steps = "".join(f" -{name} {getattr(steps, name)}" for name in asked)
     said = (
         f"sched-sim code --method {method} {the_system} --update {update} --precision {precision}{in_steps} -o FOLDER"
     )
     with explained(f"{the_system}: cannot be written as C"):
-        files = board_files(Filter(method, model, x0, update, precision, steps, said))
+        files = board_files(Filter(method, model, x0, update, precision, None if alone else steps, said))
     write_folder(output, files, NAMES, "--output")
     say(
         lines(
             f"Wrote {output}: {', '.join(files)}",
-            in_steps and f"Written for{in_steps}",
+            f"Written for{in_steps}" if in_steps else JOBS_ALONE,
             f"Try it: cc -std=c99 -O2 -ffp-contract=off {' '.join(_tested(files))} -lm -o test && ./test",
         )
     )
@@ -146,16 +152,18 @@ def _tested(files: dict[str, str]) -> list[str]:
     return [name for name in ("filter.c", "tasks.c", "steps.c", "test.c") if name in files]
 
 
-STEPS = {"dual-rate": "", "standard": "ML", "recalculate": "L", "larsen": "L"}
-"""Methods that are written with what is around the jobs, and what of N, M, L they have no use for."""
+UNUSED = {"standard": "ML", "dual-rate": "", "delayed-horizon": ""} | {str(name): "M" for name in MULTIRATE_METHODS}
+"""What of N, M, L methods have no use for; others of L."""
+LANDING = ("dual-rate", "delayed-horizon")
+"""Those whose correction lands in a step of its own, behind m."""
 
 
-def _asked(method: str) -> str:
-    """What of N, M, L it is written for."""
-    return "".join(name for name in "NML" if name not in STEPS[method])
+JOBS_ALONE = (
+    "Its jobs alone: a model over N steps is known only of a linear_system whose Phi and Q do not change, or for -N 1"
+)
 
 
 def _why_without(method: str) -> str:
-    if method not in STEPS:
-        return f"its jobs are written, without the steps around them; {', '.join(STEPS)} are written as a whole"
+    if method in MULTIRATE_METHODS:
+        return "it has a measurement in every step, which is used at once"
     return "it uses a measurement in the step in which it is there"

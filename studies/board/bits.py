@@ -29,8 +29,9 @@ class Left(NamedTuple):
     value: Any
 
 
-def test_c(method: str, jobs: Mapping[str, Job], in_c: Jobs, more: Mapping[str, str]) -> str:
-    """The file test.c. more: words of the template for what is compared beside the jobs."""
+def test_c(method: str, jobs: Mapping[str, Job], timed: Mapping[str, str], in_c: Jobs, more: Mapping[str, str]) -> str:
+    """The file test.c. timed: kinds of the cost table, and which of the jobs each is; more: words of the template for
+    what is compared beside the jobs."""
     data = Data(in_c.unit)
     shared: dict[int, tuple[Any, Any]] = {}
     functions = [_of_job(kind, job, in_c, data, shared) for kind, job in jobs.items()]
@@ -39,7 +40,7 @@ def test_c(method: str, jobs: Mapping[str, Job], in_c: Jobs, more: Mapping[str, 
         "data": "\n".join(data.lines),
         "jobs": "\n".join(functions),
         "calls": "\n".join(f"    {kind}_test();" for kind in jobs),
-        "times": "\n".join(f'    timed("{kind}", {kind}_run);' for kind in jobs),
+        "times": "\n".join(f'    timed("{kind}", {job}_run);' for kind, job in timed.items()),
     }
     return filled("test.c", {**values, **more})
 
@@ -47,7 +48,7 @@ def test_c(method: str, jobs: Mapping[str, Job], in_c: Jobs, more: Mapping[str, 
 def _of_job(kind: str, job: Job, in_c: Jobs, data: Data, shared: dict[int, tuple[Any, Any]]) -> str:
     """What runs it, and what compares. shared: see `rounded`."""
     done, unit = in_c.by_kind[kind], in_c.unit
-    arguments = rounded(job.arguments(ARGUMENTS), unit.precision, shared)
+    arguments = rounded(_apart(job.arguments(ARGUMENTS)), unit.precision, shared)
     given = {name: (value, part) for name, value, part in zip(done.parameters, arguments, done.kinds, strict=True)}
     texts = {name: _argument(f"{kind}_{name}", *given[name], data) for name in done.used}
     memory = {name: f"{kind}_{name}" for name in done.memory}
@@ -65,6 +66,11 @@ def _of_job(kind: str, job: Job, in_c: Jobs, data: Data, shared: dict[int, tuple
     return f"static void {kind}_run(void)\n{{\n    {run}\n}}\n\nstatic void {kind}_test(void)\n{{\n" + "\n".join(
         [*lines, "    end();", "}", ""]
     )
+
+
+def _apart(arguments: tuple[Any, ...]) -> tuple[Any, ...]:
+    """Without what a model keeps in its scratch, where others write to it."""
+    return tuple(value if isinstance(value, System) else each_array(value, np.copy) for value in arguments)
 
 
 def _argument(name: str, value: Any, kind: Kind, data: Data) -> str:

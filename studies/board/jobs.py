@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from types import FunctionType
 from typing import NamedTuple
 
@@ -27,9 +27,16 @@ class Jobs(NamedTuple):
         return dict(zip(job.parameters, job.kinds, strict=True))[name]
 
     def fields(self, record: Record) -> frozenset[str]:
-        """Those of its fields that anything in the file reads or writes."""
+        """Those of its fields, and of those of the records in it, that anything in the file reads or writes."""
         text = self.unit.source("")
-        return frozenset(name for name, _ in record.fields if re.search(rf"(->|\.){c_name(name)}\b", text))
+        return frozenset(name for name in _names(record) if re.search(rf"(->|\.){c_name(name)}\b", text))
+
+
+def _names(record: Record) -> Iterator[str]:
+    for name, kind in record.fields:
+        yield name
+        if isinstance(kind, Record):
+            yield from _names(kind)
 
 
 def translated(jobs: Mapping[str, Job], precision: Precision) -> Jobs:

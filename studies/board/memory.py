@@ -19,24 +19,24 @@ SCRATCH = "scratch"
 """The field of a model's parameters that its functions write to; nothing else of them changes."""
 
 
-def add_model(data: Data, task: str, system: System, kind: Kind) -> str:
+def add_model(data: Data, task: str, system: System, kind: Kind, name: str = "model") -> str:
     """The model as a task sees it: constants are shared, scratch is its own, for the other task may preempt it.
 
     Returns the name of the record, `hr_model`.
     """
     assert isinstance(kind, Record)
-    data.record(f"{task}_model", _with_own_scratch(system), kind, model_placing(task))
-    return f"{task}_model"
+    data.record(f"{task}_{name}", _with_own_scratch(system), kind, model_placing(task, name))
+    return f"{task}_{name}"
 
 
-def model_placing(task: str) -> Placing:
+def model_placing(task: str, name: str = "model") -> Placing:
     """Of the arrays of a model."""
 
     def placing(names: tuple[str, ...]) -> Kept:
         inside = names[2:]  # behind the system and its parameters
         if SCRATCH in inside:
             return Kept("_".join((task, *inside)))
-        return Kept("_".join(("model", *inside)), constant=True)
+        return Kept("_".join((name, *inside)), constant=True)
 
     return placing
 

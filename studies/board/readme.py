@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from studies.board.compiled import CORES, Compiled, stack_of
 from studies.board.dual_rate import TASKS
 from studies.board.jobs import Jobs
+from studies.board.serial.methods import serial
 from studies.board.template import filled
 from studies.board.wanted import Filter
 
@@ -34,6 +35,7 @@ def readme(
         "kinds": ", ".join(f"`{kind}`" for kind in in_c.by_kind),
         "memory": "\n".join(_memory(wanted, in_c, sizes, on_core)),
         "j_wraps": _wraps(in_c),
+        "order": _order(wanted),
     }
     return "".join(filled(f"readme_{name}.md", values) for name in ("head", part, "end"))
 
@@ -62,3 +64,16 @@ def _memory(wanted: Filter, in_c: Jobs, sizes: Mapping[str, int], on_core: Compi
 def _wraps(in_c: Jobs) -> str:
     used = any(name in job.used for job in in_c.by_kind.values() for name in ("j", "k"))
     return f"{'The model depends on the step, which is' if used else 'Steps are'} counted in an `int`: "
+
+
+def _order(wanted: Filter) -> str:
+    """Which function of steps.c is called when."""
+    if wanted.steps is None or wanted.method == "dual-rate":
+        return ""
+    how = serial(wanted.method, wanted.steps)
+    if how.order == "each":
+        return "`filter_step`, and behind it `filter_measure` (not at all if the measurement was lost)."
+    said = f"`filter_step`, in step m `filter_measure` {how.order} it, with the measurement of k"
+    if how.takes:
+        return f"{said}; and in step k, behind all else, `filter_take` if a measurement is taken that will arrive."
+    return f"{said} (not at all if that was lost)."

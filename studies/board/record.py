@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from filters.arrays import FloatArray
-from filters.registry import ALL_METHODS
+from filters.registry import ALL_METHODS, MULTIRATE_METHODS
 from filters.simulation import simulate_truth
 from filters.translation.data import Data, Kept
 from filters.translation.library import Precision
@@ -15,13 +15,13 @@ from filters.translation.unit import Unit
 from studies.board.steps import Steps
 from studies.board.wanted import Filter
 
-MEASURED, SEED = 3, 0
+CYCLES, SEED = 3, 0
 """Measurements of a record, of which all have landed at its end; and that of its random numbers."""
 
 
 class Record(NamedTuple):
-    """x0 (n,), P0 (n, n); u (steps, m): from j to j + 1; y (MEASURED, p): of k = 0, N, 2N; x (steps + 1, n): Python's
-    states."""
+    """x0 (n,), P0 (n, n); u (steps, m): from j to j + 1; y (measured, p): of k = 0, N, 2N, ...; x (steps + 1, n):
+    Python's states."""
 
     x0: FloatArray
     P0: FloatArray
@@ -37,12 +37,19 @@ def simulated(wanted: Filter, steps: Steps) -> Record:
     Raises ValueError where the system cannot be filtered from there.
     """
     (method, system, x0, update, precision, _, _), (N, M, L) = wanted, steps
-    number = (MEASURED - 1) * N + L
+    each = method in MULTIRATE_METHODS
+    measured = CYCLES + M // N
+    number = (measured - 1) * N + L
     P0 = np.eye(system.states)
     u = np.random.default_rng(SEED).normal(size=(number, system.inputs))
-    truth = simulate_truth(system, N, x0, P0, u, SEED)
-    x0, u, y = (_held(values, precision) for values in (x0, u, truth.measurements[:MEASURED]))
-    return Record(x0, P0, u, y, ALL_METHODS[method].run(system, N, M, L, x0, P0, u, y, update=update).x)
+    truth = simulate_truth(system, 1 if each else N, x0, P0, u, SEED)
+    y = truth.measurements if each else truth.measurements[:measured]
+    x0, u, y = (_held(values, precision) for values in (x0, u, y))
+    if each:
+        history = MULTIRATE_METHODS[method].run(system, N, x0, P0, u, y, L=L, update=update)
+    else:
+        history = ALL_METHODS[method].run(system, N, M, L, x0, P0, u, y, update=update)
+    return Record(x0, P0, u, y, history.x)
 
 
 def record_h(record: Record, precision: Precision) -> str:
@@ -55,7 +62,7 @@ def record_h(record: Record, precision: Precision) -> str:
     return (
         f"/* A simulated record of data, and record_x, the states that Python makes of it. */\n"
         f'#ifndef RECORD_H\n#define RECORD_H\n\n#include "filter.h"\n\n'
-        f"enum {{ RECORD_STEPS = {len(record.u)}, RECORD_MEASURED = {MEASURED} }};\n\n{declarations}\n\n#endif\n"
+        f"enum {{ RECORD_STEPS = {len(record.u)}, RECORD_MEASURED = {len(record.y)} }};\n\n{declarations}\n\n#endif\n"
     )
 
 

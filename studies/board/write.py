@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from functools import partial
 from typing import NamedTuple
 
 from filters.jobs import Job
@@ -11,13 +10,15 @@ from filters.registry import ALL_METHODS
 from filters.translation.kinds import LONG
 from filters.translation.prototype import wrapped
 from sched_sim.errors import InputError, option
-from studies.board import dual_rate, serial
+from studies.board import dual_rate
 from studies.board.bits import test_c
 from studies.board.compiled import compiled
 from studies.board.jobs import Jobs, translated
 from studies.board.memory import jobs_memory
 from studies.board.readme import readme
 from studies.board.record import record_h, simulated
+from studies.board.serial.files import steps_files, steps_run
+from studies.board.serial.methods import check_serial, serial
 from studies.board.steps import Steps
 from studies.board.template import filled
 from studies.board.wanted import Filter
@@ -44,7 +45,12 @@ def check_wanted(method: str, sizes: Sequence[int], steps: Steps | None) -> None
             f"and more; CYCLE_STEPS, in the header that is written, may be changed"
         )
     if steps is not None:
-        (dual_rate.check_steps if method == "dual-rate" else partial(serial.check_serial, method))(steps)
+        if max(steps) > MOST_STEPS:
+            raise InputError(f"{option('M')} {steps.M} is too large: give at most {MOST_STEPS}")
+        if method == "dual-rate":
+            dual_rate.check_steps(steps)
+        else:
+            check_serial(method, steps)
 
 
 def board_files(wanted: Filter) -> dict[str, str]:
@@ -57,8 +63,7 @@ def board_files(wanted: Filter) -> dict[str, str]:
     """
     method, system, x0, update, precision, _, _ = wanted
     check_wanted(method, system[:3], wanted.steps)
-    jobs = ALL_METHODS[method].jobs(system, update, 0, x0)
-    jobs = {kind: jobs[kind] for kind in _kinds(method, tuple(jobs))}
+    jobs = _jobs(wanted, ALL_METHODS[method].jobs(system, update, 0, x0))
     in_c = translated(jobs, precision)
     files = {
         "filter.h": _banner(wanted) + in_c.unit.header("FILTER_H"),
@@ -66,7 +71,7 @@ def board_files(wanted: Filter) -> dict[str, str]:
     }
     around = _around(wanted, jobs, in_c)
     files |= around.files
-    files["test.c"] = test_c(method, jobs, in_c, around.tested)
+    files["test.c"] = test_c(method, jobs, _timed(wanted, jobs), in_c, around.tested)
     on_core = compiled(files, around.sources, precision)
     if method == "dual-rate":
         files["freertos.c"] = dual_rate.freertos_c(system, in_c, on_core)
@@ -89,11 +94,22 @@ class Around(NamedTuple):
     tested: Mapping[str, str]
 
 
-def _kinds(method: str, kinds: Sequence[str]) -> Sequence[str]:
-    """The jobs that are written."""
-    if method == "dual-rate":
-        return [kind for kinds in dual_rate.TASKS.values() for kind in kinds]
-    return serial.SERIAL[method].jobs if method in serial.SERIAL else kinds
+def _jobs(wanted: Filter, jobs: Mapping[str, Job]) -> Mapping[str, Job]:
+    """The functions that are written."""
+    if wanted.method == "dual-rate":
+        return {kind: jobs[kind] for kinds in dual_rate.TASKS.values() for kind in kinds}
+    if wanted.steps is None:
+        return jobs
+    written = serial(wanted.method, wanted.steps)
+    return {kind: jobs[kind] for kind in written.jobs} | dict(written.more(wanted))
+
+
+def _timed(wanted: Filter, jobs: Mapping[str, Job]) -> Mapping[str, str]:
+    """Kinds of the cost table, and the written job that each is."""
+    if wanted.steps is None or wanted.method == "dual-rate":
+        return {kind: kind for kind in jobs}
+    written = serial(wanted.method, wanted.steps)
+    return {kind: kind for kind in written.jobs} | dict(written.same)
 
 
 def _around(wanted: Filter, jobs: Mapping[str, Job], in_c: Jobs) -> Around:
@@ -108,8 +124,9 @@ def _around(wanted: Filter, jobs: Mapping[str, Job], in_c: Jobs) -> Around:
         files, sizes = dual_rate.tasks(system, jobs, in_c, steps)
         files = {**files, "record.h": record, "posix.c": filled("posix.c", words)}
         return Around(files, ["filter.c", "tasks.c"], sizes, _tested("tasks", filled("tasks_run.c", words)))
-    files, sizes = serial.steps_files(method, system, in_c, steps)
-    tested = _tested("steps", filled("steps_run.c", words))
+    written = serial(method, steps)
+    files, sizes = steps_files(written, wanted, steps, jobs, in_c)
+    tested = _tested("steps", steps_run(written, wanted))
     return Around({**files, "record.h": record}, ["filter.c", "steps.c"], sizes, tested)
 
 

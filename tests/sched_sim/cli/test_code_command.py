@@ -59,7 +59,7 @@ def test_files_of_another_method_are_not_left_behind(sched_sim: Run) -> None:
     sizes = "--states 2 --inputs 1 --measurements 1 -o board"
     assert sched_sim(f"code {sizes}").code == 0
     written = {"filter.h", "filter.c", "state.h", "test.c", "README.md"}
-    assert sched_sim(f"code --method clone {sizes}").code == 0
+    assert "Its jobs alone: a model over N steps" in sched_sim(f"code --method multirate {sizes}").err
     assert {path.name for path in Path("board").iterdir()} == written
     assert sched_sim(f"code --method larsen -N 6 -M 2 {sizes}").code == 0
     assert {path.name for path in Path("board").iterdir()} == written | {"steps.h", "steps.c", "record.h"}
@@ -83,10 +83,20 @@ def test_a_model_of_ones_own(sched_sim: Run) -> None:
         ("code -o board -N 10 -M -1", ["-M -1 must be from 0 to 9"]),
         ("code -o board -N 10 -M 4 -L 4", ["-L 4 must be from 5 to 10"]),
         ("code -o board -N 10 -M 4 -L 11", ["-L 11 must be from 5 to 10"]),
-        ("code -o board --method clone -N 10 -L 5", ["--method clone: leave out -N, -L", "its jobs are written"]),
+        ("code -o board --method clone -N 10 -L 5", ["--method clone: leave out -L", "in the step in which"]),
+        (
+            "code -o board --method clone-split -N 10 -M 11",
+            ["-M 11 must be from 1 to 10", "choose --method recalculate"],
+        ),
+        ("code -o board --method clone -M 1001", ["-M 1001 is too large"]),
+        ("code -o board --method multirate -M 3", ["--method multirate: leave out -M", "in every step"]),
+        ("code -o board --method multirate -N 5", ["-N 5", "linear_system whose Phi and Q do not change", "-N 1"]),
+        ("code -o board --method multirate -N 1 -L 2", ["-L 2 must be from 0 to 1"]),
+        ("code -o board --method delayed-horizon -N 5 -M 3 -L 3", ["-L 3 must be from 4 to 5"]),
+        ("code -o board --method delayed-horizon -N 5 -M 5", ["-M 5 must be from 0 to 4"]),
         ("code -o board --method larsen -N 10 -L 5", ["--method larsen: leave out -L", "in the step in which"]),
         ("code -o board --method standard -M 3", ["--method standard: leave out -M"]),
-        ("code -o board --method larsen -M 0", ["-M 0 must be from 1 to 9", "--method standard"]),
+        ("code -o board --method larsen -M 0", ["-M 0 must be at least 1", "--method standard"]),
         ("code -o board --system own:system --states 3", ["leave out --states"]),
         ("code -o board --states 65", ["--states 65", "at most 64"]),
         ("code -o board -N 1001 -M 4", ["-N 1001", "at most 1000", "CYCLE_STEPS"]),

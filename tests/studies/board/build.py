@@ -20,7 +20,8 @@ from studies.board.wanted import Filter
 from studies.board.write import board_files
 
 HERE = Path(__file__).parent
-STRICT = ["-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror", "-ffp-contract=off"]
+WARNINGS = ("all", "extra", "pedantic", "conversion", "shadow", "missing-prototypes", "cast-align", "undef", "error")
+STRICT = ["-std=c99", *(f"-W{name}" for name in WARNINGS), "-ffp-contract=off"]
 ARM = ["arm-none-eabi-gcc", "-mcpu=cortex-m4", "-mthumb", "-mfpu=fpv4-sp-d16", "-mfloat-abi=hard"]
 
 needs_gcc = pytest.mark.skipif(shutil.which("gcc") is None, reason="gcc is not installed here")
@@ -60,3 +61,11 @@ def ran(folder: Path, program: str) -> tuple[int, str]:
     """Its status, and what it prints."""
     done = subprocess.run([folder / program], capture_output=True, text=True, check=False, timeout=60)
     return done.returncode, done.stdout
+
+
+def ran_as_one(folder: Path, *sources: str, options: Sequence[str] = ()) -> tuple[int, str]:
+    """As `ran`, of a program whose sources but for the last are compiled together, which takes the compiler least."""
+    *together, apart = sources
+    put(folder, {"one.c": "".join(f'#include "{name}"\n' for name in together)})
+    build(folder, "-O0", *options, "one.c", apart, "-lm", "-o", "one")
+    return ran(folder, "one")

@@ -8,6 +8,8 @@ import numpy as np
 
 from filters.arrays import FloatArray
 from filters.system import System
+from filters.systems.example import example_system
+from filters.systems.linear import linear_system
 
 
 class Scratch(NamedTuple):
@@ -60,6 +62,12 @@ def _H(_k: int, x: FloatArray, p: Any) -> FloatArray:
 
 def _R(_k: int, p: Any) -> FloatArray:
     return p.R  # type: ignore[no-any-return]
+
+
+def unchanging() -> System:
+    """A linear system whose Phi and Q do not change, so that its model over several steps is known."""
+    changing = example_system(3, 1, 2).parameters
+    return linear_system(changing.Phi[0], changing.B, changing.H, changing.Q[0], changing.R)
 
 
 def writing_to_its_parameters() -> System:

@@ -8,15 +8,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from filters.registry import ALL_METHODS
 from filters.systems.example import example_system
 from filters.systems.navigation import vehicle
 from filters.translation.library import Precision
 from sched_sim.costs.table_file import load_costs
 from studies.board.compiled import compiled
-from studies.board.serial import SERIAL
 from studies.board.steps import Steps
-from tests.studies.board.build import ARM, HERE, STRICT, build, needs_arm_gcc, needs_gcc, put, ran, written
+from tests.studies.board.build import ARM, HERE, STRICT, build, needs_arm_gcc, needs_gcc, put, ran, ran_as_one, written
 from tests.studies.board.systems import beyond_floats, pendulum, writing_to_its_parameters
 
 STEPS = Steps(10, 4, 8)
@@ -28,7 +26,6 @@ MODELS = {
     "scratch": (pendulum(), np.array([0.1, 0.0])),
 }
 SOURCES = ("filter.c", "tasks.c")
-FEW = [("clone", "single"), ("multirate-ud", "single")]
 each_precision = pytest.mark.parametrize("precision", ["single", "double"])
 
 
@@ -46,45 +43,15 @@ def test_jobs_and_tasks_give_the_numbers_of_python(name: str, precision: Precisi
 
 
 @needs_gcc
-@pytest.mark.parametrize(
-    ("method", "precision"),
-    [
-        pytest.param(method, precision, marks=() if (method, precision) in FEW else pytest.mark.exhaust)
-        for method in ALL_METHODS
-        if method not in ("dual-rate", *SERIAL)
-        for precision in ("single", "double")
-    ],
-)
-def test_jobs_of_other_methods(method: str, precision: Precision, tmp_path: Path) -> None:
-    files = written(example_system(3, 1, 2), method=method, precision=precision)
+def test_jobs_alone(tmp_path: Path) -> None:
+    """Of a method that would need a model over several steps."""
+    files = written(example_system(3, 1, 2), method="multirate-ud", precision="single")
     put(tmp_path, files)
-    build(tmp_path, "-O2", "filter.c", "test.c", "-lm", "-o", "test")
-    status, said = ran(tmp_path, "test")
+    status, said = ran_as_one(tmp_path, "filter.c", "test.c")
     assert status == 0, said
     put(tmp_path, {"state.c": '#include "state.h"\n'})
     build(tmp_path, "-Wno-unused-variable", "-Wno-unused-const-variable", "-c", "state.c")
     assert "What is missing" in files["README.md"]
-
-
-@needs_gcc
-@pytest.mark.parametrize(
-    ("method", "steps"),
-    [
-        ("standard", Steps(3, 0, 0)),
-        ("recalculate", Steps(6, 5, 5)),
-        ("larsen", Steps(5, 1, 1)),
-        ("larsen", Steps(6, 4, 4)),
-    ],
-)
-@pytest.mark.parametrize("name", ["scratch", pytest.param("vehicle", marks=pytest.mark.exhaust)])
-def test_serial_methods_give_the_bits_of_python(name: str, method: str, steps: Steps, tmp_path: Path) -> None:
-    """Whole runs: `steps` in what is said."""
-    system, x0 = MODELS[name]
-    put(tmp_path, written(system, method=method, x0=x0, update="short", steps=steps))
-    build(tmp_path, "-O2", "-DTOLERANCE=0", "filter.c", "steps.c", "test.c", "-lm", "-o", "test")
-    status, said = ran(tmp_path, "test")
-    assert status == 0, said
-    assert "# steps                   the same bits" in said
 
 
 @needs_gcc

@@ -1,6 +1,7 @@
+$head
 void filter_step($u_parameter)
 {
-    const int next = unused(filter.now, filter.now);
+    const int next = 1 - filter.now;
     const $Estimate before = {filter_x[filter.now], filter_P[filter.now]};
     const $Estimate after = {filter_x[next], filter_P[next]};
 ${unused_u}    (void)$propagate;
@@ -10,7 +11,7 @@ ${unused_u}    (void)$propagate;
 
 void filter_measure(real y[$p])
 {
-    const int next = unused(filter.now, filter.now);
+    const int next = 1 - filter.now;
     const $Estimate before = {filter_x[filter.now], filter_P[filter.now]};
     const $Estimate after = {filter_x[next], filter_P[next]};
     $update;

@@ -1,6 +1,20 @@
+/* A memory for an estimate that is neither this one nor the one kept for k. */
+static int unused(int here, int kept)
+{
+    int slot = 0;
+    while (slot == here || slot == kept) {
+        slot++;
+    }
+    return slot;
+}
+
+$head
 void filter_step($u_parameter)
 {
     const int since_k = filter.j % CYCLE_STEPS;
+    if (since_k == 0) {
+        filter.reference = filter.now; /* x_{k^-} and P_{k^-}, kept until m */
+    }
     const int next = unused(filter.now, filter.reference);
     const $Estimate before = {filter_x[filter.now], filter_P[filter.now]};
     const $Estimate after = {filter_x[next], filter_P[next]};
@@ -15,9 +29,6 @@ ${unused_u}    if (since_k == 0) {
     }
     filter.now = next;
     filter.j++;
-    if (filter.j % CYCLE_STEPS == 0) {
-        filter.reference = next; /* x_{k^-} and P_{k^-}, kept until m */
-    }
 }
 
 void filter_measure(real y[$p])

@@ -8,11 +8,8 @@
 
 $memory
 
-/* Which of the memories for an estimate; the same where there are only two. */
 static struct {
     int j; /* steps since the start */
-    int now;
-    int reference; /* of k */$more
-} filter;
+$fields} filter;
 
 #endif

@@ -1,0 +1,6 @@
+/* The $title; see steps.h. */
+#include "steps.h"
+
+#include "state.h"
+
+$functions
