@@ -94,7 +94,7 @@ def _warmed_up(composed: ModularFilter, start: Estimate, u: FloatArray, random: 
         for number, sensor in enumerate(composed.sensors):
             y = drawn(sensor.corrector.observed, expected_by(sensor, space)(truth), sensor.corrector.R, random)
             at = _sound(composed, number, step, Failure(at, _corrected(composed, sensor, at, y)), u)
-        truth = drawn(space, _evolved(composed, truth, u), composed.predictor.motion.Q, random)
+        truth = drawn(space, evolved(composed, truth, u), composed.predictor.motion.Q, random)
         at = _sound(composed, PREDICTOR, step, Failure(at, _predicted(composed, at, u)), u)
     return at
 
@@ -111,7 +111,8 @@ def _inputs(composed: ModularFilter) -> int:
     return int(motion.B.shape[1]) if composed.predictor.kind == "linear" else 0
 
 
-def _evolved(composed: ModularFilter, x: FloatArray, u: FloatArray) -> FloatArray:
+def evolved(composed: ModularFilter, x: FloatArray, u: FloatArray) -> FloatArray:
+    """The state one step after x (numbers,), without noise."""
     motion = composed.predictor.motion
     if composed.predictor.kind == "linear":
         return np.asarray(motion.F @ x + motion.B @ u)

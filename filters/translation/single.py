@@ -19,6 +19,7 @@ OWN: Mapping[tuple[str, float], float] = {
     ("ROUNDED_BELOW", 1e-8): 3e-4,  # the root of it
     ("ROUNDING", 1e-8): 3e-4,
     ("SYMMETRIC", 1e-9): 3e-4,
+    ("SMALL", 1e-8): 3e-4,  # a squared angle, the square of which is below the resolution
     ("MEAN_TOLERANCE", 1e-24): 1e-10,  # the square of some eighty times the resolution
     ("UNDERFLOWN", 1e-290): 1e-29,  # the least number over the resolution, and some
     ("SHORTEST", 1e-200): 1e-29,

@@ -52,6 +52,13 @@ class Unit(Library):
         name = self._fresh(body.function.__name__ if is_public else _version(body))
         if lines and lines[-1] == "return;":
             lines.pop()
+        own += [
+            f"(void){c_name(name)}_rows;"
+            for name in used
+            if isinstance(kind := kinds[name], Array)
+            and kind.is_long
+            and not re.search(rf"\b{c_name(name)}_rows\b", text)
+        ]
         lines = [line.replace(GIVEN_UP, self._given_up(body.result)) for line in lines]
         inside = "\n".join(wrapped(INDENT + line) if line else "" for line in [*own, *lines])
         return Translated(

@@ -2,17 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple, TypeAlias, cast
 
 import typer
 
 from sched_sim.cli import options as opt
 from sched_sim.cli.measure import SYSTEM, Inputs, Size, UpdateForm
-from sched_sim.cli.measure_filter import SIZES
+from sched_sim.cli.measure_filter import OF_A_SYSTEM, SIZES
 from sched_sim.cli.output import lines, say
-from sched_sim.costs.methods import MULTIRATE_METHODS, SYSTEM_METHODS
+from sched_sim.costs.methods import MULTIRATE_METHODS, ROBUST_METHODS, SYSTEM_METHODS
 from sched_sim.errors import InputError
+from studies.board.steps import Steps
+
+if TYPE_CHECKING:
+    from filters.covariance_forms import CovarianceFormName
+    from filters.translation.library import Precision
 
 Method = Annotated[
     str,
@@ -20,6 +26,25 @@ Method = Annotated[
         "--method",
         help=f"{', '.join(SYSTEM_METHODS)}. dual-rate is written as two tasks, others step by step.",
         rich_help_panel=opt.DESIGN,
+    ),
+]
+RobustName: TypeAlias = Literal["attitude", "position"]
+OwnFilter = Annotated[
+    str | None,
+    typer.Option(
+        "--filter",
+        help="Your own composed filter, of several sensors: package.module:function that returns a ModularFilter, or "
+        "with it a typical state, covariance and input.",
+        rich_help_panel=SYSTEM,
+    ),
+]
+OwnRobust = Annotated[
+    RobustName | None,
+    typer.Option(
+        "--robust",
+        help="The extended robust filter of a vehicle's attitude or position instead, with --method robust-closed "
+        "(default) or another of measure --robust.",
+        rich_help_panel=SYSTEM,
     ),
 ]
 OwnSystem = Annotated[
@@ -61,7 +86,7 @@ Landing = Annotated[
         rich_help_panel=opt.DESIGN,
     ),
 ]
-Precision = Annotated[
+InPrecision = Annotated[
     Literal["single", "double"], typer.Option("--precision", help="Of the numbers: single (float) or double.")
 ]
 Folder = Annotated[
@@ -82,9 +107,11 @@ def code(
     inputs: Inputs = 3,
     measurements: Size = 3,
     system: OwnSystem = None,
+    own_filter: OwnFilter = None,
+    robust: OwnRobust = None,
     method: Method = "dual-rate",
     update: UpdateForm = "textbook",
-    precision: Precision = "double",
+    precision: InPrecision = "double",
     N: Cycle = 10,
     M: Delay = 4,
     L: Landing = None,
@@ -95,31 +122,74 @@ def code(
     sched-sim code --method dual-rate --states 9 --inputs 3 --measurements 3 --precision single -N 10 -M 4 -o board/
     sched-sim code --system mymodule:my_system --update short -o board/
     sched-sim code --method larsen -o larsen/
+    sched-sim code --filter mymodule:my_filter -o board/
+    sched-sim code --robust attitude --method robust-givens -N 40 -o board/
     """
+    from studies.board.folder import check_folder, write_folder
+    from studies.board.write import NAMES
+
+    if own_filter is not None:
+        _refuse_beside(context, f"--filter {own_filter}", (*OF_A_SYSTEM, "robust", "N", "M", "L"), OF_A_FILTER)
+    if robust is not None:
+        _refuse_beside(context, f"--robust {robust}", (*SIZES, "system", "update", "M", "L"), OF_A_ROBUST_FILTER)
+    check_folder(output, NAMES, "--output")
+    if own_filter is not None:
+        written = _own_filter(own_filter, precision)
+    elif robust is not None:
+        chosen = method if opt.given_options(context, lambda name: name == "method") else "robust-closed"
+        written = _robust(robust, chosen, precision, N)
+    else:
+        opt.known_methods([method], SYSTEM_METHODS)
+        without = UNUSED.get(method, "L")
+        if given := opt.given_options(context, lambda name: name in without):
+            raise InputError(f"--method {method}: leave out {', '.join(given)}: {_why_without(method)}")
+        if system is not None:
+            _refuse_beside(context, f"--system {system!r}", SIZES, "the system has its own")
+        delay = 0 if "M" in without else M
+        steps = Steps(N, delay, L if L is not None else delay + (method in LANDING))
+        sizes = states, inputs, measurements
+        asked = bool(opt.given_options(context, lambda name: name in "NL"))
+        written = _of_a_system(method, sizes, system, update, precision, steps, asked)
+    write_folder(output, written.files, NAMES, "--output")
+    say(
+        lines(
+            f"Wrote {output}: {', '.join(written.files)}",
+            written.note,
+            f"Try it: cc -std=c99 -O2 -ffp-contract=off {' '.join(_tested(written.files))} -lm -o test && ./test",
+        )
+    )
+
+
+class Written(NamedTuple):
+    """Files by name, and what is said of them."""
+
+    files: dict[str, str]
+    note: str
+
+
+def _of_a_system(
+    method: str,
+    sizes: tuple[int, int, int],
+    system: str | None,
+    update: CovarianceFormName,
+    precision: Precision,
+    steps: Steps,
+    asked: bool,
+) -> Written:
+    """asked: whether the steps were given, so that the jobs alone would not do."""
     import numpy as np
 
     from filters.systems.example import example_system
-    from studies.board.folder import check_folder, write_folder
     from studies.board.serial.methods import check_model
-    from studies.board.steps import Steps
     from studies.board.wanted import Filter
-    from studies.board.write import NAMES, board_files, check_wanted
+    from studies.board.write import board_files, check_wanted
     from studies.measurement.user_function import explained
     from studies.measurement.user_system import load_system
 
-    opt.known_methods([method], SYSTEM_METHODS)
-    without = UNUSED.get(method, "L")
-    if given := opt.given_options(context, lambda name: name in without):
-        raise InputError(f"--method {method}: leave out {', '.join(given)}: {_why_without(method)}")
-    if system is not None and (given := opt.given_options(context, lambda name: name in SIZES)):
-        raise InputError(f"--system {system!r}: leave out {', '.join(given)}: the system has its own")
-    delay = 0 if "M" in without else M
-    steps = Steps(N, delay, L if L is not None else delay + (method in LANDING))
-    check_folder(output, NAMES, "--output")
     if system is None:
-        check_wanted(method, (states, inputs, measurements), steps)
-        the_system = f"--states {states} --inputs {inputs} --measurements {measurements}"
-        model, x0 = example_system(states, inputs, measurements), np.zeros(states)
+        check_wanted(method, sizes, steps)
+        the_system = "--states {} --inputs {} --measurements {}".format(*sizes)
+        model, x0 = example_system(*sizes), np.zeros(sizes[0])
     else:
         the_system = f"--system {system}"
         model, x0 = load_system(system)
@@ -128,24 +198,55 @@ def code(
     try:
         check_model(method, model, steps)
     except InputError:
-        if opt.given_options(context, lambda name: name in "NL"):
+        if asked:
             raise
         alone = True
-    asked = "" if alone else "".join(name for name in "NML" if name not in without)
-    in_steps = "".join(f" -{name} {getattr(steps, name)}" for name in asked)
+    used = "" if alone else "".join(name for name in "NML" if name not in UNUSED.get(method, "L"))
+    in_steps = "".join(f" -{name} {getattr(steps, name)}" for name in used)
     said = (
         f"sched-sim code --method {method} {the_system} --update {update} --precision {precision}{in_steps} -o FOLDER"
     )
     with explained(f"{the_system}: cannot be written as C"):
         files = board_files(Filter(method, model, x0, update, precision, None if alone else steps, said))
-    write_folder(output, files, NAMES, "--output")
-    say(
-        lines(
-            f"Wrote {output}: {', '.join(files)}",
-            f"Written for{in_steps}" if in_steps else JOBS_ALONE,
-            f"Try it: cc -std=c99 -O2 -ffp-contract=off {' '.join(_tested(files))} -lm -o test && ./test",
-        )
-    )
+    return Written(files, f"Written for{in_steps}" if in_steps else JOBS_ALONE)
+
+
+def _robust(name: RobustName, method: str, precision: Precision, N: int) -> Written:
+    from studies.board.robust import Robust, robust_files
+    from studies.board.write import check_cycle
+    from studies.measurement.user_function import explained
+    from studies.robust.costs import robust_case
+
+    opt.known_methods([method], ROBUST_METHODS)
+    check_cycle(N)
+    said = f"sched-sim code --robust {name} --method {method} --precision {precision} -N {N} -o FOLDER"
+    way = cast(Any, method.removeprefix("robust-"))
+    with explained(f"--robust {name}: cannot be written as C"):
+        files = robust_files(Robust(name, robust_case(name), way, precision, N, said))
+    return Written(files, f"Written for -N {N}")
+
+
+def _own_filter(name: str, precision: Precision) -> Written:
+    from studies.board.composed.files import composed_files
+    from studies.board.composed.wanted import Composed
+    from studies.measurement.user_filter import load_start
+    from studies.measurement.user_function import explained
+
+    said = f"sched-sim code --filter {name} --precision {precision} -o FOLDER"
+    start = load_start(name)
+    with explained(f"--filter {name}: cannot be written as C"):
+        files = composed_files(Composed(name, *start, precision, said))
+    return Written(files, "Late measurements are used where they were taken, and the steps since done again")
+
+
+OF_A_FILTER = "the filter that it returns says all of that itself"
+OF_A_ROBUST_FILTER = "it has a system of its own"
+
+
+def _refuse_beside(context: typer.Context, given: str, names: Collection[str], why: str) -> None:
+    """Raises InputError for options that were given and have no meaning beside what is given."""
+    if others := opt.given_options(context, lambda name: name in names):
+        raise InputError(f"{given}: leave out {', '.join(others)}: {why}")
 
 
 def _tested(files: dict[str, str]) -> list[str]:

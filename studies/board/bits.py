@@ -29,14 +29,13 @@ class Left(NamedTuple):
     value: Any
 
 
-def test_c(method: str, jobs: Mapping[str, Job], timed: Mapping[str, str], in_c: Jobs, more: Mapping[str, str]) -> str:
+def test_c(jobs: Mapping[str, Job], timed: Mapping[str, str], in_c: Jobs, more: Mapping[str, str]) -> str:
     """The file test.c. timed: kinds of the cost table, and which of the jobs each is; more: words of the template for
     what is compared beside the jobs."""
     data = Data(in_c.unit)
     shared: dict[int, tuple[Any, Any]] = {}
     functions = [_of_job(kind, job, in_c, data, shared) for kind, job in jobs.items()]
     values = {
-        "method": method,
         "data": "\n".join(data.lines),
         "jobs": "\n".join(functions),
         "calls": "\n".join(f"    {kind}_test();" for kind in jobs),

@@ -64,3 +64,19 @@ def plain(job: Job) -> FunctionType:
     """The function itself."""
     assert isinstance(job.function, FunctionType)
     return job.function
+
+
+def named(jobs: Mapping[str, Job], *, all_of_them: bool = False) -> dict[str, Job]:
+    """The jobs, each with a function by its own name where several have the same one, or all of them."""
+    functions = [job.function for job in jobs.values()]
+    return {
+        kind: _named(job, kind) if all_of_them or functions.count(job.function) > 1 else job
+        for kind, job in jobs.items()
+    }
+
+
+def _named(job: Job, name: str) -> Job:
+    function = plain(job)
+    own = FunctionType(function.__code__, function.__globals__, name, function.__defaults__, function.__closure__)
+    own.__module__, own.__qualname__ = function.__module__, function.__qualname__
+    return job._replace(function=own)

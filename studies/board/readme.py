@@ -3,47 +3,79 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import NamedTuple
 
+from filters.translation.library import Precision
+from sched_sim.costs.methods import MULTIRATE_METHODS
 from studies.board.compiled import CORES, Compiled, stack_of
 from studies.board.dual_rate import TASKS
 from studies.board.jobs import Jobs
 from studies.board.serial.methods import serial
+from studies.board.steps import Steps
 from studies.board.template import filled
 from studies.board.wanted import Filter
 
 BYTES = {"single": 4, "double": 8}
 
 
-def readme(
-    wanted: Filter, in_c: Jobs, sizes: Mapping[str, int], sources: Sequence[str], on_core: Compiled | None
-) -> str:
-    """The file README.md. sizes: numbers in each array of state.h that is no constant. sources: for the board."""
+class About(NamedTuple):
+    """What is said of a filter. method: in its cost table; described: sizes, forms and precision; source: of its
+    equations, a sentence. part: of the README, "tasks", "steps", "composed" or "jobs"; order: which function of steps.c
+    is called when; question: what the cost table is asked."""
+
+    method: str
+    described: str
+    source: str
+    precision: Precision
+    said: str
+    part: str
+    order: str = ""
+    question: str = ""
+
+
+STEFFES = (
+    "Equations are those of S. Steffes, Computationally Distributed Real-Time Dual Rate Kalman Filter, 2014, unless a "
+    "function says otherwise."
+)
+
+
+def about_filter(wanted: Filter) -> About:
+    """What is said of a method on a system."""
     n, m, p = wanted.system[:3]
-    core, flags = CORES[wanted.precision]
-    part = "tasks" if wanted.method == "dual-rate" else "steps" if wanted.steps is not None else "jobs"
+    return About(
+        wanted.method,
+        f"{n} states, {m} inputs, {p} measurements; {wanted.update} covariance update; {wanted.precision} precision",
+        STEFFES,
+        wanted.precision,
+        wanted.said,
+        "tasks" if wanted.method == "dual-rate" else "steps" if wanted.steps is not None else "jobs",
+        _order(wanted),
+        _question(wanted),
+    )
+
+
+def readme(about: About, in_c: Jobs, sizes: Mapping[str, int], sources: Sequence[str], on_core: Compiled | None) -> str:
+    """The file README.md. sizes: numbers in each array of state.h that is no constant. sources: for the board."""
+    core, flags = CORES[about.precision]
     values = {
-        "method": wanted.method,
-        "said": wanted.said,
-        "n": n,
-        "m": m,
-        "p": p,
-        "precision": wanted.precision,
-        "update": wanted.update,
+        **about._asdict(),
+        "ask": " a scenario that names it as its `costs`"
+        if about.part == "composed"
+        else " what the board would have to do, and when the correction lands on it",
         "core": core,
         "flags": " ".join(flags),
         "sources": " ".join(sources),
         "kinds": ", ".join(f"`{kind}`" for kind in in_c.by_kind),
-        "memory": "\n".join(_memory(wanted, in_c, sizes, on_core)),
+        "memory": "\n".join(_memory(about, in_c, sizes, on_core)),
         "j_wraps": _wraps(in_c),
-        "order": _order(wanted),
     }
-    return "".join(filled(f"readme_{name}.md", values) for name in ("head", part, "end"))
+    return "".join(filled(f"readme_{name}.md", values) for name in ("head", about.part, "end"))
 
 
-def _memory(wanted: Filter, in_c: Jobs, sizes: Mapping[str, int], on_core: Compiled | None) -> list[str]:
-    each = BYTES[wanted.precision]
+def _memory(about: About, in_c: Jobs, sizes: Mapping[str, int], on_core: Compiled | None) -> list[str]:
+    each = BYTES[about.precision]
     lines = ["| what | bytes |", "| --- | ---: |"]
-    tasks = TASKS if wanted.method == "dual-rate" else {}
+    tasks = TASKS if about.part == "tasks" else {}
     for task, kinds in tasks.items():
         own = sum(size for name, size in sizes.items() if name.startswith((f"{task}_", *kinds)))
         lines.append(f"| RAM of {task.upper()}: arrays of state.h | {each * own} |")
@@ -64,6 +96,18 @@ def _memory(wanted: Filter, in_c: Jobs, sizes: Mapping[str, int], on_core: Compi
 def _wraps(in_c: Jobs) -> str:
     used = any(name in job.used for job in in_c.by_kind.values() for name in ("j", "k"))
     return f"{'The model depends on the step, which is' if used else 'Steps are'} counted in an `int`: "
+
+
+def _question(wanted: Filter) -> str:
+    """The command that says when the correction lands, with the steps that it is written for."""
+    steps = wanted.steps or Steps(10, 4, 5)
+    given = f"-N {steps.N}"
+    if wanted.method in MULTIRATE_METHODS:
+        given += f" -L {steps.L}"
+    else:
+        given += f" -M {steps.M}"
+        given += f" -L {steps.L}" if wanted.method in ("dual-rate", "delayed-horizon") else ""
+    return f"sched-sim minimum --costs board.toml --hr-hz 400 --method {wanted.method} {given}"
 
 
 def _order(wanted: Filter) -> str:

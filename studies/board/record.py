@@ -13,6 +13,7 @@ from filters.translation.data import Data, Kept
 from filters.translation.library import Precision
 from filters.translation.unit import Unit
 from studies.board.steps import Steps
+from studies.board.template import filled
 from studies.board.wanted import Filter
 
 CYCLES, SEED = 3, 0
@@ -44,7 +45,7 @@ def simulated(wanted: Filter, steps: Steps) -> Record:
     u = np.random.default_rng(SEED).normal(size=(number, system.inputs))
     truth = simulate_truth(system, 1 if each else N, x0, P0, u, SEED)
     y = truth.measurements if each else truth.measurements[:measured]
-    x0, u, y = (_held(values, precision) for values in (x0, u, y))
+    x0, u, y = (held(values, precision) for values in (x0, u, y))
     if each:
         history = MULTIRATE_METHODS[method].run(system, N, x0, P0, u, y, L=L, update=update)
     else:
@@ -58,13 +59,9 @@ def record_h(record: Record, precision: Precision) -> str:
     for name, values in record._asdict().items():
         if values.size:
             data.array(Kept(f"record_{name}"), values)
-    declarations = "\n".join(data.lines)
-    return (
-        f"/* A simulated record of data, and record_x, the states that Python makes of it. */\n"
-        f'#ifndef RECORD_H\n#define RECORD_H\n\n#include "filter.h"\n\n'
-        f"enum {{ RECORD_STEPS = {len(record.u)}, RECORD_MEASURED = {len(record.y)} }};\n\n{declarations}\n\n#endif\n"
-    )
+    enum = f"RECORD_STEPS = {len(record.u)}, RECORD_MEASURED = {len(record.y)}"
+    return filled("record.h", {"enum": enum, "data": "\n".join(data.lines)})
 
 
-def _held(values: FloatArray, precision: Precision) -> FloatArray:
+def held(values: FloatArray, precision: Precision) -> FloatArray:
     return values if precision == "double" else values.astype(np.float32).astype(np.float64)

@@ -5,9 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
+import numpy as np
+
+from filters.arrays import FloatArray, as_array
 from filters.jobs import Job
 from filters.modular.composition import ModularFilter
 from filters.modular.jobs import modular_jobs
+from filters.modular.typical import origin, typical_moment
 from sched_sim.errors import InputError
 from studies.measurement.user_function import explained, returned_by
 
@@ -44,6 +48,19 @@ def composed_by(name: str, option: str, example: str) -> Composed:
         said = f"{option} {name!r}: {returned.function}() returned {_shown(returned.value)}"
         raise InputError(f"{said}; {HOW}{example}")
     return Composed(composed, typical)
+
+
+def load_start(name: str) -> tuple[ModularFilter, FloatArray, FloatArray, FloatArray]:
+    """The filter that the function returns, and x0, P0 and u of its typical start, or else the usual ones.
+
+    Raises InputError as `load_filter`.
+    """
+    composed, typical = composed_by(name, "--filter", EXAMPLE)
+    with explained(f"--filter {name!r}", f"; it was tried with {_tried(typical)}"):
+        x0, P0, u = (*typical, None, None, None)[:3]
+        moment = typical_moment(composed, x0, P0, u)
+        x = origin(composed.of) if x0 is None else as_array("x0", x0)
+        return composed, x, np.eye(composed.of.errors) if P0 is None else as_array("P0", P0), moment.u
 
 
 def load_filter(name: str, seed: int = 0) -> UserFilter:

@@ -48,8 +48,6 @@ def serial(method: str, steps: Steps) -> Serial:
 def check_serial(method: str, steps: Steps) -> None:
     """Raises InputError unless the method can have these steps as C."""
     N, M, L = steps
-    if N < 1:
-        raise InputError(f"{option('N')} {N} must be at least 1: it is the HR steps from one measurement to the next")
     if method == "standard":
         return
     if method in MULTIRATE:

@@ -17,7 +17,7 @@
 #include "filter.h"$includes
 
 #ifndef TOLERANCE
-#define TOLERANCE 1000.0
+#define TOLERANCE $tolerance
 #endif
 
 static const double resolution = sizeof(real) == sizeof(float) ? (double)FLT_EPSILON : DBL_EPSILON;
@@ -71,12 +71,12 @@ static void timed(const char *name, void (*run)(void))
         run();
     }
     const uint32_t stop = (uint32_t)(CYCLES);
-    printf("%s = %.4f\n", name, 1e6 * (double)(stop - start) / (TIMES * (double)(CLOCK_HZ)));
+    printf("$cost\n", name, 1e6 * (double)(stop - start) / (TIMES * (double)(CLOCK_HZ)));
 }
 
 static void print_costs(void)
 {
-    printf("name = \"board\"\nunit = \"us\"\n\n[costs.$method]\n");
+    printf("name = \"board\"\nunit = \"us\"\n\n$costs\n");
 $times
 }
 #endif

@@ -35,6 +35,15 @@ def system():
 """
 
 
+COMPOSED = """
+from filters.modular import ModularFilter, Sensor, linear_corrector, linear_predictor
+
+def made():
+    gps = Sensor("gps", linear_corrector([[1.0]], [[0.1]]), delay=2)
+    return ModularFilter(linear_predictor([[1.0]], [[0.1]]), [gps])
+"""
+
+
 def write_model(F: str = "np.array([[1.0]])", R: str = "1.0") -> None:
     Path("own.py").write_text(MODEL.replace("{F}", F).replace("{R}", R))
 
@@ -72,6 +81,15 @@ def test_a_model_of_ones_own(sched_sim: Run) -> None:
     assert "own_F" in Path("board/filter.c").read_text()
 
 
+def test_robust_and_composed_filters(sched_sim: Run) -> None:
+    assert "Written for -N 5" in sched_sim("code --robust attitude -N 5 -o robust").err
+    assert "robust-closed" in Path("robust/README.md").read_text()
+    Path("composed.py").write_text(COMPOSED)
+    result = sched_sim("code --filter composed:made --precision single -o composed")
+    assert "the steps since done again" in result.err
+    assert "void filter_measure_gps(int taken, real y[1]);" in Path("composed/steps.h").read_text()
+
+
 @pytest.mark.parametrize(
     ("line", "said"),
     [
@@ -98,6 +116,12 @@ def test_a_model_of_ones_own(sched_sim: Run) -> None:
         ("code -o board --method standard -M 3", ["--method standard: leave out -M"]),
         ("code -o board --method larsen -M 0", ["-M 0 must be at least 1", "--method standard"]),
         ("code -o board --system own:system --states 3", ["leave out --states"]),
+        ("code -o board --filter own:system --states 3 -N 4", ["--filter own:system: leave out --states, -N"]),
+        ("code -o board --filter own:system", ["--filter 'own:system'", "returns a filters.modular.ModularFilter"]),
+        ("code -o board --robust speed", ["--robust", "speed", "attitude", "position"]),
+        ("code -o board --robust attitude -M 3", ["--robust attitude: leave out -M", "a system of its own"]),
+        ("code -o board --robust attitude --method larsen", ["--method 'larsen' is unknown here", "robust-givens"]),
+        ("code -o board --robust attitude -N 0", ["-N 0 must be at least 1"]),
         ("code -o board --states 65", ["--states 65", "at most 64"]),
         ("code -o board -N 1001 -M 4", ["-N 1001", "at most 1000", "CYCLE_STEPS"]),
         ("code -o own.py", ["--output 'own.py' is a file"]),

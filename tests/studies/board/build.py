@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import shutil
 import subprocess
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from unittest.mock import patch
 
@@ -43,8 +44,15 @@ def written(
     wanted = Filter(method, system, start, update, precision, steps, "sched-sim code")
     if for_a_core:
         return board_files(wanted)
-    with patch("studies.board.write.compiled", lambda *_: None):
+    with without_sizes():
         return board_files(wanted)
+
+
+@contextmanager
+def without_sizes() -> Iterator[None]:
+    """The cross compiler is not asked, which takes a while."""
+    with patch("studies.board.assembled.compiled", lambda *_: None):
+        yield
 
 
 def put(folder: Path, files: Mapping[str, str]) -> None:
