@@ -52,6 +52,7 @@ class Unit(Library):
         name = self._fresh(body.function.__name__ if is_public else _version(body))
         if lines and lines[-1] == "return;":
             lines.pop()
+        kinds = dict(zip(body.source.parameters, body.kinds, strict=True))
         own += [
             f"(void){c_name(name)}_rows;"
             for name in used

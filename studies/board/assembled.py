@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import NamedTuple
 
 from filters.jobs import Job
-from filters.translation.unit import WIDTH, wrapped
+from filters.translation.prototype import WIDTH, wrapped
 from studies.board.bits import test_c
 from studies.board.compiled import Compiled, compiled
 from studies.board.jobs import Jobs
