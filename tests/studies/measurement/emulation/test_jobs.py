@@ -24,6 +24,7 @@ from studies.measurement.emulation.memory import memory_of
 from studies.measurement.emulation.targets import TARGETS
 from studies.measurement.methods import measure
 from tests.boards import needs_board
+from tests.c_compiler import has_c
 
 pytestmark = needs_board
 
@@ -44,13 +45,6 @@ def shown_by_native(job: Job, index: int) -> bytes:
     translated = Unit("double").function(job.function, tuple(map(kind_of, arguments)))
     given = zip(translated.parameters, arguments, strict=True)
     return as_shown(tuple(value for name, value in given if name in translated.used), "double")
-
-
-def has_c() -> bool:
-    try:
-        return bool(compiler())
-    except ValueError:
-        return False
 
 
 @pytest.mark.skipif(not has_c(), reason="there is no C compiler")

@@ -1,0 +1,12 @@
+"""Whether this machine can compile C."""
+
+from __future__ import annotations
+
+from filters.backends.in_c import compiler
+
+
+def has_c() -> bool:
+    try:
+        return bool(compiler())
+    except ValueError:
+        return False
