@@ -105,7 +105,7 @@ def test_the_cheapest_part_is_the_first(sched_sim: Run, tmp_path: Path) -> None:
     for name, clock, price in (("dear", 10, "price = 9.5\n"), ("cheap", 100, "price = 2\n"), ("unpriced", 5, "")):
         (tmp_path / f"{name}.toml").write_text(text.format(name, name, clock, price), encoding="utf-8")
     parts = "--processor dear.toml --processor cheap.toml --processor unpriced.toml --processor leon3"
-    (row,) = answer(sched_sim, f"--within 0.38 {INS} --method larsen {parts}")["designs"]
+    (row,) = answer(sched_sim, f"--within 0.03 --model camera --method larsen {parts}")["designs"]
     assert [on["processor"] for on in row["parts"]] == ["cheap", "dear", "unpriced", "leon3"][: len(row["parts"])]
     assert [on["price"] for on in row["parts"]] == [2.0, 9.5, None, None]
 
@@ -148,7 +148,7 @@ def test_tasks_beside_it_need_their_share(sched_sim: Run, tmp_path: Path) -> Non
     (tmp_path / "tasks.toml").write_text(
         '[[task]]\nname = "control"\nhz = 400\noffset = 0\ncost_us = 500\npriority = 5\n', encoding="utf-8"
     )
-    line = f"--within 0.38 {INS} --method larsen --processor leon3"
+    line = "--within 0.03 --model camera --method larsen --processor leon3"
     alone, beside = (answer(sched_sim, line + more)["designs"][0]["parts"][0] for more in ("", " --tasks tasks.toml"))
     assert beside["needed_share"] == pytest.approx(alone["needed_share"] + 0.2)
     assert beside["load"] == pytest.approx(alone["load"] + 0.2)
@@ -288,7 +288,9 @@ def test_csv_has_a_row_for_each(sched_sim: Run) -> None:
 def test_the_figure_is_the_same_every_time(sched_sim: Run, tmp_path: Path, kind: str) -> None:
     pictures = []
     for _ in range(2):
-        result = sched_sim(f"design --within 0.38 {INS} --processor leon3 --figure front.{kind}")
+        result = sched_sim(
+            f"design --within 0.03 --model camera --method larsen --processor leon3 --figure front.{kind}"
+        )
         assert "Wrote front" in result.err
         pictures.append((tmp_path / f"front.{kind}").read_bytes())
     assert pictures[0] == pictures[1]
