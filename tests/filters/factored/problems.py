@@ -57,7 +57,9 @@ def covariance(random: np.random.Generator, n: int) -> Array:
     return A @ A.T + 0.5 * np.eye(n)
 
 
-problems = st.builds(problem, st.integers(1, 9), st.integers(1, 4), st.integers(0, 9), st.integers(0, 2**31 - 1))
+numbers = st.tuples(st.integers(1, 9), st.integers(1, 4), st.integers(0, 9), st.integers(0, 2**31 - 1))
+"""n, p, sources and seed of a problem."""
+problems = st.builds(lambda drawn: problem(*drawn), numbers)
 
 
 def close(found: Array, expected: Array) -> None:

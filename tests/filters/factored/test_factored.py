@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, get_args
+from typing import Any, TypeAlias, get_args
 
 import numpy as np
 import pytest
@@ -14,7 +14,10 @@ from filters.covariance_forms import COVARIANCE_FORMS, CovarianceFormName, covar
 from filters.factored import FACTORED_FORMS, FactoredFormName, factored_form
 from filters.factored.form import FactoredForm
 from filters.factored.workspace import new_factored_workspace
-from tests.filters.factored.problems import Problem, close, problem, problems
+from tests.filters.factored.problems import Problem, close, numbers, problem, problems
+from tests.filters.few_sizes import few
+
+Numbers: TypeAlias = tuple[int, int, int, int]
 
 each_form = pytest.mark.parametrize(
     "form", [pytest.param(factored_form(name, "short"), id=name) for name in FACTORED_FORMS]
@@ -41,6 +44,12 @@ def covariance_of(form: FactoredForm, factors: Any, backend: BackendName = "refe
     return P
 
 
+def drawn_problem(backend: BackendName, drawn: Numbers) -> Problem:
+    n, p, sources, seed = drawn
+    n, p = few(backend, n, p)
+    return problem(n, p, sources, seed)
+
+
 def propagated(form: FactoredForm, given: Problem, backend: BackendName = "reference") -> Any:
     factors, out = factors_of(form, given.P, backend), dirty(*given.P.shape)
     work = new_factored_workspace(given.system)
@@ -58,8 +67,9 @@ def updated(form: FactoredForm, given: Problem, backend: BackendName = "referenc
 @each_form
 @each_backend
 @settings(max_examples=30)
-@given(given=problems)
-def test_a_covariance_comes_back_from_its_factors(form: FactoredForm, backend: BackendName, given: Problem) -> None:
+@given(drawn=numbers)
+def test_a_covariance_comes_back_from_its_factors(form: FactoredForm, backend: BackendName, drawn: Numbers) -> None:
+    given = drawn_problem(backend, drawn)
     for P in (given.P, given.Q):
         close(covariance_of(form, factors_of(form, P, backend), backend), P)
 
@@ -67,16 +77,18 @@ def test_a_covariance_comes_back_from_its_factors(form: FactoredForm, backend: B
 @each_form
 @each_backend
 @settings(max_examples=30)
-@given(given=problems)
-def test_the_covariance_is_propagated(form: FactoredForm, backend: BackendName, given: Problem) -> None:
+@given(drawn=numbers)
+def test_the_covariance_is_propagated(form: FactoredForm, backend: BackendName, drawn: Numbers) -> None:
+    given = drawn_problem(backend, drawn)
     close(propagated(form, given, backend), given.propagated)
 
 
 @each_form
 @each_backend
 @settings(max_examples=30)
-@given(given=problems)
-def test_the_gain_and_the_covariance_after_it(form: FactoredForm, backend: BackendName, given: Problem) -> None:
+@given(drawn=numbers)
+def test_the_gain_and_the_covariance_after_it(form: FactoredForm, backend: BackendName, drawn: Numbers) -> None:
+    given = drawn_problem(backend, drawn)
     K, P = updated(form, given, backend)
     close(K, given.gain)
     close(P, given.updated)

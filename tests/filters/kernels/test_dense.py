@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from filters.backends.choose import BACKENDS, BackendName, function_for
 from filters.backends.counted import Operations, count
 from filters.kernels import dense, solve
+from tests.filters.few_sizes import few
 
 lengths = st.integers(1, 7)
 seeds = st.integers(0, 2**31 - 1)
@@ -38,6 +39,7 @@ def positive_definite(seed: int, n: int) -> Any:
 @each_backend
 @given(n=lengths, m=lengths, p=lengths, seed=seeds)
 def test_products(backend: BackendName, n: int, m: int, p: int, seed: int) -> None:
+    n, m, p = few(backend, n, m, p)
     A, B, x, y = normal(seed, (n, m), (m, p), (m,), (n,))
     out, scratch = np.empty((n, p)), np.empty((m, p))
     transposed = np.ascontiguousarray(B.T)
@@ -62,6 +64,7 @@ def test_products(backend: BackendName, n: int, m: int, p: int, seed: int) -> No
 @each_backend
 @given(n=lengths, m=lengths, seed=seeds)
 def test_sums_and_copies(backend: BackendName, n: int, m: int, seed: int) -> None:
+    n, m = few(backend, n, m)
     A, B, a, b = normal(seed, (n, m), (n, m), (n,), (n,))
     out, vector, turned = np.empty((n, m)), np.empty(n), np.empty((m, n))
     for kernel, expected in ((dense.add, A + B), (dense.subtract, A - B)):
@@ -88,6 +91,7 @@ def test_sums_and_copies(backend: BackendName, n: int, m: int, seed: int) -> Non
 @each_backend
 @given(n=lengths, m=lengths, seed=seeds)
 def test_what_an_update_by_terms_takes(backend: BackendName, n: int, m: int, seed: int) -> None:
+    n, m = few(backend, n, m)
     P, A, B, d = normal(seed, (n, n), (m, n), (m, n), (m,))
     out = P.copy()
     function_for(backend, dense.subtract_lower_product)(out, A, B, out)
@@ -102,6 +106,7 @@ def test_what_an_update_by_terms_takes(backend: BackendName, n: int, m: int, see
 @each_backend
 @given(p=lengths, n=lengths, seed=seeds)
 def test_solves(backend: BackendName, p: int, n: int, seed: int) -> None:
+    p, n = few(backend, p, n)
     S = positive_definite(seed, p)
     (B,) = normal(seed, (p, n))
     inverse, scratch, C, solved = np.empty((p, p)), np.empty((p, p)), np.zeros((p, p)), np.empty((p, n))

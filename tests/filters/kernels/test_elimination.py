@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 from filters.backends.choose import BACKENDS, BackendName, function_for
 from filters.kernels import elimination, givens, inversion, place, schur
+from tests.filters.few_sizes import few
 
 sizes = st.integers(1, 7)
 seeds = st.integers(0, 2**31 - 1)
@@ -41,6 +42,7 @@ def positive_definite(seed: int, n: int) -> Any:
 @settings(max_examples=20, deadline=None)
 @given(N=sizes, r=st.integers(1, 3), n=sizes, seed=seeds)
 def test_last_unknowns(backend: BackendName, N: int, r: int, n: int, seed: int) -> None:
+    N, r, n = few(backend, N, r, n)
     T, n = system(seed, N, r), min(n, N)
     expected = np.linalg.solve(T[:, :N], T[:, N:])[N - n :]
     kernels: tuple[Callable[..., Any], ...] = (
@@ -111,6 +113,7 @@ def test_blocks(backend: BackendName) -> None:
 @settings(max_examples=20, deadline=None)
 @given(eliminated=st.integers(0, 3), kept=sizes, n=sizes, seed=seeds)
 def test_schur_complements(backend: BackendName, eliminated: int, kept: int, n: int, seed: int) -> None:
+    eliminated, kept, n = few(backend, eliminated, kept, n)
     total = eliminated + kept
     A, values = system(seed, max(total, n), 1)[:total, :n], np.linspace(1, 2, total)
     J, S, whole = positive_definite(seed, total), positive_definite(seed, n), positive_definite(seed, total)
@@ -131,6 +134,7 @@ def test_schur_complements(backend: BackendName, eliminated: int, kept: int, n: 
 @given(first=st.integers(0, 3), others=sizes, seed=seeds)
 def test_noise_is_decorrelated(backend: BackendName, first: int, others: int, seed: int) -> None:
     """Rows, values and noise are transformed alike, so that what is estimated from them stays the same."""
+    first, others = few(backend, first, others)
     total = first + others
     random = np.random.default_rng(seed)
     noise, rows, values = positive_definite(seed, total), random.normal(size=(total, 2)), random.normal(size=total)

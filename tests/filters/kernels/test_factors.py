@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from filters.backends.choose import BACKENDS, BackendName, function_for
 from filters.backends.counted import Operations, count
 from filters.kernels import sequential, triangular, u_d
+from tests.filters.few_sizes import few
 
 lengths = st.integers(1, 7)
 seeds = st.integers(0, 2**31 - 1)
@@ -105,6 +106,7 @@ def test_triangularisations(backend: BackendName, n: int, seed: int) -> None:
 @settings(max_examples=20)
 @given(n=lengths, p=st.integers(1, 4), seed=seeds)
 def test_scalar_updates_make_up_the_joint_one(backend: BackendName, n: int, p: int, seed: int) -> None:
+    n, p = few(backend, n, p)
     P = positive_definite(seed, n)
     (H,) = normal(seed, (p, n))
     noise = np.random.default_rng(seed).uniform(0.1, 10, p)
@@ -130,6 +132,7 @@ def test_scalar_updates_make_up_the_joint_one(backend: BackendName, n: int, p: i
 def test_measurements_are_decorrelated_by_unit_triangular_solves(
     backend: BackendName, p: int, n: int, seed: int
 ) -> None:
+    p, n = few(backend, p, n)
     R = positive_definite(seed, p)
     (B,) = normal(seed, (p, n))
     kept, variances = rubbish_above(np.zeros((p, p))), np.empty(p)
