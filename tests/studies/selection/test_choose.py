@@ -30,6 +30,8 @@ from studies.selection.sampling import Sampling
 Phi = np.array([[1.0, 1.0], [0.0, 1.0]])
 Q = 0.01 * np.array([[1 / 3, 1 / 2], [1 / 2, 1.0]])
 CV = LinearModel(Phi, Q, np.array([[1.0, 0.0]]), np.eye(1))
+COSTS = ["counted-9-3-3"]
+"""Where they do not matter: without them they are counted, which takes a while."""
 
 
 def choice(within: float, **more: Any) -> Choice:
@@ -108,7 +110,7 @@ def test_with_several_in_flight_those_that_bear_it_take_part() -> None:
 
 @pytest.mark.parametrize("every", [2, 0, [0], [1.5], [], [True], "1"])
 def test_every_is_whole_numbers(every: Any) -> None:
-    for ask in (lambda: choice(9.0, every=every), lambda: compare_accuracy("ins-gps", every=every)):
+    for ask in (lambda: choice(9.0, every=every, costs=COSTS), lambda: compare_accuracy("ins-gps", every=every)):
         with pytest.raises(InputError, match=r"every is .*: give whole numbers of at least 1"):
             ask()
 
@@ -217,7 +219,7 @@ def test_each_scheduled_method_of_a_late_measurement_has_an_accuracy() -> None:
     ],
 )
 def test_what_cannot_be_is_named(arguments: dict[str, Any], said: str) -> None:
-    given: dict[str, Any] = {"within": 9.0, "model": CV, "output": [0], "N": 10, "M": 4} | arguments
+    given: dict[str, Any] = {"within": 9.0, "model": CV, "output": [0], "N": 10, "M": 4, "costs": COSTS} | arguments
     with pytest.raises(InputError, match=said):
         choose_filter(**given)
 
