@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import csv
 from codecs import StreamWriter, getwriter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from fractions import Fraction
 from pathlib import Path
@@ -55,17 +55,17 @@ def time_unit(rate: Fraction | None) -> TimeUnit:
 
 
 @contextmanager
-def open_trace(path: str | Path, hr_hz: Number | None = None) -> Iterator[Write]:
+def open_trace(path: str | Path, hr_hz: Number | None = None, names: Sequence[str] = ()) -> Iterator[Write]:
     """A function that writes one slice to `path`, in the format of its suffix; the file is there once all is written.
 
-    hr_hz: rate of the HR loop in Hz, with which times are in ms, else in HR periods. A job that is unfinished at the
-    end, or done together with another, has a row of no length, or an instant event. Raises InputError for another
-    suffix and for a path that cannot be written.
+    hr_hz: rate of the HR loop in Hz, with which times are in ms, else in HR periods; names: of the processors in a
+    Chrome trace, else CPU 1, 2, ... A job that is unfinished at the end, or done together with another, has a row of no
+    length, or an instant event. Raises InputError for another suffix and for a path that cannot be written.
     """
     path = Path(path)
     check_trace(path)
     unit = time_unit(None if hr_hz is None else positive(hr_hz, "hr_hz"))
-    with writing(path, option("trace")) as file, WRITERS[path.suffix](getwriter("utf-8")(file), unit) as write:
+    with writing(path, option("trace")) as file, WRITERS[path.suffix](getwriter("utf-8")(file), unit, names) as write:
         yield write
 
 
@@ -77,7 +77,7 @@ def check_trace(path: Path) -> None:
 
 
 @contextmanager
-def _csv(file: StreamWriter, unit: TimeUnit) -> Iterator[Write]:
+def _csv(file: StreamWriter, unit: TimeUnit, _names: Sequence[str]) -> Iterator[Write]:
     writer = csv.writer(file, lineterminator="\n")
     times = unit.keys("start", "end", "release", "deadline")
     writer.writerow(("cpu", "kind", "piece", "step", *times, "finished", "missed"))
@@ -93,7 +93,7 @@ def _csv(file: StreamWriter, unit: TimeUnit) -> Iterator[Write]:
 
 
 @contextmanager
-def _chrome(file: StreamWriter, unit: TimeUnit) -> Iterator[Write]:
+def _chrome(file: StreamWriter, unit: TimeUnit, names: Sequence[str]) -> Iterator[Write]:
     threads: dict[tuple[int, str], int] = {}
     separator = "\n"
     drawn_us = 1000.0 if unit.hr_hz is None else 1e6 / unit.hr_hz
@@ -106,8 +106,9 @@ def _chrome(file: StreamWriter, unit: TimeUnit) -> Iterator[Write]:
     def thread(cpu: int, kind: str) -> int:
         if (cpu, kind) not in threads:
             threads[cpu, kind] = tid = len(threads) + 1
-            name = f"CPU {cpu}, {unit.said}" if unit.said else f"CPU {cpu}"
-            event(name="process_name", ph="M", pid=cpu, args={"name": name})
+            name = names[cpu - 1] if names else f"CPU {cpu}"
+            said = f"{name}, {unit.said}" if unit.said else name
+            event(name="process_name", ph="M", pid=cpu, args={"name": said})
             event(name="thread_name", ph="M", pid=cpu, tid=tid, args={"name": kind})
         return threads[cpu, kind]
 

@@ -1,0 +1,80 @@
+"""Whether a period is one that the clocks and the kernel of this machine resolve."""
+
+from __future__ import annotations
+
+import time
+from collections import defaultdict
+from collections.abc import Mapping
+from math import ceil
+from statistics import median
+from typing import NamedTuple
+
+from sched_sim.errors import InputError, option
+from studies.live.design import Design
+from studies.live.jobs import Ran
+from studies.live.landed import wake_ups
+from studies.live.program import Program
+
+PERIOD_NS, STEPS = 1_000_000, 100
+"""Of the probe."""
+SHORTEST_NS = 1_000
+"""No clock is asked about less."""
+WAKE_UPS, TIMES = 40, 10
+"""A period is so many typical wake-ups long, at the least: one is half of what disturbs a cycle. And each job is done so
+often in its CPU time."""
+
+
+class Resolution(NamedTuple):
+    """wake: median latency of a wake-up, ns; once: of each job done once, with a look at the clock, ns of CPU time."""
+
+    wake: float
+    once: Mapping[str, float]
+
+    def least_period(self, design: Design) -> float:
+        """In ns, at the design's speed."""
+        shares = {kind: ns / design.period_ns for kind, ns in design.job_ns.items()}
+        by_job = [TIMES * self.once[kind] / share for kind, share in shares.items() if share and kind in self.once]
+        return max(WAKE_UPS * self.wake, *by_job)
+
+
+def resolution(program: Program, design: Design, cpu: int) -> Resolution:
+    """Takes a tenth of a second and more."""
+    short = design._replace(period_ns=PERIOD_NS, cycles=ceil(STEPS / design.N))
+    return resolved(program.run(short, cpu, once=True), short)
+
+
+def resolved(ran: Ran, short: Design) -> Resolution:
+    """Of a run in which each job was done once."""
+    once: defaultdict[str, list[int]] = defaultdict(list)
+    for job in ran.jobs:
+        once[job.kind].append(job.cpu)
+    return Resolution(median(wake_ups(ran.jobs, short)), {kind: median(times) for kind, times in once.items()})
+
+
+def check_shortest(design: Design) -> None:
+    """Raises InputError for a period of less than a microsecond, before anything is compiled."""
+    if design.period_ns < SHORTEST_NS:
+        raise InputError(f"{_said(design)}: give at least {SHORTEST_NS / 1e6:g}")
+
+
+def check_resolved(found: Resolution, design: Design) -> None:
+    """Raises InputError that says what was measured here if the period is too short for it."""
+    least = found.least_period(design)
+    if design.period_ns < least:
+        job = max(found.once, key=lambda kind: found.once[kind])
+        raise InputError(
+            f"{_said(design)}, a wake-up here takes {found.wake / 1e3:.3g} us (median), and {job}, done once, "
+            f"{found.once[job] / 1e3:.3g} us: give at least {_rounded_up(least / 1e6)}"
+        )
+
+
+def _said(design: Design) -> str:
+    clock_ns = 1e9 * time.clock_getres(time.CLOCK_MONOTONIC)
+    period = f"{option('period_ms')} {design.period_ns / 1e6:g}"
+    return f"{period} is too short to be resolved: the clock ticks every {clock_ns:g} ns"
+
+
+def _rounded_up(ms: float) -> str:
+    """Two digits."""
+    unit = 10.0 ** (len(str(int(ms))) - 2 if ms >= 1 else -2)
+    return f"{ceil(ms / unit) * unit:.3g}"

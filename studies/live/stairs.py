@@ -1,0 +1,61 @@
+"""Speeds through two steps of the staircase, and what was measured at each."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from fractions import Fraction
+from itertools import pairwise
+
+from sched_sim.design.least_speed import staircase
+from studies.live.agreement import Word
+from studies.live.design import MOST_LOAD, Design
+from studies.live.measure import Measured
+
+FACTORS = tuple(Fraction(percent, 100) for percent in (95, 98, 99, 101, 102, 105))
+"""Of the speed of a step: where it is looked at."""
+NEAR = Fraction(2, 100)
+"""Nearer to a step, relative to its speed, a run may disagree without there being anything wrong."""
+
+
+def steps(design: Design) -> list[Fraction]:
+    """The speeds at which the predicted l becomes one less, ascending."""
+    stairs = staircase(design.costs, design.N, design.M)
+    return sorted({stair.speed for stair in stairs if stair.achieved == stair.L})
+
+
+def nearest_step(design: Design) -> Fraction:
+    """How far, relative to it, the speed is from the nearest step: negative below it."""
+    return min((design.speed / step - 1 for step in steps(design)), key=abs)
+
+
+def two_steps(design: Design) -> list[Fraction]:
+    """Those on both sides of the speed, or the two that are nearest to it; one, if there are no more."""
+    found = steps(design)
+    middles = {(low + high) / 2: [low, high] for low, high in pairwise(found)}
+    return middles[min(middles, key=lambda middle: abs(middle - design.speed))] if middles else found
+
+
+def through_two_steps(design: Design) -> list[Design]:
+    """Designs at speeds on both sides of two steps, ascending, without those that cannot run."""
+    speeds = sorted({factor * step for step in two_steps(design) for factor in FACTORS})
+    designs = [design._replace(speed=speed) for speed in speeds]
+    return [each for each in designs if each.load <= MOST_LOAD and each.predicted is not None]
+
+
+def climbed(
+    designs: Sequence[Design], run: Callable[[Design], Measured], on_progress: Callable[[int, int, str], None]
+) -> list[Measured]:
+    """One run after the other."""
+    done = []
+    for number, design in enumerate(designs):
+        on_progress(number, len(designs), f"speed {float(design.speed):.4g}")
+        done.append(run(design))
+    return done
+
+
+def word_of(runs: Sequence[Measured]) -> Word:
+    """Of all that are not near to a step: they disagree if one does, and agree if each does."""
+    words = {run.agreement.word for run in runs if abs(nearest_step(run.design)) >= NEAR}
+    if "disagrees" in words:
+        return "disagrees"
+    return "agrees" if words == {"agrees"} else "inconclusive"

@@ -1,0 +1,75 @@
+"""Core time that something else had while a job was ready: a hypervisor, interrupts, switches between the threads.
+
+A busy period begins when a job is ready and ends when none is. Both threads are on one core, so it is as long as their
+jobs had CPU time, and what is more was taken from them. A job that waits because the other thread runs has lost
+nothing: priorities in the wrong order disturb no cycle.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from fractions import Fraction
+from typing import NamedTuple
+
+from studies.live.design import Design
+from studies.live.jobs import Job
+
+DISTURBED = Fraction(5, 100)
+"""A cycle is disturbed if more than this share of a period was taken in a busy period that it has part in. Nothing else
+carries over from cycle to cycle: what is late there goes on in one busy period."""
+
+
+class Busy(NamedTuple):
+    """A busy period, in ns. cpu: what jobs had of it."""
+
+    start: int
+    end: int
+    cpu: int
+
+    @property
+    def taken(self) -> int:
+        return self.end - self.start - self.cpu
+
+
+def busy_periods(jobs: Iterable[Job], design: Design) -> list[Busy]:
+    """In their order."""
+    found: list[Busy] = []
+    for ready, job in sorted(_ready(jobs, design)):
+        if found and ready <= found[-1].end:
+            last = found.pop()
+            found.append(Busy(last.start, max(last.end, job.end), last.cpu + job.cpu))
+        else:
+            found.append(Busy(ready, job.end, job.cpu))
+    return found
+
+
+def taken_by_cycle(busy: Iterable[Busy], design: Design) -> list[int]:
+    """The most that was taken in a busy period of each cycle, ns."""
+    most = [0] * (design.cycles + 1)
+    for period in busy:
+        for cycle in range(period.start // design.cycle_ns, (period.end - 1) // design.cycle_ns + 1):
+            if cycle <= design.cycles:
+                most[cycle] = max(most[cycle], period.taken)
+    return most[1:]
+
+
+def disturbed(taken: Sequence[int], design: Design) -> list[bool]:
+    """By cycle, of `taken_by_cycle`."""
+    return [each > DISTURBED * design.period_ns for each in taken]
+
+
+def _ready(jobs: Iterable[Job], design: Design) -> Iterator[tuple[int, Job]]:
+    """Each job with the instant from which it could have run."""
+    high_done: dict[int, int] = {}
+    propagated: dict[int, int] = {}
+    for job in jobs:  # those of HR come first
+        ready = job.start
+        if job.high:
+            ready = high_done.get(job.step, job.step * design.period_ns)
+            high_done[job.step] = job.end
+        elif job.kind == "lr_propagate":
+            ready = high_done.get(job.step, ready)
+            propagated[job.step] = job.end
+        elif job.kind == "lr_update":
+            ready = max((job.step + design.M) * design.period_ns, propagated.get(job.step, 0))
+        yield min(ready, job.start), job
