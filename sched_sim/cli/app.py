@@ -10,7 +10,7 @@ from typing import Annotated, Any
 import typer
 from typer.core import TyperCommand, TyperGroup
 
-from sched_sim.cli import accuracy, code, design, gantt, measure, minimum, processors, report, simulate, sweep
+from sched_sim.cli import accuracy, code, design, gantt, live, measure, minimum, processors, report, simulate, sweep
 from sched_sim.errors import InputError
 from sched_sim.text import did_you_mean, visible_lines
 
@@ -122,4 +122,5 @@ app.command("accuracy", cls=Command)(accuracy.accuracy)
 app.command("design", cls=Command)(design.design)
 app.command("measure", cls=Command)(measure.measure)
 app.command("code", cls=Command)(code.code)
+app.command("live", cls=Command)(live.live)
 app.command("report", cls=Command)(report.report)

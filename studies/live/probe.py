@@ -20,8 +20,8 @@ PERIOD_NS, STEPS = 1_000_000, 100
 SHORTEST_NS = 1_000
 """No clock is asked about less."""
 WAKE_UPS, TIMES = 40, 10
-"""A period is so many typical wake-ups long, at the least: one is half of what disturbs a cycle. And each job is done so
-often in its CPU time."""
+"""So many typical wake-ups a period has room for, at the least, for one is half of what disturbs a cycle; so often each
+job is done in its CPU time."""
 
 
 class Resolution(NamedTuple):

@@ -1,0 +1,1 @@
+"""No report: the figures that `sched-sim live` draws."""

@@ -1,0 +1,71 @@
+"""How achieved l, wake-up latency and the time that was taken are spread over a run."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
+
+from reports.drawing.legend import Entry, line_entry
+from reports.drawing.sheet import label, sheet
+from reports.drawing.style import FILLS, GREY, INK, RED, Line, drawing
+from studies.live.measure import Measured
+from studies.live.taken import DISTURBED
+
+PLOT_MM, BINS = 38.0, 30
+PREDICTED = Line(RED, (0, (5, 2)), "None")
+FEWEST_SHOWN = 5
+"""Steps on the axis of achieved l."""
+UP = "% of the cycles"
+
+
+def histograms_figure(measured: Measured) -> Figure:
+    """Achieved l with the predicted one, latencies of HR's wake-ups, and what was taken with what disturbs a cycle."""
+    with drawing():
+        figure, ((landed, wake, taken),) = sheet(1, 3, _legend(), height_mm=PLOT_MM, gap_mm=13.0)
+        _landed(landed, measured)
+        _times(wake, [ns / 1e3 for ns in measured.wake], FILLS["HRP"].colour)
+        label(wake, "wake-up latency of HR", "time (us)", "% of the wake-ups")
+        limit = float(DISTURBED * measured.design.period_ns) / 1e3
+        _times(taken, [ns / 1e3 for ns in measured.taken], GREY)
+        taken.axvline(limit, color=INK, lw=1.0, ls=(0, (1.0, 1.2)))
+        low, high = taken.get_xlim()
+        taken.set_xlim(low, max(high, 1.5 * limit))
+        label(taken, "taken from a cycle", "time (us)", UP)
+        return figure
+
+
+def _legend() -> list[Entry]:
+    disturbs = Line(INK, (0, (1.0, 1.2)), "None")
+    return [line_entry("predicted l", PREDICTED), line_entry("more disturbs a cycle", disturbs)]
+
+
+def _landed(axes: Axes, measured: Measured) -> None:
+    counts = Counter(measured.achieved)
+    landed = sorted(l for l in counts if l is not None)
+    low, high = min([*landed, measured.predicted]), max([*landed, measured.predicted])
+    wider = max(FEWEST_SHOWN - (high - low + 1), 0)
+    low, high = low - wider // 2, high + wider - wider // 2
+    shares = [100 * counts[l] / len(measured.achieved) for l in landed]
+    axes.bar(landed, shares, 0.8, color=FILLS["LRU"].colour, lw=0)
+    axes.axvline(measured.predicted, color=RED, lw=1.0, ls=PREDICTED.dashes)
+    axes.set_xlim(low - 0.7, high + 0.7)
+    axes.set_ylim(0, 105)
+    axes.xaxis.set_major_locator(MaxNLocator(nbins=7, integer=True))
+    label(axes, "achieved l", "$l - k$ (high-rate steps)", UP)
+
+
+def _times(axes: Axes, times_us: Sequence[float], colour: str) -> None:
+    """Of a logarithmic axis: most are short, and few very long."""
+    low, high = max(min(times_us), 1.0), max(max(times_us), 2.0)
+    edges = np.geomspace(low, 1.01 * high, BINS + 1)
+    counts, _ = np.histogram(np.maximum(times_us, low), bins=edges)
+    axes.bar(edges[:-1], 100 * counts / len(times_us), np.diff(edges), align="edge", color=colour, ec=INK, lw=0.3)
+    axes.set_xscale("log")
+    axes.set_xlim(low, 1.01 * high)
+    axes.xaxis.set_major_formatter(lambda value, _: f"{value:,.0f}")
+    axes.xaxis.set_minor_formatter(lambda _value, _: "")

@@ -1,0 +1,203 @@
+"""What a live run came to: for scripts, with units in the names of the keys, and in words."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from fractions import Fraction
+from statistics import median
+from typing import TYPE_CHECKING, Any
+
+from sched_sim.cli.output import Format, lines, print_csv, print_json, print_table
+from sched_sim.shares import percent
+
+if TYPE_CHECKING:
+    from studies.live.agreement import Agreement, Word
+    from studies.live.measure import Measured
+
+
+def show_run(run: Measured, core: int, swapped: bool, format: Format) -> None:
+    """One run."""
+    if format == "json":
+        print_json(_about(run, core, swapped) | _figures(run) | _by_cycle(run))
+    elif format == "csv":
+        print_csv(_cycle_rows(run))
+    else:
+        title = f"{_title(run, core, swapped)}, speed {float(run.design.speed):.6g}"
+        print_table(title, _landed_rows(run), lines(_verdict(run), *_facts(run)))
+
+
+def show_stairs(runs: Sequence[Measured], word: Word, core: int, swapped: bool, format: Format) -> None:
+    """Runs at several speeds, and the word for all."""
+    from studies.live.stairs import NEAR
+
+    rows = [_about(run, core, swapped) | _figures(run) for run in runs]
+    if format == "json":
+        print_json({"verdict": word, "speeds": rows})
+    elif format == "csv":
+        print_csv([{key: value for key, value in row.items() if key != "wake_us"} for row in rows])
+    else:
+        near = float(100 * NEAR)
+        note = f"{word}, by the speeds {near:g} % or more from a step"
+        print_table(_title(runs[0], core, swapped), [_speed_row(run) for run in runs], lines(note, _ground(runs[0])))
+
+
+def _title(run: Measured, core: int, swapped: bool) -> str:
+    design = run.design
+    priorities = "LR above HR" if swapped else "HR above LR"
+    return (
+        f"dual-rate, N={design.N} M={design.M}, two SCHED_FIFO threads on CPU {core}, {priorities}, HR period "
+        f"{design.period_ns / 1e6:g} ms, {design.cycles} cycles"
+    )
+
+
+def _about(run: Measured, core: int, swapped: bool) -> dict[str, Any]:
+    design = run.design
+    return {
+        "N": design.N,
+        "M": design.M,
+        "speed": float(design.speed),
+        "speed_exact": str(design.speed),
+        "period_ms": design.period_ns / 1e6,
+        "cycles": design.cycles,
+        "cpu": core,
+        "swapped_priorities": swapped,
+    }
+
+
+def _figures(run: Measured) -> dict[str, Any]:
+    """Shares are of 1; times in us."""
+    from studies.live.stairs import nearest_step
+
+    found = run.agreement
+    calm = found.share_undisturbed
+    return {
+        "verdict": found.word,
+        "predicted_l": run.predicted,
+        "from_step": float(nearest_step(run.design)),
+        "agreeing": found.agreeing,
+        "share": float(found.share),
+        "undisturbed": found.undisturbed,
+        "agreeing_undisturbed": found.agreeing_undisturbed,
+        "share_undisturbed": None if calm is None else float(calm),
+        "taken_share": run.taken_share,
+        "wake_us": _spread_us(run.wake),
+        "differing_states": run.ran.differing,
+    }
+
+
+def _by_cycle(run: Measured) -> dict[str, Any]:
+    taken = [ns / 1e3 for ns in run.taken]
+    return {"achieved_l": run.achieved, "disturbed": run.disturbed, "taken_us": taken}
+
+
+def _cycle_rows(run: Measured) -> list[dict[str, Any]]:
+    columns = zip(run.achieved, run.disturbed, run.taken, strict=True)
+    return [
+        {
+            "cycle": cycle,
+            "achieved_l": l,
+            "predicted_l": run.predicted,
+            "agrees": l == run.predicted,
+            "disturbed": disturbed,
+            "taken_us": taken / 1e3,
+        }
+        for cycle, (l, disturbed, taken) in enumerate(columns, start=1)
+    ]
+
+
+def _landed_rows(run: Measured) -> list[dict[str, Any]]:
+    """The histogram of achieved l."""
+    everything = Counter(run.achieved)
+    calm = Counter(l for l, disturbed in zip(run.achieved, run.disturbed, strict=True) if not disturbed)
+    found = sorted({run.predicted, *(l for l in everything if l is not None)})
+    return [
+        {
+            "l - k": "left out" if l is None else str(l),
+            "predicted": "yes" if l == run.predicted else "",
+            "cycles": everything[l],
+            "of all": percent(everything[l] / len(run.achieved)),
+            "undisturbed": calm[l],
+            "of these": percent(calm[l] / max(calm.total(), 1)),
+        }
+        for l in [*found, *([None] if None in everything else [])]
+    ]
+
+
+def _verdict(run: Measured) -> str:
+    """Its word first."""
+    from studies.live.agreement import ENOUGH
+
+    found = run.agreement
+    where = f"as predicted, l = k + {run.predicted}"
+    all_said = f"of all {found.cycles} cycles {_of(found.agreeing, found.cycles)}"
+    calm = f"of {found.undisturbed} undisturbed cycles {_of(found.agreeing_undisturbed, found.undisturbed)}"
+    enough = f"fewer than {float(100 * ENOUGH):g} % of the cycles were undisturbed; " * (found.word == "inconclusive")
+    return f"{found.word}: {enough}{where}, landed {calm}; {all_said}"
+
+
+def _of(part: int, whole: int) -> str:
+    return f"{part} ({percent(part / whole)})" if whole else "none"
+
+
+def _facts(run: Measured) -> list[str]:
+    from studies.live.stairs import NEAR, nearest_step
+
+    distance = nearest_step(run.design)
+    near = (
+        f"the speed is {float(100 * abs(distance)):.3g} % {'above' if distance >= 0 else 'below'} a step of the "
+        f"staircase: nearer than {float(100 * NEAR):g} %, little that is taken makes l one more"
+        if abs(distance) < NEAR
+        else ""
+    )
+    wake, taken = _spread_us(run.wake), _spread_us(run.taken)
+    states = (
+        "states: to the bit those of one thread that does the same steps"
+        if not run.ran.differing
+        else f"WRONG: {run.ran.differing} states are not those of one thread that does the same steps"
+    )
+    return [
+        near,
+        f"wake-up latency of HR, us: {_words(wake)}; taken from a cycle, us: {_words(taken)}; "
+        f"{percent(run.taken_share)} of all time",
+        _ground(run),
+        states,
+    ]
+
+
+def _ground(run: Measured) -> str:
+    from studies.live.taken import DISTURBED
+
+    limit = DISTURBED * Fraction(run.design.period_ns, 1000)
+    return (
+        f"disturbed: something else took more than {float(100 * DISTURBED):g} % of a period, {float(limit):g} us, while a "
+        f"job was ready"
+    )
+
+
+def _spread_us(times_ns: Sequence[int]) -> dict[str, float]:
+    ordered = sorted(times_ns)
+    within = ordered[-(-99 * len(ordered) // 100) - 1]
+    return {"median": median(ordered) / 1e3, "p99": within / 1e3, "worst": ordered[-1] / 1e3}
+
+
+def _words(spread: dict[str, float]) -> str:
+    return f"median {spread['median']:.3g}, 99 % within {spread['p99']:.3g}, worst {spread['worst']:.3g}"
+
+
+def _speed_row(run: Measured) -> dict[str, Any]:
+    from studies.live.stairs import nearest_step
+
+    found: Agreement = run.agreement
+    most = Counter(run.achieved).most_common(1)[0][0]
+    calm = found.share_undisturbed
+    return {
+        "speed": f"{float(run.design.speed):.4f}",
+        "from a step": f"{float(100 * nearest_step(run.design)):+.1f} %",
+        "predicted": run.predicted,
+        "measured": "left out" if most is None else most,
+        "of undisturbed": None if calm is None else percent(float(calm)),
+        "of all": percent(float(found.share)),
+        "undisturbed": percent(found.undisturbed / found.cycles),
+        "verdict": found.word,
+    }
