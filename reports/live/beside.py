@@ -10,7 +10,7 @@ from reports.charts.panels import Mark, Panel, cycle_marks, landing_note, steps_
 from sched_sim.design.simulate import simulate
 from sched_sim.schedule.outcome import Schedule
 from studies.live.measure import Measured
-from studies.live.slices import schedule_of
+from studies.live.slices import responses_of, schedule_of
 
 MOST_CYCLES = 2
 """Shown."""
@@ -35,10 +35,9 @@ def beside_panels(measured: Measured, *, swapped: bool = False) -> list[Panel]:
     shown = steps_shown(first, last, design.steps)
     priorities = ["LR above HR"] if swapped else []
     ran = schedule_of(measured.ran.jobs, design, swapped=swapped)
+    predicted = dict.fromkeys(range(cycles), measured.predicted)
     return [
-        _panel(
-            "Simulated", measured, schedule, dict.fromkeys(range(cycles), measured.predicted), (first, last), [pace]
-        ),
+        _panel("Simulated", measured, schedule, predicted, (first, last), [pace]),
         _panel("Measured", measured, ran, landed, (first, last), [*priorities, shown]),
     ]
 
@@ -64,7 +63,7 @@ def _within(schedule: Schedule, start: int, end: int) -> Schedule:
     slices = tuple(piece for piece in schedule.slices if piece.end > start and piece.release < end)
     kept = {(piece.kind, piece.step) for piece in slices}
     slices = tuple(piece for piece in schedule.slices if (piece.kind, piece.step) in kept)
-    return replace(schedule, slices=slices)
+    return replace(schedule, slices=slices, responses=responses_of(slices))
 
 
 def _moved(marks: list[Mark], steps: int) -> Iterator[Mark]:

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import MaxNLocator
+from matplotlib.ticker import LogLocator, MaxNLocator, NullLocator
 
 from reports.drawing.legend import Entry, line_entry
 from reports.drawing.sheet import label, sheet
@@ -20,6 +20,8 @@ PLOT_MM, BINS = 38.0, 30
 PREDICTED = Line(RED, (0, (5, 2)), "None")
 FEWEST_SHOWN = 5
 """Steps on the axis of achieved l."""
+WIDE = 300
+"""Longest over shortest: ticks at powers of ten alone."""
 UP = "% of the cycles"
 
 
@@ -67,5 +69,6 @@ def _times(axes: Axes, times_us: Sequence[float], colour: str) -> None:
     axes.bar(edges[:-1], 100 * counts / len(times_us), np.diff(edges), align="edge", color=colour, ec=INK, lw=0.3)
     axes.set_xscale("log")
     axes.set_xlim(low, 1.01 * high)
+    axes.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5) if high < WIDE * low else (1,)))
+    axes.xaxis.set_minor_locator(NullLocator())
     axes.xaxis.set_major_formatter(lambda value, _: f"{value:,.0f}")
-    axes.xaxis.set_minor_formatter(lambda _value, _: "")

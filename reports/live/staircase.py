@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
+from fractions import Fraction
+from itertools import pairwise
+from math import floor, isnan
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -14,17 +17,22 @@ from reports.drawing.legend import draw_legend, legend_height, line_entry
 from reports.drawing.sheet import label
 from reports.drawing.style import INK, PALE, RED, WIDTH_MM, Line, axes_at, drawing, page
 from studies.live.measure import Measured
-from studies.live.stairs import NEAR, two_steps
+from studies.live.stairs import NEAR, steps
 
 LEFT_MM, RIGHT_MM, UPPER_MM, LOWER_MM, BETWEEN_MM = 15.0, 4.0, 44.0, 34.0, 4.0
 MEASURED = Line("#11538c", "-", "o", 4.5)
-CALM = Line("#11538c", "-", "o", 4.0)
-ALL = Line("#dd9009", (0, (4.0, 1.5)), "s", 3.6)
-SHARE = Line("#8f8f8f", (0, (1.0, 1.2)), "^", 3.8)
+CALM = Line("#11538c", "-", "o", 3.2)
+ALL = Line("#dd9009", "-", "s", 5.0)
+UNDISTURBED = "#b3d4ee"
 PREDICTED = Line(INK, "-", "None")
 NEAR_STEP = Line(PALE, "-", "s", 5.0)
+ELSEWHERE = Line(RED, "-", "o", 4.5)
+LOWEST = 80
+"""The axis of shares, in %, begins there or below."""
 LARGEST = 5.5
 """Of a sign for all cycles of a speed, in points."""
+LEAST = 5.0
+"""Area of the sign of a single cycle, in square points."""
 
 
 def staircase_figure(runs: Sequence[Measured]) -> Figure:
@@ -32,9 +40,10 @@ def staircase_figure(runs: Sequence[Measured]) -> Figure:
     legend = [
         line_entry("predicted l", PREDICTED),
         line_entry("measured l, its area the share of the cycles", MEASURED, dashes=False),
-        line_entry("of undisturbed cycles", CALM),
-        line_entry("of all cycles", ALL),
-        line_entry("undisturbed cycles", SHARE),
+        line_entry("measured elsewhere", ELSEWHERE, dashes=False),
+        line_entry("as predicted, of undisturbed cycles", CALM, dashes=False),
+        line_entry("as predicted, of all cycles", ALL, dashes=False),
+        line_entry("undisturbed", Line(UNDISTURBED, "-", "s", 5.0), dashes=False),
         line_entry(f"within {float(100 * NEAR):g} % of a step", NEAR_STEP, dashes=False),
     ]
     with drawing():
@@ -60,21 +69,22 @@ def _frame(axes: Axes, runs: Sequence[Measured]) -> None:
     speeds = [float(run.design.speed) for run in runs]
     free = 0.03 * (speeds[-1] - speeds[0]) or 0.01
     axes.set_xlim(speeds[0] - free, speeds[-1] + free)
-    for step in map(float, two_steps(runs[0].design)):
+    for step in map(float, steps(runs[0].design)):
         axes.axvspan(step * (1 - float(NEAR)), step * (1 + float(NEAR)), color=PALE, alpha=0.6, lw=0, zorder=0.2)
 
 
 def _landings(axes: Axes, runs: Sequence[Measured]) -> None:
-    low, high = axes.get_xlim()
-    edges = [low, *map(float, two_steps(runs[0].design)), high]
-    heights = [_predicted_between(runs, left, right) for left, right in zip(edges, edges[1:], strict=False)]
+    design, ends = runs[0].design, axes.get_xlim()
+    edges = [ends[0], *(float(step) for step in steps(design) if ends[0] < step < ends[1]), ends[1]]
+    middles = [Fraction((left + right) / 2) for left, right in pairwise(edges)]
+    heights = [design._replace(speed=middle).predicted or float("nan") for middle in middles]
     axes.stairs(heights, edges, color=INK, lw=1.2, baseline=None, zorder=2)
     for run in runs:
         for l, count in Counter(run.achieved).items():
             if l is not None:
                 size = LARGEST**2 * count / len(run.achieved)
-                colour = MEASURED.colour if l == run.predicted else RED
-                axes.scatter([float(run.design.speed)], [l], s=max(size, 3.0), color=colour, lw=0, zorder=3)
+                colour = MEASURED.colour if l == run.predicted else ELSEWHERE.colour
+                axes.scatter([float(run.design.speed)], [l], s=max(size, LEAST), color=colour, lw=0, zorder=3)
     axes.yaxis.set_major_locator(MaxNLocator(nbins=8, integer=True))
     predicted = [run.predicted for run in runs]
     least = min([*predicted, *(l for run in runs for l in run.achieved if l is not None)])
@@ -83,21 +93,16 @@ def _landings(axes: Axes, runs: Sequence[Measured]) -> None:
     label(axes, "where corrections land", "", "achieved $l - k$ (steps)")
 
 
-def _predicted_between(runs: Sequence[Measured], low: float, high: float) -> float:
-    between = [run.predicted for run in runs if low <= float(run.design.speed) < high]
-    return float(between[0]) if between else float("nan")
-
-
 def _shares(axes: Axes, runs: Sequence[Measured]) -> None:
     speeds = [float(run.design.speed) for run in runs]
     agreements = [run.agreement for run in runs]
     calm = [float("nan" if of.share_undisturbed is None else 100 * of.share_undisturbed) for of in agreements]
-    shares = [
-        (SHARE, [100 * of.undisturbed / of.cycles for of in agreements]),
-        (ALL, [float(100 * of.share) for of in agreements]),
-        (CALM, calm),
-    ]
-    for line, values in shares:
-        axes.plot(speeds, values, color=line.colour, ls=line.dashes, marker=line.marker, ms=line.size, mew=0, lw=1.0)
-    axes.set_ylim(0, 105)
-    label(axes, "", "speed (cost units per HR period)", "landing as predicted (%)")
+    undisturbed = [100 * of.undisturbed / of.cycles for of in agreements]
+    everything = [float(100 * of.share) for of in agreements]
+    low, high = axes.get_xlim()
+    axes.bar(speeds, undisturbed, 0.012 * (high - low), color=UNDISTURBED, lw=0, zorder=1)
+    for line, values in ((ALL, everything), (CALM, calm)):
+        axes.plot(speeds, values, line.marker, color=line.colour, ms=line.size, mew=0, clip_on=False, zorder=3)
+    least = min(value for value in (*undisturbed, *everything, *calm) if not isnan(value))
+    axes.set_ylim(min(LOWEST, 10 * floor((least - 1) / 10)), 100)
+    label(axes, "", "speed (cost units per HR period)", "% of the cycles")

@@ -14,6 +14,7 @@ from sched_sim.cli.measure_filter import SIZES
 from sched_sim.cli.output import say
 from sched_sim.cli.outputs import refuse_one_file_for_two
 from sched_sim.cli.progress import progress_bar
+from sched_sim.design.pieces import Statistic
 from sched_sim.errors import InputError
 
 if TYPE_CHECKING:
@@ -122,10 +123,10 @@ def live(
     staircase: StaircaseFile = None,
     format: opt.Format = "table",
 ) -> None:
-    """Run the dual rate filter that `code` writes as two real-time threads (SCHED_FIFO) on one core, each job for the CPU
-    time that its costs say, and compare where corrections land with the prediction. Needs Linux, a C compiler and the
-    right to real-time priorities. Exit code 0: agrees, 1: disagrees, 3: inconclusive, for too much was taken from the
-    core; 2, as of all commands: it could not be run.
+    """Run the dual rate filter that `code` writes as two real-time threads (SCHED_FIFO) on one core, each job for the
+    CPU time that its costs say, and compare where corrections land with the prediction. Needs Linux, a C compiler and
+    the right to real-time priorities. Exit code 0: agrees, 1: disagrees, 3: inconclusive, for too much was taken from
+    the core; 2, as of all commands: it could not be run.
 
     sched-sim live -N 10 -M 4 --speed 0.85 --period-ms 10 --cycles 500 --gantt live.svg --trace live.json
     sched-sim live -N 10 -M 4 --speed 0.85 --staircase staircase.svg --cycles 100
@@ -201,9 +202,7 @@ def _check_outputs(
         check_trace(trace)
 
 
-def _design(
-    N: int, M: int, speed: str, period_ms: str, cycles: int, costs: str | None, statistic: opt.Statistic
-) -> Design:
+def _design(N: int, M: int, speed: str, period_ms: str, cycles: int, costs: str | None, statistic: Statistic) -> Design:
     from sched_sim.design.methods import select
     from sched_sim.design.options import Options
     from sched_sim.ticks import positive

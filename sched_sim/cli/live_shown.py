@@ -170,8 +170,8 @@ def _ground(run: Measured) -> str:
 
     limit = DISTURBED * Fraction(run.design.period_ns, 1000)
     return (
-        f"disturbed: something else took more than {float(100 * DISTURBED):g} % of a period, {float(limit):g} us, while a "
-        f"job was ready"
+        f"disturbed: something else took more than {float(100 * DISTURBED):g} % of a period, {float(limit):g} us, "
+        f"while a job was ready"
     )
 
 

@@ -32,10 +32,14 @@ def schedule_of(jobs: Iterable[Job], design: Design, *, swapped: bool = False) -
         final = last[_kind(job), job.step] is job
         slices += _slices(job, preempted_by, final, *_times(job, design, released), design.period_ns)
     slices.sort(key=lambda piece: (piece.end, piece.start))
-    responses = {kind: _response(kind, slices) for kind in dict.fromkeys(piece.kind for piece in slices)}
     busy = sum(piece.end - piece.start for piece in slices)
     horizon = design.steps * design.period_ns
-    return Schedule(design.period_ns, horizon, 1, busy, responses, None, 0, Counter(), tuple(slices))
+    return Schedule(design.period_ns, horizon, 1, busy, responses_of(slices), None, 0, Counter(), tuple(slices))
+
+
+def responses_of(slices: Sequence[Slice]) -> dict[str, Response]:
+    """Figures of each kind of job, of those that have finished."""
+    return {kind: _response(kind, slices) for kind in dict.fromkeys(piece.kind for piece in slices)}
 
 
 def _kind(job: Job) -> str:
