@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from math import ceil, floor, log10
 from typing import NamedTuple
 
 from sched_sim.bounds import MOST_STEPS
-from sched_sim.design.least_speed import achieved_l
+from sched_sim.design.least_speed import achieved_l, least_speed
 from sched_sim.design.load import loads
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import Costs, DualRateCosts
@@ -72,14 +73,13 @@ def check_design(design: Design) -> int:
     if design.load > MOST_LOAD:
         raise InputError(
             f"{speed}: both tasks take {float(100 * design.load):.4g} % of the core, and the kernel gives real-time "
-            f"threads no more than {float(100 * MOST_LOAD):g} %: give a higher one, from "
-            f"{float(design.speed * design.load / MOST_LOAD):.4g} on"
+            f"threads no more than {float(100 * MOST_LOAD):g} %: give at least {_least(design)}"
         )
     predicted = design.predicted
     if predicted is None:
         raise InputError(
             f"{speed}: corrections are predicted to land after the next measurement, or an HR job to overrun its "
-            f"period, and the tasks have one measurement on its way: give a higher one, see `sched-sim minimum`"
+            f"period, and the tasks have one measurement on its way: give at least {_least(design)}"
         )
     seconds = design.steps * design.period_ns / 1e9
     if design.steps > MOST_STEPS or seconds > LONGEST_S:
@@ -88,6 +88,19 @@ def check_design(design: Design) -> int:
             f"most {LONGEST_S} s and {MOST_STEPS:,} steps"
         )
     return predicted
+
+
+def _least(design: Design) -> str:
+    """The least speed that is not refused."""
+    deadlines = least_speed(design.costs, design.timing).speed
+    return rounded_up(max(deadlines, design.speed * design.load / MOST_LOAD), 4)
+
+
+def rounded_up(value: Fraction | float, digits: int) -> str:
+    """In so many digits, never less than the value."""
+    exponent = floor(log10(value)) - digits + 1
+    unit = Fraction(10) ** exponent
+    return f"{float(ceil(Fraction(value) / unit) * unit):.{digits}g}"
 
 
 def of_dual_rate(costs: Costs) -> DualRateCosts[Fraction]:

@@ -10,7 +10,7 @@ from statistics import median
 from typing import NamedTuple
 
 from sched_sim.errors import InputError, option
-from studies.live.design import Design
+from studies.live.design import Design, rounded_up
 from studies.live.jobs import Ran
 from studies.live.landed import wake_ups
 from studies.live.program import Program
@@ -64,7 +64,7 @@ def check_resolved(found: Resolution, design: Design) -> None:
         job = max(found.once, key=lambda kind: found.once[kind])
         raise InputError(
             f"{_said(design)}, a wake-up here takes {found.wake / 1e3:.3g} us (median), and {job}, done once, "
-            f"{found.once[job] / 1e3:.3g} us: give at least {_rounded_up(least / 1e6)}"
+            f"{found.once[job] / 1e3:.3g} us: give at least {rounded_up(least / 1e6, 2)}"
         )
 
 
@@ -72,9 +72,3 @@ def _said(design: Design) -> str:
     clock_ns = 1e9 * time.clock_getres(time.CLOCK_MONOTONIC)
     period = f"{option('period_ms')} {design.period_ns / 1e6:g}"
     return f"{period} is too short to be resolved: the clock ticks every {clock_ns:g} ns"
-
-
-def _rounded_up(ms: float) -> str:
-    """Two digits."""
-    unit = 10.0 ** (len(str(int(ms))) - 2 if ms >= 1 else -2)
-    return f"{ceil(ms / unit) * unit:.3g}"

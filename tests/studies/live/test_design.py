@@ -1,0 +1,89 @@
+"""What can run in real time, and what is refused; speeds through two steps."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from itertools import pairwise
+
+import pytest
+
+from sched_sim.errors import InputError
+from studies.live.design import check_design
+from studies.live.measure import measured
+from studies.live.probe import Resolution, check_resolved, check_shortest, resolved
+from studies.live.stairs import NEAR, nearest_step, steps, through_two_steps, two_steps, word_of
+from tests.studies.live.recorded import design, judged, perfect, recorded
+
+
+def test_the_predicted_l() -> None:
+    assert [check_design(design(speed)) for speed in ("0.73", "0.77", "0.85", "0.91", "1.2")] == [10, 8, 7, 6, 5]
+
+
+def test_cpu_times_are_costs_over_speed() -> None:
+    assert design("0.5").job_ns == {
+        "hr_restart": 800_000,
+        "hr_propagate": 12_600_000,
+        "hr_update": 600_000,
+        "lr_propagate": 8_200_000,
+        "lr_update": 11_200_000,
+    }
+    assert design("0.85").load == Fraction(671, 850)
+
+
+@pytest.mark.parametrize(
+    ("speed", "said"),
+    [
+        ("0.7", "speed 0.7: both tasks take 95.86 % of the core, .* no more than 95 %: give at least 0.7234$"),
+        ("0.71", "speed 0.71: corrections are predicted to land after the next measurement.*: give at least 0.7234$"),
+    ],
+)
+def test_speeds_that_are_too_low(speed: str, said: str) -> None:
+    with pytest.raises(InputError, match=said):
+        check_design(design(speed))
+
+
+def test_a_run_of_hours() -> None:
+    with pytest.raises(InputError, match=r"cycles 100000 of N 10 take 10000 s: give fewer"):
+        check_design(design(cycles=100_000))
+
+
+def test_a_period_is_refused_by_what_was_measured() -> None:
+    found = Resolution(50_000.0, {"hr_update": 1_000.0, "lr_update": 4_000.0})
+    check_resolved(found, design())
+    with pytest.raises(InputError, match=r"period_ms 1 is too short.*wake-up here takes 50 us.*give at least 2"):
+        check_resolved(found, design(period_ns=1_000_000))
+    slow = Resolution(1.0, {"hr_update": 100_000.0})
+    with pytest.raises(InputError, match=r"hr_update, done once, 100 us: give at least 29"):
+        check_resolved(slow, design())
+    with pytest.raises(InputError, match=r"period_ms 0.0005 is too short.*every .* ns: give at least 0.001"):
+        check_shortest(design(period_ns=500))
+
+
+def test_the_resolution_is_in_medians() -> None:
+    found = resolved(recorded("ordinary"), design())
+    assert 10_000 < found.wake < 200_000
+    assert found.once["hr_update"] == pytest.approx(353_000, rel=0.01)
+
+
+def test_speeds_are_on_both_sides_of_two_steps() -> None:
+    found = through_two_steps(design())
+    assert [of.predicted for of in found] == [8, 8, 8, 7, 7, 7, 7, 7, 7, 6, 6, 6]
+    assert two_steps(design()) == [Fraction(49, 60), Fraction(91, 100)]
+    assert two_steps(design("3")) == [Fraction(91, 100), Fraction(119, 100)]
+    assert all(low.speed < high.speed for low, high in pairwise(found))
+    assert len(steps(design())) == 6
+
+
+def test_how_far_a_step_is() -> None:
+    assert nearest_step(design("0.9282")) == NEAR
+    assert nearest_step(design("0.8918")) == -NEAR
+
+
+def test_speeds_near_to_a_step_have_no_say() -> None:
+    agreeing, swapped = judged("ordinary"), judged("swapped")
+    near = design("0.8248")
+    wrong_near = measured(swapped.ran, near, 7)
+    assert word_of([agreeing, wrong_near]) == "agrees"
+    assert word_of([agreeing, swapped]) == "disagrees"
+    assert word_of([wrong_near]) == "inconclusive"
+    assert perfect(near)
