@@ -34,7 +34,7 @@ class Resolution(NamedTuple):
         """In ns, at the design's speed."""
         shares = {kind: ns / design.period_ns for kind, ns in design.job_ns.items()}
         by_job = [TIMES * self.once[kind] / share for kind, share in shares.items() if share and kind in self.once]
-        return max(WAKE_UPS * self.wake, *by_job)
+        return max([WAKE_UPS * self.wake, *by_job])
 
 
 def resolution(program: Program, design: Design, cpu: int) -> Resolution:
