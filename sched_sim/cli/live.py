@@ -131,6 +131,8 @@ def live(
     sched-sim live -N 10 -M 4 --speed 0.85 --period-ms 10 --cycles 500 --gantt live.svg --trace live.json
     sched-sim live -N 10 -M 4 --speed 0.85 --staircase staircase.svg --cycles 100
     """
+    from contextlib import ExitStack
+
     from sched_sim.cli.live_shown import show_run, show_stairs
     from studies.live.design import check_design
     from studies.live.measure import measured
@@ -144,23 +146,27 @@ def live(
     design = _design(N, M, speed, period_ms, cycles, costs, statistic)
     check_shortest(design)
     check_design(design)
-    core = chosen_core(cpu)
     check_rights()
+    core = chosen_core(cpu)
     if system is not None and (given := opt.given_options(context, lambda name: name in SIZES)):
         raise InputError(f"--system {system!r}: leave out {', '.join(given)}: the system has its own")
-    said = (
-        f"--states {states} --inputs {inputs} --measurements {measurements}" if system is None else f"--system {system}"
-    )
+    sizes = f"--states {states} --inputs {inputs} --measurements {measurements}"
+    failed = f"{sizes if system is None else f'--system {system!r}'}: cannot run live"
     wanted = _filter(system, (states, inputs, measurements), update, precision, N, M)
 
     def run_in(program: Program) -> Callable[[Design], Measured]:
         def run(each: Design) -> Measured:
-            return measured(program.run(each, core, swapped=swap_priorities), each, check_design(each))
+            with explained(failed):
+                ran = program.run(each, core, swapped=swap_priorities)
+            return measured(ran, each, check_design(each))
 
         return run
 
-    with explained(f"{said}: cannot run live"), compiled(wanted) as program:
-        check_resolved(resolution(program, design, core), design)
+    with ExitStack() as there:
+        with explained(failed):
+            program = there.enter_context(compiled(wanted))
+            found = resolution(program, design, core)
+        check_resolved(found, design)
         if staircase is not None:
             with progress_bar("Running") as progress:
                 runs = climbed(through_two_steps(design), run_in(program), progress)

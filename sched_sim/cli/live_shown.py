@@ -145,9 +145,9 @@ def _facts(run: Measured) -> list[str]:
 
     distance = nearest_step(run.design)
     near = (
-        f"the speed is {float(100 * abs(distance)):.3g} % {'above' if distance >= 0 else 'below'} a step of the "
-        f"staircase: nearer than {float(100 * NEAR):g} %, little that is taken makes l one more"
-        if abs(distance) < NEAR
+        f"the speed is {float(100 * distance):.3g} % above a step of the staircase: there a cycle from which little is "
+        f"taken lands a step later"
+        if 0 <= distance < NEAR
         else ""
     )
     wake, taken = _spread_us(run.wake), _spread_us(run.taken)

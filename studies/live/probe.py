@@ -61,10 +61,10 @@ def check_resolved(found: Resolution, design: Design) -> None:
     """Raises InputError that says what was measured here if the period is too short for it."""
     least = found.least_period(design)
     if design.period_ns < least:
-        job = max(found.once, key=lambda kind: found.once[kind])
+        longest = max(found.once, key=lambda kind: found.once[kind])
         raise InputError(
-            f"{_said(design)}, a wake-up here takes {found.wake / 1e3:.3g} us (median), and {job}, done once, "
-            f"{found.once[job] / 1e3:.3g} us: give at least {rounded_up(least / 1e6, 2)}"
+            f"{_said(design)}, a wake-up here takes {found.wake / 1e3:.3g} us (median), and {longest}, done once, "
+            f"{found.once[longest] / 1e3:.3g} us: give at least {rounded_up(least / 1e6, 2)}"
         )
 
 
