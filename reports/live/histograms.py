@@ -20,7 +20,7 @@ PLOT_MM, BINS = 38.0, 30
 PREDICTED = Line(RED, (0, (5, 2)), "None")
 FEWEST_SHOWN = 5
 """Steps on the axis of achieved l."""
-WIDE = 300
+WIDE = 50
 """Longest over shortest: ticks at powers of ten alone."""
 UP = "% of the cycles"
 

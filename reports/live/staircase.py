@@ -67,7 +67,7 @@ def staircase_figure(runs: Sequence[Measured]) -> Figure:
 def _frame(axes: Axes, runs: Sequence[Measured]) -> None:
     """The axis of speed, shaded where a step is near."""
     speeds = [float(run.design.speed) for run in runs]
-    free = 0.03 * (speeds[-1] - speeds[0]) or 0.01
+    free = 0.03 * (speeds[-1] - speeds[0]) or 0.05
     axes.set_xlim(speeds[0] - free, speeds[-1] + free)
     for step in map(float, steps(runs[0].design)):
         axes.axvspan(step * (1 - float(NEAR)), step * (1 + float(NEAR)), color=PALE, alpha=0.6, lw=0, zorder=0.2)

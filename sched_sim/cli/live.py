@@ -18,13 +18,11 @@ from sched_sim.design.pieces import Statistic
 from sched_sim.errors import InputError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Sequence
 
     from studies.board.wanted import Filter
-    from studies.live.agreement import Word
     from studies.live.design import Design
     from studies.live.measure import Measured
-    from studies.live.program import Program
 
 LIVE = "Live"
 EXIT_CODES = {"agrees": 0, "disagrees": 1, "inconclusive": 3}
@@ -131,16 +129,11 @@ def live(
     sched-sim live -N 10 -M 4 --speed 0.85 --period-ms 10 --cycles 500 --gantt live.svg --trace live.json
     sched-sim live -N 10 -M 4 --speed 0.85 --staircase staircase.svg --cycles 100
     """
-    from contextlib import ExitStack
-
     from sched_sim.cli.live_shown import show_run, show_stairs
     from studies.live.design import check_design
-    from studies.live.measure import measured
-    from studies.live.probe import check_resolved, check_shortest, resolution
-    from studies.live.program import compiled
+    from studies.live.probe import check_shortest
     from studies.live.rights import check_rights, chosen_core
-    from studies.live.stairs import climbed, through_two_steps, word_of
-    from studies.measurement.user_function import explained
+    from studies.live.stairs import through_two_steps, word_of
 
     _check_outputs(gantt, trace, histogram, staircase, costs)
     design = _design(N, M, speed, period_ms, cycles, costs, statistic)
@@ -150,41 +143,43 @@ def live(
     core = chosen_core(cpu)
     if system is not None and (given := opt.given_options(context, lambda name: name in SIZES)):
         raise InputError(f"--system {system!r}: leave out {', '.join(given)}: the system has its own")
-    sizes = f"--states {states} --inputs {inputs} --measurements {measurements}"
-    failed = f"{sizes if system is None else f'--system {system!r}'}: cannot run live"
     wanted = _filter(system, (states, inputs, measurements), update, precision, N, M)
-
-    def run_in(program: Program) -> Callable[[Design], Measured]:
-        def run(each: Design) -> Measured:
-            with explained(failed):
-                ran = program.run(each, core, swapped=swap_priorities)
-            return measured(ran, each, check_design(each))
-
-        return run
-
-    with ExitStack() as there:
-        with explained(failed):
-            program = there.enter_context(compiled(wanted))
-            found = resolution(program, design, core)
-        check_resolved(found, design)
-        if staircase is not None:
-            with progress_bar("Running") as progress:
-                runs = climbed(through_two_steps(design), run_in(program), progress)
-        else:
-            runs = [run_in(program)(design)]
+    designs = [design] if staircase is None else through_two_steps(design)
+    runs = _runs(wanted, designs, core, swap_priorities, f"{wanted.said}: cannot run live")
     _draw(runs, swap_priorities, gantt, trace, histogram, staircase)
-    if staircase is not None:
-        word = word_of(runs)
-        show_stairs(runs, word, core, swap_priorities, format)
-    else:
+    if staircase is None:
         word = runs[0].agreement.word
         show_run(runs[0], core, swap_priorities, format)
-    _end(word)
-
-
-def _end(word: Word) -> None:
+    else:
+        word = word_of(runs)
+        show_stairs(runs, word, core, swap_priorities, format)
     if code := EXIT_CODES[word]:
         raise typer.Exit(code)
+
+
+def _runs(wanted: Filter, designs: Sequence[Design], core: int, swapped: bool, failed: str) -> list[Measured]:
+    """One after the other. failed: what is said before what is wrong with the filter."""
+    from contextlib import ExitStack
+
+    from studies.live.design import check_design
+    from studies.live.measure import measured
+    from studies.live.probe import check_resolved, resolution
+    from studies.live.program import compiled
+    from studies.measurement.user_function import explained
+
+    runs = []
+    with ExitStack() as there:
+        progress = there.enter_context(progress_bar("Running"))
+        with explained(failed):
+            program = there.enter_context(compiled(wanted))
+            found = resolution(program, designs[0], core)
+        check_resolved(found, designs[0])
+        for number, design in enumerate(designs):
+            progress(number, len(designs), f"speed {float(design.speed):.4g}")
+            with explained(failed):
+                ran = program.run(design, core, swapped=swapped)
+            runs.append(measured(ran, design, check_design(design)))
+    return runs
 
 
 def _check_outputs(
@@ -242,10 +237,12 @@ def _filter(
     if system is None:
         check_wanted("dual-rate", sizes, steps)
         model, x0 = example_system(*sizes), np.zeros(sizes[0])
+        said = "--states {} --inputs {} --measurements {}".format(*sizes)
     else:
         model, x0 = load_system(system)
+        said = f"--system {system!r}"
         check_wanted("dual-rate", model[:3], steps)
-    return Filter("dual-rate", model, x0, update, precision, steps, f"sched-sim live -N {N} -M {M}")
+    return Filter("dual-rate", model, x0, update, precision, steps, said)
 
 
 def _draw(

@@ -182,7 +182,7 @@ def _spread_us(times_ns: Sequence[int]) -> dict[str, float]:
 
 
 def _words(spread: dict[str, float]) -> str:
-    return f"median {spread['median']:.3g}, 99 % within {spread['p99']:.3g}, worst {spread['worst']:.3g}"
+    return f"median {spread['median']:,.0f}, 99 % within {spread['p99']:,.0f}, worst {spread['worst']:,.0f}"
 
 
 def _speed_row(run: Measured) -> dict[str, Any]:

@@ -11,4 +11,5 @@ agreement   measured against predicted, in a word
 measure     one run, from the design to the word
 stairs      several of them, at speeds through two steps of the staircase
 slices      what ran as a schedule, as the simulated one is
+both        both in one trace
 """

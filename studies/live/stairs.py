@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from fractions import Fraction
 from itertools import pairwise
 
@@ -40,17 +40,6 @@ def through_two_steps(design: Design) -> list[Design]:
     speeds = sorted({factor * step for step in two_steps(design) for factor in FACTORS})
     designs = [design._replace(speed=speed) for speed in speeds]
     return [each for each in designs if each.load <= MOST_LOAD and each.predicted is not None]
-
-
-def climbed(
-    designs: Sequence[Design], run: Callable[[Design], Measured], on_progress: Callable[[int, int, str], None]
-) -> list[Measured]:
-    """One run after the other."""
-    done = []
-    for number, design in enumerate(designs):
-        on_progress(number, len(designs), f"speed {float(design.speed):.4g}")
-        done.append(run(design))
-    return done
 
 
 def word_of(runs: Sequence[Measured]) -> Word:
