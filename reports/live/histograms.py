@@ -14,7 +14,7 @@ from reports.drawing.legend import Entry, line_entry
 from reports.drawing.sheet import label, sheet
 from reports.drawing.style import FILLS, GREY, INK, RED, Line, drawing
 from studies.live.measure import Measured
-from studies.live.taken import DISTURBED
+from studies.live.taken import may_be_taken
 
 PLOT_MM, BINS = 38.0, 30
 PREDICTED = Line(RED, (0, (5, 2)), "None")
@@ -32,7 +32,7 @@ def histograms_figure(measured: Measured) -> Figure:
         _landed(landed, measured)
         _times(wake, [ns / 1e3 for ns in measured.wake], FILLS["HRP"].colour)
         label(wake, "wake-up latency of HR", "time (us)", "% of the wake-ups")
-        limit = float(DISTURBED * measured.design.period_ns) / 1e3
+        limit = float(may_be_taken(measured.design, measured.predicted)) / 1e3
         _times(taken, [ns / 1e3 for ns in measured.taken], GREY)
         taken.axvline(limit, color=INK, lw=1.0, ls=(0, (1.0, 1.2)))
         low, high = taken.get_xlim()

@@ -17,7 +17,8 @@ from reports.drawing.legend import draw_legend, legend_height, line_entry
 from reports.drawing.sheet import label
 from reports.drawing.style import INK, PALE, RED, WIDTH_MM, Line, axes_at, drawing, page
 from studies.live.measure import Measured
-from studies.live.stairs import NEAR, steps
+from studies.live.stairs import steps
+from studies.live.taken import NEAR
 
 LEFT_MM, RIGHT_MM, UPPER_MM, LOWER_MM, BETWEEN_MM = 15.0, 4.0, 44.0, 34.0, 4.0
 MEASURED = Line("#11538c", "-", "o", 4.5)

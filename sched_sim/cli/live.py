@@ -173,7 +173,8 @@ def _runs(wanted: Filter, designs: Sequence[Design], core: int, swapped: bool, f
         with explained(failed):
             program = there.enter_context(compiled(wanted))
             found = resolution(program, designs[0], core)
-        check_resolved(found, designs[0])
+        for design in designs:
+            check_resolved(found, design, check_design(design))
         for number, design in enumerate(designs):
             progress(number, len(designs), f"speed {float(design.speed):.4g}")
             with explained(failed):

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
-from fractions import Fraction
 from statistics import median
 from typing import TYPE_CHECKING, Any
 
@@ -29,7 +28,7 @@ def show_run(run: Measured, core: int, swapped: bool, format: Format) -> None:
 
 def show_stairs(runs: Sequence[Measured], word: Word, core: int, swapped: bool, format: Format) -> None:
     """Runs at several speeds, and the word for all."""
-    from studies.live.stairs import NEAR
+    from studies.live.taken import NEAR
 
     rows = [_about(run, core, swapped) | _figures(run) for run in runs]
     if format == "json":
@@ -39,7 +38,7 @@ def show_stairs(runs: Sequence[Measured], word: Word, core: int, swapped: bool, 
     else:
         near = float(100 * NEAR)
         note = f"{word}, by the speeds {near:g} % or more from a step"
-        print_table(_title(runs[0], core, swapped), [_speed_row(run) for run in runs], lines(note, _ground(runs[0])))
+        print_table(_title(runs[0], core, swapped), [_speed_row(run) for run in runs], lines(note, _ground()))
 
 
 def _title(run: Measured, core: int, swapped: bool) -> str:
@@ -141,7 +140,8 @@ def _of(part: int, whole: int) -> str:
 
 
 def _facts(run: Measured) -> list[str]:
-    from studies.live.stairs import NEAR, nearest_step
+    from studies.live.stairs import nearest_step
+    from studies.live.taken import NEAR
 
     distance = nearest_step(run.design)
     near = (
@@ -165,13 +165,14 @@ def _facts(run: Measured) -> list[str]:
     ]
 
 
-def _ground(run: Measured) -> str:
-    from studies.live.taken import DISTURBED
+def _ground(*runs: Measured) -> str:
+    """Of one run with what that is in us."""
+    from studies.live.taken import NEAR, may_be_taken
 
-    limit = DISTURBED * Fraction(run.design.period_ns, 1000)
+    most = "".join(f", {float(may_be_taken(run.design, run.predicted)) / 1e3:,.0f} us," for run in runs)
     return (
-        f"disturbed: something else took more than {float(100 * DISTURBED):g} % of a period, {float(limit):g} us, "
-        f"while a job was ready"
+        f"disturbed: something else took more than {float(100 * NEAR):g} % of the speed make up from m to l{most} while "
+        f"a job was ready"
     )
 
 

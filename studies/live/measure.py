@@ -47,7 +47,7 @@ def measured(ran: Ran, design: Design, predicted: int) -> Measured:
         ran,
         achieved(ran.jobs, design),
         taken,
-        disturbed(taken, design),
+        disturbed(taken, design, predicted),
         wake_ups(ran.jobs, design),
         share,
     )

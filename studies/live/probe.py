@@ -14,14 +14,14 @@ from studies.live.design import Design, rounded_up
 from studies.live.jobs import Ran
 from studies.live.landed import wake_ups
 from studies.live.program import Program
+from studies.live.taken import may_be_taken
 
 PERIOD_NS, STEPS = 1_000_000, 100
 """Of the probe."""
 SHORTEST_NS = 1_000
 """No clock is asked about less."""
-WAKE_UPS, TIMES = 40, 10
-"""So many typical wake-ups a period has room for, at the least, for one is half of what disturbs a cycle; so often each
-job is done in its CPU time."""
+WAKE_UPS, TIMES = 4, 10
+"""So many typical wake-ups disturb no cycle; so often, at the least, each job is done in its CPU time."""
 
 
 class Resolution(NamedTuple):
@@ -30,11 +30,12 @@ class Resolution(NamedTuple):
     wake: float
     once: Mapping[str, float]
 
-    def least_period(self, design: Design) -> float:
+    def least_period(self, design: Design, predicted: int) -> float:
         """In ns, at the design's speed."""
+        by_wake = WAKE_UPS * self.wake * design.period_ns / may_be_taken(design, predicted)
         shares = {kind: ns / design.period_ns for kind, ns in design.job_ns.items()}
         by_job = [TIMES * self.once[kind] / share for kind, share in shares.items() if share and kind in self.once]
-        return max([WAKE_UPS * self.wake, *by_job])
+        return max([float(by_wake), *by_job])
 
 
 def resolution(program: Program, design: Design, cpu: int) -> Resolution:
@@ -57,15 +58,19 @@ def check_shortest(design: Design) -> None:
         raise InputError(f"{_said(design)}: give at least {SHORTEST_NS / 1e6:g}")
 
 
-def check_resolved(found: Resolution, design: Design) -> None:
+def check_resolved(found: Resolution, design: Design, predicted: int) -> None:
     """Raises InputError that says what was measured here if the period is too short for it."""
-    least = found.least_period(design)
+    least = found.least_period(design, predicted)
     if design.period_ns < least:
         longest = max(found.once, key=lambda kind: found.once[kind])
         raise InputError(
-            f"{_said(design)}, a wake-up here takes {found.wake / 1e3:.3g} us (median), and {longest}, done once, "
-            f"{found.once[longest] / 1e3:.3g} us: give at least {rounded_up(least / 1e6, 2)}"
+            f"{_said(design)}, a wake-up here takes {_us(found.wake)} us (median), and {longest}, done once, "
+            f"{_us(found.once[longest])} us: give at least {rounded_up(least / 1e6, 2)}"
         )
+
+
+def _us(ns: float) -> str:
+    return f"{float(f'{ns / 1e3:.3g}'):,g}"
 
 
 def _said(design: Design) -> str:

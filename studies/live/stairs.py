@@ -10,11 +10,10 @@ from sched_sim.design.least_speed import staircase
 from studies.live.agreement import Word
 from studies.live.design import MOST_LOAD, Design
 from studies.live.measure import Measured
+from studies.live.taken import NEAR
 
 FACTORS = tuple(Fraction(percent, 100) for percent in (95, 98, 99, 101, 102, 105))
 """Of the speed of a step: where it is looked at."""
-NEAR = Fraction(2, 100)
-"""Nearer to a step, relative to its speed, a run may disagree without there being anything wrong."""
 
 
 def steps(design: Design) -> list[Fraction]:
@@ -43,7 +42,8 @@ def through_two_steps(design: Design) -> list[Design]:
 
 
 def word_of(runs: Sequence[Measured]) -> Word:
-    """Of all that are not near to a step: they disagree if one does, and agree if each does."""
+    """Of all that are not near to a step: they disagree if one does, and agree if each does. Near to it a run may
+    disagree without there being anything wrong."""
     words = {run.agreement.word for run in runs if abs(nearest_step(run.design)) >= NEAR}
     if "disagrees" in words:
         return "disagrees"

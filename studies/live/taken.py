@@ -14,9 +14,9 @@ from typing import NamedTuple
 from studies.live.design import Design
 from studies.live.jobs import Job
 
-DISTURBED = Fraction(5, 100)
-"""A cycle is disturbed if more than this share of a period was taken in a busy period that it has part in. Nothing else
-carries over from cycle to cycle: what is late there goes on in one busy period."""
+NEAR = Fraction(2, 100)
+"""Relative to its speed, how near a step of the staircase may be for little that is taken to change where corrections
+land."""
 
 
 class Busy(NamedTuple):
@@ -53,9 +53,17 @@ def taken_by_cycle(busy: Iterable[Busy], design: Design) -> list[int]:
     return most[1:]
 
 
-def disturbed(taken: Sequence[int], design: Design) -> list[bool]:
-    """By cycle, of `taken_by_cycle`."""
-    return [each > DISTURBED * design.period_ns for each in taken]
+def may_be_taken(design: Design, predicted: int) -> Fraction:
+    """What 2 % of the speed make up from m to l, ns: so much may be taken at a speed 2 % above a step, and corrections
+    still land as predicted."""
+    return (predicted - design.M) * design.period_ns * NEAR / (1 + NEAR)
+
+
+def disturbed(taken: Sequence[int], design: Design, predicted: int) -> list[bool]:
+    """By cycle, of `taken_by_cycle`: whether more than that was taken in a busy period that it has part in. Nothing
+    else carries over from cycle to cycle, for what is late there goes on in one busy period."""
+    most = may_be_taken(design, predicted)
+    return [each > most for each in taken]
 
 
 def _ready(jobs: Iterable[Job], design: Design) -> Iterator[tuple[int, Job]]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
 
@@ -11,7 +12,8 @@ from sched_sim.errors import InputError
 from studies.live.design import check_design
 from studies.live.measure import measured
 from studies.live.probe import Resolution, check_resolved, check_shortest, resolved
-from studies.live.stairs import NEAR, nearest_step, steps, through_two_steps, two_steps, word_of
+from studies.live.stairs import nearest_step, steps, through_two_steps, two_steps, word_of
+from studies.live.taken import NEAR, may_be_taken
 from tests.studies.live.recorded import design, judged, perfect, recorded
 
 
@@ -49,12 +51,12 @@ def test_a_run_of_hours() -> None:
 
 def test_a_period_is_refused_by_what_was_measured() -> None:
     found = Resolution(50_000.0, {"hr_update": 1_000.0, "lr_update": 4_000.0})
-    check_resolved(found, design())
-    with pytest.raises(InputError, match=r"period_ms 1 is too short.*wake-up here takes 50 us.*give at least 2"):
-        check_resolved(found, design(period_ns=1_000_000))
+    check_resolved(found, design(), 7)
+    with pytest.raises(InputError, match=r"period_ms 1 is too short.*wake-up here takes 50 us.*give at least 3.4"):
+        check_resolved(found, design(period_ns=1_000_000), 7)
     slow = Resolution(1.0, {"hr_update": 100_000.0})
     with pytest.raises(InputError, match=r"hr_update, done once, 100 us: give at least 29"):
-        check_resolved(slow, design())
+        check_resolved(slow, design(), 7)
     with pytest.raises(InputError, match=r"period_ms 0.0005 is too short.*every .* ns: give at least 0.001"):
         check_shortest(design(period_ns=500))
 
@@ -72,6 +74,21 @@ def test_speeds_are_on_both_sides_of_two_steps() -> None:
     assert two_steps(design("3")) == [Fraction(91, 100), Fraction(119, 100)]
     assert all(low.speed < high.speed for low, high in pairwise(found))
     assert len(steps(design())) == 6
+
+
+@pytest.mark.parametrize("step", steps(design()))
+def test_what_may_be_taken_moves_no_correction(step: Fraction) -> None:
+    """2 % above every step, as if LR had so much more to do; and at the step itself it has nothing left."""
+    of = design()._replace(speed=step * (1 + NEAR))
+    assert of.predicted is not None
+    taken = may_be_taken(of, of.predicted) / of.period_ns
+
+    def lands(more: Fraction) -> int | None:
+        longer = replace(of.costs, lr_update=of.costs.lr_update + more * of.speed)
+        return of._replace(costs=longer).predicted
+
+    assert lands(taken) == of.predicted
+    assert lands(taken + Fraction(1, 10**6)) != of.predicted
 
 
 def test_how_far_a_step_is() -> None:

@@ -16,7 +16,8 @@ from studies.board.wanted import Filter
 from studies.live.measure import Measured, measured
 from studies.live.program import Program, compiled, steps_of
 from studies.live.rights import chosen_core
-from studies.live.stairs import NEAR, two_steps
+from studies.live.stairs import two_steps
+from studies.live.taken import NEAR
 from tests.exhaust import share_of
 from tests.studies.board.systems import pendulum
 from tests.studies.live.machine import needs_real_time
