@@ -128,15 +128,17 @@ def _verdict(run: Measured) -> str:
     from studies.live.agreement import ENOUGH
 
     found = run.agreement
-    where = f"as predicted, l = k + {run.predicted}"
-    all_said = f"of all {found.cycles} cycles {_of(found.agreeing, found.cycles)}"
-    calm = f"of {found.undisturbed} undisturbed cycles {_of(found.agreeing_undisturbed, found.undisturbed)}"
-    enough = f"fewer than {float(100 * ENOUGH):g} % of the cycles were undisturbed; " * (found.word == "inconclusive")
-    return f"{found.word}: {enough}{where}, landed {calm}; {all_said}"
-
-
-def _of(part: int, whole: int) -> str:
-    return f"{part} ({percent(part / whole)})" if whole else "none"
+    few = (
+        f"only {found.undisturbed} of {found.cycles} cycles were undisturbed, and {float(100 * ENOUGH):g} % must be; "
+        if found.word == "inconclusive"
+        else ""
+    )
+    calm = f"{found.agreeing_undisturbed} of {found.undisturbed} undisturbed cycles"
+    share = found.share_undisturbed
+    how_many = "" if share is None else f" ({percent(float(share))})"
+    where = f"landed as predicted, at l = k + {run.predicted}"
+    everything = f"of all {found.cycles} cycles {found.agreeing} ({percent(float(found.share))})"
+    return f"{found.word}: {few}{calm}{how_many} {where}; {everything}"
 
 
 def _facts(run: Measured) -> list[str]:
@@ -169,10 +171,11 @@ def _ground(*runs: Measured) -> str:
     """Of one run with what that is in us."""
     from studies.live.taken import NEAR, may_be_taken
 
-    most = "".join(f", {float(may_be_taken(run.design, run.predicted)) / 1e3:,.0f} us," for run in runs)
+    most_us = [float(may_be_taken(run.design, run.predicted)) / 1e3 for run in runs]
+    most = "".join(f", {us:,.0f} us," for us in most_us)
     return (
-        f"disturbed: something else took more than {float(100 * NEAR):g} % of the speed make up from m to l{most} while "
-        f"a job was ready"
+        f"disturbed: something else took more than {float(100 * NEAR):g} % of the speed make up from m to l{most} "
+        f"while a job was ready"
     )
 
 

@@ -50,7 +50,7 @@ def test_a_run_that_agrees(sched_sim: Run) -> None:
     assert result.code == 0
     assert "two SCHED_FIFO threads on CPU 0, HR above LR, HR period 10 ms, 8 cycles, speed 0.85" in result.out
     assert (
-        "agrees: as predicted, l = k + 7, landed of 8 undisturbed cycles 8 (100.0%); of all 8 cycles 8 (100.0%)"
+        "agrees: 8 of 8 undisturbed cycles (100.0%) landed as predicted, at l = k + 7; of all 8 cycles 8 (100.0%)"
         in result.out
     )
     assert "wake-up latency of HR, us: median" in result.out
@@ -63,7 +63,9 @@ def test_swapped_priorities_disagree(sched_sim: Run) -> None:
     result = sched_sim(f"{RECORDED} --swap-priorities --gantt swapped.svg")
     assert result.code == 1
     assert "LR above HR" in result.out
-    assert "disagrees: as predicted, l = k + 7, landed of 8 undisturbed cycles 0 (0.0%)" in result.out
+    assert (
+        "disagrees: 0 of 8 undisturbed cycles (0.0%) landed as predicted, at l = k + 7; of all 8 cycles 0" in result.out
+    )
     assert "jobs miss their deadline" in Path("swapped.svg").read_text(encoding="utf-8")
 
 
@@ -72,8 +74,8 @@ def test_too_little_undisturbed_is_inconclusive(sched_sim: Run, monkeypatch: pyt
     monkeypatch.setattr("studies.live.measure.disturbed", lambda taken, *_: [cycle < 2 for cycle in range(len(taken))])
     result = sched_sim(RECORDED)
     assert result.code == 3
-    assert "inconclusive: fewer than 80 % of the cycles were undisturbed; as predicted, l = k + 7," in result.out
-    assert "landed of 6 undisturbed cycles 6 (100.0%); of all 8 cycles 8 (100.0%)" in result.out
+    assert "inconclusive: only 6 of 8 cycles were undisturbed, and 80 % must be; 6 of 6 undisturbed" in result.out
+    assert "of all 8 cycles 8 (100.0%)" in result.out
     assert json.loads(sched_sim(f"{RECORDED} --format json").out)["verdict"] == "inconclusive"
 
 
