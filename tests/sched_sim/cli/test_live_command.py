@@ -41,7 +41,7 @@ def replayed(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("studies.live.rights.check_rights", lambda: None)
     monkeypatch.setattr("studies.live.rights.chosen_core", lambda cpu: cpu)
     monkeypatch.setattr("studies.live.program.compiled", compiled)
-    monkeypatch.setattr("studies.live.probe.resolution", lambda *_: Resolution(30_000.0, {"hr_update": 1_000.0}))
+    monkeypatch.setattr("studies.live.probe.resolution", lambda *_: Resolution(12_000.0, {"hr_update": 1_000.0}))
 
 
 @pytest.mark.usefixtures("replayed")
@@ -124,7 +124,7 @@ def test_the_staircase_is_of_twelve_speeds(sched_sim: Run) -> None:
         ("live --speed 0.7", ["--speed 0.7", "95.86 % of the core", "95 %", "give at least 0.7234"]),
         ("live --speed 0.72", ["--speed 0.72", "after the next measurement", "0.7234"]),
         ("live --speed 0.85 --period-ms 0.0001", ["--period-ms 0.0001 is too short", "the clock ticks every"]),
-        ("live --speed 0.85 --period-ms 1", ["--period-ms 1 is too short", "wake-up here takes 30 us", "at least 2.1"]),
+        ("live --speed 0.85 --period-ms 1", ["--period-ms 1 is too short", "wake-up here takes 12 us", "at least 2.1"]),
         ("live --speed 0.85 --period-ms 0", ["--period-ms"]),
         ("live --speed 0.85 --cycles 0", ["--cycles", "at least 1"]),
         ("live --speed 0.85 --cycles 100000", ["--cycles 100000", "at most 3600 s"]),
