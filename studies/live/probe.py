@@ -30,12 +30,13 @@ class Resolution(NamedTuple):
     wake: float
     once: Mapping[str, float]
 
-    def least_period(self, design: Design, predicted: int) -> float:
-        """In ns, at the design's speed."""
-        by_wake = WAKE_UPS * self.wake * design.period_ns / may_be_taken(design, predicted)
-        shares = {kind: ns / design.period_ns for kind, ns in design.job_ns.items()}
-        by_job = [TIMES * self.once[kind] / share for kind, share in shares.items() if share and kind in self.once]
-        return max([float(by_wake), *by_job])
+    def by_wake(self, design: Design, predicted: int) -> float:
+        """The least period in ns by wake-ups, at the design's speed."""
+        return float(WAKE_UPS * self.wake * design.period_ns / may_be_taken(design, predicted))
+
+    def by_job(self, design: Design) -> dict[str, float]:
+        """The least period in ns by each job, at the design's speed."""
+        return {kind: TIMES * ns * design.period_ns / max(design.job_ns[kind], 1) for kind, ns in self.once.items()}
 
 
 def resolution(program: Program, design: Design, cpu: int) -> Resolution:
@@ -60,12 +61,14 @@ def check_shortest(design: Design) -> None:
 
 def check_resolved(found: Resolution, design: Design, predicted: int) -> None:
     """Raises InputError that says what was measured here if the period is too short for it."""
-    least = found.least_period(design, predicted)
+    by_job = found.by_job(design)
+    longest = max(by_job, key=by_job.__getitem__)
+    least = max(found.by_wake(design, predicted), by_job[longest])
     if design.period_ns < least:
-        longest = max(found.once, key=lambda kind: found.once[kind])
         raise InputError(
             f"{_said(design)}, a wake-up here takes {_us(found.wake)} us at the least, and {longest}, done once, "
-            f"{_us(found.once[longest])} us: give at least {rounded_up(least / 1e6, 2)}"
+            f"{_us(found.once[longest])} us of its {_us(design.job_ns[longest])} us: give at least "
+            f"{rounded_up(least / 1e6, 2)}"
         )
 
 
