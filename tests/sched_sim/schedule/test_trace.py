@@ -98,3 +98,12 @@ def test_corrections_that_go_together_are_all_in_both_traces(tmp_path: Path) -> 
 def test_a_path_that_cannot_be_is_refused(tmp_path: Path, name: str, said: str) -> None:
     with pytest.raises(InputError, match=said), open_trace(tmp_path / name):
         pass
+
+
+def test_processors_of_a_chrome_trace_may_have_names(tmp_path: Path) -> None:
+    costs = select(load_costs("steffes2014"), "dual-rate", Options(cpus=2))
+    with open_trace(tmp_path / "trace.json", names=["sensor core", "filter core"]) as write:
+        simulate(costs, Timing(10, 4, 8), Fraction("0.77"), 1, Options(cpus=2), on_slice=write)
+    events = json.loads((tmp_path / "trace.json").read_text())["traceEvents"]
+    names = {event["args"]["name"] for event in events if event["name"] == "process_name"}
+    assert names == {"sensor core, 1 ms = 1 HR period", "filter core, 1 ms = 1 HR period"}
