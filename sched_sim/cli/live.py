@@ -205,6 +205,7 @@ def _check_outputs(
 
 
 def _design(N: int, M: int, speed: str, period_ms: str, cycles: int, costs: str | None, statistic: Statistic) -> Design:
+    from sched_sim.cli.measured_note import say_of_statistic
     from sched_sim.design.methods import select
     from sched_sim.design.options import Options
     from sched_sim.ticks import positive
@@ -215,6 +216,7 @@ def _design(N: int, M: int, speed: str, period_ms: str, cycles: int, costs: str 
     pace, period_ns = positive(speed, "--speed"), round(10**6 * positive(period_ms, "--period-ms"))
     check_steps(steps_of(N, M))
     table = opt.costs_on(costs, None)
+    say_of_statistic(statistic, [table])
     return Design(of_dual_rate(select(table, "dual-rate", Options(), statistic)), N, M, pace, period_ns, cycles)
 
 
