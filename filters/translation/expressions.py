@@ -42,13 +42,14 @@ def expression(body: Body, node: ast.expr, returned: bool = False) -> Value:
         case ast.Name(id=name):
             return _name(body, node, name)
         case ast.Attribute(value=base, attr=name):
-            return _attribute(body, node, expression(body, base), name)
+            return _attribute(body, node, expression(body, base, returned), name)
         case ast.Subscript(value=base, slice=index):
-            return _subscript(body, node, expression(body, base), index)
+            return _subscript(body, node, expression(body, base, returned), index)
         case ast.UnaryOp():
-            return _unary(body, node)
+            return _unary(body, node, returned)
         case ast.BinOp():
-            return binary(body, node, node.op, expression(body, node.left), expression(body, node.right))
+            a, b = expression(body, node.left), expression(body, node.right)
+            return binary(body, node, node.op, a, b, returned)
         case ast.Compare():
             return _comparison(body, node)
         case ast.BoolOp():
@@ -182,7 +183,7 @@ def _index(body: Body, node: ast.expr, item: ast.expr, length: int | None, rows:
     return f"from_end({at.text}, {rows if length is None else length})"
 
 
-def _unary(body: Body, node: ast.UnaryOp) -> Value:
+def _unary(body: Body, node: ast.UnaryOp, returned: bool) -> Value:
     value = expression(body, node.operand)
     if isinstance(node.op, ast.Not):
         flag = truth(body, node, value)
@@ -194,7 +195,7 @@ def _unary(body: Body, node: ast.UnaryOp) -> Value:
     if isinstance(value.kind, Flag):
         value = Value(value.text, Int(0, 1), value.level)
     if isinstance(value.kind, Array) and isinstance(node.op, ast.USub):
-        return arrays.each(body, node, "all", [value], lambda items: f"-{items[0].text}")
+        return arrays.each(body, node, "all", [value], lambda items: f"-{items[0].text}", returned)
     if not isinstance(value.kind, Int | Real) or not isinstance(node.op, ast.USub | ast.UAdd):
         raise body.source.refusal(node, "is no arithmetic of numbers or arrays")
     if isinstance(node.op, ast.UAdd):
@@ -204,14 +205,16 @@ def _unary(body: Body, node: ast.UnaryOp) -> Value:
     return Value(f"-({operand})" if operand.startswith("-") else f"-{operand}", kind, UNARY)
 
 
-def binary(body: Body, node: ast.AST, operator: ast.operator, a: Value, b: Value) -> Value:
+def binary(body: Body, node: ast.AST, operator: ast.operator, a: Value, b: Value, returned: bool = False) -> Value:
     """a + b and so on, of two numbers."""
     if isinstance(operator, ast.MatMult):
         raise body.source.refusal(
             node, "call matmul or matvec of filters.kernels.dense, whose operations have an order"
         )
     if any(isinstance(value.kind, Array) for value in (a, b)):
-        return arrays.each(body, node, "all", [a, b], lambda items: binary(body, node, operator, *items).text)
+        return arrays.each(
+            body, node, "all", [a, b], lambda items: binary(body, node, operator, items[0], items[1]).text, returned
+        )
     if not (isinstance(a.kind, Int | Real | Flag) and isinstance(b.kind, Int | Real | Flag)):
         raise body.source.refusal(node, "is no arithmetic of numbers or arrays")
     a, b = (Value(x.text, Int(0, 1), x.level) if isinstance(x.kind, Flag) else x for x in (a, b))

@@ -27,7 +27,7 @@ from filters.translation.kinds import (
     variable_of,
 )
 from filters.translation.names import c_name
-from filters.translation.origins import TABLES, as_field, of_field, wholly
+from filters.translation.origins import TABLES, Origins, as_field, of_field, wholly
 from filters.translation.values import CHOICE, COMPARED, OR, POSTFIX, PRIMARY, UNARY, Value
 
 
@@ -59,7 +59,10 @@ def make_record(body: Body, made_by: type[Any] | None, values: list[Value]) -> V
     if not lasts(kind):
         return Value("", kind)
     texts = []
-    for value in values:
+    origins: Origins = frozenset()
+    for name, value in zip(names, values, strict=True):
+        if isinstance(value.kind, Array | Record):
+            origins |= as_field(value.origins, name)
         if lasts(value.kind):
             texts.append(f"*{value.within(UNARY)}" if value.by_pointer else value.text)
             texts += [value.rows] if value.rows else []
@@ -68,7 +71,7 @@ def make_record(body: Body, made_by: type[Any] | None, values: list[Value]) -> V
         kind,
         POSTFIX,
         passing=any(value.passing for value in values),
-        origins=frozenset().union(*(as_field(value.origins, name) for name, value in zip(names, values, strict=True))),
+        origins=origins,
     )
 
 

@@ -213,7 +213,10 @@ def _return(body: Body, statement: ast.Return) -> list[str]:
         body.result = kind
     elif body.result != kind:
         body.result = _common(body, statement, body.result, kind)
-    body.result_origins |= value.origins
+    if isinstance(kind, Array | Record):
+        if any(path and path[0] in body.own for _, path in value.origins):
+            raise body.source.refusal(statement, "returns part of an array of its own; return a copy of the part")
+        body.result_origins |= value.origins
     text = f"*{value.within(UNARY)}" if value.by_pointer else value.text
     return [f"return {text};" if text else "return;"]
 

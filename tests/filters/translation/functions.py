@@ -283,6 +283,34 @@ def _row(i: int) -> int:
     return 0 if i >= 0 else 1
 
 
+def computed(x: FloatArray) -> FloatArray:
+    return 2.0 * x + 1.0
+
+
+def negated(x: FloatArray) -> FloatArray:
+    return -x
+
+
+def computed_and_named(x: FloatArray) -> FloatArray:
+    y = 2.0 * x
+    y[0] = x[1]
+    return y
+
+
+def part_of_what_is_computed(x: FloatArray) -> FloatArray:
+    found: FloatArray = (2.0 * x)[1:3]
+    return found
+
+
+def computed_in_a_record(x: FloatArray) -> Pair:
+    return Pair(x[0] * (2.0 * x)[1], 3.0 * x)
+
+
+def computed_and_passed_on(x: FloatArray) -> float:
+    first, second = computed(x), negated(computed(x))
+    return first[0] * second[1]
+
+
 X4, P3 = np.array([3.0, -1.5, 0.25, 8.0]), np.arange(9.0).reshape(3, 3)
 MANY = np.random.default_rng(1).normal(size=(100, 2))
 SCALED = Pair(_model(2.0), _model(3.0))
@@ -312,6 +340,12 @@ CASES: list[tuple[Any, list[tuple[Any, ...]]]] = [
     (kept_over_rounds, [(X4,)]),
     (declared_in_branches, [(4.0,), (-9.0,)]),
     (made, [(X4,)]),
+    (computed, [(X4,)]),
+    (negated, [(X4,)]),
+    (computed_and_named, [(X4,)]),
+    (part_of_what_is_computed, [(X4,)]),
+    (computed_in_a_record, [(X4,)]),
+    (computed_and_passed_on, [(X4,)]),
     (made_and_aliased, [(X4,)]),
     (whole_arrays, [(abs(X4), np.zeros(4))]),
     (record, [(Pair(1.5, Pair(2.5, 3.5)), 4.0)]),

@@ -82,6 +82,13 @@ def sorted_numbers(x: FloatArray) -> FloatArray:
     return np.sort(x)  # this call is not translated
 
 
+def part_of_its_own(x: FloatArray) -> FloatArray:
+    own = 2.0 * x
+    part = own[1:]
+    part[0] = x[0]
+    return part  # returns part of an array of its own; return a copy of the part
+
+
 X = np.array([1.0, 2.0, 3.0, 4.0])
 P = np.eye(3)
 
@@ -99,4 +106,5 @@ REFUSED: list[tuple[Any, tuple[Any, ...]]] = [
     (strings, (1.0,)),
     (with_step, (X,)),
     (sorted_numbers, (X,)),
+    (part_of_its_own, (X,)),
 ]

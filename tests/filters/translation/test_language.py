@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 import subprocess
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -44,3 +46,27 @@ def test_the_strictest_warnings_find_nothing(precision: Precision, tmp_path: Pat
     flags = ["-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wshadow", "-Werror", "-O2", "-c"]
     done = subprocess.run([compiler, *flags, "filter.c"], cwd=tmp_path, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
+
+
+def test_the_same_c_comes_out_of_every_process() -> None:
+    """Whatever order the sets of that process have."""
+    program = (
+        "import numpy as np\n"
+        "from filters.covariance_forms.short import gain; from filters.records import new_workspace\n"
+        "from filters.systems.example import example_system; from filters.translation.kinds import kind_of\n"
+        "from filters.translation.unit import Unit\n"
+        "unit, arrays = Unit(public=frozenset({gain})), [np.zeros(n) for n in ((4, 4), (3, 4), (3, 3), (4, 3))]\n"
+        "unit.function(gain, tuple(map(kind_of, (*arrays, new_workspace(example_system(4, 2, 3))))))\n"
+        "print(unit.source(''))"
+    )
+    texts = {
+        subprocess.run(
+            [sys.executable, "-c", program],
+            env={**os.environ, "PYTHONHASHSEED": seed},
+            check=True,
+            capture_output=True,
+            text=True,
+        ).stdout
+        for seed in ("0", "1", "2")
+    }
+    assert len(texts) == 1
