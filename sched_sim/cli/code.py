@@ -18,6 +18,8 @@ from studies.board.steps import Steps
 
 if TYPE_CHECKING:
     from filters.covariance_forms import CovarianceFormName
+    from filters.delayed.dual_rate import GainTime
+    from filters.delayed.low_rate_noise import LowRateNoise
     from filters.translation.library import Precision
 
 Method = Annotated[
@@ -86,6 +88,22 @@ Landing = Annotated[
         rich_help_panel=opt.DESIGN,
     ),
 ]
+Gain = Annotated[
+    Literal["at-update", "precomputed"],
+    typer.Option(
+        "--gain",
+        help="With dual-rate: compute H, R, K in the LR update, or before it (III.D).",
+        rich_help_panel=opt.DESIGN,
+    ),
+]
+Noise = Annotated[
+    Literal["exact", "sum", "euler"],
+    typer.Option(
+        "--low-rate-noise",
+        help="With dual-rate: Q over N steps by Eq. 18 or 23; that by Eq. 24 is not written.",
+        rich_help_panel=opt.DESIGN,
+    ),
+]
 InPrecision = Annotated[
     Literal["single", "double"], typer.Option("--precision", help="Of the numbers: single (float) or double.")
 ]
@@ -115,6 +133,8 @@ def code(
     N: Cycle = 10,
     M: Delay = 4,
     L: Landing = None,
+    gain: Gain = "at-update",
+    low_rate_noise: Noise = "exact",
 ) -> None:
     """Write a filter as C99, translated from the same Python as was counted and timed, with a program that compares it
     with Python, examples for FreeRTOS and POSIX, and a README.
@@ -125,9 +145,13 @@ def code(
     sched-sim code --filter mymodule:my_filter -o board/
     sched-sim code --robust attitude --method robust-givens -N 40 -o board/
     """
+    from studies.board.dual_rate import check_choices
     from studies.board.folder import check_folder, write_folder
     from studies.board.write import NAMES
 
+    if method != "dual-rate" or own_filter is not None or robust is not None:
+        _refuse_beside(context, "another filter than dual-rate", CHOICES, "they are choices of --method dual-rate")
+    check_choices(low_rate_noise)
     if own_filter is not None:
         _refuse_beside(context, f"--filter {own_filter}", (*OF_A_SYSTEM, "robust", "N", "M", "L"), OF_A_FILTER)
     if robust is not None:
@@ -149,7 +173,7 @@ def code(
         steps = Steps(N, delay, L if L is not None else delay + (method in LANDING))
         sizes = states, inputs, measurements
         asked = bool(opt.given_options(context, lambda name: name in "NL"))
-        written = _of_a_system(method, sizes, system, update, precision, steps, asked)
+        written = _of_a_system(method, sizes, system, update, precision, steps, asked, gain, low_rate_noise)
     write_folder(output, written.files, NAMES, "--output")
     say(
         lines(
@@ -175,6 +199,8 @@ def _of_a_system(
     precision: Precision,
     steps: Steps,
     asked: bool,
+    gain: GainTime,
+    low_rate_noise: LowRateNoise,
 ) -> Written:
     """asked: whether the steps were given, so that the jobs alone would not do."""
     import numpy as np
@@ -203,11 +229,11 @@ def _of_a_system(
         alone = True
     used = "" if alone else "".join(name for name in "NML" if name not in UNUSED.get(method, "L"))
     in_steps = "".join(f" -{name} {getattr(steps, name)}" for name in used)
-    said = (
-        f"sched-sim code --method {method} {the_system} --update {update} --precision {precision}{in_steps} -o FOLDER"
-    )
+    wanted = Filter(method, model, x0, update, precision, None if alone else steps, "", gain, low_rate_noise)
+    chosen = "".join(f" --{name.replace('_', '-')} {value}" for name, value in wanted.choices.items())
+    said = f"sched-sim code --method {method} {the_system} --update {update} --precision {precision}{in_steps}{chosen}"
     with explained(f"{the_system}: cannot be written as C"):
-        files = board_files(Filter(method, model, x0, update, precision, None if alone else steps, said))
+        files = board_files(wanted._replace(said=f"{said} -o FOLDER"))
     return Written(files, f"Written for{in_steps}" if in_steps else JOBS_ALONE)
 
 
@@ -239,6 +265,7 @@ def _own_filter(name: str, precision: Precision) -> Written:
     return Written(files, "Late measurements are used where they were taken, and the steps since done again")
 
 
+CHOICES = ("gain", "low_rate_noise")
 OF_A_FILTER = "the filter that it returns says all of that itself"
 OF_A_ROBUST_FILTER = "it has a system of its own"
 

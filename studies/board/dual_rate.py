@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 
 import numpy as np
 
@@ -17,9 +17,26 @@ from studies.board.jobs import Jobs, call, translated
 from studies.board.memory import add_model, add_workspace
 from studies.board.steps import Files, Steps
 from studies.board.template import filled
+from studies.board.wanted import Filter
 
-TASKS = {"hr": ("hr_restart", "hr_propagate", "hr_update"), "lr": ("lr_propagate", "lr_update")}
-"""The jobs of each task."""
+TASKS = ("hr", "lr")
+"""The names of the jobs of each begin so."""
+
+
+def kinds(wanted: Filter) -> tuple[str, ...]:
+    """The jobs that are written."""
+    propagate = "hr_propagate" if wanted.low_rate_noise == "exact" else f"hr_propagate_{wanted.low_rate_noise}"
+    measured = ("lr_update",) if wanted.gain == "at-update" else ("lr_gain", "lr_correct")
+    return "hr_restart", propagate, "hr_update", "lr_propagate", *measured
+
+
+def check_choices(low_rate_noise: str) -> None:
+    """Raises InputError for a noise that is not written as C."""
+    if low_rate_noise == "euler":
+        raise InputError(
+            f"{option('low_rate_noise')} euler is not written as C, for its halves are of other steps in each cycle: "
+            f"give exact or sum"
+        )
 
 
 def check_steps(steps: Steps) -> None:
@@ -42,20 +59,26 @@ def check_steps(steps: Steps) -> None:
         )
 
 
-def tasks(system: System, jobs: Mapping[str, Job], in_c: Jobs, steps: Steps) -> Files:
-    """The files tasks.h, tasks.c and state.h. in_c: those of TASKS."""
+def tasks(wanted: Filter, jobs: Mapping[str, Job], in_c: Jobs, steps: Steps) -> Files:
+    """The files tasks.h, tasks.c and state.h. in_c: those of `kinds`."""
+    system, early = wanted.system, wanted.gain == "precomputed"
     n, m, p = system.states, system.inputs, system.measurements
-    reads_u = any("u" in in_c.by_kind[kind].used for kind in ("hr_restart", "hr_propagate"))
+    reads_u = any("u" in job.used for job in in_c.by_kind.values())
+    calls = _calls(in_c)
     data = _memory(system, jobs, in_c)
     values = {
         **{"n": n, "m": m, "p": p, **steps._asdict()},
         "u_parameter": f"real u[{m}]" if m else "void",
         "u_doc": ", with the input u of the step before" if m else "",
         "unused_u": "    (void)u; /* the model does not ask for it */\n" if m and not reads_u else "",
-        "Transition": _record(in_c, "hr_propagate", "transition"),
-        "Estimate": _record(in_c, "lr_update", "reference"),
+        "Transition": _record(in_c, _one(in_c, "hr_propagate"), "transition"),
+        "Estimate": _record(in_c, "lr_gain" if early else "lr_update", "reference"),
         "memory": "\n".join(data.lines),
-        **_calls(in_c),
+        **calls,
+        "hr_propagate": calls[_one(in_c, "hr_propagate")],
+        "at_k": filled("tasks_gain.c", {**calls, "Estimate": _record(in_c, "lr_gain", "reference")}) if early else "",
+        "at_m": "" if early else "    lr.posterior = 1 - lr.prior;\n",
+        "lr_update": calls["lr_correct" if early else "lr_update"],
     }
     return Files({name: filled(name, values) for name in ("tasks.h", "tasks.c", "state.h")}, data.sizes)
 
@@ -79,12 +102,19 @@ def freertos_c(system: System, in_c: Jobs, on_core: Compiled | None) -> str:
     )
 
 
+def _one(in_c: Jobs, kind: str) -> str:
+    """The job of this kind, whatever its noise."""
+    return next(name for name in in_c.by_kind if name.startswith(kind))
+
+
 def stacks(in_c: Jobs, on_core: Compiled) -> dict[str, int]:
     """Bytes of the stack that the jobs of each task take at most."""
     functions = in_c.unit.functions()
     return {
-        task: max(stack_of(in_c.by_kind[kind], functions, on_core.frames) for kind in kinds)
-        for task, kinds in TASKS.items()
+        task: max(
+            stack_of(job, functions, on_core.frames) for kind, job in in_c.by_kind.items() if kind.startswith(task)
+        )
+        for task in TASKS
     }
 
 
@@ -120,10 +150,9 @@ def _calls(jobs: Jobs) -> dict[str, str]:
         "transition": "&message.transition",
         "work": "&lr_work",
     }
-    texts = dict.fromkeys(TASKS["hr"], high) | dict.fromkeys(TASKS["lr"], low)
     return {
-        kind: call(jobs.by_kind[kind], arguments, {name: f"{kind}_{name}" for name in jobs.by_kind[kind].memory})
-        for kind, arguments in texts.items()
+        kind: call(job, high if kind.startswith("hr") else low, {name: f"{kind}_{name}" for name in job.memory})
+        for kind, job in jobs.by_kind.items()
     }
 
 
@@ -131,8 +160,8 @@ def _memory(system: System, jobs: Mapping[str, Job], in_c: Jobs) -> Data:
     """The declarations of the model, of HR and of LR."""
     data, n = Data(in_c.unit), system.states
     data.lines.append("/* The model. Nothing writes to it but to its scratch, of which each task has its own. */")
-    for task, kinds in TASKS.items():
-        if (kind := _parameter(in_c, kinds, "system")) is not None:
+    for task in TASKS:
+        if (kind := _parameter(in_c, task, "system")) is not None:
             add_model(data, task, system, kind)
     data.lines.append(
         "\n/* HR: x_j, Phi_{k->j} and Q_{k->j}, three of each in turn; what F makes at k; its workspace. */"
@@ -143,7 +172,7 @@ def _memory(system: System, jobs: Mapping[str, Job], in_c: Jobs) -> Data:
     _add_own(data, "hr", system, jobs, in_c)
     data.lines.append("\n/* LR: P_{k^-} and P_{k^+}; z, K and delta_x_{k^+}; its workspace. */")
     data.array(Kept("lr_P"), np.zeros((2, n, n)))
-    kind = in_c.parameter("lr_update", "correction")
+    kind = _parameter(in_c, "lr", "correction")
     assert isinstance(kind, Record)
     data.record("lr_correction", new_correction(system), kind, lambda names: Kept("_".join(names)))
     _add_own(data, "lr", system, jobs, in_c)
@@ -152,18 +181,19 @@ def _memory(system: System, jobs: Mapping[str, Job], in_c: Jobs) -> Data:
 
 def _add_own(data: Data, task: str, system: System, jobs: Mapping[str, Job], in_c: Jobs) -> None:
     """Memory of what its jobs return, and its workspace."""
-    for job in TASKS[task]:
-        for name, array in in_c.by_kind[job].memory.items():
-            data.array(Kept(f"{job}_{name}"), np.zeros([length or 0 for length in array.shape]))
-    if (kind := _parameter(in_c, TASKS[task], "work")) is not None:
-        assert isinstance(kind, Record)
-        own = translated({name: jobs[name] for name in TASKS[task]}, in_c.unit.precision)
-        add_workspace(data, task, new_workspace(system), kind, own.fields(kind))
+    own = {kind: job for kind, job in jobs.items() if kind.startswith(task)}
+    for kind in own:
+        for name, array in in_c.by_kind[kind].memory.items():
+            data.array(Kept(f"{kind}_{name}"), np.zeros([length or 0 for length in array.shape]))
+    if (work := _parameter(in_c, task, "work")) is not None:
+        assert isinstance(work, Record)
+        alone = translated(own, in_c.unit.precision)
+        add_workspace(data, task, new_workspace(system), work, alone.fields(work))
 
 
-def _parameter(in_c: Jobs, kinds: Sequence[str], name: str) -> Kind | None:
-    """What it is in C in the first job that has it; None if it is left in none."""
-    for kind in kinds:
-        if name in in_c.by_kind[kind].used:
+def _parameter(in_c: Jobs, task: str, name: str) -> Kind | None:
+    """What it is in C, where a job of the task takes it."""
+    for kind, job in in_c.by_kind.items():
+        if kind.startswith(task) and name in job.used:
             return in_c.parameter(kind, name)
     return None

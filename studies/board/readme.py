@@ -75,9 +75,9 @@ def readme(about: About, in_c: Jobs, sizes: Mapping[str, int], sources: Sequence
 def _memory(about: About, in_c: Jobs, sizes: Mapping[str, int], on_core: Compiled | None) -> list[str]:
     each = BYTES[about.precision]
     lines = ["| what | bytes |", "| --- | ---: |"]
-    tasks = TASKS if about.part == "tasks" else {}
-    for task, kinds in tasks.items():
-        own = sum(size for name, size in sizes.items() if name.startswith((f"{task}_", *kinds)))
+    tasks = TASKS if about.part == "tasks" else ()
+    for task in tasks:
+        own = sum(size for name, size in sizes.items() if name.startswith(f"{task}_"))
         lines.append(f"| RAM of {task.upper()}: arrays of state.h | {each * own} |")
     if not tasks:
         lines.append(f"| RAM: arrays of state.h | {each * sum(sizes.values())} |")
@@ -107,6 +107,7 @@ def _question(wanted: Filter) -> str:
     else:
         given += f" -M {steps.M}"
         given += f" -L {steps.L}" if wanted.method in ("dual-rate", "delayed-horizon") else ""
+    given += "".join(f" --{name.replace('_', '-')} {value}" for name, value in wanted.choices.items())
     return f"sched-sim minimum --costs board.toml --hr-hz 400 --method {wanted.method} {given}"
 
 

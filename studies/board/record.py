@@ -37,7 +37,8 @@ def simulated(wanted: Filter, steps: Steps) -> Record:
     Numbers are those that the program has, also in single precision; the states are always computed in double.
     Raises ValueError where the system cannot be filtered from there.
     """
-    (method, system, x0, update, precision, _, _), (N, M, L) = wanted, steps
+    method, system, x0, update, precision = wanted[:5]
+    N, M, L = steps
     each = method in MULTIRATE_METHODS
     measured = CYCLES + M // N
     number = (measured - 1) * N + L
@@ -49,7 +50,7 @@ def simulated(wanted: Filter, steps: Steps) -> Record:
     if each:
         history = MULTIRATE_METHODS[method].run(system, N, x0, P0, u, y, L=L, update=update)
     else:
-        history = ALL_METHODS[method].run(system, N, M, L, x0, P0, u, y, update=update)
+        history = ALL_METHODS[method].run(system, N, M, L, x0, P0, u, y, update=update, **wanted.choices)
     return Record(x0, P0, u, y, history.x)
 
 

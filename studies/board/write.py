@@ -66,7 +66,7 @@ def board_files(wanted: Filter) -> dict[str, str]:
         InputError: steps or sizes do not fit.
         ValueError: the system cannot be filtered from x0.
     """
-    method, system, x0, update, precision, _, _ = wanted
+    method, system, x0, update, precision = wanted[:5]
     check_wanted(method, system[:3], wanted.steps)
     jobs = _jobs(wanted, ALL_METHODS[method].jobs(system, update, 0, x0))
     in_c = translated(jobs, precision)
@@ -76,7 +76,7 @@ def board_files(wanted: Filter) -> dict[str, str]:
 def _jobs(wanted: Filter, jobs: Mapping[str, Job]) -> Mapping[str, Job]:
     """The functions that are written."""
     if wanted.method == "dual-rate":
-        return {kind: jobs[kind] for kinds in dual_rate.TASKS.values() for kind in kinds}
+        return {kind: jobs[kind] for kind in dual_rate.kinds(wanted)}
     if wanted.steps is None:
         return jobs
     written = serial(wanted.method, wanted.steps)
@@ -93,7 +93,7 @@ def _around(wanted: Filter, jobs: Mapping[str, Job], in_c: Jobs) -> Around:
     record = record_h(simulated(wanted, steps), wanted.precision)
     if method == "dual-rate":
         words = {"u": "record_u[j - 1]" if system.inputs else ""}
-        files, sizes = dual_rate.tasks(system, jobs, in_c, steps)
+        files, sizes = dual_rate.tasks(wanted, jobs, in_c, steps)
         files = {**files, "record.h": record, "posix.c": filled("posix.c", words), "freertos.c": ""}
         run = words_of_run("tasks", filled("tasks_run.c", words))
 

@@ -104,14 +104,13 @@ int lr_receive(void)
         lr.prior = 1 - lr.posterior;
         $lr_propagate;
     }
-    return message.k;
+$at_k    return message.k;
 }
 
 void lr_measure(real y[$p])
 {
     const $Estimate reference = {hr_x[message.x], lr_P[lr.prior]};
-    lr.posterior = 1 - lr.prior;
-    $lr_update;
+$at_m    $lr_update;
     FENCE();
     stage = READY;
 }

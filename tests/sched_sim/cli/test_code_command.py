@@ -124,6 +124,8 @@ def test_robust_and_composed_filters(sched_sim: Run) -> None:
         ("code -o board --robust attitude -N 0", ["-N 0 must be at least 1"]),
         ("code -o board --states 65", ["--states 65", "at most 64"]),
         ("code -o board -N 1001 -M 4", ["-N 1001", "at most 1000", "CYCLE_STEPS"]),
+        ("code -o board --low-rate-noise euler", ["--low-rate-noise euler is not written as C", "exact or sum"]),
+        ("code -o board --method larsen --gain precomputed", ["leave out --gain", "--method dual-rate"]),
         ("code -o own.py", ["--output 'own.py' is a file"]),
         ("code -o full", ["--output 'full' holds a.txt, b.txt, c.txt and 1 more"]),
         ("code -o own.py/board", ["own.py/board", "cannot be"]),

@@ -14,6 +14,8 @@ import pytest
 
 from filters.arrays import FloatArray
 from filters.covariance_forms import CovarianceFormName
+from filters.delayed.dual_rate import GainTime
+from filters.delayed.low_rate_noise import LowRateNoise
 from filters.system import System
 from filters.translation.library import Precision
 from studies.board.steps import Steps
@@ -38,10 +40,12 @@ def written(
     precision: Precision = "double",
     steps: Steps | None = None,
     for_a_core: bool = False,
+    gain: GainTime = "at-update",
+    low_rate_noise: LowRateNoise = "exact",
 ) -> dict[str, str]:
     """The files of a filter. for_a_core: whether the cross compiler is asked for sizes, which takes a while."""
     start = np.zeros(system.states) if x0 is None else x0
-    wanted = Filter(method, system, start, update, precision, steps, "sched-sim code")
+    wanted = Filter(method, system, start, update, precision, steps, "sched-sim code", gain, low_rate_noise)
     if for_a_core:
         return board_files(wanted)
     with without_sizes():

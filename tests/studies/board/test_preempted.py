@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shutil
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -51,6 +52,13 @@ def test_low_rate_jobs_that_are_preempted_anywhere(name: str, steps: Steps, tmp_
 @pytest.mark.parametrize("update", ["short", "joseph"])
 def test_other_covariance_updates(update: CovarianceFormName, tmp_path: Path) -> None:
     status, said = preempted(tmp_path, written(SYSTEMS["linear"], update=update, steps=STEPS[0]))
+    assert status == 0, said
+
+
+@pytest.mark.parametrize("choice", [{"gain": "precomputed"}, {"low_rate_noise": "sum"}], ids=str)
+def test_other_choices(choice: dict[str, Any], tmp_path: Path) -> None:
+    """With the gain computed at k, and with the noise only summed."""
+    status, said = preempted(tmp_path, written(SYSTEMS["scratch"], steps=STEPS[0], **choice))
     assert status == 0, said
 
 
