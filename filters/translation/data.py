@@ -12,7 +12,7 @@ import numpy as np
 from filters.translation.declarations import memory, pointer
 from filters.translation.kinds import Array, Kind, Real, Record, lasts
 from filters.translation.library import Precision
-from filters.translation.prototype import WIDTH
+from filters.translation.prototype import WIDTH, wrapped
 from filters.translation.refusal import Untranslatable
 from filters.translation.unit import Unit
 
@@ -32,10 +32,12 @@ Placing: TypeAlias = Callable[[tuple[str, ...]], Kept | None]
 class Data:
     """lines: the declarations so far. An array that several values share is declared once, so that they share it.
 
-    sizes: of the arrays that are not constant, how many numbers each has.
+    sizes: of the arrays that are not constant, how many numbers each has. refuses: numbers that single precision has
+    not, which are infinite or zero otherwise.
     """
 
     unit: Unit
+    refuses: bool = True
     lines: list[str] = field(default_factory=list)
     sizes: dict[str, int] = field(default_factory=dict)
     _names: dict[int, str] = field(default_factory=dict)
@@ -45,7 +47,7 @@ class Data:
     def record(self, name: str, value: Any, kind: Record, placing: Placing) -> None:
         """A record that never changes, behind the arrays that it points at."""
         text = self.text(value, kind, (name,), placing)
-        self.lines.append(_broken(f"static const {self.unit.record_name(kind)} {name} = {text};"))
+        self.lines.append(wrapped(f"static const {self.unit.record_name(kind)} {name} = {text};"))
 
     def text(self, value: Any, kind: Kind, names: tuple[str, ...], placing: Placing) -> str:
         """The value as an initialiser, behind the arrays that it needs.
@@ -64,7 +66,7 @@ class Data:
                         texts += [str(len(item))] if isinstance(part, Array) and part.is_long else []
                 return "{" + ", ".join(texts) + "}"
             case Real():
-                return number(self.unit, float(value), ".".join(names))
+                return self._number(float(value), ".".join(names))
         return str(int(value))
 
     def array(self, kept: Kept, value: Any, item: str = "real") -> None:
@@ -78,7 +80,11 @@ class Data:
         self._taken.add(kept.name)
         if not kept.constant:
             self.sizes[kept.name] = value.size
-        self.lines += map(_broken, f"{begin};".splitlines())
+        self.lines += map(wrapped, f"{begin};".splitlines())
+
+    def name(self, value: Any) -> str | None:
+        """Of an array, if it is declared."""
+        return self._names.get(id(value))
 
     def _array(self, value: Any, kind: Array, names: tuple[str, ...], placing: Placing) -> str:
         kept = placing(names)
@@ -97,14 +103,14 @@ class Data:
         if value.ndim > 1:
             rows = ",\n".join(textwrap.indent(self._listed(row, name), "    ") for row in value)
             return f"{{\n{rows}\n}}"
-        texts = [number(self.unit, float(x), name) if value.dtype.kind == "f" else str(int(x)) for x in value]
+        texts = [self._number(float(x), name) if value.dtype.kind == "f" else str(int(x)) for x in value]
         return "{" + ", ".join(texts) + "}"
 
-
-def _broken(line: str) -> str:
-    """In lines that are not too long."""
-    indent = " " * (len(line) - len(line.lstrip()) + 4)
-    return textwrap.fill(line, WIDTH, subsequent_indent=indent, break_on_hyphens=False, break_long_words=False)
+    def _number(self, value: float, what: str) -> str:
+        if self.refuses or self.unit.precision == "double":
+            return number(self.unit, value, what)
+        with np.errstate(over="ignore", under="ignore"):
+            return self.unit.number(float(str(np.float32(value))))
 
 
 def number(unit: Unit, value: float, what: str) -> str:
