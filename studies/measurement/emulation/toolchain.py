@@ -24,14 +24,19 @@ LONGEST_S = 120
 """That one program may run."""
 
 
+def missing() -> list[str]:
+    """What is not there of the compiler, its C library and the emulator."""
+    programs = [name for name in (COMPILER, EMULATOR) if shutil.which(name) is None]
+    if COMPILER not in programs and not Path(_said(COMPILER, "-print-file-name=libm.a")).is_absolute():
+        return [*programs, "newlib"]
+    return programs
+
+
 def check_installed() -> None:
-    """Raises InputError that names the packages if the compiler, its C library or the emulator is not there."""
-    missing = [name for name in (COMPILER, EMULATOR) if shutil.which(name) is None]
-    if COMPILER not in missing and not Path(_said(COMPILER, "-print-file-name=libm.a")).is_absolute():
-        missing.append("newlib")
-    if missing:
+    """Raises InputError that names the packages if something is `missing`."""
+    if lacking := missing():
         raise InputError(
-            f"{option('backend')} emulated needs {', '.join(missing)}, not found here: install the packages {PACKAGES} "
+            f"{option('backend')} emulated needs {', '.join(lacking)}, not found here: install the packages {PACKAGES} "
             f"(Debian's names), or choose another {option('backend')}"
         )
 

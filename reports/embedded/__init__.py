@@ -1,0 +1,1 @@
+"""The report on counts, emulated cores, times here and published timings side by side."""
