@@ -13,9 +13,11 @@ from typing import NamedTuple
 
 from filters.backends.in_c import compiler
 from filters.covariance_forms import CovarianceFormName
+from filters.translation.library import Precision
 from reports.pages.stored import Rows, as_stored, read_tables, records, table_files
 from sched_sim.costs.table import CostTable
 from sched_sim.costs.table_file import costs_text, read_costs
+from studies.embedded.folders import FOLDERS, folder
 from studies.embedded.known_loop import check
 from studies.embedded.published import instructions
 from studies.embedded.sources import EMULATED, FORMS, NATIVE, Source, table_of
@@ -28,7 +30,8 @@ Progress = Callable[[int, int, str], None]
 Costs = Mapping[tuple[str, CovarianceFormName], CostTable]
 """By the source's name and the form of the covariance update."""
 
-SHIPPED = ("checks", "boards")
+PRECISIONS: tuple[Precision, ...] = ("single", "double")
+SHIPPED = ("checks", "boards", "folders")
 """Tables of emulated cores that are shipped beside their costs."""
 TABLES = (*SHIPPED, "said")
 
@@ -119,7 +122,9 @@ def _checked(costs: Costs, tell: Callable[[int, str], None]) -> dict[str, Rows]:
     for timing in published_timings():
         number = instructions(timing)
         boards.append([timing.source, timing.job, timing.states, "" if number is None else number])
-    return {"checks": checks, "boards": boards}
+    folders: Rows = [["method", "precision", "core", "code", "ram"]]
+    folders += [[*folder(method, precision)] for method in FOLDERS for precision in PRECISIONS]
+    return {"checks": checks, "boards": boards, "folders": folders}
 
 
 def _not_emulated(lacking: list[str]) -> str:

@@ -1,0 +1,62 @@
+"""Published timings over what counts predict."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from matplotlib.figure import Figure
+from matplotlib.patheffects import withStroke
+
+from reports.drawing.axes import AXIS_MM, EDGE_MM, plain
+from reports.drawing.legend import draw_legend, legend_height, line_entry
+from reports.drawing.style import GREY, INK, PALE, SMALL_PT, WIDTH_MM, Line, axes_at, drawing, page, text_width_mm
+from reports.embedded.signs import BAND, beside, numbers_at, swatch_entry
+from reports.embedded.words import WRITTEN
+from studies.measurement.published_timings import PublishedTiming, Written
+
+ROW_MM, LOW, HIGH = 4.6, 0.05, 60.0
+LINES: Mapping[Written, Line] = {
+    "plain loops": Line(INK, "-", "o", 4.2),
+    "with more around it": Line(GREY, "-", "D", 3.8),
+    "generic matrix class": Line("#b3382f", "-", "^", 4.4),
+    "zeros left out": Line("#6b5b1e", "-", "s", 4.0),
+}
+
+
+def published_figure(timings: Mapping[str, PublishedTiming], within: float) -> Figure:
+    """A row for each timing, by its name: published over predicted by counts, on a logarithmic axis; grouped by how the
+    code is written.
+
+    within: the factor within which plain loops are, which is shaded.
+    """
+    with drawing():
+        left = EDGE_MM + 2.0 + max(map(text_width_mm, timings))
+        across = WIDTH_MM - left - 4.0
+        height = ROW_MM * len(timings) + 1.0
+        legend = [line_entry(WRITTEN[written], line, dashes=False) for written, line in LINES.items()]
+        legend.append(swatch_entry(f"within a factor of {within:.2g}", BAND))
+        figure = page(EDGE_MM + height + AXIS_MM + legend_height(legend, across) + EDGE_MM)
+        axes = axes_at(figure, left, EDGE_MM, across, height)
+        axes.set(xscale="log", xlim=(LOW, HIGH), ylim=(len(timings) - 0.4, -0.6), yticks=[])
+        axes.axvspan(1 / within, within, color=BAND, lw=0, zorder=0)
+        axes.axvline(1, color=INK, lw=0.7, zorder=0.6)
+        for y, (name, timing) in enumerate(grouped(timings)):
+            line, ends = LINES[timing.written], [float(ratio) for ratio in timing.ratios]
+            axes.axhline(y, color=PALE, lw=0.5, zorder=0.5)
+            beside(axes, y, name, left=True)
+            axes.plot(ends, [y, y], color=line.colour, lw=1.1, zorder=2)
+            axes.plot(ends, [y, y], line.marker, color=line.colour, ms=line.size, mew=0, ls="none", zorder=3)
+            text = " to ".join(dict.fromkeys(f"{end:.2f}" for end in ends))
+            note = axes.annotate(text, (ends[1], y), (6, 0), textcoords="offset points", va="center", size=SMALL_PT)
+            note.set_path_effects([withStroke(linewidth=2.0, foreground="white")])
+        numbers_at(axes.xaxis, (0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20))
+        axes.set_xlabel("published time over that predicted by counts; right of 1 the board is slower", labelpad=2)
+        plain(axes)
+        axes.spines["left"].set_visible(False)
+        draw_legend(figure, legend, left, EDGE_MM + height + AXIS_MM, across)
+        return figure
+
+
+def grouped(timings: Mapping[str, PublishedTiming]) -> Sequence[tuple[str, PublishedTiming]]:
+    """By how the code is written, in the order of `LINES`."""
+    return sorted(timings.items(), key=lambda item: list(LINES).index(item[1].written))

@@ -1,0 +1,60 @@
+"""The report on counts, emulated cores, times here and published timings side by side."""
+
+from __future__ import annotations
+
+from reports.drawing.picture import image
+from reports.embedded import board_tables, tables, words
+from reports.embedded.compared import compared
+from reports.embedded.instructions_figure import instructions_figure
+from reports.embedded.least_speed_figure import least_speed_figure
+from reports.embedded.memory_figure import memory_figure
+from reports.embedded.published_figure import published_figure
+from reports.embedded.results import Results
+from reports.embedded.said import ASSUMED, about_boards, about_jobs, about_memory, about_speeds, provenance
+from reports.pages.render import csv_bytes, render
+from studies.embedded.sources import FORMS
+
+TITLE = "What a filter asks of a board: counts, emulated cores, times here, published timings"
+
+
+def build(results: Results) -> dict[str, bytes]:
+    """All files of the report by name, as a pure function of what was emulated and timed."""
+    found = compared(results)
+    rows = {
+        **{f"jobs-{form}": tables.jobs(results, form) for form in FORMS},
+        **{f"times-{form}": tables.times(results, form) for form in FORMS},
+        **{f"speeds-{form}": tables.speeds(found, form) for form in FORMS},
+        "ratios": tables.ratios(results),
+        "deviations": tables.deviations(found),
+        "all-speeds": tables.all_speeds(found),
+        "published": board_tables.published(results),
+        "groups": board_tables.groups(),
+        "memory": board_tables.memory(results, "textbook"),
+        "folders": board_tables.folders(results),
+        "checks": board_tables.checks(results),
+    }
+    boards = about_boards(results)
+    memory = {core: board_tables.memory_bytes(results, core, "textbook") for core in board_tables.IN_PRECISION.values()}
+    figures = {
+        "least-speed.svg": image(least_speed_figure(found), "svg"),
+        "instructions.svg": image(instructions_figure(tables.per_operation(results), ASSUMED), "svg"),
+        "published.svg": image(published_figure(board_tables.timings(), boards["within"]), "svg"),
+        "memory.svg": image(memory_figure(memory), "svg"),
+    }
+    shown = {
+        **rows,
+        **{f"jobs-{form}": tables.jobs(results, form, words.SHOWN) for form in FORMS},
+        **{f"times-{form}": tables.times(results, form, words.SHOWN) for form in FORMS},
+    }
+    pages = render(
+        "embedded",
+        TITLE,
+        figures,
+        **{name.replace("-", "_"): table for name, table in shown.items()},
+        speed=about_speeds(results, found),
+        job=about_jobs(results),
+        board=boards,
+        ram=about_memory(results),
+        made=provenance(results),
+    )
+    return {**pages, **figures, **results.files(), **{f"{name}.csv": csv_bytes(table) for name, table in rows.items()}}

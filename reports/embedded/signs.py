@@ -1,0 +1,40 @@
+"""What figures on boards share: names beside rows, and swatches of the legend."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from matplotlib.axes import Axes
+from matplotlib.axis import Axis
+from matplotlib.patches import Rectangle
+from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
+
+from reports.drawing.legend import SWATCH_MM, Entry
+
+BAND = "#e3edf5"
+"""Of where figures should be."""
+
+
+def beside(axes: Axes, y: float, text: str, *, left: bool) -> None:
+    """A text left or right of the axes, at the height of a row."""
+    axes.annotate(
+        text, (0 if left else 1, y), (-4 if left else 4, 0), xycoords=axes.get_yaxis_transform(),
+        textcoords="offset points", ha="right" if left else "left", va="center",
+    )  # fmt: skip
+
+
+def swatch_entry(text: str, colour: str) -> Entry:
+    """A filled box in the legend."""
+
+    def draw(axes: Axes, x: float, y: float) -> None:
+        axes.add_patch(Rectangle((x, y - 1.3), SWATCH_MM, 2.6, facecolor=colour, lw=0))
+
+    return Entry(text, SWATCH_MM, draw)
+
+
+def numbers_at(axis: Axis, ticks: Sequence[float], *, signed: bool = False) -> None:
+    """Numbers at those of these that are on the axis."""
+    low, high = sorted(axis.get_view_interval())
+    axis.set_major_locator(FixedLocator([tick for tick in ticks if low <= tick <= high]))
+    axis.set_minor_locator(NullLocator())
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:+g}" if signed and value else f"{value:,g}"))

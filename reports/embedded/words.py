@@ -1,0 +1,67 @@
+"""Names and figures of the report on boards, as it writes them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+
+from reports.drawing.style import Line
+from reports.pages.machine import marked
+from reports.pages.numbers import significant, span
+from sched_sim.costs.table import Cost
+from studies.measurement.published_timings import Written
+
+SOURCES: Mapping[str, str] = {
+    "cortex-m4f": "M4F, float",
+    "cortex-m33": "M33, float",
+    "cortex-m7": "M7, double",
+    "cortex-m4-soft": "M4, double in software",
+    "c": marked("C"),
+    "numba": marked("numba"),
+    "numpy": marked("NumPy"),
+}
+"""What figures and tables call them, in their order."""
+CORES = ("cortex-m4f", "cortex-m33", "cortex-m7", "cortex-m4-soft")
+IN_HARDWARE = CORES[:3]
+HERE = ("c", "numba", "numpy")
+LINES: Mapping[str, Line] = {
+    "cortex-m4f": Line("#11538c", "-", "o", 4.8),
+    "cortex-m33": Line("#4fb8b8", "-", "D", 2.8),
+    "cortex-m7": Line("#dd9009", "-", "^", 4.4),
+    "cortex-m4-soft": Line("#8a3b73", "-", "s", 3.8),
+    "c": Line("#2e7d4f", "-", "v", 4.4),
+    "numba": Line("#6b6b6b", "-", "P", 4.6),
+}
+PAPERS = ("recalculate", "larsen", "dual-rate")
+"""Methods of Steffes 2014, beside the standard filter."""
+OTHERS = ("clone", "clone-split", "carried-gain", "delayed-horizon")
+SHOWN = ("standard", "larsen", "dual-rate", "clone")
+"""Methods whose jobs are on the page; all are in the files."""
+WRITTEN: Mapping[Written, str] = {
+    "plain loops": "plain loops, as they are counted",
+    "with more around it": "the job and more around it",
+    "generic matrix class": "generic matrix class",
+    "zeros left out": "zeros left out, unrolled or generated",
+}
+
+
+def microseconds(cost: Cost) -> str:
+    """Median, and from the minimum to the 95th percentile."""
+    least, median, most = (significant(1e6 * float(value)) for value in (cost.minimum, cost.median, cost.p95))
+    return f"{median} ({span(least, most)})"
+
+
+def signed(deviation: float | Fraction) -> str:
+    """In percent with one decimal, and its sign."""
+    text = f"{100 * float(deviation):+.1f}"
+    return "0.0" if text in ("+0.0", "-0.0") else text.replace("-", "−")
+
+
+def percent_up(share: float | Fraction) -> str:
+    """In percent, one decimal, of a largest deviation."""
+    return f"{100 * float(share):.1f}"
+
+
+def factor(ratios: Sequence[Fraction]) -> str:
+    """Within which factor of 1 all of them are."""
+    return f"{float(max(max(ratio, 1 / ratio) for ratio in ratios)):.2g}"
