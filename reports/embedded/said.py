@@ -124,10 +124,8 @@ def about_memory(results: Results) -> dict[str, Any]:
         "larsen": " and ".join(f"{needed[METHOD_NAMES['larsen'], of]:.1f}" for of in ("single", "double")),
         "over_larsen": f"{single['dual-rate'] / single['larsen']:.1f}",
         "whole_over_larsen": f"{whole['dual-rate', 'single'] / whole['larsen', 'single']:.1f}",
-        "code": span(
-            *(f"{min_or_max(int(row[2].replace(',', '')) for row in rows) / 1024:.1f}" for min_or_max in (min, max))
-        ),
-        "stack": span(*_ends([row[column] for row in rows for column in (5, 6)])),
+        "code": _span_of([row[2] for row in rows], lambda size: f"{size / board_tables.KB:.1f}"),
+        "stack": _span_of([row[column] for row in rows for column in (5, 6)], str),
         "model": f"{results.costs['cortex-m4f', 'textbook'].provenance['memory']['standard']['model']['code']:,}",
     }
 
