@@ -36,9 +36,16 @@ def published(results: Results) -> Rows:
         us = span(*(significant(end) for end in (timing.least_us, timing.most_us)))
         ends = span(*(significant(end) for end in times_us(timing, int(number)))) if number else "-"
         ratio = span(*(f"{float(end):.2f}" for end in timing.ratios))
-        row = [f"[{timing.source}]({timing.url})", f"{timing.part}, {timing.clock_mhz} MHz", sizes, timing.job]
+        row = [timing.source, f"{timing.part}, {timing.clock_mhz} MHz", sizes, timing.job]
         rows.append([*row, us, significant(timing.predicted_us), ratio, ends])
     return rows
+
+
+def with_addresses(rows: Rows) -> Rows:
+    """The same with the page on which each timing was published, and what the code is in its words."""
+    heading, *body = rows
+    more = [[timing.code, timing.url] for timing in published_timings()]
+    return [[*heading, "code", "published at"], *([*row, *of] for row, of in zip(body, more, strict=True))]
 
 
 def groups() -> Rows:

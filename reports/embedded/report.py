@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from reports.drawing.picture import image
-from reports.embedded import board_tables, tables, words
+from reports.embedded import board_tables, tables
 from reports.embedded.compared import compared
 from reports.embedded.instructions_figure import instructions_figure
 from reports.embedded.least_speed_figure import least_speed_figure
@@ -11,6 +11,7 @@ from reports.embedded.memory_figure import memory_figure
 from reports.embedded.published_figure import published_figure
 from reports.embedded.results import Results
 from reports.embedded.said import ASSUMED, about_boards, about_jobs, about_memory, about_speeds, provenance
+from reports.embedded.words import SHOWN, on_page
 from reports.pages.render import csv_bytes, render
 from studies.embedded.sources import FORMS
 
@@ -27,7 +28,7 @@ def build(results: Results) -> dict[str, bytes]:
         "ratios": tables.ratios(results),
         "deviations": tables.deviations(found),
         "all-speeds": tables.all_speeds(found),
-        "published": board_tables.published(results),
+        "published": board_tables.with_addresses(board_tables.published(results)),
         "groups": board_tables.groups(),
         "memory": board_tables.memory(results, "textbook"),
         "folders": board_tables.folders(results),
@@ -43,14 +44,15 @@ def build(results: Results) -> dict[str, bytes]:
     }
     shown = {
         **rows,
-        **{f"jobs-{form}": tables.jobs(results, form, words.SHOWN) for form in FORMS},
-        **{f"times-{form}": tables.times(results, form, words.SHOWN) for form in FORMS},
+        "published": board_tables.published(results),
+        **{f"jobs-{form}": tables.jobs(results, form, SHOWN) for form in FORMS},
+        **{f"times-{form}": tables.times(results, form, SHOWN) for form in FORMS},
     }
     pages = render(
         "embedded",
         TITLE,
         figures,
-        **{name.replace("-", "_"): table for name, table in shown.items()},
+        **{name.replace("-", "_"): on_page(table) for name, table in shown.items()},
         speed=about_speeds(results, found),
         job=about_jobs(results),
         board=boards,

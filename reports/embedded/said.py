@@ -39,7 +39,7 @@ def about_speeds(results: Results, found: Sequence[Compared]) -> dict[str, Any]:
     return {
         "papers": percent_up(abs(papers.deviation)),
         "most": percent_up(abs(largest(emulated).deviation)),
-        "short_papers": signed(_of(emulated, "short", PAPERS).deviation),
+        "short_papers": signed(_of(emulated, "short", ["dual-rate"]).deviation),
         "here": {
             form: " and ".join(
                 f"{percent_up(abs(_of([one for one in found if one.source == name], form, PAPERS).deviation))} % "

@@ -37,4 +37,5 @@ def numbers_at(axis: Axis, ticks: Sequence[float], *, signed: bool = False) -> N
     low, high = sorted(axis.get_view_interval())
     axis.set_major_locator(FixedLocator([tick for tick in ticks if low <= tick <= high]))
     axis.set_minor_locator(NullLocator())
-    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:+g}" if signed and value else f"{value:,g}"))
+    written = "{:+g}" if signed else "{:,g}"
+    axis.set_major_formatter(FuncFormatter(lambda value, _: written.format(value).replace("-", "−").replace("+0", "0")))

@@ -74,7 +74,7 @@ def per_operation(results: Results) -> dict[CovarianceFormName, dict[str, list[t
 
 def ratios(results: Results) -> Rows:
     """Instructions for each operation, over all jobs: by form and core."""
-    rows: Rows = [["Update", "core", "least", "median", "most", "most, of jobs of 1,000 operations or more"]]
+    rows: Rows = [["Update", "core", "least", "median", "most", "most, from 1,000 operations on"]]
     for form, by_core in per_operation(results).items():
         for core, of_jobs in by_core.items():
             every = [ratio for _, ratio in of_jobs]
@@ -109,10 +109,10 @@ def deviations(found: Sequence[Compared]) -> Rows:
     names = list(dict.fromkeys(one.source for one in found))
     rows: Rows = [["Update", "methods", *(f"{SOURCES[name]}, %" for name in names)]]
     for form in FORMS:
-        for methods in (PAPERS, OTHERS):
+        for name_of, methods in (("Steffes 2014", PAPERS), ("others", OTHERS)):
             of = [one for one in found if one.form == form and one.method in methods]
             cells = [signed(largest(one for one in of if one.source == name).deviation) for name in names]
-            rows.append([form, ", ".join(METHOD_NAMES[method] for method in methods), *cells])
+            rows.append([form, name_of, *cells])
     return rows
 
 

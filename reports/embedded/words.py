@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
 
 from reports.drawing.style import Line
 from reports.pages.machine import marked
 from reports.pages.numbers import significant, span
+from reports.pages.stored import Rows
 from sched_sim.costs.table import Cost
 from studies.measurement.published_timings import Written
 
@@ -15,7 +17,7 @@ SOURCES: Mapping[str, str] = {
     "cortex-m4f": "M4F, float",
     "cortex-m33": "M33, float",
     "cortex-m7": "M7, double",
-    "cortex-m4-soft": "M4, double in software",
+    "cortex-m4-soft": "M4, soft double",
     "c": marked("C"),
     "numba": marked("numba"),
     "numpy": marked("NumPy"),
@@ -65,3 +67,16 @@ def percent_up(share: float | Fraction) -> str:
 def factor(ratios: Sequence[Fraction]) -> str:
     """Within which factor of 1 all of them are."""
     return f"{float(max(max(ratio, 1 / ratio) for ratio in ratios)):.2g}"
+
+
+def on_page(rows: Rows) -> Rows:
+    """The first cell of a row is empty where it is that of the row above, and a line may not end within "15, 3" or "168
+    MHz"."""
+    heading, *body = rows
+    above = [None, *(row[0] for row in body[:-1])]
+    shown = [["" if row[0] == before else row[0], *row[1:]] for row, before in zip(body, above, strict=True)]
+    return [heading, *([_unbroken(str(cell)) for cell in row] for row in shown)]
+
+
+def _unbroken(cell: str) -> str:
+    return re.sub(r"(?<=[\d,]) (?=\d|MHz)", "\N{NO-BREAK SPACE}", cell)

@@ -12,7 +12,8 @@ from sched_sim.cli.measured_note import say_busy
 from sched_sim.cli.output import say
 
 Name = Annotated[
-    Literal["steffes2014", "patent-multirate", "erkf", "modular", "accuracy"], typer.Argument(help="Which report.")
+    Literal["steffes2014", "patent-multirate", "erkf", "modular", "accuracy", "embedded"],
+    typer.Argument(help="Which report."),
 ]
 Folder = Annotated[Path, typer.Option("--output", "-o", help="Folder in which the report's own folder is written.")]
 Thorough = Annotated[
@@ -22,13 +23,15 @@ Thorough = Annotated[
 
 
 def report(name: Name = "steffes2014", thorough: Thorough = False, output: Folder = Path("build/reports")) -> None:
-    """Regenerate a report: HTML, Markdown, figures (SVG), tables (CSV). steffes2014, erkf and modular measure here.
+    """Regenerate a report: HTML, Markdown, figures (SVG), tables (CSV). steffes2014, erkf, modular and embedded measure
+    here.
 
     sched-sim report --thorough
     sched-sim report patent-multirate
     sched-sim report erkf
     sched-sim report modular --output mine
     sched-sim report accuracy
+    sched-sim report embedded
     """
     from reports.pages.render import make_folder, write_report
 
@@ -100,10 +103,25 @@ def _accuracy(_thorough: bool) -> dict[str, bytes]:
     return build(figures)
 
 
+def _embedded(thorough: bool) -> dict[str, bytes]:
+    from reports.embedded.report import build
+    from reports.embedded.results import results
+    from sched_sim.cli.progress import progress_bar
+
+    with progress_bar("Emulating and measuring") as progress:
+        found = results(thorough, progress)
+    for measured in found.costs.values():
+        say_busy(measured.name, measured.provenance)
+    for missing in filter(None, found.said.values()):
+        say(f"Note: {missing}")
+    return build(found)
+
+
 REPORTS: Mapping[str, Callable[[bool], dict[str, bytes]]] = {
     "steffes2014": _steffes,
     "patent-multirate": _patent_multirate,
     "erkf": _erkf,
     "modular": _modular,
     "accuracy": _accuracy,
+    "embedded": _embedded,
 }
