@@ -1,0 +1,303 @@
+"""The committed report is what the code makes of the results stored in it, byte for byte, and what it says is true."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+from reports.embedded import results as results_of
+from reports.embedded.board_tables import memory_bytes
+from reports.embedded.compared import compared
+from reports.embedded.report import build
+from reports.embedded.results import SHIPPED, Results, read, shipped
+from reports.embedded.said import ASSUMED, WITHIN, about_boards, about_memory, about_speeds, provenance
+from reports.embedded.tables import per_operation
+from reports.embedded.words import CORES, IN_HARDWARE, PAPERS, factor, microseconds, on_page, signed
+from sched_sim.costs.methods import KINDS
+from sched_sim.costs.table import Cost, CostTable
+from sched_sim.processors.part_file import load_part
+from studies.embedded.known_loop import INSTRUCTIONS
+from studies.embedded.sources import EMULATED, FIRST, FORMS, METHODS, NATIVE, Source
+from studies.measurement.published_timings import published_timings
+from tests.command_line import Run
+from tests.reports import published
+
+PUBLISHED = published.FOLDER / "embedded"
+
+
+@cache
+def stored() -> Results:
+    return read(PUBLISHED)
+
+
+@cache
+def rebuilt() -> dict[str, bytes]:
+    return build(stored())
+
+
+def text() -> str:
+    return published.text(rebuilt())
+
+
+def rows(name: str) -> list[dict[str, str]]:
+    return published.rows(rebuilt(), name)
+
+
+def number(cell: str) -> float:
+    return float(cell.replace(",", "").replace("−", "-"))
+
+
+def test_the_report_is_complete_and_opens_offline() -> None:
+    published.is_complete("embedded", rebuilt())
+    published.is_self_contained(rebuilt())
+
+
+@pytest.mark.parametrize("name", published.names("embedded"))
+def test_the_committed_file_is_rebuilt_byte_for_byte(name: str) -> None:
+    published.is_rebuilt("embedded", name, rebuilt())
+
+
+def test_the_command_writes_the_report(sched_sim: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("reports.embedded.results.results", lambda _thorough, _progress: stored())
+    published.is_written("embedded", rebuilt(), sched_sim, tmp_path)
+
+
+# ------------------------------------------------------------------------------------------------ machines, and tools
+
+
+def slower(table: CostTable) -> CostTable:
+    """As on another machine."""
+    costs = {
+        method: {kind: Cost.of(cost.minimum * (2 if "update" in kind else 3)) for kind, cost in kinds.items()}
+        for method, kinds in table.costs.items()
+    }
+    return replace(table, costs=costs, provenance={**table.provenance, "machine": "another"})
+
+
+def test_another_machine_changes_only_what_is_marked() -> None:
+    native = {source.name for source in NATIVE}
+    costs = {key: slower(table) if key[0] in native else table for key, table in stored().costs.items()}
+    other = build(stored()._replace(costs=costs))
+    published.differs_only_where_marked(rebuilt(), other, ["least-speed.svg"])
+
+
+def test_what_is_shipped_is_what_was_published() -> None:
+    costs, tables = shipped()
+    for key, table in costs.items():
+        assert replace(table, path="") == replace(stored().costs[key], path="")
+    assert tables == {name: stored().tables[name] for name in SHIPPED}
+
+
+def asked_of(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """Instead of measuring, the stored tables; the names of what was asked for."""
+    asked = []
+
+    def table_of(source: Source, form: str, *, thorough: bool = False) -> CostTable:
+        asked.append(f"{source.name}{' thorough' if thorough else ''}, {form}")
+        return stored().costs[source.name, form]  # type: ignore[index]
+
+    monkeypatch.setattr(results_of, "table_of", table_of)
+    return asked
+
+
+def test_without_the_emulator_the_report_is_of_what_is_shipped(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked = asked_of(monkeypatch)
+    monkeypatch.setattr(results_of, "missing", lambda: ["qemu-system-arm"])
+    without = results_of.results()
+    assert not [name for name in asked if name.startswith("cortex")]
+    page = published.text(build(without))
+    assert "**Nothing was emulated here**: qemu-system-arm not found: install the packages gcc-arm-none-eabi" in page
+    assert rows("speeds-textbook.csv") == published.rows(build(without), "speeds-textbook.csv")
+
+
+def test_without_a_c_compiler_its_column_is_left_out(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked = asked_of(monkeypatch)
+    monkeypatch.setattr(results_of, "missing", lambda: ["qemu-system-arm"])
+    monkeypatch.setattr("shutil.which", lambda _name: None)
+    monkeypatch.delenv("CC", raising=False)
+    without = results_of.results(thorough=True)
+    assert asked == [f"{name} thorough, {form}" for name in ("numba", "numpy") for form in FORMS]
+    files = build(without)
+    assert "C † is missing: no C compiler found: install gcc or clang" in published.text(files)
+    assert "C †" not in published.rows(files, "speeds-short.csv")[0]
+
+
+def test_with_all_tools_everything_is_run(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked, told = asked_of(monkeypatch), []
+    monkeypatch.setattr(results_of, "missing", list)
+    monkeypatch.setattr(results_of, "check", lambda target, _table: (target.name, (2001, 2001), 41, 0))
+    monkeypatch.setattr(results_of, "check", checked)
+    monkeypatch.setattr(results_of, "instructions", lambda _timing: 1000)
+    monkeypatch.setattr(results_of, "folder", lambda method, precision: (method, precision, "core", 1, 2))
+    found = results_of.results(progress=lambda done, total, _what: told.append((done, total)))
+    assert len(asked) == len(FORMS) * len([*EMULATED, *NATIVE])
+    assert [done for done, _ in told] == [*range(20)]
+    assert {total for _, total in told} == {19}
+    assert found.said == {"emulated": "", "c": ""}
+    assert found.records("boards")[0]["instructions"] == "1000"
+
+
+def checked(target: object, _table: CostTable) -> object:
+    from studies.embedded.known_loop import Check
+
+    return Check(target.name, (2001, 2001), 41, 0)  # type: ignore[attr-defined]
+
+
+# ------------------------------------------------------------------------------------------------ what it says
+
+
+def test_emulated_least_speeds_are_the_counted_ones_within_two_percent() -> None:
+    found = compared(stored())
+    papers = [one for one in found if one.form == "textbook" and one.source in CORES and one.method in PAPERS]
+    assert len(papers) == 6 * 4 * 3
+    assert max(abs(one.deviation) for one in papers) <= WITHIN
+    assert f"within {about_speeds(stored(), found)['papers']} % for the filters of Steffes 2014" in text()
+    emulated = [one for one in found if one.source in CORES]
+    assert f"within {100 * float(max(abs(one.deviation) for one in emulated)):.1f} % where the jobs" in text()
+
+
+def test_least_speeds_of_the_first_design() -> None:
+    """To the digits of the prototype: 2.96, 1.53 to 1.52, 0.83."""
+    by_method = {row["Method"]: row for row in rows("speeds-textbook.csv")}
+    for method, counted, emulated in (("Recalculate", 2.93, 2.96), ("Larsen", 1.53, 1.52), ("Dual-rate", 0.83, 0.83)):
+        assert float(by_method[method]["counted"]) == pytest.approx(counted, abs=0.006)
+        assert float(by_method[method]["M4F, float"]) == pytest.approx(emulated, abs=0.006)
+
+
+def test_the_table_of_deviations_is_of_all_speeds() -> None:
+    speeds = rows("all-speeds.csv")
+    assert len(speeds) == 2 * 6 * 7
+    for row in rows("deviations.csv"):
+        methods = set(PAPERS) if row["methods"] == "Steffes 2014" else set(METHODS[1:]) - set(PAPERS)
+        of = [one for one in speeds if one["update"] == row["Update"] and one["method"] in methods]
+        for heading in list(row)[2:]:
+            over = [100 * (float(one[heading.removesuffix(", %")]) / float(one["counted"]) - 1) for one in of]
+            assert number(row[heading]) == pytest.approx(max(over, key=abs), abs=0.11)
+
+
+def test_instructions_for_each_operation() -> None:
+    for form in FORMS:
+        for row in rows(f"jobs-{form}.csv"):
+            operations = number(row["operations"])
+            ratios = [number(row[heading]) / operations for heading in ("M4F, float", "M33, float", "M7, double")]
+            ends = [float(end) for end in row["for each operation"].split(" to ")]
+            assert [ends[0], ends[-1]] == pytest.approx([min(ratios), max(ratios)], abs=0.051)
+            assert number(row["in software"]) == pytest.approx(number(row["M4, soft double"]) / operations, abs=0.051)
+    every = [ratio for of in per_operation(stored()).values() for core in IN_HARDWARE for _, ratio in of[core]]
+    assert f"An operation takes {min(every):.1f} to {max(every):.1f} instructions" in text()
+
+
+def test_parts_files_take_three_and_a_half() -> None:
+    assert ASSUMED == 3.5
+    for name in ("cortex-m4f", "cortex-m33", "cortex-m7", "cortex-m7-single"):
+        assert load_part(name).logic_per_arithmetic == 2.5
+
+
+def test_jobs_that_only_options_ask_for_are_left_out() -> None:
+    shown = {(row["Method"], row["job"]) for row in rows("jobs-short.csv")}
+    assert ("Dual-rate", "hr_propagate") in shown
+    assert ("Dual-rate", "hr_propagate_sum") not in shown
+    assert {kind for method, kind in shown if method == "Standard (no delay)"} == set(KINDS["standard"])
+
+
+def test_published_timings_by_how_the_code_is_written() -> None:
+    by_name = {row["Code"]: row for row in rows("groups.csv")}
+    assert by_name["plain loops, as they are counted"]["published over predicted"] == "0.68 to 1.25"
+    assert by_name["generic matrix class"]["published over predicted"] == "2.87 to 17.34"
+    assert sum(int(row["timings"]) for row in by_name.values()) == len(published_timings())
+    assert "up to 15 times faster than dense code" in text()
+
+
+def test_half_of_the_plain_timings_lie_in_the_range_of_their_instructions() -> None:
+    plain = [row for row in rows("published.csv") if row["Source"] == "KFCore"]
+    assert len(plain) == 4
+    above = 0.0
+    inside = 0
+    for row in plain:
+        least, most = map(number, row["by instructions, µs"].split(" to "))
+        assert least <= number(row["published, µs"])
+        inside += number(row["published, µs"]) <= most
+        above = max(above, number(row["published, µs"]) / most - 1)
+    assert f"Of the 4 timings of plain loops on such a core {inside} are in that range" in text()
+    assert f"the others up to {100 * above:.0f} % above it" in text()
+
+
+def test_memory() -> None:
+    memory = {(row["Method"], row["precision"]): row for row in rows("memory.csv")}
+    single, double = memory["Dual-rate", "single"], memory["Dual-rate", "double"]
+    assert number(double["RAM, HR"]) == 2 * number(single["RAM, HR"])
+    total = sum(number(single[of]) for of in ("RAM, HR", "RAM, LR", "stack, HR", "stack, LR"))
+    assert float(single["RAM and stacks, KB"]) == pytest.approx(total / 1024, abs=0.005)
+    assert {row["RAM, LR"] for (name, _), row in memory.items() if name == "Larsen"} == {"-"}
+    said = about_memory(stored())
+    assert f"The dual-rate filter takes most, {said['dual_rate']} KB" in text()
+    assert sum(memory_bytes(stored(), "cortex-m4f", "textbook")["dual-rate"].values()) == total + number(single["code"])
+
+
+def test_a_whole_folder_takes_less_ram_than_all_arguments_of_its_jobs() -> None:
+    memory = {(row["Method"], row["precision"]): row for row in rows("memory.csv")}
+    for row in rows("folders.csv"):
+        of = memory[row["Method"], "single"]
+        arguments = sum(number(of[task]) for task in ("RAM, HR", "RAM, LR") if of[task] != "-")
+        assert number(row["RAM, single"]) < arguments
+
+
+def test_the_known_loop_is_exact_on_all_cores() -> None:
+    checks = rows("checks.csv")
+    assert len(checks) == len(CORES)
+    for row in checks:
+        assert row["the loop has"] == row["counted"] == row["again"] == f"{INSTRUCTIONS:,}"
+        assert row["of which differ"] == "0"
+    assert f"all {sum(int(row['jobs run twice']) for row in checks)} jobs that were run a second time" in text()
+
+
+# ------------------------------------------------------------------------------------------------ what it would not say
+
+
+def changed(name: str, column: int, cell: str) -> Results:
+    table = [list(row) for row in stored().tables[name]]
+    table[1][column] = cell
+    return stored()._replace(tables={**stored().tables, name: table})
+
+
+def halved(name: str, method: str, *kinds: str) -> Results:
+    costs = dict(stored().costs)
+    for form in FORMS:
+        table = costs[name, form]
+        of = {kind: cost / (2 if kind in kinds else 1) for kind, cost in table.costs[method].items()}  # type: ignore[operator]
+        costs[name, form] = replace(table, costs={**table.costs, method: of})
+    return stored()._replace(costs=costs)
+
+
+def test_claims_that_no_longer_hold_are_not_printed() -> None:
+    with pytest.raises(ValueError, match="known loop"):
+        provenance(changed("checks", 1, "2003"))
+    with pytest.raises(ValueError, match="a second run differs"):
+        provenance(changed("checks", 4, "1"))
+    with pytest.raises(ValueError, match="more than 2 %"):
+        faster = halved("cortex-m7", "larsen", "update")
+        about_speeds(faster, compared(faster))
+    with pytest.raises(ValueError, match="as many instructions an operation"):
+        faster = halved("cortex-m4f", "standard", "propagate", "update")
+        about_speeds(halved("cortex-m4f", "standard", "update"), compared(stored()))
+    with pytest.raises(ValueError, match="less than the least time"):
+        about_boards(changed("boards", 3, "999999"))
+
+
+def test_figures_as_they_are_written() -> None:
+    assert [signed(of) for of in (0.0123, -0.1, 0.0001)] == ["+1.2", "−10.0", "0.0"]
+    assert microseconds(Cost(*(value / 10**6 for value in (1, 2, 3)))) == "2.00 (1.00 to 3.00)"  # type: ignore[arg-type]
+    assert factor([load_part("cortex-m4f").clock_hz / 168_000_000 / 2]) == "2"
+    assert on_page([["a", "b"], ["x", "1"], ["x", "15, 3"], ["y", "168 MHz"]]) == [
+        ["a", "b"],
+        ["x", "1"],
+        ["", "15,\N{NO-BREAK SPACE}3"],
+        ["y", "168\N{NO-BREAK SPACE}MHz"],
+    ]
+
+
+def test_the_first_design_is_in_the_caption() -> None:
+    assert f"N, M, L = {FIRST.N}, {FIRST.M}, {FIRST.L}" in text()
