@@ -37,8 +37,8 @@ run: $(STAMP) ## measure, simulate, analyse and write the report to build/report
 publish: $(STAMP) ## write all reports anew where they are kept, in reports/published
 	for name in steffes2014 patent-multirate erkf modular accuracy embedded; do \
 		$(BIN)/sched-sim report $$name --output reports/published || exit 1; done
-	cd reports/published/embedded && cp cortex-*.toml stored-boards.csv stored-checks.csv stored-folders.csv \
-		$(CURDIR)/studies/data/emulated
+	cd reports/published/embedded && cp cortex-*.toml stored-boards.csv stored-checks.csv stored-folders.csv stored-live*.csv \
+		$(CURDIR)/studies/data/embedded
 
 docs: $(STAMP) ## the documentation as a site, in build/docs; needs no network
 	$(BIN)/sphinx-build --quiet --fail-on-warning --nitpicky --fresh-env --write-all -d build/doctrees docs build/docs

@@ -7,11 +7,13 @@ from reports.embedded import board_tables, tables
 from reports.embedded.compared import compared
 from reports.embedded.instructions_figure import instructions_figure
 from reports.embedded.least_speed_figure import least_speed_figure
+from reports.embedded.live import about_live, live_rows, recorded
 from reports.embedded.memory_figure import memory_figure
 from reports.embedded.published_figure import published_figure
 from reports.embedded.results import Results
 from reports.embedded.said import ASSUMED, about_boards, about_jobs, about_memory, about_speeds, provenance
 from reports.embedded.words import SHOWN, on_page
+from reports.live.staircase import staircase_figure
 from reports.pages.render import csv_bytes, render
 from studies.embedded.sources import FORMS
 
@@ -20,7 +22,7 @@ TITLE = "What a filter asks of a board: counts, emulated cores, times here, publ
 
 def build(results: Results) -> dict[str, bytes]:
     """All files of the report by name, as a pure function of what was emulated and timed."""
-    found = compared(results)
+    found, live = compared(results), recorded(results.tables)
     rows = {
         **{f"jobs-{form}": tables.jobs(results, form) for form in FORMS},
         **{f"times-{form}": tables.times(results, form) for form in FORMS},
@@ -33,6 +35,7 @@ def build(results: Results) -> dict[str, bytes]:
         "memory": board_tables.memory(results, "textbook"),
         "folders": board_tables.folders(results),
         "checks": board_tables.checks(results),
+        "staircase": live_rows(live.runs),
     }
     boards = about_boards(results)
     memory = {core: board_tables.memory_bytes(results, core, "textbook") for core in board_tables.IN_PRECISION.values()}
@@ -41,6 +44,7 @@ def build(results: Results) -> dict[str, bytes]:
         "instructions.svg": image(instructions_figure(tables.per_operation(results), ASSUMED), "svg"),
         "published.svg": image(published_figure(board_tables.timings(), boards["within"]), "svg"),
         "memory.svg": image(memory_figure(memory), "svg"),
+        "staircase.svg": image(staircase_figure(live.runs), "svg"),
     }
     shown = {
         **rows,
@@ -57,6 +61,7 @@ def build(results: Results) -> dict[str, bytes]:
         job=about_jobs(results),
         board=boards,
         ram=about_memory(results),
+        live={**about_live(live), "not_run": results.said["live"]},
         made=provenance(results),
     )
     return {**pages, **figures, **results.files(), **{f"{name}.csv": csv_bytes(table) for name, table in rows.items()}}

@@ -1,7 +1,7 @@
 """What the report on boards asks of compilers and of the emulator: stored, and read back.
 
 What emulated cores give is the same wherever compiler and emulator are of the same versions. It is shipped too, so that
-a machine without them has it.
+a machine without them has it; and a record of live runs, for one without the right to them.
 """
 
 from __future__ import annotations
@@ -14,13 +14,17 @@ from typing import NamedTuple
 from filters.backends.in_c import compiler
 from filters.covariance_forms import CovarianceFormName
 from filters.translation.library import Precision
-from reports.pages.stored import Rows, as_stored, read_tables, records, table_files
+from reports.embedded.live import TABLES as LIVE
+from reports.embedded.live import live_tables
+from reports.pages.stored import Rows, Tables, as_stored, read_tables, records, table_files
 from sched_sim.costs.table import CostTable
 from sched_sim.costs.table_file import costs_text, read_costs
+from sched_sim.errors import InputError
 from studies.embedded.folders import FOLDERS, folder
 from studies.embedded.known_loop import check
 from studies.embedded.published import instructions
 from studies.embedded.sources import EMULATED, FORMS, NATIVE, Source, table_of
+from studies.embedded.stairs import record
 from studies.measurement.emulation.targets import TARGETS
 from studies.measurement.emulation.toolchain import PACKAGES, missing
 from studies.measurement.published_timings import published_timings
@@ -31,8 +35,9 @@ Costs = Mapping[tuple[str, CovarianceFormName], CostTable]
 """By the source's name and the form of the covariance update."""
 
 PRECISIONS: tuple[Precision, ...] = ("single", "double")
-SHIPPED = ("checks", "boards", "folders")
-"""Tables of emulated cores that are shipped beside their costs."""
+OF_CORES = ("checks", "boards", "folders")
+"""Tables of emulated cores beside their costs."""
+SHIPPED = (*OF_CORES, *LIVE)
 TABLES = (*SHIPPED, "said")
 
 
@@ -74,35 +79,46 @@ def read(folder: Path) -> Results:
 
 
 def results(thorough: bool = False, progress: Progress = lambda _done, _total, _what: None) -> Results:
-    """Emulates, or reads what is shipped, and times the code here: five minutes, and two more if nothing was compiled
-    before.
+    """Emulates and runs live, or reads what is shipped, and times the code here: seven minutes, and two more if nothing
+    was compiled before.
 
-    thorough: ten times as many rounds of what is timed.
+    thorough: ten times as many rounds of what is timed, five times as many cycles of live runs.
     """
     lacking = missing()
     no_compiler = _no_compiler()
     native = [source for source in NATIVE if source.backend != "c" or not no_compiler]
     asked = [(source, form) for source in ([] if lacking else EMULATED) for form in FORMS]
     asked += [(source, form) for source in native for form in FORMS]
-    total = len(asked) + len(TARGETS) + 1
+    live = len(asked) + len(TARGETS) + 1
+    total = live + 1
     costs: dict[tuple[str, CovarianceFormName], CostTable] = {}
     for done, (source, form) in enumerate(asked):
         progress(done, total, f"{source.name}, {form}")
         timed = thorough and source.backend != "emulated"
         costs[source.name, form] = table_of(source, form, thorough=timed)
+    emulated, kept = shipped()
     if lacking:
-        emulated, tables = shipped()
         costs = {**emulated, **costs}
+        tables = {name: kept[name] for name in OF_CORES}
     else:
         tables = as_stored(_checked(costs, lambda done, what: progress(len(asked) + done, total, what)))
+    runs, not_live = _live(kept, thorough, lambda _done, _total, what: progress(live, total, what))
     progress(total, total, "done")
-    said: Rows = [["of", "said"], ["emulated", _not_emulated(lacking)], ["c", no_compiler]]
-    return Results(costs, {**tables, "said": said})
+    said: Rows = [["of", "said"], ["emulated", _not_emulated(lacking)], ["c", no_compiler], ["live", not_live]]
+    return Results(costs, {**tables, **runs, "said": said})
+
+
+def _live(kept: Tables, thorough: bool, progress: Progress) -> tuple[dict[str, Rows], str]:
+    """Live runs, or those that are shipped and why there are no others."""
+    try:
+        return as_stored(live_tables(record(thorough, progress))), ""
+    except InputError as error:
+        return {name: kept[name] for name in LIVE}, str(error)
 
 
 def shipped() -> tuple[dict[tuple[str, CovarianceFormName], CostTable], dict[str, Rows]]:
     """Costs and tables of emulated cores that come with the project."""
-    with as_file(files("studies") / "data" / "emulated") as folder:
+    with as_file(files("studies") / "data" / "embedded") as folder:
         costs = {
             (source.name, form): read_costs(folder / f"{source.name}-{form}.toml")
             for source in EMULATED
