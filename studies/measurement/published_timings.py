@@ -6,7 +6,7 @@ import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cache
+from functools import cache, cached_property
 from importlib.resources import files
 from typing import Any, Literal
 
@@ -48,7 +48,7 @@ class PublishedTiming:
         """The functions that are the job."""
         return JOBS[self.job](Sizes(self.states, self.measurements, self.noises))
 
-    @property
+    @cached_property
     def operations(self) -> Operations:
         """What is counted of the job."""
         return counted(self.calls)
@@ -58,7 +58,7 @@ class PublishedTiming:
         """The part at the clock of the board."""
         return at_clock(load_part(self.part), Fraction(self.clock_mhz * 10**6))
 
-    @property
+    @cached_property
     def predicted_us(self) -> Fraction:
         """What the part takes for the counted operations of the job, microseconds."""
         return 10**6 * seconds_for(nonzero(self.operations), self.on, f"{self.source}, {self.job}")
