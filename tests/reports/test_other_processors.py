@@ -23,7 +23,7 @@ from studies.robust.drive import AttitudeMethod
 from tests.reports import published
 from tests.reports.otherwise import regenerated
 
-REPORTS = ("steffes2014", "patent-multirate", "erkf", "modular")
+REPORTS = ("steffes2014", "patent-multirate", "erkf", "modular", "embedded")
 ULPS = 4
 
 
