@@ -12,7 +12,7 @@ import numpy as np
 from filters.translation.declarations import memory, pointer
 from filters.translation.kinds import Array, Kind, Real, Record, lasts
 from filters.translation.library import Precision
-from filters.translation.prototype import WIDTH, wrapped
+from filters.translation.prototype import wrapped
 from filters.translation.refusal import Untranslatable
 from filters.translation.unit import Unit
 

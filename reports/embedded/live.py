@@ -11,7 +11,8 @@ from reports.pages.stored import Rows, Tables, records
 from studies.embedded.stairs import Record, judged
 from studies.live.agreement import ALIKE, ENOUGH, Agreement, Word
 from studies.live.measure import Measured
-from studies.live.stairs import NEAR, nearest_step, word_of
+from studies.live.stairs import nearest_step, word_of
+from studies.live.taken import NEAR
 
 TABLES = ("live", "live-runs", "live-about")
 

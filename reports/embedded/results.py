@@ -11,7 +11,7 @@ from importlib.resources import as_file, files
 from pathlib import Path
 from typing import NamedTuple
 
-from filters.backends.in_c import compiler
+from filters.backends.c_compiler import compiler
 from filters.covariance_forms import CovarianceFormName
 from filters.translation.library import Precision
 from reports.embedded.live import TABLES as LIVE

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from sched_sim.cli import options as opt
-from sched_sim.cli.code import Cycle, Delay, OwnSystem, Precision
+from sched_sim.cli.code import Cycle, Delay, InPrecision, OwnSystem
 from sched_sim.cli.measure import Inputs, Size, UpdateForm
 from sched_sim.cli.measure_filter import SIZES
 from sched_sim.cli.output import say
@@ -20,6 +20,7 @@ from sched_sim.errors import InputError
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from filters.translation.library import Precision
     from studies.board.wanted import Filter
     from studies.live.design import Design
     from studies.live.measure import Measured
@@ -112,7 +113,7 @@ def live(
     measurements: Size = 3,
     system: OwnSystem = None,
     update: UpdateForm = "textbook",
-    precision: Precision = "double",
+    precision: InPrecision = "double",
     cpu: OnCore = None,
     swap_priorities: Swapped = False,
     gantt: GanttFile = None,

@@ -9,15 +9,16 @@ import numpy as np
 from filters.systems.example import example_system
 from filters.translation.library import Precision
 from studies.board.compiled import CORES, compiled
-from studies.board.serial import SERIAL
+from studies.board.serial.methods import SERIAL
+from studies.board.serial.multirate import MULTIRATE
 from studies.board.steps import Steps
 from studies.board.wanted import Filter
 from studies.board.write import board_files
 from studies.embedded.sources import FIRST, SIZES
 from studies.measurement.emulation.toolchain import COMPILER
 
-FOLDERS = (*SERIAL, "dual-rate")
-"""Methods that are written as a whole."""
+FOLDERS = (*(name for name in SERIAL if name not in MULTIRATE), "dual-rate")
+"""Methods with a late measurement, and the filter without delay."""
 
 
 class Folder(NamedTuple):
@@ -37,7 +38,7 @@ def folder(method: str, precision: Precision) -> Folder:
         ValueError: the compiler is missing, or refuses the files.
     """
     delay = 0 if method == "standard" else FIRST.M
-    steps = Steps(FIRST.N, delay, FIRST.L if method == "dual-rate" else delay)
+    steps = Steps(FIRST.N, delay, FIRST.L if method in ("dual-rate", "delayed-horizon") else delay)
     wanted = Filter(method, example_system(*SIZES), np.zeros(SIZES[0]), "textbook", precision, steps, "")
     files = board_files(wanted)
     sources = [name for name in files if name in ("filter.c", "tasks.c", "steps.c")]

@@ -60,7 +60,7 @@ def record(thorough: bool = False, progress: Progress = silent) -> Record:
     )  # fmt: skip
     try:
         with compiled(wanted) as program:
-            check_resolved(resolution(program, middle, core), middle)
+            check_resolved(resolution(program, middle, core), middle, check_design(middle))
             runs = []
             for done, each in enumerate(designs):
                 progress(done, len(designs) + 1, f"live, speed {float(each.speed):.4g}")

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from filters.backends.in_c import compiler
+from filters.backends.c_compiler import compiler
 from filters.simulation import simulate_truth
 from filters.system import System
 from sched_sim.errors import InputError

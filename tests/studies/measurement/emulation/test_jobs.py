@@ -8,7 +8,6 @@ from types import FunctionType
 import numpy as np
 import pytest
 
-from filters.backends.c_compiler import compiler
 from filters.backends.choose import arguments_for, function_for
 from filters.covariance_forms import COVARIANCE_FORMS, CovarianceFormName
 from filters.jobs import Job
