@@ -16,7 +16,10 @@ from sched_sim.cli import main
 from tests.command_line import Result, Run
 from tests.exhaust import figures
 
-os.environ["MPLBACKEND"] = "Agg"  # in the environment, so that child processes inherit it
+# In the environment, so that child processes inherit it. BLAS is not loaded yet: its threads would be as many as the
+# machine has cores, in each process of xdist, and wait for one another.
+os.environ["MPLBACKEND"] = "Agg"
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 ANY_TIME: dict[str, Any] = {"deadline": None, "suppress_health_check": [HealthCheck.too_slow]}  # of a busy machine
 settings.register_profile("ci", max_examples=25, derandomize=True, print_blob=True, **ANY_TIME)
