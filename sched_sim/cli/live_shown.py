@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
+from fractions import Fraction
+from math import floor
 from statistics import median
 from typing import TYPE_CHECKING, Any
 
@@ -115,9 +117,9 @@ def _landed_rows(run: Measured) -> list[dict[str, Any]]:
             "l - k": "left out" if l is None else str(l),
             "predicted": "yes" if l == run.predicted else "",
             "cycles": everything[l],
-            "of all": percent(everything[l] / len(run.achieved)),
+            "of all": _no_more(Fraction(everything[l], len(run.achieved))),
             "undisturbed": calm[l],
-            "of these": percent(calm[l] / max(calm.total(), 1)),
+            "of these": _no_more(Fraction(calm[l], max(calm.total(), 1))),
         }
         for l in [*found, *([None] if None in everything else [])]
     ]
@@ -135,9 +137,9 @@ def _verdict(run: Measured) -> str:
     )
     calm = f"{found.agreeing_undisturbed} of {found.undisturbed} undisturbed cycles"
     share = found.share_undisturbed
-    how_many = "" if share is None else f" ({percent(float(share))})"
+    how_many = "" if share is None else f" ({_no_more(share)})"
     where = f"landed as predicted, at l = k + {run.predicted}"
-    everything = f"of all {found.cycles} cycles {found.agreeing} ({percent(float(found.share))})"
+    everything = f"of all {found.cycles} cycles {found.agreeing} ({_no_more(found.share)})"
     return f"{found.word}: {few}{calm}{how_many} {where}; {everything}"
 
 
@@ -191,17 +193,24 @@ def _words(spread: dict[str, float]) -> str:
 
 def _speed_row(run: Measured) -> dict[str, Any]:
     from studies.live.stairs import nearest_step
+    from studies.live.taken import NEAR
 
+    distance = nearest_step(run.design)
     found: Agreement = run.agreement
     most = Counter(run.achieved).most_common(1)[0][0]
     calm = found.share_undisturbed
     return {
         "speed": f"{float(run.design.speed):.4f}",
-        "from a step": f"{float(100 * nearest_step(run.design)):+.1f} %",
+        "from a step": f"{float(100 * distance):+.1f} %",
         "predicted": run.predicted,
         "measured": "left out" if most is None else most,
-        "of undisturbed": None if calm is None else percent(float(calm)),
-        "of all": percent(float(found.share)),
-        "undisturbed": percent(found.undisturbed / found.cycles),
-        "verdict": found.word,
+        "of undisturbed": None if calm is None else _no_more(calm),
+        "of all": _no_more(found.share),
+        "undisturbed": _no_more(Fraction(found.undisturbed, found.cycles)),
+        "verdict": found.word if abs(distance) >= NEAR else "near a step",
     }
+
+
+def _no_more(share: Fraction) -> str:
+    """Rounded down: 100.0% is all."""
+    return f"{floor(1000 * share) / 10:.1f}%"
