@@ -18,8 +18,8 @@ from studies.live.taken import may_be_taken
 
 PLOT_MM, BINS = 38.0, 30
 PREDICTED = Line(RED, (0, (5, 2)), "None")
-FEWEST_SHOWN = 5
-"""Steps on the axis of achieved l."""
+FEWEST_SHOWN, MOST_LATER = 5, 6
+"""Steps on the axis of achieved l, and those beyond the predicted one."""
 WIDE = 50
 """Longest over shortest: ticks at powers of ten alone."""
 UP = "% of the cycles"
@@ -48,7 +48,8 @@ def _legend() -> list[Entry]:
 
 def _landed(axes: Axes, measured: Measured) -> None:
     counts = Counter(measured.achieved)
-    landed = sorted(l for l in counts if l is not None)
+    last = measured.predicted + MOST_LATER
+    landed = sorted(l for l in counts if l is not None and l <= last)
     low, high = min([*landed, measured.predicted]), max([*landed, measured.predicted])
     wider = max(FEWEST_SHOWN - (high - low + 1), 0)
     low, high = low - wider // 2, high + wider - wider // 2
@@ -58,7 +59,8 @@ def _landed(axes: Axes, measured: Measured) -> None:
     axes.set_xlim(low - 0.7, high + 0.7)
     axes.set_ylim(0, 105)
     axes.xaxis.set_major_locator(MaxNLocator(nbins=7, integer=True))
-    label(axes, "achieved l", "$l - k$ (high-rate steps)", UP)
+    others = len(measured.achieved) - sum(counts[l] for l in landed)
+    label(axes, f"achieved l{f' ({others} later or left out)' if others else ''}", "$l - k$ (high-rate steps)", UP)
 
 
 def _times(axes: Axes, times_us: Sequence[float], colour: str) -> None:

@@ -27,6 +27,9 @@ ALL = Line("#dd9009", "-", "s", 5.0)
 UNDISTURBED = "#b3d4ee"
 PREDICTED = Line(INK, "-", "None")
 NEAR_STEP = Line(PALE, "-", "s", 5.0)
+LATER = Line(RED, "-", "^", 4.5)
+MOST_LATER = 3
+"""Steps that the axis goes beyond the latest predicted landing."""
 ELSEWHERE = Line(RED, "-", "o", 4.5)
 LOWEST = 80
 """The axis of shares, in %, begins there or below."""
@@ -47,6 +50,8 @@ def staircase_figure(runs: Sequence[Measured]) -> Figure:
         line_entry("undisturbed", Line(UNDISTURBED, "-", "s", 5.0), dashes=False),
         line_entry(f"within {float(100 * NEAR):g} % of a step", NEAR_STEP, dashes=False),
     ]
+    if any(l is not None and l > _top(runs) for run in runs for l in run.achieved):
+        legend.insert(3, line_entry("later than shown", LATER, dashes=False))
     with drawing():
         across = WIDTH_MM - LEFT_MM - RIGHT_MM
         top = EDGE_MM + TITLE_MM
@@ -80,18 +85,26 @@ def _landings(axes: Axes, runs: Sequence[Measured]) -> None:
     middles = [Fraction((left + right) / 2) for left, right in pairwise(edges)]
     heights = [design._replace(speed=middle).predicted or float("nan") for middle in middles]
     axes.stairs(heights, edges, color=INK, lw=1.2, baseline=None, zorder=2)
+    top = _top(runs)
     for run in runs:
         for l, count in Counter(run.achieved).items():
-            if l is not None:
+            if l is not None and l > top:
+                axes.plot([float(run.design.speed)], [top + 0.5], LATER.marker, color=RED, ms=LATER.size, mew=0)
+            elif l is not None:
                 size = LARGEST**2 * count / len(run.achieved)
                 colour = MEASURED.colour if l == run.predicted else ELSEWHERE.colour
                 axes.scatter([float(run.design.speed)], [l], s=max(size, LEAST), color=colour, lw=0, zorder=3)
     axes.yaxis.set_major_locator(MaxNLocator(nbins=8, integer=True))
     predicted = [run.predicted for run in runs]
     least = min([*predicted, *(l for run in runs for l in run.achieved if l is not None)])
-    most = max(l for run in runs for l in [run.predicted, *run.achieved] if l is not None)
-    axes.set_ylim(least - 0.7, most + 0.7)
+    axes.set_ylim(least - 0.7, top + 0.7)
     label(axes, "where corrections land", "", "achieved $l - k$ (steps)")
+
+
+def _top(runs: Sequence[Measured]) -> int:
+    """The latest landing that is drawn where it is."""
+    landed = [l for run in runs for l in run.achieved if l is not None]
+    return min(max([run.predicted for run in runs]) + MOST_LATER, max([*landed, *(run.predicted for run in runs)]))
 
 
 def _shares(axes: Axes, runs: Sequence[Measured]) -> None:

@@ -65,6 +65,15 @@ def test_the_staircase_can_be_read() -> None:
     assert "measured elsewhere" in {text.get_text() for text, _ in texts(figure)}
 
 
+def test_what_lands_very_late_does_not_hide_the_staircase() -> None:
+    late = judged("ordinary")._replace(achieved=[7, 7, 7, 111, None, None, 7, 7])
+    figure = staircase_figure([late])
+    assert flaws(figure) == []
+    assert figure.axes[0].get_ylim()[1] < 12
+    assert "later than shown" in {text.get_text() for text, _ in texts(figure)}
+    assert "achieved l (3 later or left out)" in {text.get_text() for text, _ in texts(histograms_figure(late))}
+
+
 def test_a_staircase_without_undisturbed_cycles() -> None:
     run = judged("ordinary")
     run = run._replace(disturbed=[True] * 8, achieved=[None] * 8)
