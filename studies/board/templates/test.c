@@ -7,14 +7,18 @@
    place of the largest number of its array; with -DTOLERANCE=0 the bits must be the same.
 
    With CYCLES, an expression that reads a counter of 32 bits, and CLOCK_HZ, its rate, each job is timed too, and a cost
-   table printed for `sched-sim minimum --costs`. On a Cortex-M with DWT, whose counter is switched on before:
-   -D'CYCLES=(*(volatile uint32_t *)0xE0001004)' -DCLOCK_HZ=168e6 */
+   table printed for `sched-sim`. CORTEX_M is CYCLES by the counter of the DWT that most Cortex-M have:
+   -DCORTEX_M -DCLOCK_HZ=168e6 */
 #include <float.h>
 #include <math.h>
 #include <stddef.h>
 #include <stdio.h>
 
 #include "filter.h"$includes
+
+#ifdef CORTEX_M
+#define CYCLES (*(volatile uint32_t *)0xE0001004u)
+#endif
 
 #ifndef TOLERANCE
 #define TOLERANCE $tolerance
@@ -76,6 +80,10 @@ static void timed(const char *name, void (*run)(void))
 
 static void print_costs(void)
 {
+#ifdef CORTEX_M
+    *(volatile uint32_t *)0xE000EDFCu |= 1uL << 24; /* DEMCR: the DWT is switched on */
+    *(volatile uint32_t *)0xE0001000u |= 1uL;       /* DWT_CTRL: the counter runs */
+#endif
     printf("name = \"board\"\nunit = \"us\"\n\n$costs\n");
 $times
 }

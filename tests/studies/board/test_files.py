@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from filters.registry import MULTIRATE_METHODS
 from filters.systems.example import example_system
 from filters.systems.navigation import vehicle
 from filters.translation.library import Precision
-from sched_sim.costs.table_file import load_costs
 from studies.board.compiled import compiled
 from studies.board.steps import Steps
+from tests.command_line import Run
 from tests.studies.board.build import ARM, HERE, STRICT, build, needs_arm_gcc, needs_gcc, put, ran, ran_as_one, written
-from tests.studies.board.systems import beyond_floats, pendulum, writing_to_its_parameters
+from tests.studies.board.systems import beyond_floats, pendulum, unchanging, writing_to_its_parameters
+from tests.studies.board.test_serial import STEPS as WHOLE_RUNS
 
 STEPS = Steps(10, 4, 8)
 DRIVING = np.array([0.0, 0.0, 0.5, 15.0, 0.0, 0.0])
@@ -64,15 +67,29 @@ def test_two_threads_land_every_correction(tmp_path: Path) -> None:
 
 
 @needs_gcc
-def test_times_of_jobs_are_a_cost_table(tmp_path: Path) -> None:
-    put(tmp_path, written(MODELS["linear"][0], steps=STEPS))
+@pytest.mark.parametrize(
+    ("method", "steps"),
+    [("dual-rate", STEPS)]
+    + [
+        pytest.param(method, steps, marks=pytest.mark.exhaust)
+        for method, several in WHOLE_RUNS.items()
+        for steps in several
+    ],
+)
+def test_times_of_jobs_are_the_cost_table_that_the_readme_asks(
+    method: str, steps: Steps, tmp_path: Path, sched_sim: Run
+) -> None:
+    system = unchanging() if method in MULTIRATE_METHODS else pendulum()
+    files = written(system, method=method, steps=steps)
+    put(tmp_path, files)
+    sources = [name for name in ("filter.c", "tasks.c", "steps.c", "test.c") if name in files]
     clock = ["-DCYCLES=clock()", "-DCLOCK_HZ=CLOCKS_PER_SEC", "-include", "time.h"]
-    build(tmp_path, "-O2", *clock, *SOURCES, "test.c", "-lm", "-o", "test")
-    table = tmp_path / "board.toml"
-    table.write_text(ran(tmp_path, "test")[1].replace("= 0.0000", "= 0.0001"))
-    costs = load_costs(str(table))
-    assert costs.unit == "us"
-    assert set(costs.costs["dual-rate"]) == {"hr_restart", "hr_propagate", "hr_update", "lr_propagate", "lr_update"}
+    said = ran_as_one(tmp_path, *sources, options=clock)[1]
+    (tmp_path / "board.toml").write_text(re.sub(r"= 0\.0000\b", "= 0.0001", said))
+    (command,) = re.findall(r"^sched-sim (minimum .*)$", files["README.md"], re.MULTILINE)
+    result = sched_sim(command)
+    assert result.code == 0, result.err
+    assert "board" in result.out
 
 
 @needs_gcc
@@ -87,7 +104,7 @@ def test_the_example_for_freertos_compiles(name: str, tmp_path: Path) -> None:
 def test_for_a_cortex_m(precision: Precision, tmp_path: Path) -> None:
     files = written(MODELS["vehicle"][0], x0=DRIVING, precision=precision, steps=STEPS, for_a_core=True)
     put(tmp_path, files)
-    build(tmp_path, "-O2", "-c", *SOURCES, "test.c", compiler=ARM)
+    build(tmp_path, "-O2", "-DCORTEX_M", "-DCLOCK_HZ=168e6", "-c", *SOURCES, "test.c", compiler=ARM)
     found = compiled(files, SOURCES, precision)
     assert found is not None
     assert 1000 < found.code["filter.c"] < 10_000
