@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     )
     from filters.error_covariance import true_covariance
     from filters.history import History
+    from filters.sparse.structure import Structure
     from filters.system import System
     from filters.systems.example import example_system
     from filters.systems.linear import linear_system
@@ -31,6 +32,7 @@ if TYPE_CHECKING:
 __all__ = [
     "History",
     "Operations",
+    "Structure",
     "System",
     "accuracy",
     "augmentation",
@@ -61,6 +63,7 @@ __getattr__, __dir__ = lazily(
         "px4_predictor recalculate standard",
         "filters.error_covariance": "true_covariance",
         "filters.history": "History",
+        "filters.sparse.structure": "Structure",
         "filters.system": "System",
         "filters.systems.example": "example_system",
         "filters.systems.linear": "linear_system",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import NamedTuple, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,9 +12,11 @@ from filters.covariances import check_covariance, check_noise
 from filters.kind import check_kind
 from filters.measured import Measured, Measurements, measured
 from filters.records import Estimate
+from filters.sparse.structure import Structure, check_structure, with_losses
 from filters.system import System
 from filters.systems.lossy import lossy
 from filters.systems.shaped import shaped
+from filters.systems.structured import checked
 from filters.systems.trial import first_input, try_functions
 from filters.systems.turns import check_turns
 
@@ -22,14 +24,16 @@ from filters.systems.turns import check_turns
 class Problem(NamedTuple):
     """What a run is given, once it is checked: as arrays of floats, P0 exactly symmetric.
 
-    system: that of the run; where measurements were lost, `lossy`. start: x0 and P0.
-    inputs (steps, m); measured: rows (any, p).
+    system: that of the run; where measurements were lost, `lossy`. without_losses: the same where they were not.
+    start: x0 and P0. inputs (steps, m); measured: rows (any, p). structure: of the matrices that `system` gives.
     """
 
     system: System
+    without_losses: System
     start: Estimate
     inputs: FloatArray
     measured: Measured
+    structure: Structure | None
 
 
 def check_problem(
@@ -64,7 +68,7 @@ def check_problem(
             f"measurements has {len(readings.y)} rows, and in {len(moves)} steps {most} are taken with N={N}: row c is "
             f"of step c N; leave out those after the end"
         )
-    return Problem(lossy(shaped(system), N, readings.present), start, moves, readings)
+    return _problem(system, N, start, moves, readings)
 
 
 def check_multirate_problem(
@@ -80,7 +84,15 @@ def check_multirate_problem(
     if len(readings.y) != len(moves) + 1:
         needed = len(moves) + 1, system.measurements
         raise ValueError(f"measurements has shape {readings.y.shape}, the system needs {needed}")
-    return Problem(shaped(system), start, moves, readings)
+    return Problem(looked_at := shaped(system), looked_at, start, moves, readings, None)
+
+
+def _problem(system: System, every: int, start: Estimate, moves: FloatArray, readings: Measured) -> Problem:
+    structure, looked_at = checked_structure(system), shaped(system)
+    if structure is not None:
+        looked_at = checked(looked_at, structure)
+        structure = structure if readings.present.all() else with_losses(structure)
+    return Problem(lossy(looked_at, every, readings.present), looked_at, start, moves, readings, structure)
 
 
 def _start_and_inputs(system: System, x0: ArrayLike, P0: ArrayLike, inputs: ArrayLike) -> tuple[Estimate, FloatArray]:
@@ -110,6 +122,14 @@ def check_system(name: str, system: object) -> None:
         size = getattr(system, size_name)
         if isinstance(size, bool) or not isinstance(size, int | np.integer) or size < least:
             raise ValueError(f"{size_name}={size!r} of the {name} must be a whole number, at least {least}")
+    checked_structure(cast(System, system), name)
+
+
+def checked_structure(system: System, name: str = "system") -> Structure | None:
+    """What the system states. Raises ValueError, naming it, if it does not fit."""
+    if system.structure is None:
+        return None
+    return check_structure(f"the structure of the {name}", system.structure, system.states, system.measurements)
 
 
 def _check_system(system: System, x: FloatArray, inputs: FloatArray) -> None:

@@ -29,11 +29,13 @@ from filters.delayed import (
     standard,
 )
 from filters.factored import FactoredFormName, factored_form
+from filters.factored.form import FactoredForm
 from filters.history import History
 from filters.jobs import Form, Job, JobKind
-from filters.problem import check_system
+from filters.problem import check_system, checked_structure
 from filters.records import Sample
 from filters.samples import sample
+from filters.sparse.structure import Structure
 from filters.system import System
 
 
@@ -51,14 +53,15 @@ class Method(NamedTuple):
     jobs: Callable[..., dict[str, Job]]
 
 
-def _jobs(form_named: Callable[[CovarianceFormName], Form], *kinds: JobKind[Form]) -> Callable[..., dict[str, Job]]:
-    """`Method.jobs` of a method that has such kinds."""
+def _jobs(form_named: Callable[..., Form], *kinds: JobKind[Form]) -> Callable[..., dict[str, Job]]:
+    """`Method.jobs` of a method that has such kinds, from a form by its name and the structure of the system."""
 
     def jobs(
         system: System, update: CovarianceFormName = "textbook", seed: int = 0, x0: FloatArray | None = None
     ) -> dict[str, Job]:
         check_system("system", system)
-        form = form_named(update)
+        form = form_named(update, checked_structure(system))
+        system = system._replace(structure=None)
 
         def arguments_of(make: Callable[[System, Form, Sample], tuple[Any, ...]]) -> Callable[[int], tuple[Any, ...]]:
             return lambda index: make(system, form, sample(system, seed, index, x0))
@@ -76,7 +79,10 @@ MULTIRATE_FORMS: dict[str, FactoredFormName] = {
 
 
 def _multirate(form: FactoredFormName) -> tuple[Callable[..., History], Callable[..., dict[str, Job]]]:
-    return partial(multirate_gain.run, form=form), _jobs(partial(factored_form, form), *multirate_gain.JOBS)
+    def kept(update: CovarianceFormName, _structure: Structure | None) -> FactoredForm:
+        return factored_form(form, update)
+
+    return partial(multirate_gain.run, form=form), _jobs(kept, *multirate_gain.JOBS)
 
 
 DELAYED_METHODS = {

@@ -10,6 +10,7 @@ import numpy as np
 
 from filters.backends.numba_error import gist, is_numbas
 from filters.systems.shaped import misshapen
+from filters.systems.structured import unstructured
 
 
 @contextmanager
@@ -18,10 +19,10 @@ def running(what: Literal["filter", "system"]) -> Iterator[None]:
 
     Raises:
         ValueError: numba cannot compile a function, and it says which line and why; or a `shaped` system gives a matrix
-            of another shape.
+            of another shape, or a `checked` one an entry that it should not have.
     """
     try:
-        with np.errstate(all="ignore"), misshapen():
+        with np.errstate(all="ignore"), misshapen(), unstructured():
             yield
     except Exception as error:
         if is_numbas(error):

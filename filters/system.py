@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import Any, NamedTuple, TypeAlias
 
 from filters.arrays import FloatArray
+from filters.sparse.structure import Structure
 
 Parameters: TypeAlias = Any  # of one system: a named tuple of arrays and floats
 
@@ -25,6 +26,9 @@ class System(NamedTuple):
     R(k, parameters): covariance of nu_k (p, p).
     parameters: passed to all of them; a named tuple of arrays and floats. No function changes them, nor x or u; what it
         needs memory for may be a field named scratch, whose content means nothing to the next call.
+    structure: which entries of F, H, Q and R are zero, or one, at all states, inputs and steps. The delayed filters
+        leave them out of their products, and compute of what is symmetric one half; a run in which one is not what is
+        stated ends with an error. None: all entries are multiplied.
 
     The functions are plain Python that numba can compile: module-level, positional arguments, NumPy for sin and sqrt.
     f and h fill an array that they are given, because at step k + 1 the dual-rate filter does little else than f and
@@ -44,3 +48,4 @@ class System(NamedTuple):
     H: Callable[[int, FloatArray, Parameters], FloatArray]
     R: Callable[[int, Parameters], FloatArray]
     parameters: Parameters
+    structure: Structure | None = None

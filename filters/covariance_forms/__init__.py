@@ -10,6 +10,8 @@ from typing import Literal, TypeAlias
 from filters.choice import check_choice
 from filters.covariance_forms import joseph, short, textbook
 from filters.covariance_forms.form import CovarianceForm
+from filters.sparse.form import sparse_form
+from filters.sparse.structure import Structure
 
 ALLOCATION_FREE = True
 
@@ -23,11 +25,12 @@ COVARIANCE_FORMS: dict[CovarianceFormName, CovarianceForm] = {
 }
 
 
-def covariance_form(name: CovarianceFormName) -> CovarianceForm:
-    """The covariance form of this name.
+def covariance_form(name: CovarianceFormName, structure: Structure | None = None) -> CovarianceForm:
+    """The covariance form of this name, for matrices of this structure if one is given.
 
     Raises:
         ValueError: there is none.
     """
     check_choice("update", name, COVARIANCE_FORMS)
-    return COVARIANCE_FORMS[name]
+    form = COVARIANCE_FORMS[name]
+    return form if structure is None else sparse_form(form, structure)

@@ -7,7 +7,7 @@ those of (n, p) ones.
 from __future__ import annotations
 
 from filters.arrays import FloatArray
-from filters.covariance_forms.form import CovarianceForm
+from filters.covariance_forms.form import dense_form
 from filters.kernels.dense import (
     add,
     add_matmul_blocked,
@@ -124,7 +124,7 @@ def cross_update(
     mirror(after.P)
 
 
-FORM = CovarianceForm(
+FORM = dense_form(
     matmul_blocked,
     propagation,
     gain,

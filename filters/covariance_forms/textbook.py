@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from filters.arrays import FloatArray
-from filters.covariance_forms.form import CovarianceForm
+from filters.covariance_forms.form import dense_form
 from filters.kernels.dense import (
     add,
     add_vectors,
@@ -103,6 +103,6 @@ def cross_update(
     mirror(after.P)
 
 
-FORM = CovarianceForm(
+FORM = dense_form(
     matmul, propagation, gain, covariance, delayed_covariance, cross, factor, cross_share, cross_gain, cross_update
 )

@@ -157,7 +157,8 @@ def run(
     problem = check_problem(system, N, M, L, x0, P0, inputs, measurements)
     moves, y = problem.inputs, problem.measured.y
     run_predict, run_update = function_for(backend, predict), function_for(backend, _update)
-    form, model = arguments_for(backend, covariance_form(update)), arguments_for(backend, problem.system)
+    form = arguments_for(backend, covariance_form(update, problem.structure))
+    model = arguments_for(backend, problem.system)
     stack, spare, gains = new_stack(system, M), new_stack(system, M), new_gains(system, M)
     work, recorder = new_workspace(system), HistoryRecorder(system)
 

@@ -32,7 +32,7 @@ from filters.delayed.flights import steps
 from filters.delayed.standard import PROPAGATE, propagate
 from filters.history import History, HistoryRecorder
 from filters.jobs import JobKind
-from filters.kernels.dense import add_vectors, copy, matmul_narrow, matvec, subtract_vectors
+from filters.kernels.dense import add_vectors, copy, matvec, subtract_vectors
 from filters.measured import Measurements
 from filters.problem import Problem, check_problem
 from filters.records import Correction, Estimate, Sample, Workspace, new_correction, new_workspace
@@ -73,9 +73,9 @@ def take(
     return H
 
 
-def couple(H: FloatArray, B: FloatArray, C: FloatArray) -> None:
+def couple(form: CovarianceForm, H: FloatArray, B: FloatArray, C: FloatArray) -> None:
     """Job of step k, for each measurement that is on its way there, with its B: what of it will be missed at k."""
-    matmul_narrow(H, B, C)
+    form.expectation(H, B, C)
 
 
 def land(
@@ -111,7 +111,7 @@ class CarriedGain:
     def __init__(self, problem: Problem, size: System, update: CovarianceFormName, backend: BackendName) -> None:
         self._size = size
         self._system = arguments_for(backend, problem.system)
-        self._form = arguments_for(backend, covariance_form(update))
+        self._form = arguments_for(backend, covariance_form(update, problem.structure))
         self._propagate, self._take = function_for(backend, propagate), function_for(backend, take)
         self._couple, self._carry = function_for(backend, couple), function_for(backend, carry)
         self._land, self._compensate = function_for(backend, land), function_for(backend, compensate)
@@ -126,7 +126,7 @@ class CarriedGain:
         self.x, self.P = after
         for flight in self._flights:
             B, flight.B = flight.B, np.empty_like(flight.B)
-            self._carry(Phi, B, flight.B)
+            self._carry(self._form, Phi, B, flight.B)
 
     def take(self, k: int) -> None:
         """A measurement is taken."""
@@ -135,7 +135,7 @@ class CarriedGain:
         H = self._take(self._system, self._form, k, reference, self.P, taken.flight, self._work)
         for earlier in self._flights:
             C = taken.missed[earlier.k] = np.empty_like(taken.flight.S)
-            self._couple(H, earlier.B, C)
+            self._couple(self._form, H, earlier.B, C)
         self._flights.append(taken)
 
     def land(self, y: FloatArray) -> Correction:
@@ -216,9 +216,9 @@ def _take(system: System, form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
     return system, form, at.k, at.reference, P_posterior, new_flight(system), work
 
 
-def _couple(system: System, _form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
+def _couple(system: System, form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
     C = np.zeros((system.measurements, system.measurements))
-    return system.H(at.m, at.now.x, system.parameters), _carried(at), C
+    return form, system.H(at.m, at.now.x, system.parameters), _carried(at), C
 
 
 def _land(system: System, _form: CovarianceForm, at: Sample) -> tuple[Any, ...]:

@@ -87,7 +87,8 @@ def run(
     """
     problem = check_problem(system, N, M, L, x0, P0, inputs, measurements, several=True)
     recorder = HistoryRecorder(system)
-    cloning = Cloning(problem, system, covariance_form(update), Jobs(start, cloned_update), backend)
+    form = covariance_form(update, problem.structure)
+    cloning = Cloning(problem, system, form, Jobs(start, cloned_update), backend)
     for filtered in steps(cloning, problem, N, M, recorder):
         recorder.state(filtered.now.x)
     return check_history(recorder.history(), recorder.references().x, problem, N, sturdier(update), backend)
@@ -106,9 +107,9 @@ def start_arguments(system: System, form: CovarianceForm, at: Sample) -> tuple[A
     return system, form, at.k, at.reference, new_clone(system), new_workspace(system)
 
 
-def _carry(system: System, _form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
+def _carry(system: System, form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
     _, clone, _ = sampled(system, at)
-    return at.transition.Phi, clone.W, np.zeros_like(clone.W)
+    return form, at.transition.Phi, clone.W, np.zeros_like(clone.W)
 
 
 def _cloned_update(system: System, form: CovarianceForm, at: Sample) -> tuple[Any, ...]:

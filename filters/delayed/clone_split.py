@@ -18,7 +18,7 @@ import numpy as np
 from filters.arrays import FloatArray
 from filters.backends.choose import BackendName
 from filters.breakdown import check_history, sturdier
-from filters.covariance_forms import CovarianceFormName, covariance_form, short
+from filters.covariance_forms import CovarianceFormName, covariance_form
 from filters.covariance_forms.form import CovarianceForm
 from filters.delayed.clone import CARRY, sampled, start_arguments
 from filters.delayed.cloned import Clone, correct, cross, divide
@@ -31,12 +31,13 @@ from filters.measured import Measurements
 from filters.problem import check_problem
 from filters.records import Estimate, Sample, Workspace, new_estimate, new_workspace
 from filters.running import running
+from filters.sparse.structure import Structure
 from filters.system import System
 
 
-def split_form(name: CovarianceFormName) -> CovarianceForm:
+def split_form(name: CovarianceFormName, structure: Structure | None = None) -> CovarianceForm:
     """The form of this name; there is no update as it is printed, and in its place that of `short` is done."""
-    form, by_terms = covariance_form(name), short.FORM
+    form, by_terms = covariance_form(name, structure), covariance_form("short", structure)
     if name != "textbook":
         return form
     return form._replace(
@@ -96,7 +97,8 @@ def run(
     """
     problem = check_problem(system, N, M, L, x0, P0, inputs, measurements)
     recorder = HistoryRecorder(system)
-    cloning = Cloning(problem, system, split_form(update), Jobs(start, late_update), backend)
+    form = split_form(update, problem.structure)
+    cloning = Cloning(problem, system, form, Jobs(start, late_update), backend)
     for filtered in steps(cloning, problem, N, M, recorder):
         recorder.state(filtered.now.x)
     return check_history(recorder.history(), recorder.references().x, problem, N, sturdier(update), backend)

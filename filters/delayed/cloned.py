@@ -23,7 +23,6 @@ from filters.kernels.dense import (
     add,
     add_matvec,
     copy_vector,
-    matmul_narrow,
     matmul_transposed_narrow,
     subtract,
     subtract_vectors,
@@ -76,7 +75,7 @@ def couple(
     H (p, n): H_k. W_earlier (n, p): that of the other, as carried to k. W_apart (n, p): W - W_earlier G^T is written
     there; G (p, p): the share of the other's innovation in what is expected of this one.
     """
-    matmul_narrow(H, W_earlier, work.S)
+    form.expectation(H, W_earlier, work.S)
     form.cross_share(work.S, earlier.factor, G, work)
     matmul_transposed_narrow(W_earlier, G, work.np1)
     subtract(W, work.np1, W_apart)
@@ -84,14 +83,14 @@ def couple(
 
 def divide(system: System, form: CovarianceForm, k: int, H: FloatArray, clone: Clone, work: Workspace) -> None:
     """S from W, and its factor."""
-    matmul_narrow(H, clone.W, clone.S)
+    form.expectation(H, clone.W, clone.S)
     add(clone.S, system.R(k, system.parameters), clone.S)  # innovation covariance
     form.factor(clone.S, clone.factor, work)
 
 
-def carry(Phi: FloatArray, W: FloatArray, W_next: FloatArray) -> None:
+def carry(form: CovarianceForm, Phi: FloatArray, W: FloatArray, W_next: FloatArray) -> None:
     """Job of steps k + 1 .. m - 1: W of the step before becomes that of this one, by its Phi."""
-    matmul_narrow(Phi, W, W_next)
+    form.carry(Phi, W, W_next)
 
 
 def correct(

@@ -62,7 +62,7 @@ class Cloning:
         Phi = self._propagate(self._system, self._form, j, before, u, self.now, self._work)
         for flight in self._flights:
             W, flight.W = flight.W, np.empty_like(flight.W)
-            self._carry(Phi, W, flight.W)
+            self._carry(self._form, Phi, W, flight.W)
 
     def take(self, k: int) -> None:
         """A measurement is taken."""

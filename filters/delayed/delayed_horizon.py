@@ -74,7 +74,8 @@ def run(
     run_predict = function_for(backend, predict)
     run_propagate = function_for(backend, propagate_covariance)
     run_update = function_for(backend, standard.update)
-    form, model = arguments_for(backend, covariance_form(update)), arguments_for(backend, problem.system)
+    form = arguments_for(backend, covariance_form(update, problem.structure))
+    model = arguments_for(backend, problem.system)
     work, recorder = new_workspace(system), HistoryRecorder(system)
 
     def predicted(j: int, x: FloatArray) -> FloatArray:

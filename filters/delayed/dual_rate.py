@@ -78,7 +78,7 @@ def run(
             f"L={L} must be > M={M}: the correction cannot land in the step in which the measurement arrives "
             f"(same-step feedback allows L = M)"
         )
-    noise, form = NOISE_METHODS[low_rate_noise], covariance_form(update)
+    noise, form = NOISE_METHODS[low_rate_noise], covariance_form(update, problem.structure)
     recorder = HistoryRecorder(system)
     high_rate = HighRateTask(problem.system, N, L, problem.start.x, noise, form, backend)
     low_rate = LowRateTask(
@@ -129,8 +129,8 @@ def _hr_propagate_euler(system: System, form: CovarianceForm, at: Sample) -> tup
     return system, form, at.m, at.now.x, _halved(at.transition, at), at.u, x_next, following, new_workspace(system)
 
 
-def _hr_update(system: System, _form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
-    return at.now.x, at.transition.Phi, at.correction.delta_x, np.zeros_like(at.now.x), new_workspace(system)
+def _hr_update(system: System, form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
+    return form, at.now.x, at.transition.Phi, at.correction.delta_x, np.zeros_like(at.now.x), new_workspace(system)
 
 
 def _lr_propagate(system: System, form: CovarianceForm, at: Sample) -> tuple[Any, ...]:

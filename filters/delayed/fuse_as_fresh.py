@@ -20,7 +20,6 @@ from filters.records import new_correction, new_estimate, new_workspace
 from filters.running import running
 from filters.system import System
 from filters.systems.lossy import lossy
-from filters.systems.shaped import shaped
 
 
 @running("system")
@@ -45,9 +44,9 @@ def run(
     problem = check_problem(system, N, M, L, x0, P0, inputs, measurements)
     moves, (y, present) = problem.inputs, problem.measured
     propagate, update_at_m = function_for(backend, standard.propagate), function_for(backend, standard.update)
-    form, work = arguments_for(backend, covariance_form(update)), new_workspace(system)
+    form, work = arguments_for(backend, covariance_form(update, problem.structure)), new_workspace(system)
     unheard = np.ones((M // N, system.measurements), dtype=np.bool_)  # M = N: the first to arrive is used in cycle 1
-    model = arguments_for(backend, lossy(shaped(system), N, np.concatenate([unheard, present])))
+    model = arguments_for(backend, lossy(problem.without_losses, N, np.concatenate([unheard, present])))
     recorder = HistoryRecorder(system)
 
     estimate = problem.start

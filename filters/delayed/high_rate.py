@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from filters.arrays import FloatArray
 from filters.covariance_forms.form import CovarianceForm
-from filters.kernels.dense import add_vectors, matvec
+from filters.kernels.dense import add_vectors
 from filters.records import Transition, Workspace
 from filters.system import System
 
@@ -35,14 +35,19 @@ def hr_propagate(
     """
     system.f(j, x, u, system.parameters, x_next)  # (6)
     Phi = system.F(j, x, u, system.parameters)
-    form.product(Phi, transition.Phi, following.Phi)  # (16)
-    form.propagation(Phi, transition.Q, system.Q(j, system.parameters), following.Q, work)  # (18)
+    form.accumulation(Phi, transition.Phi, following.Phi)  # (16)
+    form.noise(Phi, transition.Q, system.Q(j, system.parameters), following.Q, work)  # (18)
     return following
 
 
 def hr_update(
-    x: FloatArray, Phi_from_k: FloatArray, delta_x: FloatArray, x_corrected: FloatArray, work: Workspace
+    form: CovarianceForm,
+    x: FloatArray,
+    Phi_from_k: FloatArray,
+    delta_x: FloatArray,
+    x_corrected: FloatArray,
+    work: Workspace,
 ) -> None:
     """Job of step l: the error estimate of step k is carried to l and added to the state, Eqs. (13) and (19)."""
-    matvec(Phi_from_k, delta_x, work.n1)  # (13)
+    form.error(Phi_from_k, delta_x, work.n1)  # (13)
     add_vectors(x, work.n1, x_corrected)  # (19)

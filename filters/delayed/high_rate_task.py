@@ -12,7 +12,6 @@ from filters.backends.choose import BackendName, arguments_for, function_for
 from filters.covariance_forms.form import CovarianceForm
 from filters.delayed.high_rate import hr_restart, hr_update
 from filters.delayed.low_rate_noise import NoiseMethod
-from filters.kernels.dense import matvec
 from filters.records import new_workspace
 from filters.system import System
 
@@ -51,7 +50,7 @@ class HighRateTask:
         self._restart = function_for(backend, hr_restart)
         self._propagate = function_for(backend, noise.propagate)
         self._update = function_for(backend, hr_update)
-        self._multiply = function_for(backend, matvec)
+        self._multiply = function_for(backend, form.error)
         self._transition: Any = None
         self._restarted = 0  # k from which it is
         self._cycles: deque[FloatArray] = deque(maxlen=L // N + 1)
@@ -83,4 +82,4 @@ class HighRateTask:
             self._multiply(Phi, before, delta_x)  # (13), over a cycle
         Phi_to_now = self._transition.Phi if L > 0 else np.eye(len(self.x))
         x, self.x = self.x, np.empty_like(self.x)
-        self._update(x, Phi_to_now, delta_x, self.x, self._work)
+        self._update(self._form, x, Phi_to_now, delta_x, self.x, self._work)

@@ -17,7 +17,7 @@ from filters.delayed.standard import update as update_at_once
 from filters.delayed.update import update_error
 from filters.history import History, HistoryRecorder
 from filters.jobs import JobKind
-from filters.kernels.dense import add_vectors, matvec
+from filters.kernels.dense import add_vectors
 from filters.measured import Measurements
 from filters.problem import check_problem
 from filters.records import Correction, Estimate, Sample, Workspace, new_correction, new_estimate, new_workspace
@@ -38,7 +38,7 @@ def propagate_accumulate(
 ) -> None:
     """Job: the estimate at j becomes that at j + 1, and Phi_{k->j} becomes Phi_{k->j+1}, Eqs. (6), (8) and (16)."""
     Phi = propagate(system, form, j, before, u, after, work)
-    form.product(Phi, Phi_from_k, Phi_next)  # (16)
+    form.accumulation(Phi, Phi_from_k, Phi_next)  # (16)
 
 
 def extrapolated_update(
@@ -61,7 +61,7 @@ def extrapolated_update(
     R = system.R(k, system.parameters)
     form.gain(reference.P, H, R, correction.K, work)
     update_error(system, k, y, reference.x, correction)
-    matvec(Phi_from_k, correction.delta_x, work.n1)
+    form.error(Phi_from_k, correction.delta_x, work.n1)
     add_vectors(before.x, work.n1, after.x)  # (20)
     form.delayed_covariance(Phi_from_k, reference.P, H, R, correction.K, before.P, after.P, work)
 
@@ -89,13 +89,14 @@ def run(
     moves, y = problem.inputs, problem.measured.y
     recorder = HistoryRecorder(system)
     if M > N:
-        run_in_flight(problem, N, M, covariance_form(update), backend, recorder)
+        run_in_flight(problem, N, M, covariance_form(update, problem.structure), backend, recorder)
         return check_history(recorder.history(), recorder.references().x, problem, N, sturdier(update), backend)
     run_propagate = function_for(backend, propagate)
     run_propagate_accumulate = function_for(backend, propagate_accumulate)
     run_update_at_once = function_for(backend, update_at_once)
     run_update = function_for(backend, extrapolated_update)
-    form, model = arguments_for(backend, covariance_form(update)), arguments_for(backend, problem.system)
+    form = arguments_for(backend, covariance_form(update, problem.structure))
+    model = arguments_for(backend, problem.system)
     work = new_workspace(system)
 
     estimate = reference = problem.start
@@ -146,15 +147,15 @@ def _gain(system: System, form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
     return system, form, at.k, at.reference, P_posterior, correction, new_workspace(system)
 
 
-def _correct(system: System, _form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
+def _correct(system: System, form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
     correction, x_corrected = new_correction(system), np.zeros_like(at.now.x)
     correction.K[:] = at.correction.K
     transition, work = at.transition, new_workspace(system)
-    return system, at.k, at.y, at.reference.x, transition.Phi, at.now.x, x_corrected, correction, work
+    return system, form, at.k, at.y, at.reference.x, transition.Phi, at.now.x, x_corrected, correction, work
 
 
-def _compensate(system: System, _form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
-    return at.now.x, at.transition.Phi, at.correction.delta_x, np.zeros_like(at.now.x), new_workspace(system)
+def _compensate(system: System, form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
+    return form, at.now.x, at.transition.Phi, at.correction.delta_x, np.zeros_like(at.now.x), new_workspace(system)
 
 
 JOBS: tuple[JobKind[CovarianceForm], ...] = (

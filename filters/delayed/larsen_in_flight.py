@@ -27,7 +27,7 @@ from filters.delayed.low_rate import lr_gain
 from filters.delayed.standard import propagate
 from filters.delayed.update import update_error
 from filters.history import HistoryRecorder
-from filters.kernels.dense import add_vectors, matvec
+from filters.kernels.dense import add_vectors
 from filters.problem import Problem
 from filters.records import Correction, Estimate, Workspace, new_correction, new_estimate, new_workspace
 from filters.system import System
@@ -41,6 +41,7 @@ compensate = hr_update
 
 def correct(
     system: System,
+    form: CovarianceForm,
     k: int,
     y: FloatArray,
     x_reference: FloatArray,
@@ -55,7 +56,7 @@ def correct(
     correction: holds the gain of k. x_reference: x_{k^-}, with all that was measured before. Phi_from_k: Phi_{k->m}.
     """
     update_error(system, k, y, x_reference, correction)
-    matvec(Phi_from_k, correction.delta_x, work.n1)
+    form.error(Phi_from_k, correction.delta_x, work.n1)
     add_vectors(x, work.n1, x_corrected)  # (20)
 
 
@@ -78,7 +79,7 @@ def run_in_flight(
 ) -> None:
     """Fill the recorder with a run of M > N."""
     system, moves, y = problem.system, problem.inputs, problem.measured.y
-    run_propagate, run_product = function_for(backend, propagate), function_for(backend, form.product)
+    run_propagate, run_product = function_for(backend, propagate), function_for(backend, form.accumulation)
     run_gain, run_correct = function_for(backend, gain), function_for(backend, correct)
     run_compensate = function_for(backend, compensate)
     bound, model = arguments_for(backend, form), arguments_for(backend, system)
@@ -102,12 +103,12 @@ def run_in_flight(
             flight = flights.popleft()
             k, x_reference, correction, x = flight.k, flight.reference.x, flight.correction, estimate.x
             estimate = Estimate(np.empty_like(x), estimate.P)
-            run_correct(model, k, y[k // N], x_reference, flight.Phi, x, estimate.x, correction, work)
+            run_correct(model, bound, k, y[k // N], x_reference, flight.Phi, x, estimate.x, correction, work)
             recorder.reference(*flight.reference)
             recorder.correction(correction)
             for later, Phi in zip(flights, flight.Phi_at, strict=True):
                 x, x_corrected = later.reference.x, np.empty_like(x)
-                run_compensate(x, Phi, correction.delta_x, x_corrected, work)
+                run_compensate(bound, x, Phi, correction.delta_x, x_corrected, work)
                 later.reference = later.reference._replace(x=x_corrected)
 
         if j % N == 0:

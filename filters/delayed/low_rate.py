@@ -13,7 +13,7 @@ def lr_propagate(
     form: CovarianceForm, P: FloatArray, transition: Transition, P_next: FloatArray, work: Workspace
 ) -> None:
     """Job: P_{(k-N)^+} becomes P_{k^-}, Eq. (14)."""
-    form.propagation(transition.Phi, P, transition.Q, P_next, work)
+    form.cycle(transition.Phi, P, transition.Q, P_next, work)
 
 
 def lr_update(

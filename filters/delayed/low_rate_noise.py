@@ -54,7 +54,7 @@ def hr_propagate_sum(
 ) -> Transition:
     """Job in place of `hr_propagate`: Q_{k->j} is only summed, Eq. (23), which saves two n x n x n products."""
     system.f(j, x, u, system.parameters, x_next)  # (6)
-    form.product(system.F(j, x, u, system.parameters), transition.Phi, following.Phi)  # (16)
+    form.accumulation(system.F(j, x, u, system.parameters), transition.Phi, following.Phi)  # (16)
     add(transition.Q, system.Q(j, system.parameters), following.Q)  # (23)
     return following
 
@@ -72,7 +72,7 @@ def hr_propagate_euler(
 ) -> HalvedTransition:
     """Job in place of `hr_propagate`: one of the two sums of Eq. (24) grows, the other is handed on as it is."""
     system.f(j, x, u, system.parameters, x_next)  # (6)
-    form.product(system.F(j, x, u, system.parameters), transition.Phi, following.Phi)  # (16)
+    form.accumulation(system.F(j, x, u, system.parameters), transition.Phi, following.Phi)  # (16)
     Q = system.Q(j, system.parameters)
     if j < transition.halfway:
         add(transition.Q_first, Q, following.Q_first)
@@ -86,7 +86,7 @@ def lr_propagate_euler(
 ) -> None:
     """Job in place of `lr_propagate`: P_{k^-} = Phi (P + Q_first) Phi^T + Q_second, which is Eq. (14) with Eq. (24)."""
     add(P, transition.Q_first, work.nn3)
-    form.propagation(transition.Phi, work.nn3, transition.Q_second, P_next, work)
+    form.cycle(transition.Phi, work.nn3, transition.Q_second, P_next, work)
 
 
 def _start_halved(transition: Transition, k: int, N: int) -> HalvedTransition:

@@ -122,5 +122,5 @@ class LowRateTask:
     def _plus(self, a: FloatArray, Phi: FloatArray, b: FloatArray) -> FloatArray:
         """a + Phi b."""
         total = np.empty_like(a)
-        self._carry(a, Phi, b, total, self._work)
+        self._carry(self._form, a, Phi, b, total, self._work)
         return total

@@ -114,7 +114,8 @@ def run(
     predict, propagate = function_for(backend, predict_output), function_for(backend, standard.propagate)
     update_at_horizon = function_for(backend, standard.update)
     run_pull, run_shift = function_for(backend, pull), function_for(backend, shift_output)
-    form, model = arguments_for(backend, covariance_form(update)), arguments_for(backend, problem.system)
+    form = arguments_for(backend, covariance_form(update, problem.structure))
+    model = arguments_for(backend, problem.system)
     work, recorder = new_workspace(system), HistoryRecorder(system)
 
     steps = len(moves)

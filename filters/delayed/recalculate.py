@@ -43,7 +43,8 @@ def run(
     moves, y = problem.inputs, problem.measured.y
     propagate = function_for(backend, standard.propagate)
     update_at_k = function_for(backend, standard.update)
-    form, model = arguments_for(backend, covariance_form(update)), arguments_for(backend, problem.system)
+    form = arguments_for(backend, covariance_form(update, problem.structure))
+    model = arguments_for(backend, problem.system)
     work = new_workspace(system)
     recorder = HistoryRecorder(system)
 

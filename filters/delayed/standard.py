@@ -141,7 +141,7 @@ def run(
     )
     function_for(backend, filter_all)(
         arguments_for(backend, problem.system),
-        arguments_for(backend, covariance_form(update)),
+        arguments_for(backend, covariance_form(update, problem.structure)),
         N,
         problem.start,
         problem.inputs,

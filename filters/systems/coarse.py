@@ -45,7 +45,7 @@ def over(system: System, n: int, noise: CoarseNoise = "averaged") -> System:
         Phi_n, Q_n = Phi @ Phi_n, Phi @ Q_n @ Phi.T + Q
     R = matrices.R / n if noise == "averaged" else matrices.R
     coarse = linear_system(Phi_n, matrices.B, matrices.H, Q_n, R)
-    if coarse[:-1] != system[:-1]:
+    if coarse._replace(parameters=None) != system._replace(parameters=None, structure=None):
         raise ValueError(_refusal(n))
     return coarse
 

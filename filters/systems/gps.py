@@ -3,8 +3,8 @@
 State: position east, north, up of a fixed point on the ground (m), velocity (m/s), clock bias (m) and clock drift
 (m/s). White noise drives the three accelerations and the clock drift. Measurement: four pseudoranges, each less the
 range from the fixed point (m), linear in the state to within |position|^2 / 40,000 km. Satellites move on circular
-orbits, so H changes with time; it is computed outside the filter. There are no inputs. All products are dense: the
-zeros of Phi and H are multiplied too, as the patent's operation counts assume.
+orbits, so H changes with time; it is computed outside the filter. There are no inputs. Products are dense unless its
+structure is stated: the zeros of Phi and H are multiplied too, as the patent's operation counts assume.
 """
 
 from __future__ import annotations
@@ -16,10 +16,19 @@ import numpy as np
 from filters.arrays import FloatArray
 from filters.kernels.dense import matvec
 from filters.simulation import Truth, simulate_truth
+from filters.sparse.structure import Structure
 from filters.system import System
 from filters.systems.coarse import CoarseNoise
 
 POSITION, VELOCITY, CLOCK_BIAS, CLOCK_DRIFT = slice(0, 3), slice(3, 6), 6, 7
+
+STRUCTURE = Structure(
+    F=("100*0000", "0100*000", "00100*00", "00010000", "00001000", "00000100", "0000001*", "00000001"),
+    H=("***00010",) * 4,
+    Q=("*00*0000", "0*00*000", "00*00*00", "*00*0000", "0*00*000", "00*00*00", "000000**", "000000**"),
+    R=("*000", "0*00", "00*0", "000*"),
+)
+"""Of the receiver's model, to be stated where its zeros are to be left out: gps()._replace(structure=STRUCTURE)."""
 
 ORBIT_RADIUS_M = 26_560e3
 EARTH_RADIUS_M = 6_371e3

@@ -52,7 +52,7 @@ def linear_system(Phi: ArrayLike, B: ArrayLike, H: ArrayLike, Q: ArrayLike, R: A
 
 def is_linear(system: System) -> bool:
     """Whether it is as `linear_system` makes them: its functions, and matrices whose shapes fit it."""
-    n, m, p, *functions, matrices = system
+    n, m, p, *functions, matrices, _structure = system
     return (
         functions == [_f, _F, _Q, _h, _H, _R]
         and isinstance(matrices, LinearParameters)

@@ -13,9 +13,18 @@ import numpy as np
 
 from filters.arrays import FloatArray
 from filters.simulation import Truth, simulate_truth
+from filters.sparse.structure import Structure
 from filters.system import System
 
 EAST, NORTH, HEADING, SPEED, GYRO_BIAS, ACCELEROMETER_BIAS = range(6)
+
+STRUCTURE = Structure(
+    F=("10**00", "01**00", "0010*0", "00010*", "000010", "000001"),
+    H=("100000", "010000"),
+    Q=("000000", "000000", "00*000", "000*00", "0000*0", "00000*"),
+    R=("*0", "0*"),
+)
+"""Of the vehicle's model, to be stated where its zeros are to be left out: vehicle()._replace(structure=STRUCTURE)."""
 
 
 class VehicleParameters(NamedTuple):

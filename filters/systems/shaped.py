@@ -24,10 +24,12 @@ class ShapedParameters(NamedTuple):
 
 
 def shaped(system: System) -> System:
-    """The system; where F, Q, H or R have another shape than they should, it raises what `misshapen` explains.
+    """The system, without its structure; where F, Q, H or R have another shape than they should, it raises what
+    `misshapen` explains.
 
     One that `linear_system` made is known to have the right ones, and stays as it is.
     """
+    system = system._replace(structure=None)
     if is_linear(system):
         return system
     return System(*system[:3], _f, _F, _Q, _h, _H, _R, ShapedParameters(system))

@@ -114,6 +114,8 @@ def kind_of(value: Any, *, given: bool = True) -> Kind:
     Raises:
         Untranslatable: there is no such thing in C.
     """
+    if value is None:
+        return NOTHING
     if isinstance(value, FunctionType):
         return Function(value)
     if isinstance(value, bool | np.bool_):
