@@ -103,6 +103,10 @@ DELAYED_METHODS = {
 }
 """One measurement every N steps, which comes M steps late; and the standard filter, for which it is never late."""
 
+SPARSE_METHODS = tuple(name for name in DELAYED_METHODS if name != "augmentation")
+"""Those whose jobs leave out what is zero or one in the structure of a system; augmentation does so in its propagation
+only."""
+
 MULTIRATE_METHODS = {name: Method(name, *_multirate(form)) for name, form in MULTIRATE_FORMS.items()}
 """A measurement in every step, covariance and gain in every n-th."""
 

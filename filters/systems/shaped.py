@@ -29,7 +29,7 @@ def shaped(system: System) -> System:
 
     One that `linear_system` made is known to have the right ones, and stays as it is.
     """
-    system = system._replace(structure=None)
+    system = system if system.structure is None else system._replace(structure=None)
     if is_linear(system):
         return system
     return System(*system[:3], _f, _F, _Q, _h, _H, _R, ShapedParameters(system))

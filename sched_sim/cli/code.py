@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple, TypeAlias
 import typer
 
 from sched_sim.cli import options as opt
-from sched_sim.cli.measure import SYSTEM, Inputs, Size, UpdateForm
+from sched_sim.cli.measure import SYSTEM, ConfirmProbed, Inputs, Size, Sparse, UpdateForm
 from sched_sim.cli.measure_filter import OF_A_SYSTEM, SIZES
 from sched_sim.cli.output import lines, say
 from sched_sim.costs.methods import MULTIRATE_METHODS, ROBUST_METHODS, SYSTEM_METHODS
@@ -17,10 +17,10 @@ from sched_sim.errors import InputError
 from studies.board.steps import Steps
 
 if TYPE_CHECKING:
-    from filters.covariance_forms import CovarianceFormName
-    from filters.delayed.dual_rate import GainTime
-    from filters.delayed.low_rate_noise import LowRateNoise
+    from filters.arrays import FloatArray
+    from filters.system import System
     from filters.translation.library import Precision
+    from studies.board.wanted import Filter
 
 Method = Annotated[
     str,
@@ -129,6 +129,8 @@ def code(
     robust: OwnRobust = None,
     method: Method = "dual-rate",
     update: UpdateForm = "textbook",
+    sparse: Sparse = False,
+    confirm_probed: ConfirmProbed = False,
     precision: InPrecision = "double",
     N: Cycle = 10,
     M: Delay = 4,
@@ -140,22 +142,28 @@ def code(
     with Python, examples for FreeRTOS and POSIX, and a README.
 
     sched-sim code --method dual-rate --states 9 --inputs 3 --measurements 3 --precision single -N 10 -M 4 -o board/
-    sched-sim code --system mymodule:my_system --update short -o board/
+    sched-sim code --system mymodule:my_system --update short --sparse -o board/
     sched-sim code --method larsen -o larsen/
     sched-sim code --filter mymodule:my_filter -o board/
     sched-sim code --robust attitude --method robust-givens -N 40 -o board/
     """
     from studies.board.dual_rate import check_choices
     from studies.board.folder import check_folder, write_folder
+    from studies.board.wanted import Filter
     from studies.board.write import NAMES
+    from studies.measurement.sparsity import refuse_dense, with_structure
 
+    if confirm_probed and not sparse:
+        raise InputError("--confirm-probed: only with --sparse, which leaves out what probing finds")
     if method != "dual-rate" or own_filter is not None or robust is not None:
         _refuse_beside(context, "another filter than dual-rate", CHOICES, "they are choices of --method dual-rate")
     check_choices(low_rate_noise)
     if own_filter is not None:
         _refuse_beside(context, f"--filter {own_filter}", (*OF_A_SYSTEM, "robust", "N", "M", "L"), OF_A_FILTER)
     if robust is not None:
-        _refuse_beside(context, f"--robust {robust}", (*SIZES, "system", "update", "M", "L"), OF_A_ROBUST_FILTER)
+        _refuse_beside(
+            context, f"--robust {robust}", (*SIZES, "system", "update", *ZEROS, "M", "L"), OF_A_ROBUST_FILTER
+        )
     check_folder(output, NAMES, "--output")
     if own_filter is not None:
         written = _own_filter(own_filter, precision)
@@ -171,9 +179,15 @@ def code(
             _refuse_beside(context, f"--system {system!r}", SIZES, "the system has its own")
         delay = 0 if "M" in without else M
         steps = Steps(N, delay, L if L is not None else delay + (method in LANDING))
-        sizes = states, inputs, measurements
+        model, x0, the_system = _model(method, (states, inputs, measurements), system, steps)
+        if sparse:
+            refuse_dense(method)
+            model = with_structure(model, x0, the_system, confirmed=confirm_probed)
+        else:
+            model = model._replace(structure=None)
         asked = bool(opt.given_options(context, lambda name: name in "NL"))
-        written = _of_a_system(method, sizes, system, update, precision, steps, asked, gain, low_rate_noise)
+        wanted = Filter(method, model, x0, update, precision, steps, "", gain, low_rate_noise)
+        written = _of_a_system(wanted, the_system, confirm_probed, asked)
     write_folder(output, written.files, NAMES, "--output")
     say(
         lines(
@@ -191,49 +205,49 @@ class Written(NamedTuple):
     note: str
 
 
-def _of_a_system(
-    method: str,
-    sizes: tuple[int, int, int],
-    system: str | None,
-    update: CovarianceFormName,
-    precision: Precision,
-    steps: Steps,
-    asked: bool,
-    gain: GainTime,
-    low_rate_noise: LowRateNoise,
-) -> Written:
-    """asked: whether the steps were given, so that the jobs alone would not do."""
+def _model(
+    method: str, sizes: tuple[int, int, int], system: str | None, steps: Steps
+) -> tuple[System, FloatArray, str]:
+    """A model, a typical state, and the options that name it."""
     import numpy as np
 
     from filters.systems.example import example_system
-    from studies.board.serial.methods import check_model
-    from studies.board.wanted import Filter
-    from studies.board.write import board_files, check_wanted
-    from studies.measurement.user_function import explained
+    from studies.board.write import check_wanted
     from studies.measurement.user_system import load_system
 
     if system is None:
         check_wanted(method, sizes, steps)
-        the_system = "--states {} --inputs {} --measurements {}".format(*sizes)
-        model, x0 = example_system(*sizes), np.zeros(sizes[0])
-    else:
-        the_system = f"--system {system}"
-        model, x0 = load_system(system)
-        check_wanted(method, model[:3], steps)
-    alone = False
+        return example_system(*sizes), np.zeros(sizes[0]), "--states {} --inputs {} --measurements {}".format(*sizes)
+    model, x0 = load_system(system)
+    check_wanted(method, model[:3], steps)
+    return model, x0, f"--system {system}"
+
+
+def _of_a_system(wanted: Filter, the_system: str, probed: bool, asked: bool) -> Written:
+    """probed: whether what probing finds was confirmed. asked: whether the steps were given, so that the jobs alone
+    would not do."""
+    from studies.board.serial.methods import check_model
+    from studies.board.write import board_files
+    from studies.measurement.user_function import explained
+
+    method, system, steps = wanted.method, wanted.system, wanted.steps
+    assert steps is not None
     try:
-        check_model(method, model, steps)
+        check_model(method, system, steps)
+        used = "".join(name for name in "NML" if name not in UNUSED.get(method, "L"))
     except InputError:
         if asked:
             raise
-        alone = True
-    used = "" if alone else "".join(name for name in "NML" if name not in UNUSED.get(method, "L"))
+        wanted, used = wanted._replace(steps=None), ""
     in_steps = "".join(f" -{name} {getattr(steps, name)}" for name in used)
-    wanted = Filter(method, model, x0, update, precision, None if alone else steps, "", gain, low_rate_noise)
+    zeros = f"{' --sparse' if system.structure else ''}{' --confirm-probed' if probed else ''}"
     chosen = "".join(f" --{name.replace('_', '-')} {value}" for name, value in wanted.choices.items())
-    said = f"sched-sim code --method {method} {the_system} --update {update} --precision {precision}{in_steps}{chosen}"
+    said = (
+        f"sched-sim code --method {method} {the_system} --update {wanted.update}{zeros} --precision {wanted.precision}"
+        f"{in_steps}{chosen} -o FOLDER"
+    )
     with explained(f"{the_system}: cannot be written as C"):
-        files = board_files(wanted._replace(said=f"{said} -o FOLDER"))
+        files = board_files(wanted._replace(said=said))
     return Written(files, f"Written for{in_steps}" if in_steps else JOBS_ALONE)
 
 
@@ -266,6 +280,7 @@ def _own_filter(name: str, precision: Precision) -> Written:
 
 
 CHOICES = ("gain", "low_rate_noise")
+ZEROS = ("sparse", "confirm_probed")
 OF_A_FILTER = "the filter that it returns says all of that itself"
 OF_A_ROBUST_FILTER = "it has a system of its own"
 

@@ -227,10 +227,12 @@ def _why_no_parts(question: Question) -> str:
 
 def _words(of: Candidate, found: Choice) -> dict[str, Any]:
     from sched_sim.cli.parts import no_less
+    from sched_sim.cli.update_form import structure_word
 
     assert of.least is not None
     row: dict[str, Any] = {
         "method": "standard (no delay)" if of.variant.method == "standard" else of.variant.method,
+        **structure_word(of.variant.table),
         "how": of.variant.how or None,
         "every": of.variant.every,
         "land by L": of.L,
@@ -325,6 +327,7 @@ def _row(of: Candidate, found: Choice) -> dict[str, Any]:
         "lr_propagate_by": options.lr_propagate_by if of.variant.method == "dual-rate" else None,
         "feedback": options.feedback if of.variant.method == "dual-rate" else None,
         "update_form": of.variant.table.update_form,
+        "structure": of.variant.table.structure,
         "costs": of.variant.table.name,
         "every": of.variant.every,
         "N": of.N,

@@ -17,7 +17,7 @@ from sched_sim.costs.methods import SYSTEM_METHODS
 from sched_sim.errors import InputError
 
 if TYPE_CHECKING:
-    from sched_sim.costs.table import CostTable
+    from sched_sim.costs.table import Cost, CostTable
 
 SYSTEM = "System"
 BOARD = "Board"
@@ -68,6 +68,23 @@ UpdateForm = Annotated[
         "--update",
         help="Covariance update: textbook (Eq. 11, that of the shipped counts), joseph (a covariance for any gain) or "
         f"short, P - K (P H')' (the cheapest: with few measurements a small part of the textbook's). {WITHOUT_FILTER}",
+    ),
+]
+Sparse = Annotated[
+    bool,
+    typer.Option(
+        "--sparse",
+        help="Leave out what is always zero or one in F, H, Q and R, as the model states it (System.structure), and "
+        f"compute of what is symmetric one half; beside it, the dense filter's. {WITHOUT_FILTER}",
+        rich_help_panel=SYSTEM,
+    ),
+]
+ConfirmProbed = Annotated[
+    bool,
+    typer.Option(
+        "--confirm-probed",
+        help="With --sparse: the model states nothing, and what is zero or one at many random states is so at all.",
+        rich_help_panel=SYSTEM,
     ),
 ]
 Size = Annotated[
@@ -153,6 +170,8 @@ def measure(
     target: OnTarget = None,
     precision: InPrecision = None,
     update: UpdateForm = "textbook",
+    sparse: Sparse = False,
+    confirm_probed: ConfirmProbed = False,
     thorough: Annotated[bool, typer.Option("--thorough", help="Ten times as many rounds.")] = False,
     output: CostFile = None,
     format: opt.Format = "table",
@@ -164,7 +183,11 @@ def measure(
     sched-sim measure --robust position --backend counted -o erkf.toml
     sched-sim measure --filter mymodule:my_filter -o samples.toml
     sched-sim measure --backend emulated --target cortex-m4f -o m4f.toml
+    sched-sim measure --system mymodule:my_system --backend counted --sparse -o sparse.toml
     """
+    import numpy as np
+
+    from filters.registry import SPARSE_METHODS
     from filters.systems.example import example_system
     from sched_sim.cli.instructions import built_note, target_note, target_row
     from sched_sim.cli.measured_note import busy_note, busy_row, say_busy
@@ -176,6 +199,7 @@ def measure(
     from studies.measurement.emulation.targets import precision_of, target_of
     from studies.measurement.emulation.toolchain import check_installed
     from studies.measurement.methods import measure as run
+    from studies.measurement.sparsity import in_words, refuse_dense, with_structure
     from studies.measurement.user_function import explained
     from studies.measurement.user_system import load_system
 
@@ -198,13 +222,20 @@ def measure(
         raise InputError(
             f"--robust {robust} measures the methods robust-... on a system of its own: leave out {', '.join(options)}"
         )
+    if confirm_probed and not sparse:
+        raise InputError("--confirm-probed: only with --sparse, which leaves out what probing finds")
+    if sparse and backend == "numpy":
+        raise InputError("--sparse: not with --backend numpy, which multiplies whole matrices")
+    known, dense, structure = SPARSE_METHODS if sparse else SYSTEM_METHODS, None, None
+    if sparse:
+        refuse_dense(*(name for name in method or () if name in SYSTEM_METHODS))
     if system is not None and (options := opt.given_options(context, lambda name: name in SIZES)):
         raise InputError(f"--system {system!r}: leave out {', '.join(options)}: the system has its own")
     with progress_bar("Measuring") as progress:
         if robust is not None:
             table = _robust(robust, parallel, backend, thorough, progress, target, precision)
         else:
-            methods = opt.known_methods(["standard", *(method or SYSTEM_METHODS)], SYSTEM_METHODS)
+            methods = opt.known_methods(["standard", *(method or known)], SYSTEM_METHODS)
             if system is None:
                 model, x0 = example_system(states, inputs, measurements), None
                 name = f"{target if backend == 'emulated' else backend}-{states}-{inputs}-{measurements}"
@@ -214,20 +245,30 @@ def measure(
                 refuse_one_file_for_two([("--output", output)], [("--system", file) for file in module_files()])
                 name = f"{target if backend == 'emulated' else backend}-{system.replace(':', '.')}"
                 the_system = f"--system {system!r}"
-            with explained(f"{the_system}: cannot be measured by --backend {backend}"):
-                table = run(
+            if sparse:
+                state = np.zeros(model.states) if x0 is None else x0
+                model = with_structure(model, state, the_system, confirmed=confirm_probed)
+                structure = model.structure
+
+            def measured(*, without_zeros: bool) -> CostTable:
+                return run(
                     model,
                     backend,
                     update,
-                    name=name,
+                    name=f"{name}-sparse" if without_zeros else name,
                     thorough=thorough,
                     x0=x0,
                     progress=progress,
                     methods=methods,
+                    sparse=without_zeros,
                     own=system is not None,
                     target=target,
                     precision=precision,
                 )
+
+            with explained(f"{the_system}: cannot be measured by --backend {backend}"):
+                table = measured(without_zeros=sparse)
+                dense = measured(without_zeros=False) if sparse else None
     unit = table.normalised() if "standard" in table.costs else None
     rows = [
         {
@@ -238,6 +279,7 @@ def measure(
             "minimum": float(cost.minimum),
             "median": float(cost.median),
             "p95": float(cost.p95),
+            **({} if dense is None else beside_dense(cost, dense.entry(method, kind))),
             **own_share(table, method, kind),
             "standard_steps": None if unit is None else float(unit.entry(method, kind).minimum),
             "standard_steps_p95": None if unit is None else float(unit.entry(method, kind).p95),
@@ -253,17 +295,28 @@ def measure(
         print_csv(rows)
     else:
         _show(
-            f"{table.name}, {'' if robust else f'{update} update, '}in "
+            f"{table.name}, {'' if robust else f'{update} update, '}{'sparse, ' if sparse else ''}in "
             f"{'ns' if table.unit == 'second' else units(table.unit)}",
             rows,
             timed=table.unit == "second",
-            note=lines(own_note(table), busy_note(table.provenance), target_note(table), built_note(table)),
+            note=lines(
+                f"sparse: {in_words(structure)}" if structure is not None else "",
+                own_note(table),
+                busy_note(table.provenance),
+                target_note(table),
+                built_note(table),
+            ),
         )
     if format != "table":
         say_busy(table.name, table.provenance)
     if output is not None:
         write_costs(table, output)
         say(f"Wrote {output}; use it with --costs {output}")
+
+
+def beside_dense(cost: Cost, dense: Cost) -> dict[str, float]:
+    """For scripts: what the same job takes with all products, and which share of that is left; by least costs."""
+    return {"dense_minimum": float(dense.minimum), "of_dense": float(cost.minimum / dense.minimum)}
 
 
 def _show(title: str, rows: list[dict[str, Any]], timed: bool, note: str) -> None:
@@ -277,9 +330,13 @@ def _show(title: str, rows: list[dict[str, Any]], timed: bool, note: str) -> Non
         )
         steps = row["standard_steps"]
         until = f" to {row['standard_steps_p95']:.3f}" if timed and steps is not None else ""
+        against = {}
+        if "dense_minimum" in row:
+            scale = 1e9 if timed else 1
+            against = {"dense": f"{scale * row['dense_minimum']:.{int(timed)}f}", "of dense": f"{row['of_dense']:.3f}"}
         relative = {} if steps is None else {"std steps": f"{steps:.3f}{until}"}
         own = {"own, %": f"{100 * row['own_share']:.0f}"} if "own_share" in row else {}
-        shown.append({"method": row["method"], "job": row["job"], **figures, **own, **relative})
+        shown.append({"method": row["method"], "job": row["job"], **figures, **against, **own, **relative})
     related = any(row["standard_steps"] is not None for row in rows)
     ends = ", from minimum to p95; another machine may lie outside" if timed else ""
     meaning = f"std steps: relative to one propagate + update of the standard filter{ends}" if related else ""

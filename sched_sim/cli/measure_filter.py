@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from sched_sim.scenario.scenario import Samples
 
 SIZES = ("states", "inputs", "measurements")
-OF_A_SYSTEM = (*SIZES, "system", "method", "update")
+OF_A_SYSTEM = (*SIZES, "system", "method", "update", "sparse", "confirm_probed")
 """Options of `measure` that say what a system's filters are; a robust and a composed filter are what they are."""
 
 

@@ -59,7 +59,7 @@ def minimum(
     from sched_sim.cli.measured_note import measured_row, range_note, say_of_statistic
     from sched_sim.cli.parts import MEANING, fit_row, fit_words, fixed_by, highest_note, least_row, no_less
     from sched_sim.cli.uneven_note import uneven_note
-    from sched_sim.cli.update_form import update_form, update_note
+    from sched_sim.cli.update_form import structure_word, update_form, update_note
     from sched_sim.costs.table import COUNTED
     from sched_sim.design.fit import fit
     from sched_sim.design.landing import landing
@@ -85,6 +85,7 @@ def minimum(
         timing = design.timing(name, options)
         work = select(table, name, options, statistic)
         person: dict[str, Any] = {"method": "standard (no delay)" if name == "standard" else name}
+        person |= structure_word(table)
         unit_and_form = {"cost_unit": "second" if timed else table.unit} | update_form(table, name)
         with simulations(name) as on_progress:
             if rate is not None and design.times is not None and timed:

@@ -230,7 +230,7 @@ def _verdicts(
     from sched_sim.cli.no_time import no_time_note
     from sched_sim.cli.parts import fit_row, fit_words, fixed_by, least_row
     from sched_sim.cli.progress import simulations
-    from sched_sim.cli.update_form import form_note, ground_note, update_form
+    from sched_sim.cli.update_form import form_note, ground_note, structure_word, update_form
     from sched_sim.design.fit import fit
     from sched_sim.design.methods import select
     from sched_sim.errors import InputError
@@ -277,6 +277,7 @@ def _verdicts(
             rows.append(row | measured_row(table, method, timing, options, tasks) | {"reason": reason})
             name = {"method": method} if len(refused.methods) > 1 else {}
             about: dict[str, str | None] = {"processor": part.name, "precision": part.precision, **name}
+            about |= structure_word(counts)
             words = fit_words(part, rate, times, verdict, bool(tasks))
             shown.append(about | words | {"fixed by": fixed_by(row["binding"]), **ram_words(row)})
     calibrations = {part.name: None if part.calibration is None else part.calibration.text for part in parts}

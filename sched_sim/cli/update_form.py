@@ -1,4 +1,5 @@
-"""What the costs are of: which covariance update, which matters as much as the method, and on what ground."""
+"""What the costs are of: which covariance update, which matters as much as the method; whether zeros are multiplied;
+and on what ground."""
 
 from __future__ import annotations
 
@@ -19,10 +20,17 @@ FORMS = {
 
 
 def update_form(table: CostTable, method: str) -> dict[str, str | None]:
-    """For scripts, where `table` says it: the form that its costs of `method` are of; None for methods that keep
-    factors of the covariance."""
+    """For scripts, where `table` says it: the form that its costs of `method` are of, None for methods that keep
+    factors of the covariance; and "dense" or "sparse"."""
     form = table.update_form
-    return {} if form is None else {"update_form": form if method in DELAYED_METHODS else None}
+    said = {} if form is None else {"update_form": form if method in DELAYED_METHODS else None}
+    return said | structure_word(table)
+
+
+def structure_word(table: CostTable) -> dict[str, str | None]:
+    """Whether the costs are of a filter that multiplies zeros, "dense", or leaves them out, "sparse"; for scripts and
+    for people, where `table` says it."""
+    return {} if table.structure is None else {"structure": table.structure}
 
 
 def update_note(table: CostTable, methods: Iterable[str]) -> str:
@@ -41,7 +49,7 @@ def ground_note(table: CostTable, methods: Iterable[str], calibrations: Mapping[
     if table.target is not None:
         return ""
     forms = _forms(table, methods)
-    counts = f"dense counts, {forms[0]} form" if forms else "operations as counted"
+    counts = f"{table.structure} counts, {forms[0]} form" if forms else "operations as counted"
     known = [f"{text} on {name}" for name, text in calibrations.items() if text]
     return f"{counts}; measured over predicted {', '.join(known) or 'is not known'}"
 

@@ -113,6 +113,13 @@ class CostTable:
         return None if form is None else str(form)
 
     @property
+    def structure(self) -> str | None:
+        """ "sparse" if zeros and ones of the model were left out, "dense" if all was multiplied; None if the file does
+        not say."""
+        structure = self.provenance.get("structure", None if self.update_form is None else "dense")
+        return None if structure is None else str(structure)
+
+    @property
     def measured_on_busy_machine(self) -> bool | None:
         """See the function of this name."""
         return measured_on_busy_machine(self.provenance)

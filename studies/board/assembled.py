@@ -44,7 +44,7 @@ def words_of_run(name: str, functions: str, tolerance: str = USUAL) -> dict[str,
 
 
 def assembled(about: About, jobs: Mapping[str, Job], in_c: Jobs, around: Around) -> dict[str, str]:
-    """All files, by name."""
+    """All files, by name. jobs: with all products, see `test_c`."""
     files = {
         "filter.h": _banner(about) + in_c.unit.header("FILTER_H"),
         "filter.c": _banner(about) + in_c.unit.source("filter.h"),
@@ -59,7 +59,8 @@ def assembled(about: About, jobs: Mapping[str, Job], in_c: Jobs, around: Around)
 
 def _costs(about: About, around: Around) -> dict[str, str]:
     head, line = around.costs or (f"[costs.{about.method}]", "%s = %.4f")
-    return {"costs": head, "cost": line}
+    structure = f'structure = \\"{about.structure}\\"\\n' if about.structure else ""
+    return {"structure": structure, "costs": head, "cost": line}
 
 
 def _readable(text: str) -> str:

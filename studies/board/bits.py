@@ -31,7 +31,10 @@ class Left(NamedTuple):
 
 def test_c(jobs: Mapping[str, Job], timed: Mapping[str, str], in_c: Jobs, more: Mapping[str, str]) -> str:
     """The file test.c. timed: kinds of the cost table, and which of the jobs each is; more: words of the template for
-    what is compared beside the jobs."""
+    what is compared beside the jobs.
+
+    jobs: with all products, whose numbers those of sparse ones must be: a zero that is none is found here.
+    """
     data = Data(in_c.unit)
     shared: dict[int, tuple[Any, Any]] = {}
     functions = [_of_job(kind, job, in_c, data, shared) for kind, job in jobs.items()]

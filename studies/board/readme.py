@@ -21,7 +21,7 @@ BYTES = {"single": 4, "double": 8}
 class About(NamedTuple):
     """What is said of a filter. method: in its cost table; described: sizes, forms and precision; source: of its
     equations, a sentence. part: of the README, "tasks", "steps", "composed" or "jobs"; order: which function of steps.c
-    is called when; question: what the cost table is asked."""
+    is called when; question: what the cost table is asked; structure: see `CostTable`."""
 
     method: str
     described: str
@@ -31,6 +31,7 @@ class About(NamedTuple):
     part: str
     order: str = ""
     question: str = ""
+    structure: str = ""
 
 
 STEFFES = (
@@ -39,18 +40,23 @@ STEFFES = (
 )
 
 
+WITHOUT_ZEROS = "; what the model states to be always zero or one is left out of products"
+
+
 def about_filter(wanted: Filter) -> About:
     """What is said of a method on a system."""
     n, m, p = wanted.system[:3]
     return About(
         wanted.method,
-        f"{n} states, {m} inputs, {p} measurements; {wanted.update} covariance update; {wanted.precision} precision",
+        f"{n} states, {m} inputs, {p} measurements; {wanted.update} covariance update; {wanted.precision} precision"
+        + (WITHOUT_ZEROS if wanted.system.structure else ""),
         STEFFES,
         wanted.precision,
         wanted.said,
         "tasks" if wanted.method == "dual-rate" else "steps" if wanted.steps is not None else "jobs",
         _order(wanted),
         _question(wanted),
+        "sparse" if wanted.system.structure else "dense",
     )
 
 

@@ -9,6 +9,7 @@ import numpy as np
 from filters.arrays import FloatArray
 from filters.registry import ALL_METHODS, MULTIRATE_METHODS
 from filters.simulation import simulate_truth
+from filters.system import System
 from filters.translation.data import Data, Kept
 from filters.translation.library import Precision
 from filters.translation.unit import Unit
@@ -47,11 +48,15 @@ def simulated(wanted: Filter, steps: Steps) -> Record:
     truth = simulate_truth(system, 1 if each else N, x0, P0, u, SEED)
     y = truth.measurements if each else truth.measurements[:measured]
     x0, u, y = (held(values, precision) for values in (x0, u, y))
-    if each:
-        history = MULTIRATE_METHODS[method].run(system, N, x0, P0, u, y, L=L, update=update)
-    else:
-        history = ALL_METHODS[method].run(system, N, M, L, x0, P0, u, y, update=update, **wanted.choices)
-    return Record(x0, P0, u, y, history.x)
+
+    def states(system: System) -> FloatArray:
+        if each:
+            return MULTIRATE_METHODS[method].run(system, N, x0, P0, u, y, L=L, update=update).x
+        return ALL_METHODS[method].run(system, N, M, L, x0, P0, u, y, update=update, **wanted.choices).x
+
+    if system.structure is not None:  # is seen to be as stated
+        states(system)
+    return Record(x0, P0, u, y, states(system._replace(structure=None)))
 
 
 def record_h(record: Record, precision: Precision) -> str:

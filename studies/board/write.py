@@ -66,15 +66,16 @@ def board_files(wanted: Filter) -> dict[str, str]:
         InputError: steps or sizes do not fit.
         ValueError: the system cannot be filtered from x0.
     """
-    method, system, x0, update, precision = wanted[:5]
-    check_wanted(method, system[:3], wanted.steps)
-    jobs = _jobs(wanted, ALL_METHODS[method].jobs(system, update, 0, x0))
-    in_c = translated(jobs, precision)
-    return assembled(about_filter(wanted), jobs, in_c, _around(wanted, jobs, in_c))
+    system = wanted.system
+    check_wanted(wanted.method, system[:3], wanted.steps)
+    jobs, dense = (_jobs(wanted._replace(system=each)) for each in (system, system._replace(structure=None)))
+    in_c = translated(jobs, wanted.precision)
+    return assembled(about_filter(wanted), dense, in_c, _around(wanted, jobs, in_c))
 
 
-def _jobs(wanted: Filter, jobs: Mapping[str, Job]) -> Mapping[str, Job]:
+def _jobs(wanted: Filter) -> Mapping[str, Job]:
     """The functions that are written."""
+    jobs = ALL_METHODS[wanted.method].jobs(wanted.system, wanted.update, 0, wanted.x0)
     if wanted.method == "dual-rate":
         return {kind: jobs[kind] for kind in dual_rate.kinds(wanted)}
     if wanted.steps is None:

@@ -22,7 +22,7 @@ from filters.choice import check_choice
 from filters.covariance_forms import COVARIANCE_FORMS, CovarianceFormName
 from filters.jobs import Job
 from filters.problem import check_system
-from filters.registry import ALL_METHODS
+from filters.registry import ALL_METHODS, SPARSE_METHODS
 from filters.seed import check_seed
 from filters.system import System
 from sched_sim.costs.table import Cost, CostTable
@@ -50,7 +50,8 @@ def measure(
     x0: Any = None,
     seed: int = 0,
     progress: Progress = silent,
-    methods: Sequence[str] = tuple(ALL_METHODS),
+    methods: Sequence[str] | None = None,
+    sparse: bool = False,
     own: bool = False,
     target: str | None = None,
     precision: str | None = None,
@@ -61,6 +62,8 @@ def measure(
         "second".
     update: the covariance form, of no use to methods that keep factors of the covariance.
     x0 (n,): a typical state of the system, zero if not given.
+    methods: all, if not given, or all that can be sparse.
+    sparse: leave out the zeros and ones that the system states, see `System.structure`; NumPy cannot.
     target: of emulated code, the core, see `emulation.targets`; precision: that of the core if not given.
     own: of compiled code, time the functions of the system too: the table's `own_share` is that of each job.
 
@@ -73,19 +76,24 @@ def measure(
         check_choice("backend", backend, get_args(BackendName))
         check_choice("update", update, COVARIANCE_FORMS)
         check_seed(seed)
-        _check_methods(methods)
+        names = methods if methods is not None else SPARSE_METHODS if sparse else tuple(ALL_METHODS)
+        _check_methods(names)
+        if sparse:
+            _check_sparse(system, backend, names)
         _check_state(x0, system.states)
     except ValueError as error:
         raise InputError(str(error)) from None
+    system = system if sparse else system._replace(structure=None)
     jobs = {
         (method, kind): job
-        for method in methods
+        for method in names
         for kind, job in ALL_METHODS[method].jobs(system, update, seed, x0).items()
     }
     own = own and backend == "compiled"
     timed = with_own(jobs, system, seed, x0) if own else jobs
     about = {
         "update_form": update,
+        "structure": "sparse" if sparse else "dense",
         "states": system.states,
         "inputs": system.inputs,
         "measurements": system.measurements,
@@ -114,6 +122,17 @@ def _check_methods(methods: Sequence[str]) -> None:
         raise ValueError(f"methods={methods!r:.60}: give a list of some of {', '.join(ALL_METHODS)}")
     for method in methods:
         check_choice("methods", method, ALL_METHODS)
+
+
+def _check_sparse(system: System, backend: BackendName, methods: Sequence[str]) -> None:
+    if system.structure is None:
+        raise ValueError("sparse=True: the system states no structure; give it one, system._replace(structure=...)")
+    if backend == "numpy":
+        raise ValueError("sparse=True: backend='numpy' multiplies whole matrices; give another backend")
+    if dense := [method for method in methods if method not in SPARSE_METHODS]:
+        raise ValueError(
+            f"sparse=True: {', '.join(dense)} multiplies zeros too; give some of {', '.join(SPARSE_METHODS)}"
+        )
 
 
 def _check_state(x0: Any, states: int) -> None:

@@ -84,7 +84,7 @@ static void print_costs(void)
     *(volatile uint32_t *)0xE000EDFCu |= 1uL << 24; /* DEMCR: the DWT is switched on */
     *(volatile uint32_t *)0xE0001000u |= 1uL;       /* DWT_CTRL: the counter runs */
 #endif
-    printf("name = \"board\"\nunit = \"us\"\n\n$costs\n");
+    printf("name = \"board\"\nunit = \"us\"\n$structure\n$costs\n");
 $times
 }
 #endif
