@@ -12,7 +12,7 @@ from filters.backends.choose import BackendName, arguments_for, function_for
 from filters.covariance_forms.form import CovarianceForm
 from filters.delayed.high_rate import hr_restart, hr_update
 from filters.delayed.low_rate_noise import NoiseMethod
-from filters.records import new_workspace
+from filters.records import Transition, new_workspace
 from filters.system import System
 
 
@@ -63,6 +63,8 @@ class HighRateTask:
             if j > 0:
                 self._cycles.append(self._transition.Phi)
             start = self._restart(self._system, j, x, u, self.x)
+            if self._N == 1:  # the whole cycle: it is read when others have been made, in the same memory
+                start = Transition(start.Phi.copy(), start.Q.copy())
             self._transition, self._restarted = self._noise.start(start, j, self._N), j
         else:
             following = self._noise.new(self._size)

@@ -90,12 +90,15 @@ def lr_propagate_euler(
 
 
 def _start_halved(transition: Transition, k: int, N: int) -> HalvedTransition:
-    """The first half of an odd N is the shorter one, so that N = 1 is exact."""
+    """The first half of an odd N is the shorter one, so that N = 1 is exact.
+
+    Q_k is read at the end of the cycle, when the model may have filled its memory again.
+    """
     halfway = k + N // 2
-    nothing = np.zeros_like(transition.Q)
+    nothing, Q = np.zeros_like(transition.Q), transition.Q.copy()
     if k < halfway:
-        return HalvedTransition(transition.Phi, transition.Q, nothing, halfway)
-    return HalvedTransition(transition.Phi, nothing, transition.Q, halfway)
+        return HalvedTransition(transition.Phi, Q, nothing, halfway)
+    return HalvedTransition(transition.Phi, nothing, Q, halfway)
 
 
 def _new_halved(system: System) -> HalvedTransition:

@@ -63,6 +63,25 @@ def test_with_any_low_rate_noise(noise: str) -> None:
     np.testing.assert_array_equal(filled, made)
 
 
+@pytest.mark.parametrize("noise", ["exact", "sum", "euler"])
+@pytest.mark.parametrize(("N", "M", "L"), [(3, 1, 2), (1, 2, 3), (2, 3, 4)])
+def test_what_is_read_behind_the_next_step_is_kept(noise: str, N: int, M: int, L: int) -> None:
+    """The first half of Eq. (24), and with several corrections on their way the transition over a cycle of one step."""
+    drive = simulate_drive(30, N, seed=0)
+    data = N, M, L, drive.x0, drive.P0, drive.inputs, drive.truth.measurements
+    filled, made = filling(2), vehicle()
+    Q = np.zeros((2, 6, 6))
+
+    def growing(j: int, p: Any) -> FloatArray:
+        Q[j % 2] = (1 + j % 5) * made.Q(j, p.of)
+        return Q[j % 2]  # type: ignore[no-any-return]
+
+    ours = filled._replace(Q=growing)
+    theirs = made._replace(Q=lambda j, p: (1 + j % 5) * made.Q(j, p))
+    expected = dual_rate.run(theirs, *data, low_rate_noise=noise).x  # type: ignore[arg-type]
+    np.testing.assert_array_equal(dual_rate.run(ours, *data, low_rate_noise=noise).x, expected)  # type: ignore[arg-type]
+
+
 @pytest.mark.parametrize("run", [standard.run, recalculate.run, larsen.run, dual_rate.run])
 def test_one_for_all_steps_is_refused(run: Callable[..., Any]) -> None:
     drive = simulate_drive(6, 3, seed=0)
