@@ -71,7 +71,8 @@ Delay = Annotated[
     int,
     typer.Option(
         "-M",
-        help="Delay of the measurement in HR steps; more than N with recalculate, larsen, clone and carried-gain.",
+        help="Delay of the measurement in HR steps; more than N with dual-rate, recalculate, larsen, clone and "
+        "carried-gain.",
         parser=opt.whole,
         metavar="STEPS",
         rich_help_panel=opt.DESIGN,
@@ -81,8 +82,8 @@ Landing = Annotated[
     int | None,
     typer.Option(
         "-L",
-        help="Step in which the correction lands, M < L <= N, by default M + 1; with dual-rate, or later if it is not "
-        "ready, and delayed-horizon. With multirate: step from which a gain is used, by default 0.",
+        help="Step in which the correction lands, by default M + 1; with dual-rate, or later if it is not ready, and "
+        "with delayed-horizon, L <= N. With multirate: step from which a gain is used, by default 0.",
         parser=opt.whole,
         metavar="STEPS",
         rich_help_panel=opt.DESIGN,
@@ -179,7 +180,7 @@ def code(
             _refuse_beside(context, f"--system {system!r}", SIZES, "the system has its own")
         delay = 0 if "M" in without else M
         steps = Steps(N, delay, L if L is not None else delay + (method in LANDING))
-        model, x0, the_system = _model(method, (states, inputs, measurements), system, steps)
+        model, x0, the_system = _model(method, (states, inputs, measurements), system, steps, gain)
         if sparse:
             refuse_dense(method)
             model = with_structure(model, x0, the_system, confirmed=confirm_probed)
@@ -206,7 +207,7 @@ class Written(NamedTuple):
 
 
 def _model(
-    method: str, sizes: tuple[int, int, int], system: str | None, steps: Steps
+    method: str, sizes: tuple[int, int, int], system: str | None, steps: Steps, gain: GainTime
 ) -> tuple[System, FloatArray, str]:
     """A model, a typical state, and the options that name it."""
     import numpy as np
@@ -216,10 +217,10 @@ def _model(
     from studies.measurement.user_system import load_system
 
     if system is None:
-        check_wanted(method, sizes, steps)
+        check_wanted(method, sizes, steps, gain)
         return example_system(*sizes), np.zeros(sizes[0]), "--states {} --inputs {} --measurements {}".format(*sizes)
     model, x0 = load_system(system)
-    check_wanted(method, model[:3], steps)
+    check_wanted(method, model[:3], steps, gain)
     return model, x0, f"--system {system}"
 
 

@@ -65,7 +65,18 @@ def _costs(about: About, around: Around) -> dict[str, str]:
 
 def _readable(text: str) -> str:
     """With no line that is too long."""
-    return "\n".join(map(wrapped, text.splitlines())) + "\n"
+    lines, in_comment = [], False
+    for line in text.splitlines():
+        lines.append(_filled(line) if in_comment else wrapped(line))
+        opened, closed = line.rfind("/*"), line.rfind("*/")
+        in_comment = opened > closed or (in_comment and closed < 0)
+    return "\n".join(lines) + "\n"
+
+
+def _filled(line: str) -> str:
+    """A line of a comment."""
+    indent = " " * (len(line) - len(line.lstrip()))
+    return textwrap.fill(line, WIDTH, subsequent_indent=indent) if len(line) > WIDTH else line
 
 
 def _banner(about: About) -> str:

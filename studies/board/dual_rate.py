@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 
@@ -62,47 +63,44 @@ def check_steps(steps: Steps) -> None:
 def tasks(wanted: Filter, jobs: Mapping[str, Job], in_c: Jobs, steps: Steps) -> Files:
     """The files tasks.h, tasks.c and state.h. in_c: those of `kinds`."""
     system, early = wanted.system, wanted.gain == "precomputed"
-    n, m, p = system.states, system.inputs, system.measurements
-    reads_u = any("u" in job.used for job in in_c.by_kind.values())
     calls = _calls(in_c)
     data = _memory(system, jobs, in_c)
     values = {
-        **{"n": n, "m": m, "p": p, **steps._asdict()},
-        "u_parameter": f"real u[{m}]" if m else "void",
-        "u_doc": ", with the input u of the step before" if m else "",
-        "unused_u": "    (void)u; /* the model does not ask for it */\n" if m and not reads_u else "",
-        "Transition": _record(in_c, _one(in_c, "hr_propagate"), "transition"),
-        "Estimate": _record(in_c, "lr_gain" if early else "lr_update", "reference"),
+        **task_words(wanted, in_c, steps),
+        "late": "   If that is not before the next k, the measurement of that k is left out (HR_SKIPPED): the filter\n"
+        "   stays exact, as if it had been lost.",
+        "more_steps": "",
+        "Transition": record_name(in_c, one_of(in_c, "hr_propagate"), "transition"),
+        "Estimate": record_name(in_c, "lr_gain" if early else "lr_update", "reference"),
         "memory": "\n".join(data.lines),
         **calls,
-        "hr_propagate": calls[_one(in_c, "hr_propagate")],
-        "at_k": filled("tasks_gain.c", {**calls, "Estimate": _record(in_c, "lr_gain", "reference")}) if early else "",
+        "hr_propagate": calls[one_of(in_c, "hr_propagate")],
+        "at_k": filled("tasks_gain.c", {**calls, "Estimate": record_name(in_c, "lr_gain", "reference")})
+        if early
+        else "",
         "at_m": "" if early else "    lr.posterior = 1 - lr.prior;\n",
         "lr_update": calls["lr_correct" if early else "lr_update"],
     }
     return Files({name: filled(name, values) for name in ("tasks.h", "tasks.c", "state.h")}, data.sizes)
 
 
-def freertos_c(system: System, in_c: Jobs, on_core: Compiled | None) -> str:
-    """The example for FreeRTOS, with room on the stacks for the deepest job."""
-    m = system.inputs
-    deepest = max(stacks(in_c, on_core).values()) if on_core else 0
-    return filled(
-        "freertos.c",
-        {
-            "n": system.states,
-            "p": system.measurements,
-            "u": "u" if m else "",
-            "read_u": f"/* The input u of the step that begins. */\nextern void read_inputs(real u[{m}]);\n\n"
-            if m
-            else "",
-            "read_call": f"        real u[{m}];\n        read_inputs(u);\n" if m else "",
-            "stack_words": 256 + 8 * (-(-deepest // 32)),
-        },
-    )
+def _gain_at_k(in_c: Jobs, calls: Mapping[str, str]) -> str:
+    return filled("tasks_gain.c", {**calls, "Estimate": record_name(in_c, "lr_gain", "reference")})
 
 
-def _one(in_c: Jobs, kind: str) -> str:
+def task_words(wanted: Filter, in_c: Jobs, steps: Steps) -> dict[str, Any]:
+    """Words of the templates, however many corrections are on their way."""
+    n, m, p = wanted.system[:3]
+    reads_u = any("u" in job.used for job in in_c.by_kind.values())
+    return {
+        **{"n": n, "m": m, "p": p, **steps._asdict()},
+        "u_parameter": f"real u[{m}]" if m else "void",
+        "u_doc": ", with the input u of the step before" if m else "",
+        "unused_u": "    (void)u; /* the model does not ask for it */\n" if m and not reads_u else "",
+    }
+
+
+def one_of(in_c: Jobs, kind: str) -> str:
     """The job of this kind, whatever its noise."""
     return next(name for name in in_c.by_kind if name.startswith(kind))
 
@@ -118,7 +116,7 @@ def stacks(in_c: Jobs, on_core: Compiled) -> dict[str, int]:
     }
 
 
-def _record(jobs: Jobs, kind: str, name: str) -> str:
+def record_name(jobs: Jobs, kind: str, name: str) -> str:
     record = jobs.parameter(kind, name)
     assert isinstance(record, Record)
     return jobs.unit.record_name(record)
@@ -159,27 +157,32 @@ def _calls(jobs: Jobs) -> dict[str, str]:
 def _memory(system: System, jobs: Mapping[str, Job], in_c: Jobs) -> Data:
     """The declarations of the model, of HR and of LR."""
     data, n = Data(in_c.unit), system.states
-    data.lines.append("/* The model. Nothing writes to it but to its scratch, of which each task has its own. */")
-    for task in TASKS:
-        if (kind := _parameter(in_c, task, "system")) is not None:
-            add_model(data, task, system, kind)
+    add_models(data, system, in_c)
     data.lines.append(
         "\n/* HR: x_j, Phi_{k->j} and Q_{k->j}, three of each in turn; what F makes at k; its workspace. */"
     )
     data.array(Kept("hr_x"), np.zeros((3, n)))
     data.array(Kept("hr_Phi"), np.zeros((3, n, n)))
     data.array(Kept("hr_Q"), np.zeros((3, n, n)))
-    _add_own(data, "hr", system, jobs, in_c)
+    add_own(data, "hr", system, jobs, in_c)
     data.lines.append("\n/* LR: P_{k^-} and P_{k^+}; z, K and delta_x_{k^+}; its workspace. */")
     data.array(Kept("lr_P"), np.zeros((2, n, n)))
     kind = _parameter(in_c, "lr", "correction")
     assert isinstance(kind, Record)
     data.record("lr_correction", new_correction(system), kind, lambda names: Kept("_".join(names)))
-    _add_own(data, "lr", system, jobs, in_c)
+    add_own(data, "lr", system, jobs, in_c)
     return data
 
 
-def _add_own(data: Data, task: str, system: System, jobs: Mapping[str, Job], in_c: Jobs) -> None:
+def add_models(data: Data, system: System, in_c: Jobs) -> None:
+    """The model, as each task sees it."""
+    data.lines.append("/* The model. Nothing writes to it but to its scratch, of which each task has its own. */")
+    for task in TASKS:
+        if (kind := _parameter(in_c, task, "system")) is not None:
+            add_model(data, task, system, kind)
+
+
+def add_own(data: Data, task: str, system: System, jobs: Mapping[str, Job], in_c: Jobs) -> None:
     """Memory of what its jobs return, and its workspace."""
     own = {kind: job for kind, job in jobs.items() if kind.startswith(task)}
     for kind in own:

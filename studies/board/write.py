@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from filters.delayed.dual_rate import GainTime
 from filters.jobs import Job
 from filters.registry import ALL_METHODS
 from filters.translation.kinds import LONG
@@ -11,6 +12,8 @@ from sched_sim.errors import InputError, option
 from studies.board import dual_rate
 from studies.board.assembled import USUAL, Around, assembled, words_of_run
 from studies.board.compiled import Compiled
+from studies.board.examples import freertos_c, posix_c
+from studies.board.in_flight import are_several, check_in_flight, more_jobs, tasks_in_flight
 from studies.board.jobs import Jobs, named, translated
 from studies.board.memory import jobs_memory
 from studies.board.readme import about_filter
@@ -28,20 +31,26 @@ NAMES = frozenset(
 """All files that a folder may have."""
 
 
-MOST_STEPS = 1000
-"""From one measurement to the next: the record that is written with the filter has three of them."""
+MOST_STEPS, MOST_IN_FLIGHT = 1000, 64
+"""From one measurement to the next, for the record that is written with the filter has three of them; and measurements
+on their way at once."""
 
 
-def check_wanted(method: str, sizes: Sequence[int], steps: Steps | None) -> None:
+def check_wanted(method: str, sizes: Sequence[int], steps: Steps | None, gain: GainTime = "at-update") -> None:
     """Raises InputError unless the method can have these steps as C. sizes: states, inputs and measurements."""
     for name, size in zip(("states", "inputs", "measurements"), sizes, strict=True):
         if size > LONG:
             raise InputError(f"{option(name)} {size} are too many for a board: as C at most {LONG} are written")
     if steps is not None:
         check_cycle(steps.N)
-        if max(steps) > MOST_STEPS:
-            raise InputError(f"{option('M')} {steps.M} is too large: give at most {MOST_STEPS}")
-        if method == "dual-rate":
+        if steps.M > MOST_STEPS or max(steps.M, steps.L) > MOST_IN_FLIGHT * steps.N:
+            raise InputError(
+                f"{option('M')} {steps.M} is too large: give at most {min(MOST_STEPS, MOST_IN_FLIGHT * steps.N)}, for "
+                f"memory of {MOST_IN_FLIGHT} measurements on their way"
+            )
+        if method == "dual-rate" and are_several(steps):
+            check_in_flight(steps, gain)
+        elif method == "dual-rate":
             dual_rate.check_steps(steps)
         else:
             check_serial(method, steps)
@@ -67,7 +76,7 @@ def board_files(wanted: Filter) -> dict[str, str]:
         ValueError: the system cannot be filtered from x0.
     """
     system = wanted.system
-    check_wanted(wanted.method, system[:3], wanted.steps)
+    check_wanted(wanted.method, system[:3], wanted.steps, wanted.gain)
     jobs, dense = (_jobs(wanted._replace(system=each)) for each in (system, system._replace(structure=None)))
     in_c = translated(jobs, wanted.precision)
     return assembled(about_filter(wanted), dense, in_c, _around(wanted, jobs, in_c))
@@ -77,7 +86,8 @@ def _jobs(wanted: Filter) -> Mapping[str, Job]:
     """The functions that are written."""
     jobs = ALL_METHODS[wanted.method].jobs(wanted.system, wanted.update, 0, wanted.x0)
     if wanted.method == "dual-rate":
-        return {kind: jobs[kind] for kind in dual_rate.kinds(wanted)}
+        own = {kind: jobs[kind] for kind in dual_rate.kinds(wanted)}
+        return named(own | more_jobs(jobs)) if wanted.steps is not None and are_several(wanted.steps) else own
     if wanted.steps is None:
         return jobs
     written = serial(wanted.method, wanted.steps)
@@ -94,14 +104,16 @@ def _around(wanted: Filter, jobs: Mapping[str, Job], in_c: Jobs) -> Around:
     record = record_h(simulated(wanted, steps), wanted.precision)
     if method == "dual-rate":
         words = {"u": "record_u[j - 1]" if system.inputs else ""}
-        files, sizes = dual_rate.tasks(wanted, jobs, in_c, steps)
-        files = {**files, "record.h": record, "posix.c": filled("posix.c", words), "freertos.c": ""}
-        run = words_of_run("tasks", filled("tasks_run.c", words))
+        several = are_several(steps)
+        files, sizes = (tasks_in_flight if several else dual_rate.tasks)(wanted, jobs, in_c, steps)
+        files = {**files, "record.h": record, "posix.c": posix_c(system, several), "freertos.c": ""}
+        run = words_of_run("tasks", filled("tasks_run_in_flight.c" if several else "tasks_run.c", words))
 
         def late(on_core: Compiled | None) -> dict[str, str]:
-            return {"freertos.c": dual_rate.freertos_c(system, in_c, on_core)}
+            return {"freertos.c": freertos_c(system, in_c, on_core, several)}
 
-        return Around(files, ["filter.c", "tasks.c"], sizes, run, all_of_them, late)
+        timed = {kind: kind for kind in dual_rate.kinds(wanted)}
+        return Around(files, ["filter.c", "tasks.c"], sizes, run, timed, late)
     written = serial(method, steps)
     files, sizes = steps_files(written, wanted, steps, jobs, in_c)
     run = words_of_run("steps", steps_run(written, wanted))

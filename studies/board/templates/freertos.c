@@ -16,7 +16,7 @@
 #define HR_PRIORITY 4
 #define LR_PRIORITY 3
 #define STACK_WORDS $stack_words
-
+$notifications
 $read_u/* The measurement of step k, in y; false if it is lost. It is asked for M = DELAY_STEPS steps after k. */
 extern bool read_measurement(int k, real y[$p]);
 
@@ -25,21 +25,16 @@ static TaskHandle_t lr_handle;
 static void hr_task(void *unused)
 {
     TickType_t woken = xTaskGetTickCount();
-    int wait = DELAY_STEPS; /* steps until the measurement of the last k arrives */
-    (void)unused;
-    for (;;) {
-        if (wait == 0) {
-            (void)xTaskNotifyGive(lr_handle); /* at m */
-        }
-        if (wait >= 0) {
-            wait--;
+$awaited    (void)unused;
+    for (int j = 0;; j++) {
+        if ($arrives) {
+$arrived            (void)$give_at_m; /* at m */
         }
         vTaskDelayUntil(&woken, pdMS_TO_TICKS(PERIOD_MS));
 ${read_call}        const unsigned events = hr_step($u);
         if ((events & HR_SENT) != 0u) {
-            (void)xTaskNotifyGive(lr_handle); /* at k */
-            wait = DELAY_STEPS;
-        }
+            (void)$give_at_k; /* at k */
+$await        }
         /* hr_state() is the estimate of this step */
     }
 }
@@ -49,9 +44,9 @@ static void lr_task(void *unused)
     real y[$p];
     (void)unused;
     for (;;) {
-        (void)ulTaskNotifyTake(pdFALSE, portMAX_DELAY); /* at k */
+        (void)$take_at_k; /* at k */
         const int k = lr_receive();
-        (void)ulTaskNotifyTake(pdFALSE, portMAX_DELAY); /* at m */
+        (void)$take_at_m; /* at m */
         if (read_measurement(k, y)) {
             lr_measure(y);
         } else {
@@ -67,5 +62,5 @@ void filter_start(real x[$n], real P[$n][$n])
     tasks_start(x, P);
     (void)xTaskCreate(lr_task, "LR", STACK_WORDS, NULL, LR_PRIORITY, &lr_handle);
     (void)xTaskCreate(hr_task, "HR", STACK_WORDS, NULL, HR_PRIORITY, NULL);
-    (void)xTaskNotifyGive(lr_handle); /* step 0 is a k */
+    (void)$give_at_k; /* step 0 is a k */
 }

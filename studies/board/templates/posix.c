@@ -28,23 +28,21 @@ static double off;
 static void *hr_thread(void *unused)
 {
     struct timespec next;
-    int arrives = DELAY_STEPS; /* the step m of the measurement that is awaited */
-    (void)unused;
+$awaited    (void)unused;
     (void)clock_gettime(CLOCK_MONOTONIC, &next);
     for (int j = 0; j <= RECORD_STEPS; j++) {
         if (j > 0) {
             const unsigned events = hr_step($u);
             if ((events & HR_SENT) != 0u) {
                 (void)sem_post(&sent);
-                arrives = j + DELAY_STEPS;
-            }
+$await            }
             landed += (events & HR_LANDED) != 0u;
         }
         for (int i = 0; i < STATES; i++) {
             off = fmax(off, fabs((double)(hr_state()[i] - record_x[j][i])));
         }
-        if (j == arrives) {
-            (void)sem_post(&arrived);
+        if ($arrives) {
+$arrived            (void)sem_post(&arrived);
         }
         next.tv_nsec += PERIOD_US * 1000L;
         while (next.tv_nsec >= 1000000000L) {
@@ -63,7 +61,11 @@ static void *lr_thread(void *unused)
         (void)sem_wait(&sent);
         const int k = lr_receive();
         (void)sem_wait(&arrived);
-        lr_measure(record_y[k / CYCLE_STEPS]);
+        if (k / CYCLE_STEPS < RECORD_MEASURED) {
+            lr_measure(record_y[k / CYCLE_STEPS]);
+        } else {
+            lr_lost();
+        }
     }
     return NULL;
 }

@@ -1,18 +1,18 @@
 /* The dual rate filter as two tasks for an RTOS (Steffes 2014, Fig. 2).
 
-   The high-rate task (HR) calls hr_step once in each period. The low-rate task (LR), whose priority is lower, calls
-   lr_receive when hr_step has returned HR_SENT, and lr_measure when the measurement of that step has arrived. Nobody
-   waits for anybody within these functions.
+   The high-rate task (HR) calls hr_step once in each period. The low-rate task (LR), whose priority is lower,
+   calls lr_receive when hr_step has returned HR_SENT, and lr_measure when the measurement of that step has
+   arrived. Nobody waits for anybody within these functions.
 
-   N = $N, M = $M, L = $L: a measurement is taken at k = 0, N, 2N, ...; it arrives at m = k + M; the correction lands at
-   l = k + L or, if LR has not finished by then, in the first step after it has. If that is not before the next k,
-   the measurement of that k is left out (HR_SKIPPED): the filter stays exact, as if it had been lost. */
+   N = $N, M = $M, L = $L: a measurement is taken at k = 0, N, 2N, ...; it arrives at m = k + M. The correction
+   lands at l = k + L or, if LR has not finished by then, in the first step after it has.
+$late */
 #ifndef TASKS_H
 #define TASKS_H
 
 #include "filter.h"
 
-enum { STATES = $n, INPUTS = $m, MEASUREMENTS = $p, CYCLE_STEPS = $N, DELAY_STEPS = $M, LANDING_STEPS = $L };
+enum { STATES = $n, INPUTS = $m, MEASUREMENTS = $p, CYCLE_STEPS = $N, DELAY_STEPS = $M, LANDING_STEPS = $L$more_steps };
 
 /* What hr_step returns, added up. */
 #define HR_SENT 1u    /* this step is a k: LR has a message, and its measurement is to be taken */

@@ -97,10 +97,11 @@ def test_robust_and_composed_filters(sched_sim: Run) -> None:
         ("code -o board --method larson", ["--method 'larson'", "did you mean larsen?"]),
         ("code -o board --method robust-lu", ["--method 'robust-lu' is unknown here"]),
         ("code -o board -N 1 -M 0", ["-N 1", "at least 2"]),
-        ("code -o board -N 10 -M 10", ["-M 10 must be from 0 to 9"]),
         ("code -o board -N 10 -M -1", ["-M -1 must be from 0 to 9"]),
         ("code -o board -N 10 -M 4 -L 4", ["-L 4 must be from 5 to 10"]),
-        ("code -o board -N 10 -M 4 -L 11", ["-L 11 must be from 5 to 10"]),
+        ("code -o board -N 10 -M 12 -L 12", ["-L 12 must be more than -M 12"]),
+        ("code -o board -N 10 -M 12 --gain precomputed", ["--gain precomputed is not written as C", "-M less than -N"]),
+        ("code -o board -N 2 -M 129", ["-M 129 is too large: give at most 128", "64 measurements"]),
         ("code -o board --method clone -N 10 -L 5", ["--method clone: leave out -L", "in the step in which"]),
         (
             "code -o board --method clone-split -N 10 -M 11",

@@ -51,7 +51,7 @@ static void run(int before)
     step = 0;
     tasks_start(record_x0, record_P0);
     memcpy(states[0], hr_state(), sizeof states[0]);
-    for (int cycle = 0; cycle * CYCLE_STEPS <= RECORD_STEPS; cycle++) {
+    for (int cycle = 0; cycle < RECORD_MEASURED; cycle++) {
         const int k = cycle * CYCLE_STEPS;
         hr(k);
         entries = 0;

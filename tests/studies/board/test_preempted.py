@@ -23,6 +23,16 @@ from tests.studies.board.systems import pendulum
 pytestmark = needs_gcc
 SYSTEMS = {"linear": example_system(4, 2, 2), "vehicle": vehicle(), "scratch": pendulum()}
 STEPS = [Steps(10, 4, 8), Steps(10, 4, 10), Steps(10, 4, 5), Steps(5, 0, 1), Steps(2, 1, 2), Steps(6, 5, 6)]
+IN_FLIGHT = [
+    Steps(5, 8, 12),
+    Steps(5, 5, 6),
+    Steps(5, 2, 6),
+    Steps(5, 5, 10),
+    Steps(3, 8, 12),
+    Steps(4, 3, 8),
+    Steps(1, 2, 3),
+]
+"""Where several corrections are on their way at once."""
 
 
 def preempted(folder: Path, files: dict[str, str]) -> tuple[int, str]:
@@ -49,7 +59,23 @@ def test_low_rate_jobs_that_are_preempted_anywhere(name: str, steps: Steps, tmp_
     assert int(said.split()[0]) > 30  # places within the jobs
 
 
-@pytest.mark.parametrize("update", ["short", "joseph"])
+@pytest.mark.parametrize(
+    ("name", "steps"),
+    [
+        pytest.param(name, steps, marks=() if name == "scratch" and steps in IN_FLIGHT[:2] else pytest.mark.exhaust)
+        for name in SYSTEMS
+        for steps in IN_FLIGHT
+    ],
+)
+def test_several_corrections_on_their_way(name: str, steps: Steps, tmp_path: Path) -> None:
+    files = written(SYSTEMS[name], steps=steps)
+    status, said = preempted(tmp_path, files)
+    assert status == 0, said
+    assert " 0 wrong, none skipped" in said
+    build(tmp_path, "-I", str(HERE / "stubs"), "-c", "freertos.c")
+
+
+@pytest.mark.parametrize("update", ["short", pytest.param("joseph", marks=pytest.mark.exhaust)])
 def test_other_covariance_updates(update: CovarianceFormName, tmp_path: Path) -> None:
     status, said = preempted(tmp_path, written(SYSTEMS["linear"], update=update, steps=STEPS[0]))
     assert status == 0, said
@@ -72,6 +98,15 @@ def test_what_was_shared_would_be_seen(file: str, changes: list[tuple[str, str]]
     for here, instead in changes:
         assert here in files[file]
         files[file] = files[file].replace(here, instead)
+    status, said = preempted(tmp_path, files)
+    assert status == 1, said
+
+
+@pytest.mark.exhaust
+def test_fewer_slots_would_be_seen(tmp_path: Path) -> None:
+    files = written(SYSTEMS["scratch"], steps=IN_FLIGHT[0])
+    files["tasks.h"] = files["tasks.h"].replace("SLOTS = 6", "SLOTS = 2")
+    files["tasks.c"] = files["tasks.c"].replace("sent - needed < SLOTS", "sent - needed < 6u")
     status, said = preempted(tmp_path, files)
     assert status == 1, said
 
