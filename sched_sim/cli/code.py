@@ -18,6 +18,7 @@ from studies.board.steps import Steps
 
 if TYPE_CHECKING:
     from filters.arrays import FloatArray
+    from filters.delayed.dual_rate import GainTime
     from filters.system import System
     from filters.translation.library import Precision
     from studies.board.wanted import Filter
