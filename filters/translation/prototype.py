@@ -9,7 +9,7 @@ from filters.translation.kinds import Array, Kind, Record, lasts
 from filters.translation.names import c_name
 from filters.translation.translated import Translated
 
-WIDTH = 110
+WIDTH = 120
 
 
 def prototype(each: Translated, record_name: Callable[[Record], str], apart: Collection[str] = ()) -> str:
