@@ -11,7 +11,7 @@ static void tasks_test(void)
         if (j % CYCLE_STEPS == 0) {
             (void)lr_receive();
         }
-        if (j % CYCLE_STEPS == DELAY_STEPS) {
+        if (j % CYCLE_STEPS == DELAY_STEPS && j / CYCLE_STEPS < RECORD_MEASURED) {
             lr_measure(record_y[j / CYCLE_STEPS]);
         }
     }

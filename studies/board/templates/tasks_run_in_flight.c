@@ -8,7 +8,8 @@ static void tasks_test(void)
             (void)hr_step($u);
         }
         compare(hr_state(), record_x[j], STATES);
-        if (j >= DELAY_STEPS && (j - DELAY_STEPS) % CYCLE_STEPS == 0) {
+        if (j >= DELAY_STEPS && (j - DELAY_STEPS) % CYCLE_STEPS == 0 &&
+            (j - DELAY_STEPS) / CYCLE_STEPS < RECORD_MEASURED) {
             const int k = lr_receive();
             lr_measure(record_y[k / CYCLE_STEPS]);
         }

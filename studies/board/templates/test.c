@@ -43,7 +43,7 @@ static void compare(const real *found, const real *expected, int size)
         const double a = (double)found[i];
         const double b = (double)expected[i];
         if (!isfinite(a) || !isfinite(b)) {
-            off = (isnan(a) && isnan(b)) || a == b ? off : INFINITY;
+            off = (isnan(a) && isnan(b)) || a == b ? off : (double)INFINITY;
         } else {
             largest = fmax(largest, fabs(b));
             off = fmax(off, fabs(a - b));

@@ -97,6 +97,23 @@ def test_other_covariance_updates(method: str, update: CovarianceFormName, tmp_p
 
 
 @pytest.mark.exhaust
+@pytest.mark.parametrize(
+    ("method", "steps"),
+    [(method, steps) for method, several in STEPS.items() for steps in several]
+    + [("dual-rate", Steps(*steps)) for steps in ((10, 4, 8), (4, 0, 4), (5, 8, 12), (1, 2, 3))],
+)
+def test_nothing_beyond_an_array_is_read_or_written(method: str, steps: Steps, tmp_path: Path) -> None:
+    system, x0 = systems(method)[0]
+    files = written(system, method=method, x0=x0, steps=steps)
+    put(tmp_path, files)
+    sources = [name for name in ("filter.c", "tasks.c", "steps.c", "test.c") if name in files]
+    watched = ["-O1", "-fsanitize=address,undefined", "-fno-sanitize-recover"]
+    build(tmp_path, *watched, *sources, "-lm", "-o", "test")
+    status, said = ran(tmp_path, "test")
+    assert status == 0, said
+
+
+@pytest.mark.exhaust
 @pytest.mark.parametrize("method", STEPS)
 def test_in_single_precision(method: str, tmp_path: Path) -> None:
     system, x0 = systems(method)[0]
