@@ -33,8 +33,9 @@ class Busy(NamedTuple):
 
 def busy_periods(jobs: Iterable[Job], design: Design) -> list[Busy]:
     """In their order."""
+    kept = list(jobs)
     found: list[Busy] = []
-    for ready, job in sorted(_ready(jobs, design)):
+    for ready, job in sorted(_ready([*kept, *_never_begun(kept, design)], design)):
         if found and ready <= found[-1].end:
             last = found.pop()
             found.append(Busy(last.start, max(last.end, job.end), last.cpu + job.cpu))
@@ -64,6 +65,19 @@ def disturbed(taken: Sequence[int], design: Design, predicted: int) -> list[bool
     else carries over from cycle to cycle, for what is late there goes on in one busy period."""
     most = may_be_taken(design, predicted)
     return [each > most for each in taken]
+
+
+def _never_begun(jobs: Iterable[Job], design: Design) -> list[Job]:
+    """Updates of measurements that HR has sent to LR, and for which LR got no core to the end of the run: as jobs of no
+    length there."""
+    end, sent, updated = design.steps * design.period_ns, {0}, set()
+    for job in jobs:
+        end = max(end, job.end)
+        if job.kind == "hr_restart":
+            sent.add(job.step - 1)
+        elif job.kind == "lr_update":
+            updated.add(job.step)
+    return [Job("lr_update", k, end, end, 0) for k in sorted(sent - updated)]
 
 
 def _ready(jobs: Iterable[Job], design: Design) -> Iterator[tuple[int, Job]]:

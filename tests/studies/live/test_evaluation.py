@@ -111,6 +111,23 @@ def test_a_measurement_that_is_left_out_lands_nowhere() -> None:
     assert judged_jobs(jobs).achieved == [7, 7, 7, None, 7, 7, 7, 7]
 
 
+def test_an_update_that_never_got_the_core_disturbs_all_that_is_left() -> None:
+    """From cycle 5 on: HR sends nothing more, and leaves all later measurements out."""
+    left = [
+        job
+        for job in recorded("ordinary").jobs
+        if not (
+            (job.kind == "lr_update" and job.step >= 50)
+            or (job.kind in ("lr_propagate", "hr_restart") and job.step > 51)
+            or (job.kind == "hr_update" and job.step > 50)
+        )
+    ]
+    run = judged_jobs(left)
+    assert run.achieved == [7, 7, 7, 7, None, None, None, None]
+    assert run.disturbed == [False] * 4 + [True] * 4
+    assert run.agreement.word == "inconclusive"
+
+
 def test_the_latency_is_that_of_the_first_job_of_a_step() -> None:
     of = design(cycles=1)
     jobs = [
