@@ -56,7 +56,7 @@ def _passed(kind: Kind, name: str) -> list[str]:
 
 
 def wrapped(line: str) -> str:
-    """Broken behind commas where it is too long."""
+    """Broken behind commas where it is too long; a string in two that C takes for one."""
     if len(line) <= WIDTH or ", " not in line or "/*" in line:
         return line
     indent = " " * (len(line) - len(line.lstrip()) + 4)
@@ -65,6 +65,10 @@ def wrapped(line: str) -> str:
         at = rest.rfind(", ", len(indent), WIDTH)
         if at < 0:
             break
-        lines.append(rest[: at + 1])
-        rest = indent + rest[at + 2 :]
+        if rest[:at].replace('\\"', "").count('"') % 2:
+            lines.append(f'{rest[: at + 2]}"')
+            rest = f'{indent}"{rest[at + 2 :]}'
+        else:
+            lines.append(rest[: at + 1])
+            rest = indent + rest[at + 2 :]
     return "\n".join([*lines, rest])

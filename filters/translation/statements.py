@@ -87,7 +87,7 @@ def _translated(body: Body, statement: ast.stmt, undeclared: set[str]) -> tuple[
         case ast.Return():
             return _return(body, statement), True
         case ast.Raise():
-            return [f'FAULT("{_message(statement)}");', GIVEN_UP], True
+            return [f'FAULT("{_message(body, statement)}");', GIVEN_UP], True
         case ast.Break():
             return ["break;"], True
         case ast.Continue():
@@ -166,7 +166,7 @@ def _counting(body: Body, statement: ast.For, name: str, text: str, bounds: list
     stride = step.kind.known
     if stride == 0 or (stride is None and not step.kind.counts):
         raise body.source.refusal(statement.iter, "whether the step of a range is positive is not known, or it is 0")
-    if stride and first.known is not None and last.known is not None and not range(first.known, last.known, stride):
+    if _never_runs(first, last, stride):
         return []
     lines = []
     changing = stop.text in {c_name(changed) for changed in assigned(statement.body)}
@@ -185,6 +185,13 @@ def _counting(body: Body, statement: ast.For, name: str, text: str, bounds: list
     else:
         move = f"{text} += {step.text}" if stride is None or stride > 0 else f"{text} -= {-stride}"
     return [*lines, *_braced(f"for (int {text} = {start.text}; {test}; {move})", _in_loop(body, statement.body))]
+
+
+def _never_runs(first: Int, last: Int, stride: int | None) -> bool:
+    """Whether no number of the range is reached, wherever within its bounds it begins and ends."""
+    if stride is not None and stride < 0:
+        first, last = last, first
+    return first.low is not None and last.high is not None and first.low >= last.high
 
 
 def _over_items(body: Body, statement: ast.For, name: str, text: str, over: Value) -> list[str]:
@@ -232,10 +239,14 @@ def _common(body: Body, statement: ast.stmt, a: Kind, b: Kind) -> Kind:
     raise body.source.refusal(statement, "returns another kind of value, or of another shape, than elsewhere")
 
 
-def _message(statement: ast.Raise) -> str:
-    said = statement.exc.args[0] if isinstance(statement.exc, ast.Call) and statement.exc.args else None
-    text = said.value if isinstance(said, ast.Constant) else ast.unparse(statement)
-    return str(text).replace("\\", "\\\\").replace('"', '\\"')
+def _message(body: Body, statement: ast.Raise) -> str:
+    """What is said, if it is known; else the line itself."""
+    text = ast.unparse(statement)
+    match statement.exc:
+        case ast.Call(args=[ast.Constant() | ast.Name() | ast.Attribute() as said, *_]):
+            kind = expression(body, said).kind
+            text = kind.value if isinstance(kind, Constant) and isinstance(kind.value, str) else text
+    return text.replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n")
 
 
 def _augmented(body: Body, statement: ast.AugAssign) -> list[str]:

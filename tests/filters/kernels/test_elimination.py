@@ -115,7 +115,7 @@ def test_blocks(backend: BackendName) -> None:
 def test_schur_complements(backend: BackendName, eliminated: int, kept: int, n: int, seed: int) -> None:
     eliminated, kept, n = few(backend, eliminated, kept, n)
     total = eliminated + kept
-    A, values = system(seed, max(total, n), 1)[:total, :n], np.linspace(1, 2, total)
+    A, values = system(seed, max(total, n), 1)[:total, :n].copy(), np.linspace(1, 2, total)
     J, S, whole = positive_definite(seed, total), positive_definite(seed, n), positive_definite(seed, total)
     add_outer = function_for(backend, schur.add_outer)
     add_outer(A, S, 0, J, np.empty((total, n)))

@@ -9,6 +9,8 @@ import numpy as np
 
 from filters.arrays import FloatArray
 
+COLD = 'it is too cold: "-273"\nat most'
+LONG = "it is too cold, " + "much, " * 20
 HALF, TABLE = 0.5, np.array([[1.0, 2.0], [3.0, 4.0], [5.0, 6.0]])
 
 
@@ -85,7 +87,19 @@ def limit_that_changes(x: FloatArray, n: int) -> float:
 
 def guarded(x: float) -> float:
     if x < -100.0:
-        raise ValueError("it is too cold")
+        raise ValueError('it is too cold: "-273"\nat most')
+    return np.sqrt(x + 100.0)
+
+
+def guarded_by_name(x: float) -> float:
+    if x < -100.0:
+        raise ValueError(COLD)
+    return np.sqrt(x + 100.0)
+
+
+def guarded_at_length(x: float) -> float:
+    if x < -100.0:
+        raise ValueError(LONG)
     return np.sqrt(x + 100.0)
 
 
@@ -311,6 +325,17 @@ def computed_and_passed_on(x: FloatArray) -> float:
     return first[0] * second[1]
 
 
+def below_the_diagonal(J: FloatArray) -> float:
+    """Of one row nothing is below."""
+    total = J[0, 0]
+    for k in range(J.shape[0]):
+        for i in range(k + 1, J.shape[0]):
+            total += J[i, k]
+        for i in range(k - 1, -1, -1):
+            total -= J[i, k]
+    return total
+
+
 X4, P3 = np.array([3.0, -1.5, 0.25, 8.0]), np.arange(9.0).reshape(3, 3)
 MANY = np.random.default_rng(1).normal(size=(100, 2))
 SCALED = Pair(_model(2.0), _model(3.0))
@@ -330,6 +355,8 @@ CASES: list[tuple[Any, list[tuple[Any, ...]]]] = [
     (limit_in_an_array, [(np.array([4]), X4)]),
     (limit_that_changes, [(X4, 3), (X4, 0)]),
     (guarded, [(1.0,)]),
+    (guarded_by_name, [(1.0,)]),
+    (guarded_at_length, [(1.0,)]),
     (negative_indices, [(X4, 0), (X4, 1), (X4, 3)]),
     (part_of, [(P3, X4)]),
     (block_given_away, [(P3,)]),
@@ -340,6 +367,7 @@ CASES: list[tuple[Any, list[tuple[Any, ...]]]] = [
     (kept_over_rounds, [(X4,)]),
     (declared_in_branches, [(4.0,), (-9.0,)]),
     (made, [(X4,)]),
+    (below_the_diagonal, [(P3,), (P3[:1, :1].copy(),), (P3[:2, :2].copy(),)]),
     (computed, [(X4,)]),
     (negated, [(X4,)]),
     (computed_and_named, [(X4,)]),

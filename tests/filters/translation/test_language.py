@@ -16,7 +16,7 @@ from filters.translation.kinds import kind_of
 from filters.translation.library import Precision
 from filters.translation.unit import Unit
 from tests.filters.translation.cases import check_same, needs_compiler
-from tests.filters.translation.functions import CASES, guarded
+from tests.filters.translation.functions import CASES, guarded, guarded_at_length, guarded_by_name
 
 
 @needs_compiler
@@ -27,10 +27,14 @@ def test_python_and_c_agree(function: Any, sets: list[tuple[Any, ...]]) -> None:
 
 
 @needs_compiler
-def test_what_a_function_raises_is_raised() -> None:
-    with pytest.raises(ValueError, match="it is too cold"):
-        in_c(guarded)(-200.0)
-    assert in_c(guarded)(0.0) == 10.0
+@pytest.mark.parametrize("function", [guarded, guarded_by_name, guarded_at_length])
+def test_what_a_function_raises_is_raised(function: Any) -> None:
+    with pytest.raises(ValueError, match="too cold") as expected:
+        function(-300.0)
+    with pytest.raises(ValueError, match="too cold") as found:
+        in_c(function)(-300.0)
+    assert str(found.value) == str(expected.value)
+    assert in_c(function)(0.0) == 10.0
 
 
 @needs_compiler
