@@ -109,7 +109,8 @@ def start_arguments(system: System, form: CovarianceForm, at: Sample) -> tuple[A
 
 def _carry(system: System, form: CovarianceForm, at: Sample) -> tuple[Any, ...]:
     _, clone, _ = sampled(system, at)
-    return form, at.transition.Phi, clone.W, np.zeros_like(clone.W)
+    Phi = system.F(at.m, at.now.x, at.u, system.parameters).copy()
+    return form, Phi, clone.W, np.zeros_like(clone.W)
 
 
 def _cloned_update(system: System, form: CovarianceForm, at: Sample) -> tuple[Any, ...]:

@@ -30,7 +30,7 @@ def sparse_form(form: CovarianceForm, structure: Structure) -> CovarianceForm:
     P = Operand(full(n, n), symmetric=True)
     square, tall, flat = (Operand(full(*shape)) for shape in ((n, n), (n, p), (p, p)))
     vector: Any = Operand(ANY * n)
-    out, work = {"out": square}, {"work": _workspace(n, p)}
+    out, work = {"out": square}, {"work": scratch(n, p)}
 
     def straight(name: str, kernel: Any, arguments: Mapping[str, Any], *outputs: str) -> Any:
         return traced(kernel, arguments).function(f"sparse_{name}", outputs)
@@ -79,7 +79,7 @@ def _scratch_read(kernel: Traced) -> set[str]:
     return {array for array in kernel.reads(["out"]) if array.startswith("work.")}
 
 
-def _workspace(n: int, p: int) -> Workspace:
+def scratch(n: int, p: int) -> Workspace:
     """The identity, and scratch."""
     nn, np, pn, pp = (Operand(full(*shape)) for shape in ((n, n), (n, p), (p, n), (p, p)))
     identity = Operand(tuple(ZERO * i + ONE + ZERO * (n - 1 - i) for i in range(n)))

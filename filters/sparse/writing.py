@@ -8,7 +8,7 @@ from typing import Any, TypeAlias
 
 from filters.sparse.symbols import Symbol
 
-WIDTH = 88
+WIDTH = 80
 """Characters of an expression; what is longer is computed in parts."""
 
 LINES = 40

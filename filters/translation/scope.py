@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 from collections import Counter
 from collections.abc import Iterator, Sequence
+from functools import cache
 from typing import TypeAlias
 
 Block: TypeAlias = Sequence[ast.stmt]
@@ -33,7 +34,12 @@ def assigned(block: Block) -> Counter[str]:
 
 def mentions(node: ast.AST, name: str) -> bool:
     """Whether the name stands anywhere in it."""
-    return any(isinstance(part, ast.Name) and part.id == name for part in ast.walk(node))
+    return name in _mentioned(node)
+
+
+@cache  # asked for each name of a function, which may be long
+def _mentioned(node: ast.AST) -> frozenset[str]:
+    return frozenset(part.id for part in ast.walk(node) if isinstance(part, ast.Name))
 
 
 def escaping(body: Block) -> set[str]:

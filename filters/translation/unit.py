@@ -60,6 +60,7 @@ class Unit(Library):
             and kind.is_long
             and not re.search(rf"\b{c_name(name)}_rows\b", text)
         ]
+        lines = [part for line in lines for part in (line, *_unused(line, text))]
         lines = [line.replace(GIVEN_UP, self._given_up(body.result)) for line in lines]
         inside = "\n".join(wrapped(INDENT + line) if line else "" for line in [*own, *lines])
         return Translated(
@@ -85,6 +86,15 @@ class Unit(Library):
             case Record():
                 return f"return ({self.record_name(result)}){{0}};"
         return "return 0;"
+
+
+_DECLARED = re.compile(r"(?:const )?\w+ \(?\*?(\w+)\)?(?:\[\d+\])* = .*\(")
+
+
+def _unused(line: str, text: str) -> list[str]:
+    """What tells compilers that a variable is not read: the call that it is from may leave something behind."""
+    declared = _DECLARED.match(line)
+    return [f"(void){declared[1]};"] if declared and len(re.findall(rf"\b{declared[1]}\b", text)) == 1 else []
 
 
 def _version(body: Body) -> str:

@@ -57,6 +57,21 @@ def test_a_system_that_changes_with_time_has_a_structure_too() -> None:
         np.testing.assert_array_equal(sparse.P_reference, dense.P_reference)
 
 
+@methods
+def test_each_job_gives_the_same_bits(method: str) -> None:
+    jobs = (
+        DELAYED_METHODS[method].jobs(DRIVE.system._replace(structure=structure), "short")
+        for structure in (None, VEHICLE)
+    )
+    for dense, sparse in zip(*(each.values() for each in jobs), strict=True):
+        expected, found = dense.arguments(0), sparse.arguments(0)
+        dense.function(*expected)
+        sparse.function(*found)
+        for a, b in zip(expected, found, strict=True):
+            if isinstance(a, np.ndarray):
+                np.testing.assert_array_equal(b, a, err_msg=dense.kind)
+
+
 @forms
 @methods
 def test_no_job_does_more(method: str, form: CovarianceFormName) -> None:

@@ -12,9 +12,12 @@ import pytest
 from filters.backends.counted import Operations, count
 from filters.kernels.dense import matmul, mirror
 from filters.kernels.solve import inverse
+from filters.records import new_workspace
+from filters.sparse.form import scratch
 from filters.sparse.straight_line import Operand, traced
 from filters.sparse.structure import full
 from filters.sparse.symbols import Symbols
+from filters.systems.example import example_system
 
 DIAGONAL = Operand(("*00", "0*0", "001"))
 ANY3 = Operand(full(3, 3))
@@ -63,15 +66,11 @@ def test_an_inverse_has_the_same_bits(size: int) -> None:
 def test_what_is_long_is_in_parts_that_hand_on_what_they_share() -> None:
     def twice(A: Any, B: Any, work: Any, out: Any) -> None:
         matmul(A, B, work.nn1)
-        matmul(work.nn1, work.nn1, out)
-
-    from filters.records import new_workspace
-    from filters.sparse.form import _workspace
-    from filters.systems.example import example_system
+        matmul(B, work.nn1, out)
 
     n = 8
     square = Operand(full(n, n))
-    arguments = {"A": square, "B": square, "work": _workspace(n, 2), "out": square}
+    arguments = {"A": square, "B": square, "work": scratch(n, 2), "out": square}
     sparse = traced(twice, arguments).function("straight", ["out"])  # type: ignore[arg-type]
     assert "straight_2(" in inspect.getsource(sparse)
     A, B = np.random.default_rng(2).normal(size=(2, n, n))
@@ -103,7 +102,8 @@ def test_a_kernel_that_asks_for_a_number_has_no_straight_line() -> None:
         straight(pivoted, {"A": ANY3, "out": ANY3}, "out")
 
 
-def test_what_is_too_long_is_refused() -> None:
-    big = Operand(full(64, 64))
-    with pytest.raises(ValueError, match=r"takes .* lines without loops, and at most 4000 are written"):
+def test_what_is_too_long_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    big = Operand(full(8, 8))
+    monkeypatch.setattr("filters.sparse.straight_line.MOST_LINES", 63)
+    with pytest.raises(ValueError, match=r"takes .* lines without loops, and at most 63 are written"):
         straight(matmul, {"A": big, "B": big, "out": big}, "out")
