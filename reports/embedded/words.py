@@ -44,6 +44,7 @@ WRITTEN: Mapping[Written, str] = {
     "with more around it": "the job and more around it",
     "generic matrix class": "generic matrix class",
     "zeros left out": "zeros left out, unrolled or generated",
+    "left out of both": "zeros left out, of the counts too",
 }
 
 

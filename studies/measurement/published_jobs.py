@@ -14,6 +14,7 @@ from filters.covariance_forms import CovarianceFormName, covariance_form
 from filters.factored import factored_form
 from filters.factored.workspace import new_factored_workspace
 from filters.kernels.dense import add_vectors, matmul, matmul_narrow, matmul_transposed_narrow, matvec
+from filters.sparse.structure import Structure
 from filters.systems.linear import linear_system
 
 
@@ -55,6 +56,27 @@ def _scale_columns(G: FloatArray, q: FloatArray, out: FloatArray) -> None:
     for i in range(len(G)):
         for j in range(len(q)):
             out[i, j] = G[i, j] * q[j]
+
+
+ERROR_STATE = Structure(
+    F=(
+        *("100*00000000000", "0100*0000000000", "00100*000000000"),
+        *("000100******000", "000010******000", "000001******000"),
+        *("000000***000*00", "000000***0000*0", "000000***00000*"),
+        *("0" * i + "1" + "0" * (14 - i) for i in range(9, 15)),
+    ),
+    H=("1" + "0" * 14,),
+    Q=tuple("0" * i + ("0" if i < 3 else "*") + "0" * (14 - i) for i in range(15)),
+    R=("*",),
+)
+"""Of eskf-rs: errors of position, velocity, attitude, and the biases of accelerometers and gyros."""
+
+
+def _sparse_predict(sizes: Sizes) -> list[Call]:
+    """F P F^T + Q of `ERROR_STATE`, without its zeros. What the state takes, a quaternion and sums, is not in it."""
+    square = np.ones((sizes.states, sizes.states))
+    propagation = covariance_form("textbook", ERROR_STATE).propagation
+    return [_call(propagation, square, square, square, square, _workspace(sizes).dense)]
 
 
 def _update(form: CovarianceFormName) -> Callable[[Sizes], list[Call]]:
@@ -132,6 +154,7 @@ def _workspace(sizes: Sizes) -> Any:
 
 JOBS: Mapping[str, Callable[[Sizes], Sequence[Call]]] = {
     "predict": _predict,
+    "predict, sparse": _sparse_predict,
     "update, short": _update("short"),
     "U-D predict": _ud_predict,
     "U-D update": _ud_update,

@@ -16,7 +16,7 @@ from sched_sim.processors.part_file import load_part
 from studies.measurement.methods import nonzero
 from studies.measurement.published_jobs import JOBS, Call, Sizes, counted
 
-Written = Literal["plain loops", "with more around it", "generic matrix class", "zeros left out"]
+Written = Literal["plain loops", "with more around it", "generic matrix class", "zeros left out", "left out of both"]
 
 
 @dataclass(frozen=True)

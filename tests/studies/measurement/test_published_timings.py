@@ -29,6 +29,15 @@ def test_plain_loops_on_a_cortex_m4f_take_about_what_is_predicted(job: str) -> N
     assert least <= timing.ratios[0] <= timing.ratios[1] <= most
 
 
+def test_zeros_left_out_take_about_what_is_predicted_of_zeros_left_out() -> None:
+    """Of 13,275 operations 1,197 are left."""
+    dense, sparse = (each for each in published_timings() if each.source == "eskf-rs")
+    assert (dense.job, sparse.job) == ("predict", "predict, sparse")
+    assert sparse.operations.total == 1197
+    assert dense.ratios[0] < 0.1
+    assert 0.7 <= sparse.ratios[0] <= 1.4
+
+
 def test_the_u_d_filter_as_a_whole_takes_about_what_is_predicted() -> None:
     both = [timing for timing in published_timings() if timing.job.startswith("U-D")]
     assert [float(timing.least_us) for timing in both] == [593, 103]
