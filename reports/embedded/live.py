@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
+from math import floor
 from typing import Any, NamedTuple
 
 from reports.pages.machine import marked
@@ -55,7 +56,7 @@ def live_rows(runs: Sequence[Measured]) -> Rows:
     for run in runs:
         of, from_step = run.agreement, nearest_step(run.design)
         calm = "-" if of.share_undisturbed is None else _percent(of.share_undisturbed)
-        verdict = f"{of.word}, near" if abs(from_step) < NEAR else of.word
+        verdict = "near" if abs(from_step) < NEAR else of.word
         row = [f"{float(run.design.speed):.4f}", f"{float(100 * from_step):+.0f}".replace("-", "−"), run.predicted]
         rows.append([*row, _percent(of.share), _percent(Fraction(of.undisturbed, of.cycles)), calm, verdict])
     return rows
@@ -106,4 +107,5 @@ def _least(of: Sequence[Agreement]) -> str:
 
 
 def _percent(share: Fraction) -> str:
-    return f"{float(100 * share):.3g}"
+    """In percent, never more than it is."""
+    return f"{floor(1000 * share) / 10:g}"
