@@ -70,15 +70,16 @@ class Said(NamedTuple):
     words: str
     near: str
     far: str
-    swapped: str
+    swapped: Word
+    swapped_agreeing: str
     machine: str
     differing: int
 
 
 WORDS: dict[Word, str] = {
-    "agrees": "Corrections land where they are predicted to",
-    "disagrees": "Corrections did not all land where they are predicted to",
-    "inconclusive": "Too much was taken from the core for a verdict",
+    "agrees": "corrections land where they are predicted to",
+    "disagrees": "corrections do not all land where they are predicted to",
+    "inconclusive": "too much was taken from the core for a verdict",
 }
 
 
@@ -93,7 +94,8 @@ def about_live(of: Record) -> dict[str, Any]:
         WORDS[word],
         _least(near),
         _least(far),
-        f"{of.swapped.agreement.agreeing} of {of.swapped.agreement.cycles}, {of.swapped.agreement.word}",
+        of.swapped.agreement.word,
+        f"{of.swapped.agreement.agreeing} of {of.swapped.agreement.cycles}",
         f"{about['machine']}, core {about['core']}, {about['kernel']}, {about['date']}",
         sum(run.ran.differing for run in of.runs),
     )._asdict() | {"alike": _percent(ALIKE), "enough": _percent(ENOUGH), "within": _percent(NEAR)}

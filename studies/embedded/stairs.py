@@ -60,7 +60,9 @@ def record(thorough: bool = False, progress: Progress = silent) -> Record:
     )  # fmt: skip
     try:
         with compiled(wanted) as program:
-            check_resolved(resolution(program, middle, core), middle, check_design(middle))
+            found = resolution(program, middle, core)
+            for each in designs:
+                check_resolved(found, each, check_design(each))
             runs = []
             for done, each in enumerate(designs):
                 progress(done, len(designs) + 1, f"live, speed {float(each.speed):.4g}")
