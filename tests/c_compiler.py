@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from filters.backends.in_c import compiler
+from filters.backends.c_compiler import compiler
 
 
 def has_c() -> bool:
