@@ -158,7 +158,7 @@ def code(
     if confirm_probed and not sparse:
         raise InputError("--confirm-probed: only with --sparse, which leaves out what probing finds")
     if method != "dual-rate" or own_filter is not None or robust is not None:
-        _refuse_beside(context, "another filter than dual-rate", CHOICES, "they are choices of --method dual-rate")
+        _refuse_beside(context, _asked_for(method, own_filter, robust), CHOICES, "only --method dual-rate has it")
     check_choices(low_rate_noise)
     if own_filter is not None:
         _refuse_beside(context, f"--filter {own_filter}", (*OF_A_SYSTEM, "robust", "N", "M", "L"), OF_A_FILTER)
@@ -285,6 +285,12 @@ CHOICES = ("gain", "low_rate_noise")
 ZEROS = ("sparse", "confirm_probed")
 OF_A_FILTER = "the filter that it returns says all of that itself"
 OF_A_ROBUST_FILTER = "it has a system of its own"
+
+
+def _asked_for(method: str, own_filter: str | None, robust: str | None) -> str:
+    if own_filter is not None:
+        return f"--filter {own_filter}"
+    return f"--robust {robust}" if robust is not None else f"--method {method}"
 
 
 def _refuse_beside(context: typer.Context, given: str, names: Collection[str], why: str) -> None:

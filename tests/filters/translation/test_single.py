@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import filters
-from filters.kernels import u_d
+from filters.kernels import quaternion, u_d
 from filters.translation.kinds import Kind, kind_of
 from filters.translation.library import Precision
 from filters.translation.refusal import Untranslatable
@@ -63,3 +63,15 @@ def test_a_small_number_that_is_no_threshold_is_kept() -> None:
 
     assert RESOLUTION > 1e-9
     assert "1e-09f" in translated(noise, 1.0, np.zeros(1))
+
+
+def test_below_its_threshold_the_series_of_an_angle_is_as_exact_as_a_float() -> None:
+    """Those of `quaternion.turn` and of `quaternion.rotation_between`."""
+    squared = OWN["SMALL", quaternion.SMALL]
+    angle = np.sqrt(squared)
+    for series, exact in (
+        (1.0 - 0.125 * squared, np.cos(0.5 * angle)),
+        (0.5 - squared / 48.0, np.sin(0.5 * angle) / angle),
+        (2.0 - squared / 1.5, 2.0 * np.arctan(angle) / angle),
+    ):
+        assert abs(series / exact - 1.0) < RESOLUTION
