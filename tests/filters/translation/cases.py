@@ -11,9 +11,8 @@ import pytest
 
 from filters.backends.in_c import in_c
 
-needs_compiler = pytest.mark.skipif(
-    not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="there is no C compiler here"
-)
+HAS_COMPILER = any(map(shutil.which, ("cc", "gcc", "clang")))
+needs_compiler = pytest.mark.skipif(not HAS_COMPILER, reason="there is no C compiler here")
 
 
 def copied(value: Any) -> Any:
