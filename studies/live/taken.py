@@ -32,15 +32,18 @@ class Busy(NamedTuple):
 
 
 def busy_periods(jobs: Iterable[Job], design: Design) -> list[Busy]:
-    """In their order."""
+    """In their order. What the thread of a job had beyond its CPU time was taken from it too: where a hypervisor does not
+    say what it takes, a clock of CPU time runs on."""
     kept = list(jobs)
+    wanted = design.job_ns
     found: list[Busy] = []
     for ready, job in sorted(_ready([*kept, *_never_begun(kept, design)], design)):
+        cpu = min(job.cpu, wanted[job.kind])
         if found and ready <= found[-1].end:
             last = found.pop()
-            found.append(Busy(last.start, max(last.end, job.end), last.cpu + job.cpu))
+            found.append(Busy(last.start, max(last.end, job.end), last.cpu + cpu))
         else:
-            found.append(Busy(ready, job.end, job.cpu))
+            found.append(Busy(ready, job.end, cpu))
     return found
 
 

@@ -87,6 +87,14 @@ def test_what_is_taken_disturbs_the_cycle_and_no_other() -> None:
     assert run.agreement.word == "agrees"
 
 
+def test_cpu_time_beyond_what_a_job_is_to_have_was_taken_from_it() -> None:
+    jobs = [
+        job._replace(cpu=job.cpu + MS, end=job.end + MS) if (job.kind, job.step) == ("lr_update", 30) else job
+        for job in perfect(design())
+    ]
+    assert judged_jobs(jobs).disturbed == [False, False, True, False, False, False, False, False]
+
+
 def test_a_disturbance_over_the_end_of_a_cycle_is_of_both() -> None:
     of = design()
     jobs = [
