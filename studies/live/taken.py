@@ -32,8 +32,8 @@ class Busy(NamedTuple):
 
 
 def busy_periods(jobs: Iterable[Job], design: Design) -> list[Busy]:
-    """In their order. What the thread of a job had beyond its CPU time was taken from it too: where a hypervisor does not
-    say what it takes, a clock of CPU time runs on."""
+    """In their order. What the thread of a job had beyond its CPU time was taken from it too: a hypervisor may not say
+    what it takes, so that the clock of CPU time runs on."""
     kept = list(jobs)
     wanted = design.job_ns
     found: list[Busy] = []
