@@ -13,12 +13,25 @@ from benchmarks import (
     processor,
     robust,
     simulation,
+    sparse,
     start_up,
     unscented,
 )
 
 missed = 0
-for part in (simulation, analysis, accuracy, filter_step, in_c, unscented, factored, robust, processor, start_up):
+for part in (
+    simulation,
+    analysis,
+    accuracy,
+    filter_step,
+    in_c,
+    sparse,
+    unscented,
+    factored,
+    robust,
+    processor,
+    start_up,
+):
     for result in part.results():
         missed += not result.met
         bound = "at least" if result.higher else "at most"
