@@ -114,7 +114,7 @@ def kind_of(value: Any, *, given: bool = True) -> Kind:
     Raises:
         Untranslatable: there is no such thing in C.
     """
-    if value is None:
+    if value is None and not given:
         return NOTHING
     if isinstance(value, FunctionType):
         return Function(value)
