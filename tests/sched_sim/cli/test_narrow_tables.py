@@ -69,7 +69,7 @@ def test_what_is_left_out_is_said_the_least_important_first(terminal: Run) -> No
 
 def test_each_row_is_a_list_where_no_table_fits(terminal: Run) -> None:
     out = terminal(f"60 minimum -N 80 -M 40 --costs counted-9-3-3 {PARTS}").out
-    assert "\nmethod: dual-rate\nfits: yes\nneeds, MHz: 12.83\nof its speed: 7.64 %\n" in out
+    assert "\nmethod: dual-rate\nstructure: dense\nfits: yes\nneeds, MHz: 12.83\nof its speed: 7.64 %\n" in out
     assert "left out" not in out
 
 
