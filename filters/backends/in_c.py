@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import ctypes
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from functools import cache, cached_property
 from types import FunctionType
 from typing import Any, NamedTuple
@@ -30,28 +31,41 @@ from filters.backends.c_arguments import (
 from filters.backends.c_compiler import library
 from filters.translation.kinds import Kind, kind_of
 from filters.translation.origins import Path
-from filters.translation.prototype import declared, passed
+from filters.translation.prototype import declared, given_up, is_void, passed, prototype
+from filters.translation.translated import Translated
 from filters.translation.unit import Unit
 
-_FAULT = """static const char *fault;
-#define FAULT(message) (fault = (message))
+_FAULT = """#include <setjmp.h>
+static __thread const char *fault;
+static __thread jmp_buf on_fault;
+#define FAULT(message) (fault = (message), longjmp(on_fault, 1))
 """
-_LOOP = """
+_ENTRIES = """
+{prototype}
+{{
+    if (setjmp(on_fault)) {{
+        {given_up}
+    }}
+    {call};
+}}
+
 void repeat_job({declared})
 {{
+    if (setjmp(on_fault)) {{
+        return;
+    }}
     for (int round = 0; round < times; round++) {{
         {name}({passed});
         __asm__ volatile("" ::: "memory");
     }}
 }}
-"""
-_TAKE_FAULT = """
+
 const char *take_fault(void)
-{
+{{
     const char *const found = fault;
     fault = 0;
     return found;
-}
+}}
 """
 
 
@@ -111,8 +125,7 @@ class _Loaded:
     def __call__(self, given: Sequence[Argument]) -> Any:
         memory = self._memory()
         result = self._program.run(*self._passed([*given, *memory]))
-        if self._program.take_fault and (message := self._program.take_fault()) is not None:
-            raise ValueError(message.decode())
+        self._program.check()
         return result_of(result, self._translated.result, [*given, *memory])
 
     def loop(self, given: Sequence[Argument]) -> Callable[[int], None]:
@@ -121,22 +134,22 @@ class _Loaded:
 
         def loop(times: int, _kept: Any = (given, memory)) -> None:
             self._program.loop(*passed, times)
+            self._program.check()
 
         return loop
 
     @cached_property
     def _program(self) -> _Program:
         unit, each = self._unit, self._translated
-        head = ", ".join([*declared(each, unit.record_name), "int times"])
-        loop = _LOOP.format(declared=head, name=each.name, passed=", ".join(passed(each)))
-        source = _FAULT + unit.header("FILTER_H") + unit.source("").partition("\n")[2] + _TAKE_FAULT + loop
+        source = _FAULT + unit.header("FILTER_H") + unit.source("").partition("\n")[2] + _entries(unit, each)
         program = library(source)
         kinds = [each.kinds[index] for index in self._used] + list(each.memory.values())
-        run, often, take_fault = getattr(program, each.name), program.repeat_job, program.take_fault
+        may_fail = any("FAULT(" in function.inside for function in unit.functions().values())
+        run = program.run_job if may_fail else getattr(program, each.name)
+        often, take_fault = program.repeat_job, program.take_fault
         run.argtypes = [part for kind in kinds for part in types_passed(kind)]
         run.restype, often.restype, take_fault.restype = type_of(each.result), None, ctypes.c_char_p
         often.argtypes = [*run.argtypes, ctypes.c_int]
-        may_fail = any("FAULT(" in function.inside for function in unit.functions().values())
         return _Program(run, often, take_fault if may_fail else None)
 
     def _memory(self) -> list[Argument]:
@@ -155,3 +168,22 @@ class _Program(NamedTuple):
     run: Callable[..., Any]
     loop: Callable[..., None]
     take_fault: Callable[[], bytes | None] | None
+
+    def check(self) -> None:
+        """Raises ValueError for what it could not do."""
+        if self.take_fault and (message := self.take_fault()) is not None:
+            raise ValueError(message.decode())
+
+
+def _entries(unit: Unit, each: Translated) -> str:
+    """What is called from Python: the function, and the loop."""
+    head, arguments = declared(each, unit.record_name), ", ".join(passed(each))
+    call = f"{each.name}({arguments})"
+    return _ENTRIES.format(
+        prototype=prototype(replace(each, name="run_job", is_public=True), unit.record_name),
+        given_up=given_up(each.result, unit.record_name),
+        call=call if is_void(each.result) else f"return {call}",
+        declared=", ".join([*head, "int times"]),
+        name=each.name,
+        passed=arguments,
+    )

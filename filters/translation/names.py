@@ -8,7 +8,10 @@ _WORDS = (
     "auto bool break case char const continue default do double else enum extern float for goto if inline int long "
     "real register restrict return short signed sizeof static struct switch typedef union unsigned void volatile while "
     "abs acos asin atan atan2 cos cosh exp fabs floor fmod log pow sin sinh sqrt tan tanh y0 y1 yn j0 j1 jn gamma "
-    "main NAN INFINITY FAULT"
+    "cbrt ceil copysign erf erfc exp2 expm1 fdim fma fmax fmin frexp hypot ilogb isfinite isinf isnan isnormal ldexp "
+    "lgamma llrint llround log10 log1p log2 logb lrint lround modf nan nearbyint nextafter remainder remquo rint round "
+    "scalbln scalbn signbit tgamma trunc "
+    "main NAN INFINITY FAULT fault on_fault run_job repeat_job take_fault"
 )
 _KEYWORDS = frozenset(_WORDS.split())
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection
 
 from filters.translation.declarations import parameter, scalar
-from filters.translation.kinds import Array, Kind, Record, lasts
+from filters.translation.kinds import Array, Kind, Nothing, Record, lasts
 from filters.translation.names import c_name
 from filters.translation.translated import Translated
 
@@ -19,7 +19,7 @@ def prototype(each: Translated, record_name: Callable[[Record], str], apart: Col
         case Array(item=item, inner=lengths):
             inner = "".join(f"[{length or 1}]" for length in lengths)
             head, tail = (f"{item} (*{each.name}(", f")){inner}") if inner else (f"{item} *{each.name}(", ")")
-        case Record() if not lasts(each.result):
+        case Record() if is_void(each.result):
             head, tail = f"void {each.name}(", ")"
         case Record():
             head, tail = f"{record_name(each.result)} {each.name}(", ")"
@@ -53,6 +53,18 @@ def _parameter(kind: Kind, name: str, record_name: Callable[[Record], str], apar
 
 def _passed(kind: Kind, name: str) -> list[str]:
     return [name, f"{name}_rows"] if isinstance(kind, Array) and kind.is_long else [name]
+
+
+def given_up(result: Kind, record_name: Callable[[Record], str]) -> str:
+    """What ends a function that cannot go on."""
+    if is_void(result):
+        return "return;"
+    return f"return ({record_name(result)}){{0}};" if isinstance(result, Record) else "return 0;"
+
+
+def is_void(result: Kind) -> bool:
+    """Whether a function with this result returns nothing in C."""
+    return isinstance(result, Nothing) or (isinstance(result, Record) and not lasts(result))
 
 
 def wrapped(line: str) -> str:

@@ -8,11 +8,11 @@ from types import FunctionType
 from filters.translation.body import Body, Elsewhere, Widened
 from filters.translation.declarations import memory, variable
 from filters.translation.expressions import expression
-from filters.translation.kinds import Array, Kind, Nothing, Record, lasts
+from filters.translation.kinds import Array, Kind, lasts
 from filters.translation.library import INDENT, Library
 from filters.translation.names import c_name
 from filters.translation.origins import Origins
-from filters.translation.prototype import wrapped
+from filters.translation.prototype import given_up, wrapped
 from filters.translation.scope import TOP
 from filters.translation.statements import GIVEN_UP, block
 from filters.translation.translated import Translated
@@ -61,7 +61,7 @@ class Unit(Library):
             and not re.search(rf"\b{c_name(name)}_rows\b", text)
         ]
         lines = [part for line in lines for part in (line, *_unused(line, text))]
-        lines = [line.replace(GIVEN_UP, self._given_up(body.result)) for line in lines]
+        lines = [line.replace(GIVEN_UP, given_up(body.result, self.record_name)) for line in lines]
         inside = "\n".join(wrapped(INDENT + line) if line else "" for line in [*own, *lines])
         return Translated(
             name,
@@ -76,16 +76,6 @@ class Unit(Library):
             body.effects(),
             body.result_origins,
         )
-
-    def _given_up(self, result: Kind) -> str:
-        match result:
-            case Nothing():
-                return "return;"
-            case Record() if not lasts(result):
-                return "return;"
-            case Record():
-                return f"return ({self.record_name(result)}){{0}};"
-        return "return 0;"
 
 
 _DECLARED = re.compile(r"(?:const )?\w+ \(?\*?(\w+)\)?(?:\[\d+\])* = .*\(")

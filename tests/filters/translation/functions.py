@@ -103,6 +103,26 @@ def guarded_at_length(x: float) -> float:
     return np.sqrt(x + 100.0)
 
 
+def _lifted(x: FloatArray, least: float) -> FloatArray:
+    if x[0] < least:
+        raise ValueError("it is too cold in here")
+    return 2.0 * x
+
+
+def guarded_inside(x: FloatArray, least: float) -> float:
+    lifted = _lifted(x, least)
+    return lifted[0] + lifted[1]
+
+
+def round(x: float) -> float:
+    return np.floor(x + 0.5)
+
+
+def named_as_in_c(x: float) -> float:
+    remainder = x - round(x)
+    return 2.0 * remainder
+
+
 def negative_indices(x: FloatArray, i: int) -> float:
     return x[-1] + 10.0 * x[i - 2] + 100.0 * x[-2]
 
@@ -355,6 +375,8 @@ CASES: list[tuple[Any, list[tuple[Any, ...]]]] = [
     (limit_in_an_array, [(np.array([4]), X4)]),
     (limit_that_changes, [(X4, 3), (X4, 0)]),
     (guarded, [(1.0,)]),
+    (guarded_inside, [(X4, -5.0)]),
+    (named_as_in_c, [(3.7,), (-3.2,)]),
     (guarded_by_name, [(1.0,)]),
     (guarded_at_length, [(1.0,)]),
     (negative_indices, [(X4, 0), (X4, 1), (X4, 3)]),

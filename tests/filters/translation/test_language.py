@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 from filters.backends.in_c import in_c
@@ -16,7 +17,7 @@ from filters.translation.kinds import kind_of
 from filters.translation.library import Precision
 from filters.translation.unit import Unit
 from tests.filters.translation.cases import check_same, needs_compiler
-from tests.filters.translation.functions import CASES, guarded, guarded_at_length, guarded_by_name
+from tests.filters.translation.functions import CASES, guarded, guarded_at_length, guarded_by_name, guarded_inside
 
 
 @needs_compiler
@@ -35,6 +36,17 @@ def test_what_a_function_raises_is_raised(function: Any) -> None:
         in_c(function)(-300.0)
     assert str(found.value) == str(expected.value)
     assert in_c(function)(0.0) == 10.0
+
+
+@needs_compiler
+def test_what_is_raised_further_in_ends_it_all() -> None:
+    """What it would return is not there to be read; and the loop that times it ends too."""
+    cold = np.array([3.0, 1.0, 0.0, 0.0])
+    with pytest.raises(ValueError, match="too cold"):
+        in_c(guarded_inside)(cold, 4.0)
+    with pytest.raises(ValueError, match="too cold"):
+        in_c(guarded_inside).loop(cold, 4.0)(10)
+    assert in_c(guarded_inside)(cold, 2.0) == 8.0
 
 
 @needs_compiler
