@@ -13,7 +13,7 @@ from rich.text import Text
 
 SPARE = ("preempted", "exactly", "load", "on the way", "jobs", "taken", "mean", "min", "p95", "median", "precision",
          "believed", "jump", "parts that do", "slack", "highest HR Hz", "logic per arithmetic", "std steps",
-         "function", "after, ms", "rms", "oldest age, ms", "oldest age, steps", "how")  # fmt: skip
+         "function", "after, ms", "rms", "oldest age, ms", "oldest age, steps", "how", "structure")  # fmt: skip
 """Headings that a narrow terminal goes without, of whichever table, the least important first."""
 
 

@@ -51,7 +51,7 @@ def more_jobs(jobs: Mapping[str, Job]) -> dict[str, Job]:
     """What the tasks do beside their jobs: a correction goes by Phi over whole cycles."""
 
     def arguments(index: int) -> tuple[Any, ...]:
-        x, Phi, delta_x, *_ = jobs["hr_update"].arguments(index)
+        _form, x, Phi, delta_x, *_ = jobs["hr_update"].arguments(index)
         return Phi, delta_x, np.zeros_like(x)
 
     return {"hr_pass": Job("hr_pass", matvec, arguments), "lr_carry": jobs["hr_update"]}

@@ -40,7 +40,7 @@ STEFFES = (
 )
 
 
-WITHOUT_ZEROS = "; what the model states to be always zero or one is left out of products"
+WITHOUT_ZEROS = "Products leave out what is always zero, and those with one: the structure of the model says which."
 
 
 def about_filter(wanted: Filter) -> About:
@@ -48,9 +48,8 @@ def about_filter(wanted: Filter) -> About:
     n, m, p = wanted.system[:3]
     return About(
         wanted.method,
-        f"{n} states, {m} inputs, {p} measurements; {wanted.update} covariance update; {wanted.precision} precision"
-        + (WITHOUT_ZEROS if wanted.system.structure else ""),
-        STEFFES,
+        f"{n} states, {m} inputs, {p} measurements; {wanted.update} covariance update; {wanted.precision} precision",
+        f"{STEFFES} {WITHOUT_ZEROS}" if wanted.system.structure else STEFFES,
         wanted.precision,
         wanted.said,
         "tasks" if wanted.method == "dual-rate" else "steps" if wanted.steps is not None else "jobs",

@@ -78,15 +78,3 @@ def test_a_staircase_without_undisturbed_cycles() -> None:
     run = judged("ordinary")
     run = run._replace(disturbed=[True] * 8, achieved=[None] * 8)
     assert flaws(staircase_figure([run])) == []
-
-
-def test_what_lands_after_the_next_measurement_stands_a_step_above_the_last() -> None:
-    run = judged("ordinary")
-    figure = staircase_figure([run._replace(achieved=[7, 7, 7, 7, 7, 8, None, 240])])
-    axes = figure.axes[0]
-    heights = sorted(float(collection.get_offsets()[0][1]) for collection in axes.collections)
-    assert heights == [7, 8, 11]
-    assert axes.get_ylim()[1] < 12
-    shown = {text.get_text() for text, _ in texts(figure)}
-    assert "later" in shown
-    assert "11" not in shown
