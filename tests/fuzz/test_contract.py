@@ -15,13 +15,13 @@ PARTS, IN_A_PART, DRAWN_IN_A_PART = 200, 495, 5
 """100,000 cases."""
 
 
-@settings(max_examples=40)
+@settings(max_examples=25)
 @given(cases())
 def test_the_contract_holds(case: Case) -> None:
     check(case)
 
 
-@settings(max_examples=4)
+@settings(max_examples=3)
 @given(cases(drawn=True))
 def test_the_contract_holds_for_pictures(case: Case) -> None:
     check(case)

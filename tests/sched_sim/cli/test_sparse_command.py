@@ -94,8 +94,8 @@ def test_what_is_wrongly_stated_is_refused(sched_sim: Run, command: str) -> None
 
 
 def test_verdicts_say_dense_or_sparse(sched_sim: Run) -> None:
-    assert sched_sim(f"{COUNTED} --system own:stated --sparse -o sparse.toml").code == 0
-    assert sched_sim(f"{COUNTED} --system own:stated -o dense.toml").code == 0
+    for flags in ("--sparse -o sparse.toml", "-o dense.toml"):
+        assert sched_sim(f"{COUNTED} --system own:stated --method dual-rate {flags}").code == 0
     assert tomllib.loads(Path("sparse.toml").read_text())["structure"] == "sparse"
     for word in ("dense", "sparse"):
         line = f"-N 10 -M 4 --hr-hz 400 --costs {word}.toml --method dual-rate --processor cortex-m4f"
