@@ -13,6 +13,7 @@ import pytest
 from hypothesis import HealthCheck, settings
 
 from sched_sim.cli import main
+from tests.c_compiler import has_c
 from tests.command_line import Result, Run
 from tests.exhaust import figures
 
@@ -40,6 +41,13 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
         if left_out:
             config.hook.pytest_deselected(items=left_out)
             items[:] = [item for item in items if not item.get_closest_marker("exhaust")]
+
+
+def pytest_runtest_setup(item: pytest.Item) -> None:
+    """Leaves out the backend c where there is no C compiler."""
+    callspec = getattr(item, "callspec", None)
+    if callspec is not None and callspec.params.get("backend") == "c" and not has_c():
+        pytest.skip("there is no C compiler")
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter, config: pytest.Config) -> None:
