@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+from collections.abc import Callable
 from typing import Any
 
 from filters.translation import arrays
@@ -184,12 +185,12 @@ def _index(body: Body, node: ast.expr, item: ast.expr, length: int | None, rows:
 
 
 def _unary(body: Body, node: ast.UnaryOp, returned: bool) -> Value:
-    value = expression(body, node.operand)
     if isinstance(node.op, ast.Not):
-        flag = truth(body, node, value)
+        flag = condition(body, node.operand)
         if isinstance(flag.kind, Flag) and flag.kind.known is not None:
             return constant(body, not flag.kind.known)
         return Value(f"!{flag.within(UNARY)}", FLAG, UNARY)
+    value = expression(body, node.operand)
     if isinstance(value.kind, Int) and value.kind.known is not None:
         return constant(body, -value.kind.known if isinstance(node.op, ast.USub) else value.kind.known)
     if isinstance(value.kind, Flag):
@@ -333,33 +334,64 @@ def _settled(a: Value, sign: str, b: Value) -> bool | None:
     return True if yes else False if no else None
 
 
+def condition(body: Body, node: ast.expr) -> Value:
+    """A truth value, of which nothing else is used.
+
+    Raises:
+        Untranslatable: it is not understood, or has none.
+    """
+    if isinstance(node, ast.BoolOp):
+        return _joined(body, node, _operands(body, node, condition))
+    return truth(body, node, expression(body, node))
+
+
 def _logic(body: Body, node: ast.BoolOp) -> Value:
+    """`a or b` and `a and b` where their value is used: of numbers the first that decides, or the last."""
+    values = _operands(body, node, expression)
+    if all(isinstance(value.kind, Flag) for value in values):
+        return _joined(body, node, values)
     is_and = isinstance(node.op, ast.And)
-    left = []
+    *before, result = values
+    for value in reversed(before):
+        if not isinstance(value.kind, Int | Real) or not isinstance(result.kind, Int | Real):
+            raise body.source.refusal(node, "and, or of numbers and other things; use if and else")
+        if "(" in value.text.removeprefix("(int)"):
+            raise body.source.refusal(node, "what is both asked and used must have a name; give it one first")
+        asked = truth(body, node, value)
+        result = chosen(body, node, asked, *((result, value) if is_and else (value, result)))
+    return result
+
+
+def _operands(body: Body, node: ast.BoolOp, of: Callable[[Body, ast.expr], Value]) -> list[Value]:
+    """Those that may decide: none that is known not to, and none behind one that is known to."""
+    found: list[Value] = []
     for part in node.values:
         waiting = len(body.before)
-        value = truth(body, part, expression(body, part))
+        value = of(body, part)
         if len(body.before) > waiting:
             raise body.source.refusal(part, "an array is made here on some occasions only; give it a name first")
-        assert isinstance(value.kind, Flag)
-        if value.kind.known is None:
-            left.append(value)
-        elif value.kind.known != is_and:
-            if not left:
-                return constant(body, not is_and)
-            left.append(value)
-            break
+        known = value.kind.known if isinstance(value.kind, Flag | Int) else None
+        if known is None or part is node.values[-1]:
+            found.append(value)
+        elif bool(known) != isinstance(node.op, ast.And):
+            return [*found, value]
+    return found
+
+
+def _joined(body: Body, node: ast.BoolOp, flags: list[Value]) -> Value:
+    is_and = isinstance(node.op, ast.And)
+    left = [flag for flag in flags if flag.kind != Flag(is_and)]
     if not left:
         return constant(body, is_and)
     if len(left) == 1:
         return left[0]
     level = AND if is_and else OR
     inside = AND if is_and else COMPARED + 1
-    return Value((" && " if is_and else " || ").join(value.within(inside) for value in left), FLAG, level)
+    return Value((" && " if is_and else " || ").join(flag.within(inside) for flag in left), FLAG, level)
 
 
 def _choice(body: Body, node: ast.IfExp) -> Value:
-    test = truth(body, node, expression(body, node.test))
+    test = condition(body, node.test)
     assert isinstance(test.kind, Flag)
     if test.kind.known is not None:
         return expression(body, node.body if test.kind.known else node.orelse)

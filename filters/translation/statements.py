@@ -7,7 +7,7 @@ import ast
 from filters.translation.arrays import copied, filled, item
 from filters.translation.body import Body, Elsewhere, Widened
 from filters.translation.declarations import variable
-from filters.translation.expressions import binary, expression
+from filters.translation.expressions import binary, condition, expression
 from filters.translation.kinds import (
     NOTHING,
     REAL,
@@ -24,7 +24,7 @@ from filters.translation.kinds import (
     variable_of,
 )
 from filters.translation.library import INDENT
-from filters.translation.made import as_real, constant, field, number_of, truth
+from filters.translation.made import as_real, constant, field, number_of
 from filters.translation.names import c_name
 from filters.translation.scope import TOP, Block, assigned, mentions
 from filters.translation.values import POSTFIX, SUM, UNARY, Value
@@ -80,7 +80,7 @@ def _translated(body: Body, statement: ast.stmt, undeclared: set[str]) -> tuple[
         case ast.For():
             return _loop(body, statement), False
         case ast.While(test=test, body=inside, orelse=[]):
-            with_test = truth(body, test, expression(body, test)).text
+            with_test = condition(body, test).text
             return _braced(f"while ({with_test})", _in_loop(body, inside)), False
         case ast.If():
             return _branch(body, statement)
@@ -107,7 +107,7 @@ def _in_loop(body: Body, inside: Block) -> list[str]:
 
 
 def _branch(body: Body, statement: ast.If) -> tuple[list[str], bool]:
-    test = truth(body, statement.test, expression(body, statement.test))
+    test = condition(body, statement.test)
     if isinstance(test.kind, Flag) and test.kind.known is not None:
         return block(body, statement.body if test.kind.known else statement.orelse)
     then, then_ends = block(body, statement.body)

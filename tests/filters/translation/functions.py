@@ -356,6 +356,20 @@ def below_the_diagonal(J: FloatArray) -> float:
     return total
 
 
+def one_of_numbers(x: FloatArray, n: int) -> float:
+    """`or` and `and` give one of their numbers."""
+    least = x[0]
+    total = (least or 0.5) + (x[1] and 3.0) + (0 or x[2]) + (2 and x[3])
+    x[0] = x[3] or 0.5
+    x[1] = x[2] and n
+    x[2] = n or x[3] or 7
+    if x[0] or (n and not x[1]):
+        total = total + 100.0
+    while n and total > 0.0:
+        total = total - 60.0
+    return total + (1.0 if n and x[0] else 2.0)
+
+
 X4, P3 = np.array([3.0, -1.5, 0.25, 8.0]), np.arange(9.0).reshape(3, 3)
 MANY = np.random.default_rng(1).normal(size=(100, 2))
 SCALED = Pair(_model(2.0), _model(3.0))
@@ -367,6 +381,7 @@ CASES: list[tuple[Any, list[tuple[Any, ...]]]] = [
     (remainder_of_reals, [(5.5, 2.0), (-5.5, 2.0), (6.0, 3.0)]),
     (chained, [(1.0, 2.0), (-1.0, 2.0), (1.0, np.inf), (3.0, 2.0), (np.nan, 1.0)]),
     (logic, [(x, y, i) for x in (0.5, 2.0) for y in (1.5, 0.1) for i in range(4)]),
+    (one_of_numbers, [(np.array(x), n) for x in ([3.0, 4.0, 5.0, 0.0], [0.0, 0.0, np.nan, 8.0]) for n in (0, 3)]),
     (extremes, [(1.0, 2.0, 1), (np.nan, 1.0, 5), (1.0, np.nan, 0)]),
     (functions, [(2.5, 7.0)]),
     (questions, [(1.0,), (np.nan,), (-np.inf,)]),

@@ -89,6 +89,14 @@ def part_of_its_own(x: FloatArray) -> FloatArray:
     return part  # returns part of an array of its own; return a copy of the part
 
 
+def one_of_flag_and_number(x: float) -> float:
+    return x > 0.0 and x  # and, or of numbers and other things; use if and else
+
+
+def one_of_computed(x: float) -> float:
+    return np.sqrt(x) or 0.5  # must have a name; give it one first
+
+
 X = np.array([1.0, 2.0, 3.0, 4.0])
 P = np.eye(3)
 
@@ -107,4 +115,6 @@ REFUSED: list[tuple[Any, tuple[Any, ...]]] = [
     (with_step, (X,)),
     (sorted_numbers, (X,)),
     (part_of_its_own, (X,)),
+    (one_of_flag_and_number, (1.0,)),
+    (one_of_computed, (1.0,)),
 ]
