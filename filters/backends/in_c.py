@@ -144,7 +144,7 @@ class _Loaded:
         source = _FAULT + unit.header("FILTER_H") + unit.source("").partition("\n")[2] + _entries(unit, each)
         program = library(source)
         kinds = [each.kinds[index] for index in self._used] + list(each.memory.values())
-        may_fail = any("FAULT(" in function.inside for function in unit.functions().values())
+        may_fail = any(function.may_fail for function in unit.functions().values())
         run = program.run_job if may_fail else getattr(program, each.name)
         often, take_fault = program.repeat_job, program.take_fault
         run.argtypes = [part for kind in kinds for part in types_passed(kind)]

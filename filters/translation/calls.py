@@ -143,13 +143,18 @@ def _of_numbers(body: Body, node: ast.Call, target: Any, values: list[Value]) ->
     if target in (min, max) and len(values) == 2:
         return _extreme(body, node, target, *values)
     if target is float and first is not None and isinstance(first.kind, Int | Real):
-        return first if isinstance(first.kind, Real) else Value(f"(real){first.within(UNARY)}", REAL, UNARY)
+        if isinstance(first.kind, Real) or first.as_real:
+            return as_real(first)
+        return Value(f"(real){first.within(UNARY)}", REAL, UNARY)
     if target is bool and first is not None:
         return truth(body, node, first)
     if target is int and first is not None:
         if isinstance(first.kind, Int):
             return first
-        return Value(f"(int){first.within(UNARY)}", Int(), UNARY)
+        if isinstance(first.kind, Flag):
+            return Value(f"(int){first.within(UNARY)}", Int(0, 1), UNARY)
+        body.unit.helpers.add("whole_of")
+        return Value(f"whole_of({first.text})", Int(), POSTFIX)
     raise body.source.refusal(node, "this call is not translated")
 
 

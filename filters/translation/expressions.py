@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 from filters.translation import arrays
@@ -20,11 +21,10 @@ from filters.translation.kinds import (
     Kind,
     Real,
     Record,
-    exactly,
     kind_of,
 )
 from filters.translation.made import as_real, chosen, constant, field, make_record, number_of, shape_of, truth
-from filters.translation.ranges import difference, negative, product, quotient, remainder, total
+from filters.translation.ranges import difference, negative, product, quotient, remainder, steps_past_int, total
 from filters.translation.single import check_threshold, held
 from filters.translation.values import AND, COMPARED, OR, POSTFIX, PRIMARY, PRODUCT, SUM, UNARY, Value
 
@@ -171,7 +171,7 @@ def _slice_of(body: Body, item: ast.expr) -> slice | None:
 def _index(body: Body, node: ast.expr, item: ast.expr, length: int | None, rows: str) -> str:
     at = expression(body, item)
     if not isinstance(at.kind, Int):
-        raise body.source.refusal(node, "an index must be a whole number")
+        raise body.source.refusal(node, "an index must be a whole number, and one that an int of 32 bits holds")
     if length is not None and at.kind.low is not None and at.kind.low >= length:
         raise body.source.refusal(node, f"the index is {at.kind.low}, of an axis of {length}")
     if at.kind.counts:
@@ -231,8 +231,10 @@ def binary(body: Body, node: ast.AST, operator: ast.operator, a: Value, b: Value
         case ast.Mult():
             kind, sign, level = product(left, right), "*", PRODUCT
         case ast.Div():
-            numerator = f"(real){a.within(UNARY)}" if whole else a.within(PRODUCT)
-            return Value(f"{numerator} / {b.within(UNARY)}", REAL, PRODUCT)
+            if whole:
+                a = as_real(a) if a.as_real else Value(f"(real){a.within(UNARY)}", REAL, UNARY)
+                b = as_real(b) if b.as_real else b
+            return Value(f"{a.within(PRODUCT)} / {b.within(UNARY)}", REAL, PRODUCT)
         case ast.Mod() | ast.FloorDiv():
             return _division(body, node, a, b, isinstance(operator, ast.Mod), (left, right) if whole else None)
         case ast.Pow():
@@ -240,9 +242,24 @@ def binary(body: Body, node: ast.AST, operator: ast.operator, a: Value, b: Value
         case _:
             raise body.source.refusal(node, "this operator is not translated")
     if whole and kind.known is not None:
-        return Value(str(kind.known), kind, PRIMARY if kind.known >= 0 else UNARY)
+        return constant(body, kind.known)
     text = f"{a.within(level)} {sign} {b.within(level - 1)}"
-    return Value(text, kind if whole else REAL, level)
+    if not whole:
+        return Value(text, REAL, level)
+    return _of_ints(Value(text, kind, level), a, b, sign)
+
+
+def _of_ints(value: Value, a: Value, b: Value, sign: str) -> Value:
+    """A sum or product of whole numbers, among reals where an int cannot hold it: there it is exact as far as reals
+    are, as whole numbers of Python are. Where it is an int, what an array has room for fits."""
+    assert isinstance(value.kind, Int)
+    assert isinstance(a.kind, Int)
+    assert isinstance(b.kind, Int)
+    real = f"{as_real(a).within(value.level)} {sign} {as_real(b).within(value.level - 1)}"
+    if not value.kind.fits or steps_past_int(a.kind, b.kind, sign):
+        return Value(real, REAL, value.level)
+    grows = value.kind.high is None and sign == "*"
+    return replace(value, as_real=real) if grows or a.as_real or b.as_real else value
 
 
 def _division(body: Body, node: ast.AST, a: Value, b: Value, is_rest: bool, whole: tuple[Int, Int] | None) -> Value:
@@ -268,7 +285,7 @@ def _power(body: Body, node: ast.AST, a: Value, b: Value) -> Value:
     if isinstance(a.kind, Int):
         if a.kind.known is None or exponent is None or exponent < 0:
             raise body.source.refusal(node, "a power of a whole number is not translated; multiply")
-        return Value(str(a.kind.known**exponent), exactly(a.kind.known**exponent))
+        return constant(body, a.kind.known**exponent)
     if exponent == 2:
         if a.level <= POSTFIX and "(" not in a.text:
             return Value(f"{a.text} * {a.text}", REAL, PRODUCT)

@@ -33,6 +33,16 @@ static inline real real_mod(real a, real b)
     return (rest < 0) != (b < 0) ? rest + b : rest;
 }
 """,
+    "whole_of": """/* a without its fraction, as an int. */
+static inline int whole_of(real a)
+{
+    if (!(a >= (real)-2147483648.0 && a < (real)2147483648.0)) {
+        FAULT("int() of a number that an int of 32 bits does not hold");
+        return 0;
+    }
+    return (int)a;
+}
+""",
     "square": """static inline real square(real a)
 {
     return a * a;

@@ -14,6 +14,9 @@ from filters.translation.refusal import Untranslatable
 LONG = 64
 """Arrays of more rows than this are translated for any number of rows, and carry theirs with them."""
 
+LARGEST = 2**31 - 1
+"""What an int of 32 bits holds."""
+
 
 @dataclass(frozen=True)
 class Int:
@@ -25,6 +28,11 @@ class Int:
     @property
     def known(self) -> int | None:
         return self.low if self.low is not None and self.low == self.high else None
+
+    @property
+    def fits(self) -> bool:
+        """Whether an int of 32 bits holds it, as far as its bounds say."""
+        return all(bound is None or -LARGEST - 1 <= bound <= LARGEST for bound in (self.low, self.high))
 
     @property
     def counts(self) -> bool:
@@ -167,7 +175,7 @@ def variable_of(kind: Kind) -> Kind:
     """The kind of a variable that is given such a value, and others later."""
     match kind:
         case Int():
-            return Int(0) if kind.counts else Int()
+            return (Int(0) if kind.counts else Int()) if kind.fits else REAL
         case Flag():
             return FLAG
         case _:

@@ -118,6 +118,8 @@ def as_real(value: Value) -> Value:
     """A number among reals: C says where a whole number becomes one."""
     if not isinstance(value.kind, Int) or value.kind.known is not None:
         return value
+    if value.as_real:
+        return Value(value.as_real, REAL, value.level)
     return Value(f"(real){value.within(UNARY)}", REAL, UNARY)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from filters.translation.kinds import Int
+from filters.translation.kinds import LARGEST, Int
 
 
 def total(a: Int, b: Int) -> Int:
@@ -31,6 +31,18 @@ def product(a: Int, b: Int) -> Int:
     if a.low is not None and b.low is not None and a.counts and b.counts:
         return Int(a.low * b.low)
     return Int()
+
+
+def steps_past_int(a: Int, b: Int, sign: str) -> bool:
+    """Whether a number without bounds, as the step is, meets one that takes it past an int long before it is there
+    itself: no length of an array, which indices are made of."""
+    open_ended = [x for x in (a, b) if x.low is None or x.high is None]
+    sizes = [abs(x.known) for x in (a, b) if x.known is not None]
+    return len(open_ended) == 1 and len(sizes) == 1 and sizes[0] >= (LONGEST if sign == "*" else LARGEST // 2)
+
+
+LONGEST = 2**15
+"""Of rows that an index is multiplied by."""
 
 
 def quotient(a: Int, b: Int) -> Int:

@@ -36,9 +36,14 @@ class Translated:
         return tuple(dict.fromkeys(site.name for site in self.effects.sites))
 
     @property
+    def may_fail(self) -> bool:
+        """Whether it may find that it cannot go on, itself."""
+        return "FAULT(" in self.inside or "whole_of(" in self.inside
+
+    @property
     def is_known(self) -> bool:
         """Whether what it returns is known while translating, and it can do nothing else."""
-        if self.result == NOTHING or lasts(self.result) or self.calls or "FAULT(" in self.inside:
+        if self.result == NOTHING or lasts(self.result) or self.calls or self.may_fail:
             return False
         kinds = dict(zip(self.parameters, self.kinds, strict=True))
         return not any(isinstance(kinds[name], Array | Record) for name in self.used)

@@ -17,7 +17,8 @@ class Value:
 
     by_pointer: it is a record, and the text a pointer to one. rows: of a long array, how many it has.
     passing: it is in memory that the next round of a loop fills anew. origins: of an array, of those in a record, or of
-    the array that it is a number of.
+    the array that it is a number of. as_real: of a whole number that may be more than an int holds, computed among
+    reals; it is read where a real is made of it.
     """
 
     text: str
@@ -27,6 +28,7 @@ class Value:
     rows: str = ""
     passing: bool = False
     origins: Origins = ANYWHERE
+    as_real: str = ""
 
     def within(self, level: int) -> str:
         """The text, in parentheses where operators of this level would tear it apart."""

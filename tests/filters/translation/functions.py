@@ -370,6 +370,24 @@ def one_of_numbers(x: FloatArray, n: int) -> float:
     return total + (1.0 if n and x[0] else 2.0)
 
 
+def past_an_int(j: int) -> float:
+    """A step by a constant is exact where an int would not hold it."""
+    a = j * 1000000000
+    b = 0.5 * (j * 400 + 3)
+    c = (j * 300) / 7
+    d = j * 100 * 5.0 - 3000000000
+    e = j + 2000000000
+    large = 5000000000 if j > 4 else 7000000000
+    total = 0
+    for _ in range(2):
+        total = total + 4000000000
+    return a + b + c + d + e + large + total
+
+
+def without_fraction(x: float) -> int:
+    return int(x)
+
+
 X4, P3 = np.array([3.0, -1.5, 0.25, 8.0]), np.arange(9.0).reshape(3, 3)
 MANY = np.random.default_rng(1).normal(size=(100, 2))
 SCALED = Pair(_model(2.0), _model(3.0))
@@ -382,6 +400,8 @@ CASES: list[tuple[Any, list[tuple[Any, ...]]]] = [
     (chained, [(1.0, 2.0), (-1.0, 2.0), (1.0, np.inf), (3.0, 2.0), (np.nan, 1.0)]),
     (logic, [(x, y, i) for x in (0.5, 2.0) for y in (1.5, 0.1) for i in range(4)]),
     (one_of_numbers, [(np.array(x), n) for x in ([3.0, 4.0, 5.0, 0.0], [0.0, 0.0, np.nan, 8.0]) for n in (0, 3)]),
+    (past_an_int, [(3,), (7,), (2**30,)]),
+    (without_fraction, [(-2.75,), (3.5,), (2147483647.5,), (-2147483648.0,)]),
     (extremes, [(1.0, 2.0, 1), (np.nan, 1.0, 5), (1.0, np.nan, 0)]),
     (functions, [(2.5, 7.0)]),
     (questions, [(1.0,), (np.nan,), (-np.inf,)]),

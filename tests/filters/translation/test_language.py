@@ -17,7 +17,14 @@ from filters.translation.kinds import kind_of
 from filters.translation.library import Precision
 from filters.translation.unit import Unit
 from tests.filters.translation.cases import check_same, needs_compiler
-from tests.filters.translation.functions import CASES, guarded, guarded_at_length, guarded_by_name, guarded_inside
+from tests.filters.translation.functions import (
+    CASES,
+    guarded,
+    guarded_at_length,
+    guarded_by_name,
+    guarded_inside,
+    without_fraction,
+)
 
 
 @needs_compiler
@@ -36,6 +43,13 @@ def test_what_a_function_raises_is_raised(function: Any) -> None:
         in_c(function)(-300.0)
     assert str(found.value) == str(expected.value)
     assert in_c(function)(0.0) == 10.0
+
+
+@needs_compiler
+@pytest.mark.parametrize("x", [np.nan, np.inf, 2147483648.0, -2.2e9])
+def test_int_of_what_no_int_holds_is_an_error(x: float) -> None:
+    with pytest.raises(ValueError, match=r"int\(\) of a number that an int of 32 bits does not hold"):
+        in_c(without_fraction)(x)
 
 
 @needs_compiler
