@@ -17,6 +17,15 @@ _KEYWORDS = frozenset(_WORDS.split())
 
 
 def c_name(name: str) -> str:
-    """The name of a variable, parameter or field."""
-    plain = name.strip("_") or "unused"
+    """The name of a variable, parameter, field or function, of the letters that every C compiler takes."""
+    plain = "".join(map(_letters, name)).strip("_") or "unused"
+    if plain[0].isdigit():
+        plain = f"n{plain}"
     return f"{plain}_" if plain in _KEYWORDS or keyword.iskeyword(plain) else plain
+
+
+def _letters(letter: str) -> str:
+    """One of C, or several that stand for it: u3a6 for a Greek Phi."""
+    if letter.isascii():
+        return letter if letter.isalnum() else "_"
+    return f"u{ord(letter):x}"

@@ -36,6 +36,12 @@ def returned_by(name: str, option: str, how: str) -> Returned:
     module_name, colon, function_name = name.partition(":")
     if not (colon and module_name and function_name):
         raise InputError(f"{said}: {how}")
+    if "/" in module_name or "\\" in module_name:
+        dotted = ".".join(Path(module_name.replace("\\", "/").removesuffix(".py")).parts)
+        raise InputError(
+            f"{said}: {module_name!r} is a path, not the name of a module; in the folder that holds it write "
+            f"{dotted.lstrip('./')}:{function_name}"
+        )
     with _current_folder_last() as here, chdir(here):
         with explained(f"{said}: module {module_name!r} cannot be imported", f"; {how}"):
             module = _imported(module_name, here)

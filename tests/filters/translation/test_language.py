@@ -15,6 +15,7 @@ import pytest
 from filters.backends.in_c import in_c
 from filters.translation.kinds import kind_of
 from filters.translation.library import Precision
+from filters.translation.names import c_name
 from filters.translation.unit import Unit
 from tests.filters.translation.cases import check_same, needs_compiler
 from tests.filters.translation.functions import (
@@ -100,3 +101,14 @@ def test_the_same_c_comes_out_of_every_process() -> None:
         for seed in ("0", "1", "2")
     }
     assert len(texts) == 1
+
+
+def test_names_are_of_the_letters_that_c_has() -> None:
+    assert [c_name(name) for name in ("_f", "my-model_f", "2d_f", "\u03a6", "int", "x")] == [
+        "f",
+        "my_model_f",
+        "n2d_f",
+        "u3a6",
+        "int_",
+        "x",
+    ]
