@@ -41,22 +41,25 @@ def check_choices(low_rate_noise: str) -> None:
 
 
 def check_steps(steps: Steps) -> None:
-    """Raises InputError unless M < L <= N: of one measurement at a time, taken in at the start of an HR step."""
-    N, M, L = steps
+    """Raises InputError unless N is 2 or more, and 0 <= M < L: a correction is taken in behind the arrival, at the start
+    of an HR step."""
+    N = steps.N
     if N < 2:
         raise InputError(
             f"{option('N')} {N} must be at least 2: the dual rate filter spreads an update over several HR steps; "
             f"for a measurement in every step choose {option('method')} standard"
         )
-    if not 0 <= M < N:
+    check_landing(steps)
+
+
+def check_landing(steps: Steps) -> None:
+    """Raises InputError unless 0 <= M < L."""
+    _, M, L = steps
+    if M < 0:
+        raise InputError(f"{option('M')} {M} must be 0 or more: it is the delay of the measurement in HR steps")
+    if L <= M:
         raise InputError(
-            f"{option('M')} {M} must be from 0 to {N - 1}: as C the tasks have one measurement on its way at a time, "
-            f"and the next is taken {option('N')} {N} steps later"
-        )
-    if not M < L <= N:
-        raise InputError(
-            f"{option('L')} {L} must be from {M + 1} to {N}: as C the correction lands behind the arrival, "
-            f"{option('M')} {M}, and before the next measurement is taken, {option('N')} {N}"
+            f"{option('L')} {L} must be more than {option('M')} {M}: as C the correction lands behind the arrival"
         )
 
 

@@ -11,7 +11,7 @@ from filters.jobs import Job
 from filters.kernels.dense import matvec
 from filters.translation.data import Data, Kept
 from sched_sim.errors import InputError, option
-from studies.board.dual_rate import add_models, add_own, one_of, record_name, task_words
+from studies.board.dual_rate import add_models, add_own, check_landing, one_of, record_name, task_words
 from studies.board.jobs import Jobs, call
 from studies.board.steps import Files, Steps
 from studies.board.template import filled
@@ -25,11 +25,7 @@ def are_several(steps: Steps) -> bool:
 
 def check_in_flight(steps: Steps, gain: str) -> None:
     """Raises InputError unless the tasks can have these steps, and this time for the gain."""
-    _, M, L = steps
-    if M < 0:
-        raise InputError(f"{option('M')} {M} must be 0 or more: it is the delay of the measurement in HR steps")
-    if L <= M:
-        raise InputError(f"{option('L')} {L} must be more than {option('M')} {M}: as C it lands behind the arrival")
+    check_landing(steps)
     if gain != "at-update":
         raise InputError(
             f"{option('gain')} {gain} is not written as C for several measurements on their way: leave it out, or give "
