@@ -27,12 +27,16 @@ FLAGS = ("-std=c99", "-O3", "-march=native", "-ffp-contract=off", "-fno-math-err
 """Operations are neither reordered nor fused."""
 
 
+class NoCompiler(ValueError):
+    """There is none on this machine; the message is the remedy."""
+
+
 def compiler() -> str:
-    """The C compiler: $CC, cc, gcc or clang. Raises ValueError if there is none."""
+    """The C compiler: $CC, cc, gcc or clang. Raises NoCompiler if there is none."""
     for name in (os.environ.get("CC", ""), "cc", "gcc", "clang"):
         if name and (path := shutil.which(name)):
             return path
-    raise ValueError("backend='c' needs a C compiler: install gcc or clang, name one in CC, or use backend='compiled'")
+    raise NoCompiler("install gcc or clang, or name one in CC")
 
 
 @cache
@@ -46,8 +50,13 @@ def library(source: str) -> ctypes.CDLL:
     """The C program, loaded.
 
     Raises:
-        ValueError: there is no C compiler, or it does not take the program.
+        NoCompiler: there is none.
+        ValueError: it does not take the program.
     """
+    try:
+        compiler()
+    except NoCompiler as error:
+        raise NoCompiler(f"backend='c' needs a C compiler: {error}, or choose backend='compiled'") from None
     folder = cache_folder()
     kept = folder.parent / "c" / f"{_digest(source)}.so" if folder else None
     if kept is not None:

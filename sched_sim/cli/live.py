@@ -133,6 +133,7 @@ def live(
     from sched_sim.cli.live_shown import show_run, show_stairs
     from studies.live.design import check_design
     from studies.live.probe import check_shortest
+    from studies.live.program import check_compiler
     from studies.live.rights import check_rights, chosen_core
     from studies.live.stairs import through_two_steps, word_of
 
@@ -141,6 +142,7 @@ def live(
     check_shortest(design)
     check_design(design)
     check_rights()
+    check_compiler()
     core = chosen_core(cpu)
     if system is not None and (given := opt.given_options(context, lambda name: name in SIZES)):
         raise InputError(f"--system {system!r}: leave out {', '.join(given)}: the system has its own")
@@ -210,12 +212,11 @@ def _design(N: int, M: int, speed: str, period_ms: str, cycles: int, costs: str 
     from sched_sim.design.methods import select
     from sched_sim.design.options import Options
     from sched_sim.ticks import positive
-    from studies.board.dual_rate import check_steps
     from studies.live.design import Design, of_dual_rate
-    from studies.live.program import steps_of
+    from studies.live.program import check_steps
 
     pace, period_ns = positive(speed, "--speed"), round(10**6 * positive(period_ms, "--period-ms"))
-    check_steps(steps_of(N, M))
+    check_steps(N, M)
     table = opt.costs_on(costs, None)
     say_of_statistic(statistic, [table])
     return Design(of_dual_rate(select(table, "dual-rate", Options(), statistic)), N, M, pace, period_ns, cycles)

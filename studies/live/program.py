@@ -11,10 +11,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from filters.backends.c_compiler import compiler
+from filters.backends.c_compiler import NoCompiler, compiler
 from filters.simulation import simulate_truth
 from filters.system import System
-from sched_sim.errors import InputError
+from sched_sim.errors import InputError, option
+from studies.board import dual_rate
 from studies.board.steps import Steps
 from studies.board.wanted import Filter
 from studies.board.write import board_files
@@ -69,6 +70,7 @@ def compiled(wanted: Filter) -> Iterator[Program]:
         Untranslatable: something in a job or the model has nothing in C.
         ValueError: there is no compiler, or it cannot compile this.
     """
+    cc = _compiler()
     with TemporaryDirectory() as scratch:
         folder = Path(scratch)
         for name, text in board_files(wanted).items():
@@ -76,7 +78,7 @@ def compiled(wanted: Filter) -> Iterator[Program]:
         path = folder / "live"
         without = () if wanted.system.inputs else ("-DWITHOUT_INPUTS",)
         sources = (str(folder / "filter.c"), str(Path(__file__).with_name("live.c")), f"-I{folder}")
-        command = [compiler(), *FLAGS, *without, *sources, "-lm", "-lpthread", "-o", str(path)]
+        command = [cc, *FLAGS, *without, *sources, "-lm", "-lpthread", "-o", str(path)]
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         if done.returncode:
             raise ValueError(f"the C compiler fails: {' '.join(done.stderr.split()):.400}")
@@ -86,6 +88,28 @@ def compiled(wanted: Filter) -> Iterator[Program]:
 def steps_of(N: int, M: int) -> Steps:
     """Corrections land as soon as they are ready."""
     return Steps(N, M, M + 1)
+
+
+def check_steps(N: int, M: int) -> None:
+    """Raises InputError unless 0 <= M < N: one measurement is on its way at a time."""
+    if N > 1 and not 0 <= M < N:
+        raise InputError(
+            f"{option('M')} {M} must be from 0 to {N - 1}: live runs have one measurement on its way at a time, and the "
+            f"next is taken {option('N')} {N} steps later; sched-sim code writes others"
+        )
+    dual_rate.check_steps(steps_of(N, M))
+
+
+def check_compiler() -> None:
+    """Raises InputError where there is no C compiler."""
+    _compiler()
+
+
+def _compiler() -> str:
+    try:
+        return compiler()
+    except NoCompiler as error:
+        raise InputError(f"live runs need a C compiler: {error}") from None
 
 
 def _record(wanted: Filter, design: Design) -> bytes:

@@ -15,7 +15,7 @@ from importlib.metadata import version
 from typing import Any, Literal, TypeVar, get_args
 
 from filters.arrays import as_array
-from filters.backends.c_compiler import FLAGS, compiler_version
+from filters.backends.c_compiler import FLAGS, NoCompiler, compiler, compiler_version
 from filters.backends.counted import Operations, count
 from filters.backends.uncountable import UncountableError
 from filters.choice import check_choice
@@ -26,7 +26,7 @@ from filters.registry import ALL_METHODS, SPARSE_METHODS
 from filters.seed import check_seed
 from filters.system import System
 from sched_sim.costs.table import Cost, CostTable
-from sched_sim.errors import InputError
+from sched_sim.errors import InputError, option
 from studies.measurement.emulation.table import emulated_table
 from studies.measurement.emulation.targets import precision_of, target_of
 from studies.measurement.job_times import ARGUMENT_SETS, Progress, Protocol, silent, time_jobs
@@ -163,6 +163,8 @@ def cost_table(
         costs = {key: Cost.of(Fraction(tally.total)) for key, tally in operations.items()}
         counts = {key: nonzero(tally) for key, tally in operations.items()}
         return CostTable(name, "operation", _by_method(costs), about, operations=_by_method(counts))
+    if backend == "c":
+        _check_compiler()
     protocol = _protocol(backend, thorough)
     timed = time_jobs(jobs, backend, protocol, seed, progress)
     about |= {
@@ -171,6 +173,14 @@ def cost_table(
         **({"compiler": f"{compiler_version()}, {' '.join(FLAGS)}"} if backend == "c" else {}),
     }
     return CostTable(name, "second", _by_method({key: _cost(rounds) for key, rounds in timed.seconds.items()}), about)
+
+
+def _check_compiler() -> None:
+    try:
+        compiler()
+    except NoCompiler as error:
+        name = option("backend")
+        raise InputError(f"{name} c needs a C compiler: {error}, or choose {name} compiled") from None
 
 
 COUNTED_SOURCE = "exact operation counts: multiply, add, divide, square root, function count one each"

@@ -80,5 +80,5 @@ def test_a_compiler_that_is_missing_is_a_fault_of_the_machine(monkeypatch: pytes
     monkeypatch.setattr("studies.embedded.stairs.check_rights", lambda: None)
     monkeypatch.setattr("shutil.which", lambda _name: None)
     monkeypatch.delenv("CC", raising=False)
-    with pytest.raises(InputError, match="live runs are not possible here: backend='c' needs a C compiler"):
+    with pytest.raises(InputError, match="live runs need a C compiler: install gcc or clang"):
         record()

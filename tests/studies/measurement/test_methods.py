@@ -183,6 +183,7 @@ def test_the_user_may_give_a_typical_state() -> None:
         ("own_system", "name a function"),
         ("own_system:", "name a function"),
         ("not_there:car", "'not_there' cannot be imported"),
+        ("./models/own.py:car", "is a path, not the name of a module; in the folder that .* write models.own:car$"),
         ("own_system:truck", "has no function 'truck'"),
         ("own_system:number", "returned a int"),
         ("own_system:raising", r"raising\(\) failed: RuntimeError: boom \(own_system.py, line 13\)"),
@@ -261,3 +262,10 @@ def test_a_model_that_cannot_be_counted_is_named_with_its_line(sched_sim: Run, t
         in message
     )
     assert message.endswith("or time it with another --backend")
+
+
+def test_without_a_c_compiler_the_remedy_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("shutil.which", lambda _name: None)
+    monkeypatch.delenv("CC", raising=False)
+    with pytest.raises(InputError, match=r"^backend c needs a C compiler: install gcc or clang, .*backend compiled$"):
+        measure(example_system(2, 1, 1), "c", methods=["standard"], name="absent")
