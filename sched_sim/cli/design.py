@@ -176,7 +176,7 @@ def _draw(path: Path, question: Question, found: Choice, every: Sequence[int]) -
 
 def _show(found: Choice, ways: Sequence[Candidate], question: Question, words: str) -> None:
     from sched_sim.cli.instructions import target_note
-    from sched_sim.cli.update_form import ground_note
+    from sched_sim.cli.update_form import calibration_texts, ground_note
     from studies.selection.methods import by_reason
 
     unit = found.outputs.unit and f" {found.outputs.unit}"
@@ -184,8 +184,7 @@ def _show(found: Choice, ways: Sequence[Candidate], question: Question, words: s
         f"{found.metric} standard deviation of {found.outputs.name} within {found.within:g}{unit}, {found.model.name}, "
         f"{flags.shown(found.sampling)}"
     )
-    calibrations = {part.name: None if part.calibration is None else part.calibration.text for part in question.parts}
-    table = question.tables[0]
+    of_each = {table.structure: table for table in reversed(question.tables)} if question.parts else {}
     machine = any(on.part is None for of in ways for on in of.parts)
     slow = [on for of in ways if of.cheapest is None for on in of.parts]
     too_slow = any(on.part is not None and on.needed is not None for on in slow)
@@ -208,7 +207,10 @@ def _show(found: Choice, ways: Sequence[Candidate], question: Question, words: s
             "" if question.parts or machine else _why_no_parts(question),
             words,
             f"costs: {_names(question)}",
-            ground_note(table, [of.variant.method for of in ways], calibrations) if question.parts else "",
+            *(
+                ground_note(table, [of.variant.method for of in ways], calibration_texts(table, question.parts))
+                for table in of_each.values()
+            ),
             *(target_note(table) for table in question.tables),
         ),
     )

@@ -184,6 +184,7 @@ def _figures(part: Part) -> dict[str, Any]:
         "calibration_least": None if part.calibration is None else float(part.calibration.least),
         "calibration_most": None if part.calibration is None else float(part.calibration.most),
         "calibration_source": None if part.calibration is None else part.calibration.source,
+        "sparse_calibration": None if part.sparse_calibration is None else part.sparse_calibration.text,
         "cycles_per_instruction_least": None if cycles is None else float(cycles.least),
         "cycles_per_instruction_most": None if cycles is None else float(cycles.most),
         "cycles_per_instruction_source": None if cycles is None else cycles.source,
@@ -230,7 +231,7 @@ def _verdicts(
     from sched_sim.cli.no_time import no_time_note
     from sched_sim.cli.parts import fit_row, fit_words, fixed_by, least_row
     from sched_sim.cli.progress import simulations
-    from sched_sim.cli.update_form import form_note, ground_note, structure_word, update_form
+    from sched_sim.cli.update_form import calibration_texts, form_note, ground_note, structure_word, update_form
     from sched_sim.design.fit import fit
     from sched_sim.design.methods import select
     from sched_sim.errors import InputError
@@ -239,8 +240,9 @@ def _verdicts(
     rows, shown = [], []
     lacking: dict[str, list[str]] = {}
     verdicts: list[Fit | None] = []
-    parts = [ranged(counts, part) for part in parts]
     tables = [on_part(counts, part) for part in parts]
+    calibrations = calibration_texts(counts, parts)
+    parts = [ranged(counts, part) for part in parts]
     say_of_statistic(statistic, tables)
 
     def verdict_of(part: Part, table: CostTable, method: str, timing: Timing) -> tuple[Fit | None, str | None]:
@@ -280,7 +282,6 @@ def _verdicts(
             about |= structure_word(counts)
             words = fit_words(part, rate, times, verdict, bool(tasks))
             shown.append(about | words | {"fixed by": fixed_by(row["binding"]), **ram_words(row)})
-    calibrations = {part.name: None if part.calibration is None else part.calibration.text for part in parts}
     in_order = sorted(range(len(shown)), key=lambda index: _by_slack(verdicts[index]))
     return (
         with_caveats(rows),

@@ -4,12 +4,16 @@ and on what ground."""
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING
 
 from sched_sim.cli.instructions import target_note
 from sched_sim.cli.measured_note import busy_note
 from sched_sim.cli.output import lines
 from sched_sim.costs.methods import DELAYED_METHODS
 from sched_sim.costs.table import CostTable
+
+if TYPE_CHECKING:
+    from sched_sim.processors.part import Part
 
 MEASURE = "`sched-sim measure --update"
 FORMS = {
@@ -49,9 +53,30 @@ def ground_note(table: CostTable, methods: Iterable[str], calibrations: Mapping[
     if table.target is not None:
         return ""
     forms = _forms(table, methods)
-    counts = f"{table.structure} counts, {forms[0]} form" if forms else "operations as counted"
+    sparse = table.structure == "sparse"
+    unknown_form = "sparse counts" if sparse else "operations as counted"
+    counts = f"{table.structure} counts, {forms[0]} form" if forms else unknown_form
     known = [f"{text} on {name}" for name, text in calibrations.items() if text]
-    return f"{counts}; measured over predicted {', '.join(known) or 'is not known'}"
+    measured = f"measured over predicted {', '.join(known) or 'is not known'}"
+    return f"{counts}; {_of_sparse(calibrations, measured if known else '') if sparse else measured}"
+
+
+def calibration_texts(table: CostTable, parts: Iterable[Part]) -> dict[str, str | None]:
+    """Of each part by its name, what was measured of such code as the table counts."""
+    from sched_sim.processors.part import calibration_for
+
+    known = {part.name: calibration_for(table, part) for part in parts}
+    return {name: None if calibration is None else calibration.text for name, calibration in known.items()}
+
+
+def _of_sparse(calibrations: Mapping[str, str | None], measured: str) -> str:
+    """measured: of the parts on which sparse code was timed; empty if it was on none."""
+    others = [name for name, text in calibrations.items() if not text]
+    if not others:
+        return measured
+    where = "the others" if measured else ", ".join(others)
+    unknown = f"no published timing of sparse code on {where}: the range is not known"
+    return f"{measured}; {unknown}" if measured else unknown
 
 
 def form_note(table: CostTable, methods: Iterable[str]) -> str:

@@ -76,8 +76,9 @@ class Part:
     seconds: by kind of operation (`operations.OPERATION_KINDS`), those that the file gives. clock_hz: None if the file
     gives times instead of cycles. precision: of the arithmetic, "single" or "double". logic_per_arithmetic: logic
     operations around each arithmetic one, for jobs that do not count their own. sources: where each figure is from,
-    by its name in the file. path: where the file was read from, for messages. calibration: None where nothing was
-    measured; it changes no time. price: of one, in whatever currency all files have it; None where it is not known.
+    by its name in the file. path: where the file was read from, for messages. calibration: of code that multiplies
+    zeros, sparse_calibration: of code that leaves them out; None where nothing was measured; they change no time.
+    price: of one, in whatever currency all files have it; None where it is not known.
     cycles_per_instruction: for tables of instructions; None where it is not stated.
     """
 
@@ -90,6 +91,7 @@ class Part:
     sources: Mapping[str, str]
     path: str = ""
     calibration: Calibration | None = None
+    sparse_calibration: Calibration | None = None
     price: Fraction | None = None
     cycles_per_instruction: CyclesPerInstruction | None = None
 
@@ -129,7 +131,7 @@ def on_part(table: CostTable, processor: Part) -> CostTable:
         provenance={
             **{key: value for key, value in table.provenance.items() if key not in OF_TIMES},
             "machine": processor.title,
-            "processor": _about(processor),
+            "processor": _about(processor, calibration_for(table, processor)),
         },
         lacking=lacking,
     )
@@ -142,7 +144,7 @@ def _instructions_on_part(table: CostTable, processor: Part) -> CostTable:
     assert processor.clock_hz is not None
     rate = processor.clock_hz / processor.cycles_per_instruction.most
     costs = {method: {kind: cost / rate for kind, cost in kinds.items()} for method, kinds in table.costs.items()}
-    about = _about(replace(processor, calibration=None, sources={}))
+    about = _about(replace(processor, sources={}), None)
     source = processor.cycles_per_instruction.source
     return replace(
         table,
@@ -180,13 +182,25 @@ def why_not_instructions(table: CostTable, processor: Part) -> str:
     return ""
 
 
+def calibration_for(table: CostTable, processor: Part) -> Calibration | None:
+    """What was measured of such code as the table counts: loops that multiply zeros say nothing of code without."""
+    return processor.sparse_calibration if table.structure == "sparse" else processor.calibration
+
+
 def ranged(table: CostTable, processor: Part) -> Part:
     """The processor, whose calibration is what it may take over what costs of this table say: of instructions, which
-    are charged the most cycles, from the least cycles to those."""
+    are charged the most cycles, from the least cycles to those; of sparse counts none where one timing is no range."""
     stated = processor.cycles_per_instruction
-    if table.target is None or stated is None:
-        return processor
-    return replace(processor, calibration=Calibration(stated.least / stated.most, Fraction(1)))
+    if table.target is not None:
+        return processor if stated is None else replace(processor, calibration=_of_cycles(stated))
+    known = calibration_for(table, processor)
+    if table.structure == "sparse" and known is not None and known.least == known.most:
+        known = None
+    return replace(processor, calibration=known)
+
+
+def _of_cycles(stated: CyclesPerInstruction) -> Calibration:
+    return Calibration(stated.least / stated.most, Fraction(1))
 
 
 def seconds_for(counts: Counts, processor: Part, job: str) -> Fraction:
@@ -249,7 +263,7 @@ def _no_time(processor: Part, missing: Sequence[str], job: str) -> str:
     )
 
 
-def _about(processor: Part) -> dict[str, str]:
+def _about(processor: Part, calibration: Calibration | None) -> dict[str, str]:
     """What a cost table says of the processor that its times are for."""
     clock = {} if processor.clock_hz is None else {"clock_mhz": str(processor.clock_hz / 10**6)}
     return {
@@ -257,6 +271,6 @@ def _about(processor: Part) -> dict[str, str]:
         "precision": processor.precision,
         **clock,
         "logic_per_arithmetic": str(processor.logic_per_arithmetic),
-        **({} if processor.calibration is None else {"calibration": processor.calibration.text}),
+        **({} if calibration is None else {"calibration": calibration.text}),
         **{f"{figure}_source": source for figure, source in processor.sources.items() if source},
     }

@@ -117,6 +117,7 @@ class _ProcessorFile(BaseModel):
     clock_mhz: Annotated[_Figure, _figure("value"), AfterValidator(_positive)] | None = None
     logic_per_arithmetic: Annotated[_Figure, _figure("value"), AfterValidator(_not_negative)]
     calibration: Annotated[_Calibration, BeforeValidator(_range)] | None = None
+    sparse_calibration: Annotated[_Calibration, BeforeValidator(_range)] | None = None
     cycles_per_instruction: _CyclesPerInstruction | None = None
     price: Annotated[_Number, AfterValidator(lambda price: positive(price, "the number"))] | None = None
     cycles: _InCycles = {}
@@ -185,7 +186,8 @@ def read_part(path: Path, shown: str = "", argument: str | None = None) -> Part:
         logic_per_arithmetic=checked.logic_per_arithmetic.value,
         sources={name: figure.text for name, figure in named.items()},
         path=shown,
-        calibration=None if checked.calibration is None else Calibration(**dict(checked.calibration)),
+        calibration=_calibration(checked.calibration),
+        sparse_calibration=_calibration(checked.sparse_calibration),
         price=checked.price,
         cycles_per_instruction=(
             None
@@ -193,3 +195,7 @@ def read_part(path: Path, shown: str = "", argument: str | None = None) -> Part:
             else CyclesPerInstruction(**dict(checked.cycles_per_instruction))
         ),
     )
+
+
+def _calibration(checked: _Calibration | None) -> Calibration | None:
+    return None if checked is None else Calibration(**dict(checked))

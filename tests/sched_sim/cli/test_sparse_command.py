@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import tomllib
+from importlib import resources
 from pathlib import Path
 
 import pytest
@@ -108,6 +109,41 @@ def test_verdicts_say_dense_or_sparse(sched_sim: Run) -> None:
         design = f"design --within 10 --model ins-gps --costs {word}.toml --method dual-rate"
         assert word in sched_sim(design).out
         assert json.loads(sched_sim(f"{design} --format json").out)["designs"][0]["structure"] == word
+
+
+ON_M4F = "measured over predicted 0.76 (one timing, predict of eskf-rs, STM32F405) on cortex-m4f"
+NOT_TIMED = "no published timing of sparse code on"
+GROUNDS = [
+    ("minimum --processor cortex-m4f", ON_M4F),
+    ("minimum --processor esp32", f"{NOT_TIMED} esp32: the range is not known"),
+    ("processors", f"{ON_M4F}; {NOT_TIMED} the others: the range is not known"),
+    ("processors --processor esp32 --processor leon3", f"{NOT_TIMED} esp32, leon3: the range is not known"),
+    ("design --within 10 --model ins-gps --processor esp32", f"{NOT_TIMED} esp32: the range is not known"),
+]
+
+
+@pytest.mark.parametrize(("command", "ground"), GROUNDS)
+def test_timings_of_dense_loops_are_no_ground_for_sparse_counts(sched_sim: Run, command: str, ground: str) -> None:
+    assert sched_sim(f"{COUNTED} --system own:stated --sparse -o sparse.toml").code == 0
+    design = "" if command.startswith("design") else "-N 10 -M 4 --hr-hz 400"
+    line = f"{command} {design} --costs sparse.toml --method dual-rate"
+    shown = sched_sim(line).out
+    assert f"sparse counts, textbook form; {ground}" in shown
+    assert "KFCore" not in shown
+    assert "ESP-DSP" not in shown
+    if design:
+        for row in json.loads(sched_sim(f"{line} --format json").out):
+            assert row["needed_share_least"] is row["needed_share_most"] is None
+
+
+def test_a_range_of_your_own_sparse_code_is_the_ground(sched_sim: Run) -> None:
+    assert sched_sim(f"{COUNTED} --system own:stated --sparse -o sparse.toml").code == 0
+    part = Path("mine.toml")
+    shipped = resources.files("sched_sim.processors").joinpath("cortex-m4f.toml").read_text()
+    part.write_text(shipped.replace("least = 0.76\nmost = 0.76", "least = 0.5\nmost = 1.5"))
+    line = "minimum -N 10 -M 4 --hr-hz 400 --costs sparse.toml --method dual-rate --processor mine.toml --format json"
+    (row,) = json.loads(sched_sim(line).out)
+    assert row["needed_share_most"] == pytest.approx(3 * row["needed_share_least"])
 
 
 def test_a_table_that_does_not_say_is_not_spoken_for(sched_sim: Run) -> None:

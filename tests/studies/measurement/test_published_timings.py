@@ -90,6 +90,15 @@ def test_the_calibrations_that_ship_are_of_these_timings(name: str) -> None:
         assert shipped.source
 
 
+@pytest.mark.parametrize("name", shipped_parts())
+def test_so_are_those_of_sparse_code(name: str) -> None:
+    shipped = load_part(name).sparse_calibration
+    ratios = [timing.ratios for timing in published_timings() if timing.part == name and "both" in timing.written]
+    assert ([] if shipped is None else [shipped.least, shipped.most]) == [
+        Fraction(f"{float(end):.2f}") for ends in ratios for end in ends
+    ]
+
+
 def test_the_same_part_at_another_clock_takes_as_many_cycles() -> None:
     part = load_part("cortex-m4f")
     faster = at_clock(part, Fraction(180_000_000))
