@@ -92,23 +92,27 @@ def about_boards(results: Results) -> dict[str, Any]:
     ends = {written: (min(of), max(of)) for written, of in by_written.items()}
     if not ends["generic matrix class"][0] > ends["plain loops"][1] > ends["zeros left out"][1]:
         raise ValueError("published timings are not ordered as the report says")
-    plain = [
-        (timing, times_us(timing, int(row["instructions"])))
+    looked = [
+        (timing, int(row["instructions"]))
         for timing, row in zip(every, results.records("boards"), strict=True)
         if timing.written == "plain loops" and row["instructions"]
     ]
+    plain = [(timing, times_us(timing, number)) for timing, number in looked]
     if any(timing.most_us < least for timing, (least, _) in plain):
         raise ValueError("a board takes less than the least time by instructions, against the report")
     above = [float(timing.most_us / most) - 1 for timing, (_, most) in plain if timing.most_us > most]
+    cycles = [timing.most_us * timing.clock_mhz / number for timing, number in looked]
     return {
         "within": float(factor(by_written["plain loops"])),
         "plain": span(*(f"{float(end):.2f}" for end in ends["plain loops"])),
         "generic": span(*(f"{float(end):.0f}" for end in ends["generic matrix class"])),
         "sparse": span(*(f"{float(end):.2f}" for end in ends["zeros left out"])),
         "faster": f"{float(1 / ends['zeros left out'][0]):.0f}",
-        "inside": len(plain) - len(above),
         "plain_number": len(plain),
-        "above": f"{100 * max(above):.0f}",
+        "inside": f"{len(plain) - len(above)} are in that range, the others up to {100 * max(above):.0f} % above it"
+        if above
+        else "all are in that range",
+        "cycles": span(*(f"{float(end):.2f}" for end in (min(cycles), max(cycles)))),
     }
 
 

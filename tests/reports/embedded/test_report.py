@@ -210,18 +210,20 @@ def test_published_timings_by_how_the_code_is_written() -> None:
     assert "up to 15 times faster than dense code" in text()
 
 
-def test_half_of_the_plain_timings_lie_in_the_range_of_their_instructions() -> None:
+def test_all_plain_timings_lie_in_the_range_of_their_instructions() -> None:
     plain = [row for row in rows("published.csv") if row["Source"] == "KFCore"]
-    assert len(plain) == 4
-    above = []
+    assert len(plain) == about_boards(stored())["plain_number"] == 4
     for row in plain:
         least, most = map(number, row["by instructions, µs"].split(" to "))
-        assert least <= number(row["published, µs"])
-        if number(row["published, µs"]) > most:
-            above.append(number(row["published, µs"]) / most - 1)
-    said = about_boards(stored())
-    assert len(above) == len(plain) - said["inside"] == 2
-    assert 100 * max(above) == pytest.approx(float(said["above"]), abs=1)
+        assert least <= number(row["published, µs"]) <= most
+    assert "Of the 4 timings of plain loops on such a core all are in that range; they are 1.21 to 2.45" in " ".join(
+        text().split()
+    )
+
+
+def test_with_fewer_instructions_a_timing_above_the_range_is_told() -> None:
+    said = about_boards(changed("boards", 3, "20000"))
+    assert said["inside"] == f"3 are in that range, the others up to {100 * (393 * 180 / 53000 - 1):.0f} % above it"
 
 
 def test_memory() -> None:

@@ -69,8 +69,19 @@ def test_a_part_of_which_no_core_is_emulated_has_no_instructions() -> None:
 
 
 def test_instructions_take_the_cycles_that_the_part_states() -> None:
-    """1 to 2 cycles at 180 MHz."""
-    assert times_us(of("KFCore", "predict"), 360) == (2, 4)
+    """1 to 2.65 cycles at 180 MHz."""
+    assert times_us(of("KFCore", "predict"), 360) == (2, Fraction("5.3"))
+
+
+@pytest.mark.parametrize(
+    ("source", "job"),
+    [*(("KFCore", job) for job in ("predict", "update, short", "U-D predict", "U-D update")), ("eskf-rs", "predict, sparse")],
+)
+def test_what_was_timed_of_a_job_as_it_is_written_lies_in_the_range(source: str, job: str) -> None:
+    timing = of(source, job)
+    (row,) = [row for row in records(stored()[1]["boards"]) if (row["source"], row["job"]) == (source, job)]
+    least, most = times_us(timing, int(row["instructions"]))
+    assert least <= timing.least_us <= timing.most_us <= most
 
 
 @needs_board
