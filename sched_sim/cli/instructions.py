@@ -175,6 +175,24 @@ def _needed(part: Part, rows: Sequence[Mapping[str, Any]]) -> str:
     return f"at {cycles} cycles an instruction, of the speed of {part.name}: {shares}" if shares else ""
 
 
+def check_ram(table: CostTable, ram_kb: str | None) -> None:
+    """Raises InputError for --ram-kb with a table that says of no method what memory it needs."""
+    if ram_kb is not None and not table.provenance.get("memory"):
+        raise InputError(
+            f"--ram-kb {ram_kb}: cost table {table.shown} does not say what memory its methods need: use --costs with "
+            f"a table that `sched-sim measure --backend emulated` writes"
+        )
+
+
+def in_time_and_ram(row: Mapping[str, Any]) -> dict[str, Any]:
+    """A row of `board_row` in which `fits` is in time and in RAM, and `fits_time` in time; as it is where only one of
+    them is known."""
+    if "fits_ram" not in row or "fits" not in row:
+        return dict(row)
+    time, ram = row["fits"], row["fits_ram"]
+    return {**row, "fits": False if not ram else time, "fits_time": time}
+
+
 def board_row(table: CostTable, method: str, ram_kb: str | None = None) -> dict[str, Any]:
     """For scripts: of instructions the core, and the cycles that they were taken for; if it was asked, arrays and
     stacks of the method's tasks, and whether they fit.
@@ -199,16 +217,15 @@ def _cycles(table: CostTable) -> str | None:
     return processor.get("cycles_per_instruction") if isinstance(processor, Mapping) else None
 
 
-def ram_words(row: Mapping[str, Any]) -> dict[str, str]:
-    """Memory of a `board_row` in words."""
+def ram_words(row: Mapping[str, Any]) -> dict[str, str | None]:
+    """Memory of a `board_row` in words, and the verdict where it has one: "fits" is in time and in RAM."""
     from sched_sim.cli.parts import no_less
 
     if "fits_ram" not in row:
         return {}
-    return {
-        "RAM, KB": no_less(Fraction(row["ram_and_stack_bytes"], KB), 3),
-        "in RAM": "yes" if row["fits_ram"] else "no",
-    }
+    words = {True: "yes", False: "no", None: None}
+    verdict = {"fits": words[row["fits"]], "in time": words[row["fits_time"]]} if "fits_time" in row else {}
+    return verdict | {"RAM, KB": no_less(Fraction(row["ram_and_stack_bytes"], KB), 3), "in RAM": words[row["fits_ram"]]}
 
 
 def _core(table: CostTable, clock_mhz: Fraction) -> Part:

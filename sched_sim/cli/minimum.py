@@ -13,6 +13,8 @@ from sched_sim.cli.instructions import (
     CyclesEach,
     RamKb,
     board_row,
+    check_ram,
+    in_time_and_ram,
     instructions_note,
     part_and_costs,
     ram_words,
@@ -68,6 +70,7 @@ def minimum(
     from sched_sim.design.pieces import converted
 
     part, table = part_and_costs(costs, processor, clock_mhz, cycles_per_instruction)
+    check_ram(table, ram_kb)
     rate = opt.hr_rate(hr_hz)
     others = opt.make_tasks(tasks, table.unit, rate)
     design = make_design(N, M, L, rate, measurement_hz, delay_ms, land_within_ms)
@@ -119,7 +122,7 @@ def minimum(
                         f"{units(table.unit)} per s": f"{row['work_per_second']:.4g}",
                     }
         scale = second if timed else Fraction(1)
-        row |= board_row(table, name, ram_kb)
+        row = in_time_and_ram(row | board_row(table, name, ram_kb))
         return row | measured_row(table, name, timing, options, others, scale), person | ram_words(row)
 
     rows, shown = [], []

@@ -10,7 +10,16 @@ import typer
 
 from sched_sim.cli import options as opt
 from sched_sim.cli.design_flags import with_options
-from sched_sim.cli.instructions import CyclesEach, RamKb, board_row, instructions_note, ram_words, suited
+from sched_sim.cli.instructions import (
+    CyclesEach,
+    RamKb,
+    board_row,
+    check_ram,
+    in_time_and_ram,
+    instructions_note,
+    ram_words,
+    suited,
+)
 from sched_sim.cli.output import lines, print_csv, print_json, print_table
 from sched_sim.cli.parts import MEANING, TASKS_ON_PARTS, highest_note
 from sched_sim.cli.refused import Refused
@@ -129,6 +138,7 @@ def processors(
         others = opt.make_tasks(tasks, "second", rate)
         assert design.times is not None
         counts = load_costs(COUNTED if costs is None else costs)
+        check_ram(counts, ram_kb)
         parts = suited(parts, processor or (), counts, cycles_per_instruction)
         rows, shown, remarks = _verdicts(
             parts, timings, counts, statistic, rate, options, others, design.times, refused, ram_kb
@@ -270,7 +280,7 @@ def _verdicts(
             verdict, reason = found[part.name, method]
             verdicts.append(verdict)
             least = None if verdict is None else verdict.least
-            row = (
+            row = in_time_and_ram(
                 least_row(method, timing, least)
                 | update_form(counts, method)
                 | fit_row(part, rate, times, verdict, bool(tasks))
@@ -282,7 +292,7 @@ def _verdicts(
             about |= structure_word(counts)
             words = fit_words(part, rate, times, verdict, bool(tasks))
             shown.append(about | words | {"fixed by": fixed_by(row["binding"]), **ram_words(row)})
-    in_order = sorted(range(len(shown)), key=lambda index: _by_slack(verdicts[index]))
+    in_order = sorted(range(len(shown)), key=lambda index: _by_slack(verdicts[index], rows[index]["fits"]))
     return (
         with_caveats(rows),
         [shown[index] for index in in_order],
@@ -296,9 +306,9 @@ def _verdicts(
     )
 
 
-def _by_slack(verdict: Fit | None) -> tuple[int, Fraction | int]:
+def _by_slack(verdict: Fit | None, fits: bool | None) -> tuple[int, Fraction | int]:
     """What fits is first, that with the least slack before the others; then what does not, the nearest first; last what
     is not known."""
     if verdict is None:
         return 2, 0
-    return (0, verdict.slack) if verdict.fits else (1, verdict.needed)
+    return (0, verdict.slack) if fits else (1, verdict.needed)

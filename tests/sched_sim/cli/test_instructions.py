@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 
 import pytest
@@ -93,6 +94,39 @@ def test_arrays_and_stacks_of_all_tasks_fit_a_ram_or_not(sched_sim: Run, kb: str
         assert row["ram_and_stack_bytes"] == needed
         assert row["fits_ram"] == fits == (needed <= float(kb) * 1024)
     assert "RAM, KB   in RAM" in sched_sim(f"minimum {DESIGN} --ram-kb {kb}").out
+
+
+@pytest.mark.parametrize(
+    ("speed", "kb", "words"),
+    [
+        ("168", "128", ("yes", "yes", "yes")),
+        ("168", "4", ("no", "yes", "no")),
+        ("10", "128", ("no", "no", "yes")),
+        ("10", "4", ("no", "no", "no")),
+    ],
+)
+def test_fits_is_in_time_and_in_ram(sched_sim: Run, speed: str, kb: str, words: tuple[str, ...]) -> None:
+    line = f"minimum {DESIGN} --clock-mhz {speed} --cycles-per-instruction 1:2 --ram-kb {kb}"
+    (row,) = json.loads(sched_sim(f"{line} --format json").out)
+    keys = ("fits", "fits_time", "fits_ram")
+    assert tuple(row[key] for key in keys) == tuple(word == "yes" for word in words)
+    _title, heading, _rule, below, *_ = filter(str.strip, sched_sim(line).out.splitlines())
+    in_words = dict(zip(*(re.split(r" {2,}", cells.strip()) for cells in (heading, below)), strict=True))
+    assert tuple(in_words[name] for name in ("fits", "in time", "in RAM")) == words
+
+
+def test_what_lacks_ram_is_behind_what_fits(sched_sim: Run) -> None:
+    line = "processors -N 80 -M 40 --hr-hz 400 --costs m4f.toml --method dual-rate --method standard --ram-kb 4"
+    shown = [words for words in sched_sim(line).out.splitlines() if "cortex-m4f  " in words]
+    assert ["standard" in words for words in shown] == [True, False]
+    assert [" yes " in words.partition("dense")[2][:12] for words in shown] == [True, False]
+
+
+def test_a_table_without_memory_is_refused_once(sched_sim: Run) -> None:
+    for command in ("minimum -N 10 -M 4", "processors -N 10 -M 4 --hr-hz 400"):
+        refused = sched_sim(f"{command} --costs counted-9-3-3 --ram-kb 10")
+        is_refused(refused, ["--ram-kb 10", "counted-9-3-3", "measure --backend emulated"])
+        assert refused.err.count("does not say what memory") == 1
 
 
 @pytest.mark.parametrize(

@@ -75,7 +75,13 @@ def test_instructions_take_the_cycles_that_the_part_states() -> None:
 
 @pytest.mark.parametrize(
     ("source", "job"),
-    [*(("KFCore", job) for job in ("predict", "update, short", "U-D predict", "U-D update")), ("eskf-rs", "predict, sparse")],
+    [
+        ("KFCore", "predict"),
+        ("KFCore", "update, short"),
+        ("KFCore", "U-D predict"),
+        ("KFCore", "U-D update"),
+        ("eskf-rs", "predict, sparse"),
+    ],
 )
 def test_what_was_timed_of_a_job_as_it_is_written_lies_in_the_range(source: str, job: str) -> None:
     timing = of(source, job)
