@@ -175,7 +175,7 @@ def _draw(path: Path, question: Question, found: Choice, every: Sequence[int]) -
 
 
 def _show(found: Choice, ways: Sequence[Candidate], question: Question, words: str) -> None:
-    from sched_sim.cli.instructions import target_note
+    from sched_sim.cli.instructions import cycles_note, target_note
     from sched_sim.cli.update_form import calibration_texts, ground_note
     from studies.selection.methods import by_reason
 
@@ -212,6 +212,7 @@ def _show(found: Choice, ways: Sequence[Candidate], question: Question, words: s
                 for table in of_each.values()
             ),
             *(target_note(table) for table in question.tables),
+            *(cycles_note(table, part) for table in question.tables[:1] for part in question.parts),
         ),
     )
 
@@ -224,6 +225,11 @@ def _names(question: Question) -> str:
 def _why_no_parts(question: Question) -> str:
     if question.sampling.hr_hz is None:
         return "no parts: which do depends on the rate of the HR loop; give --hr-hz"
+    if (target := question.tables[0].target) is not None:
+        return (
+            f"no parts: none that ships states the cycles of instructions of {target}; give one that does with "
+            f"--processor, as your own file, or leave --costs out, and operations are counted"
+        )
     return f"no parts: {question.tables[0].name} has no counted operations; leave --costs out, and they are counted"
 
 

@@ -71,6 +71,13 @@ def target_row(table: CostTable, method: str) -> dict[str, Any]:
     return {"instructions_of": table.target, **sizes}
 
 
+def cycles_note(table: CostTable, part: Part) -> str:
+    """A line that says how instructions became times of a part; empty for other costs."""
+    if table.target is None or part.cycles_per_instruction is None:
+        return ""
+    return f"on {part.name}: times by the most of {part.cycles_per_instruction.text} cycles for each instruction"
+
+
 def built_note(table: CostTable) -> str:
     """For people: how it was compiled, and bytes of each task; empty for other costs."""
     if table.target is None:

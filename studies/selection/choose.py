@@ -7,7 +7,7 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
-from sched_sim.costs.table import CostTable
+from sched_sim.costs.table import INSTRUCTION, CostTable
 from sched_sim.design.fit import check_shares
 from sched_sim.design.landing import landing
 from sched_sim.design.least_speed import has_closed_form, least_speed
@@ -17,7 +17,7 @@ from sched_sim.design.methods import select
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import Statistic
 from sched_sim.errors import InputError, option
-from sched_sim.processors.part import Part
+from sched_sim.processors.part import Part, why_not_instructions
 from sched_sim.processors.part_file import load_part, shipped_parts
 from sched_sim.schedule.tasks import Task, phases_matter
 from sched_sim.ticks import Number, positive
@@ -106,18 +106,24 @@ def within_of(value: Number) -> float:
 
 
 def parts_for(asked: Sequence[str | Part] | None, tables: Sequence[CostTable], sampling: Sampling) -> tuple[Part, ...]:
-    """All that ship if none is asked for, and none where they cannot be looked at. Raises InputError where one that was
-    asked for cannot be."""
-    counted = all(table.operations for table in tables)
-    if sampling.hr_hz is None or not counted:
+    """All that ship if none is asked for, of instructions those that state their cycles; none where they cannot be
+    looked at. Raises InputError where one that was asked for cannot be."""
+    instructions = all(table.unit == INSTRUCTION for table in tables)
+    if sampling.hr_hz is None or not (instructions or all(table.operations for table in tables)):
         if asked:
             raise InputError(
                 f"{option('processor')} needs counted operations, and {option('costs')} {tables[0].shown} has none: "
                 f"count with `sched-sim measure --backend counted -o FILE`"
             )
         return ()
-    parts = [part if isinstance(part, Part) else load_part(part) for part in asked or shipped_parts()]
-    return tuple({part.name: part for part in parts}.values())
+    loaded = [part if isinstance(part, Part) else load_part(part) for part in asked or shipped_parts()]
+    parts = tuple({part.name: part for part in loaded}.values())
+    if not instructions:
+        return parts
+    reasons = {part.name: [why_not_instructions(table, part) for table in tables] for part in parts}
+    if asked and (refused := [reason for of in reasons.values() for reason in of if reason]):
+        raise InputError(refused[0])
+    return tuple(part for part in parts if not any(reasons[part.name]))
 
 
 def check_rate(asked: Sequence[str | Part] | None, sampling: Sampling) -> None:
@@ -168,9 +174,10 @@ def chosen(question: Question, methods: Sequence[str] | None = None, every: Sequ
     left_out = [words for words in wanted.left_out if any(f"no {name}:" in words for name in SCHEDULED)]
     left_out += [f"no {words}" for words in without]
     left_out += [
-        f"dual-rate: {option('lr_propagate_by')} l and {option('feedback')} same-step, which may need less, are tried "
-        f"only where nothing is simulated, and not beyond the next measurement: give one to see"
-    ] * left
+        f"dual-rate: another schedule, by {option('lr_propagate_by')} l or {option('feedback')} same-step, may need "
+        f"less: unless you give these options, they are compared only up to a landing with the next measurement, and "
+        f"where no simulation is needed"
+    ] * (left and not any(of.variant.is_beside(question.options) for of in best))
     choice = Choice(
         question.model,
         question.outputs,

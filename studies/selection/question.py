@@ -25,8 +25,8 @@ from studies.selection.variants import WAYS, Variant, Ways
 
 @dataclass(frozen=True)
 class Question:
-    """All that a choice depends on. parts: none where the costs are no counts, or the rate is not known. tasks: their
-    costs in seconds where there are parts, else in the unit of the cost tables."""
+    """All that a choice depends on. parts: none where the costs are no counts, of operations or instructions, or the
+    rate is not known. tasks: their costs in seconds where there are parts, else in the unit of the cost tables."""
 
     model: Model
     outputs: Outputs

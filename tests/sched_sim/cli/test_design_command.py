@@ -253,9 +253,17 @@ def test_the_way_that_needs_least_is_the_least_of_all_ways(sched_sim: Run, line:
 
 def test_ways_that_have_to_be_simulated_are_said_not_to_be_tried(sched_sim: Run) -> None:
     asked = f"design --within 0.38 {INS} --method dual-rate --every 1 --processor leon3 --policy edf"
-    note = "dual-rate: --lr-propagate-by l and --feedback same-step, which may need less, are tried only"
+    note = "dual-rate: another schedule, by --lr-propagate-by l or --feedback same-step, may need less: unless you give"
     assert note in sched_sim(asked).out
     assert note not in sched_sim(asked.replace("--policy edf", "")).out
+
+
+def test_it_is_not_said_beside_a_row_that_is_one_of_them(sched_sim: Run) -> None:
+    asked = f"design --within 10 {INS} --method dual-rate --processor leon3"
+    shown = sched_sim(asked).out
+    assert "same step" in shown
+    assert "--feedback" not in shown
+    assert "--feedback" in sched_sim(f"{asked} --feedback same-step --policy edf").out
 
 
 def test_without_a_rate_there_is_no_part(sched_sim: Run) -> None:

@@ -163,3 +163,27 @@ def test_cycles_that_are_given_stand_for_those_of_a_part(sched_sim: Run) -> None
     line = f"processors {DESIGN} --processor cortex-m4f --format json"
     (stated,), (given,) = (json.loads(sched_sim(line + more).out) for more in ("", " --cycles-per-instruction 4"))
     assert given["needed_share"] == pytest.approx(4 / 2.65 * stated["needed_share"])
+
+
+CHOICE = "design --within 10 --model ins-gps --costs m4f.toml --method dual-rate"
+
+
+def test_design_takes_the_parts_that_processors_does(sched_sim: Run) -> None:
+    (design,) = json.loads(sched_sim(f"{CHOICE} --format json").out)["designs"]
+    (on,) = design["parts"]
+    sampled = f"-N {design['N']} -M {design['M']} -L {design['L']} --feedback {design['feedback']}"
+    line = f"processors {sampled} --hr-hz 400 --costs m4f.toml --method dual-rate --format json"
+    (listed,) = json.loads(sched_sim(line).out)
+    for key in ("processor", "fits", "needed_share", "load", "achieved_l", "correction_ms"):
+        assert on[key] == listed[key], key
+    shown = sched_sim(CHOICE).out
+    assert "on cortex-m4f: times by the most of 1 to 2.65 cycles for each instruction" in shown
+    assert "no parts" not in shown
+    is_refused(sched_sim(f"{CHOICE} --processor leon3"), ["'leon3' does not state", "[cycles_per_instruction]"])
+
+
+def test_without_a_part_for_the_core_design_says_why(sched_sim: Run) -> None:
+    Path("m4f.toml").write_text(TABLE.replace('"cortex-m4f"', '"cortex-m4-soft"'))
+    shown = sched_sim(CHOICE).out
+    assert "no parts: none that ships states the cycles of instructions of cortex-m4-soft" in shown
+    assert "no counted operations" not in shown
