@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from sched_sim.bounds import at_least_one, whole
 from sched_sim.costs.methods import CAVEATS, MULTIRATE_METHODS, TWO_RATE_METHODS
-from sched_sim.costs.table import CostTable
+from sched_sim.costs.table import INSTRUCTION, CostTable
 from sched_sim.design.methods import select
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import Statistic
@@ -175,8 +175,7 @@ def method_panel(
     schedule = simulate(costs, timing, speed, cycles, options, tasks, keep_slices=True, on_landing=landings.__setitem__)
     two_rate = method in TWO_RATE_METHODS
     delay = replace(timing, M=0, instants=None) if two_rate or method == "standard" else timing
-    pace = f"HR period {_number(1000 * speed)} ms" if table.unit == "second" else f"speed {_number(speed)}"
-    notes = [pace, landing_note(landings.values(), delay.M)]
+    notes = [_pace(table, speed), landing_note(landings.values(), delay.M)]
     if method == "standard":
         notes[1] = "no delay: lands at $k$"
     if method in MULTIRATE_METHODS:
@@ -186,12 +185,25 @@ def method_panel(
     panel = Panel(
         title=METHOD_NAMES[method] if title is None else title,
         schedule=schedule,
-        notes=(*notes, *option_notes(options), f"{100 * float(schedule.utilization):.0f} % busy"),
+        notes=(*notes, *_cost_notes(table), *option_notes(options), f"{100 * float(schedule.utilization):.0f} % busy"),
         marks=cycle_marks(delay, cycles, landings, arrives=not two_rate, end=schedule.horizon // schedule.period),
     )
     if first == 0 and last is None:
         return panel
     return zoomed(panel, first, panel.end if last is None else last)
+
+
+def _pace(table: CostTable, speed: Fraction) -> str:
+    if table.unit == "second":
+        return f"HR period {_number(1000 * speed)} ms"
+    return f"speed {_number(speed)}" + (" instructions" if table.unit == INSTRUCTION else "")
+
+
+def _cost_notes(table: CostTable) -> list[str]:
+    """That zeros were left out, and of which core times by instructions are."""
+    by_instructions = table.target is not None and table.unit != INSTRUCTION
+    notes = ["sparse"] if table.structure == "sparse" else []
+    return [*notes, f"by instructions of {table.target}"] if by_instructions else notes
 
 
 def option_notes(options: Options) -> list[str]:

@@ -213,8 +213,8 @@ def _processor(
     options: Options,
     tasks: Path | None,
 ) -> Processor | None:
-    from sched_sim.cli.instructions import target_note
     from sched_sim.cli.output import say
+    from sched_sim.cli.update_form import counted_note
     from sched_sim.processors.part import on_part
     from sched_sim.ticks import positive
     from studies.selection.costs import tables_for
@@ -231,6 +231,6 @@ def _processor(
     else:
         table = opt.costs_on(costs, None)
         pace, shown = positive(speed or "", "--speed"), f"a processor of speed {speed}"
-    if note := target_note(table):
+    for note in counted_note(table).splitlines():
         say(f"Note: {note}")
     return Processor(table, pace, shown, options, statistic, opt.make_tasks(tasks, table.unit, rate))

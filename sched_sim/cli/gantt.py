@@ -62,9 +62,9 @@ def gantt(
     from reports.drawing.picture import check_picture
     from sched_sim.cli.caveats import caveat_note
     from sched_sim.cli.design_times import make_design
-    from sched_sim.cli.instructions import target_note
     from sched_sim.cli.measured_note import say_of_statistic
     from sched_sim.cli.simulate import of_the_start, released_together
+    from sched_sim.cli.update_form import counted_note
     from sched_sim.design.least_speed import least_speed
     from sched_sim.design.methods import select
 
@@ -99,7 +99,7 @@ def gantt(
         panels = [zoomed(panel, start, end) for panel in panels]
     save(draw(panels, width_mm=across, hr_hz=rate), output, "--output")
     left = [name for name in methods if name not in refused.notes]
-    for words in lines(design.words, caveat_note(left), target_note(table)).splitlines():
+    for words in lines(design.words, caveat_note(left), counted_note(table)).splitlines():
         say(words)
     say(f"Wrote {output}")
 

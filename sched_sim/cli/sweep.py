@@ -302,6 +302,7 @@ def _report(asked: Sweep, store: Store, outcome: Outcome, exports: Sequence[Path
                 "results": str(store.path),
                 "exports": [str(file) for file in exports],
                 "update_form": {table.name: form for table in tables if (form := table.update_form)},
+                "structure": {table.name: structure for table in tables if (structure := table.structure)},
                 "methods": methods,
                 "best": designs,
             }

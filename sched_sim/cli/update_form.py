@@ -22,6 +22,8 @@ FORMS = {
     "short": f"short, P - K (P H')', the cheapest; {MEASURE} joseph` counts one that bears any gain",
 }
 
+SPARSE = "sparse: costs of filters that leave out zeros and ones of the model"
+
 
 def update_form(table: CostTable, method: str) -> dict[str, str | None]:
     """For scripts, where `table` says it: the form that its costs of `method` are of, None for methods that keep
@@ -80,10 +82,16 @@ def _of_sparse(calibrations: Mapping[str, str | None], measured: str) -> str:
 
 
 def form_note(table: CostTable, methods: Iterable[str]) -> str:
-    """For people, a line below a table, of instructions another; empty where there is nothing to say."""
+    """For people, a line below a table, of sparse filters and of instructions another; empty where there is nothing to
+    say."""
     forms = _forms(table, methods)
     update = f"covariance update: {FORMS.get(forms[0], forms[0])}" if forms else ""
-    return lines(update, target_note(table))
+    return lines(update, counted_note(table))
+
+
+def counted_note(table: CostTable) -> str:
+    """That zeros were left out, and that it is instructions; empty for other costs."""
+    return lines(SPARSE if table.structure == "sparse" else "", target_note(table))
 
 
 def _forms(table: CostTable, methods: Iterable[str]) -> list[str]:

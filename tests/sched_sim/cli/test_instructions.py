@@ -4,10 +4,17 @@ from __future__ import annotations
 
 import json
 import re
+from dataclasses import replace
+from fractions import Fraction
 from pathlib import Path
 
 import pytest
 
+from reports.charts.panels import method_panel
+from sched_sim.costs.table_file import load_costs
+from sched_sim.design.timing import Timing
+from sched_sim.processors.part import on_part
+from sched_sim.processors.part_file import load_part
 from tests.command_line import Run, is_refused
 
 TABLE = """
@@ -163,6 +170,15 @@ def test_cycles_that_are_given_stand_for_those_of_a_part(sched_sim: Run) -> None
     line = f"processors {DESIGN} --processor cortex-m4f --format json"
     (stated,), (given,) = (json.loads(sched_sim(line + more).out) for more in ("", " --cycles-per-instruction 4"))
     assert given["needed_share"] == pytest.approx(4 / 2.65 * stated["needed_share"])
+
+
+def test_a_picture_says_what_its_times_are_of(tmp_path: Path) -> None:
+    counted = load_costs(tmp_path / "m4f.toml")
+    timing = Timing(80, 40, 60)
+    assert method_panel(counted, "dual-rate", timing, 30_000).notes[0] == "speed 30000 instructions"
+    on_it = on_part(replace(counted, provenance={**counted.provenance, "structure": "sparse"}), load_part("cortex-m4f"))
+    notes = method_panel(on_it, "dual-rate", timing, Fraction(1, 400)).notes
+    assert {"sparse", "by instructions of cortex-m4f"} <= set(notes)
 
 
 CHOICE = "design --within 10 --model ins-gps --costs m4f.toml --method dual-rate"

@@ -111,6 +111,32 @@ def test_verdicts_say_dense_or_sparse(sched_sim: Run) -> None:
         assert json.loads(sched_sim(f"{design} --format json").out)["designs"][0]["structure"] == word
 
 
+SHOWN = [
+    "minimum -N 10 -M 4",
+    "simulate -N 10 -M 4",
+    "simulate -N 10 -M 4 --hr-hz 400 --processor esp32",
+    "sweep -N 10 -M 4",
+    "gantt -N 10 -M 4 -o fig.svg",
+]
+
+
+@pytest.mark.parametrize("command", SHOWN)
+def test_every_command_says_that_costs_are_sparse(sched_sim: Run, command: str) -> None:
+    said = "sparse: costs of filters that leave out zeros and ones of the model"
+    for flags, times in (("--sparse -o costs.toml", 1), ("-o costs.toml", 0)):
+        assert sched_sim(f"{COUNTED} --system own:stated {flags}").code == 0
+        found = sched_sim(f"{command} --costs costs.toml --method dual-rate")
+        assert found.code == 0, found.err
+        assert (found.out + found.err).count(said) == times
+
+
+def test_scripts_are_told_too(sched_sim: Run) -> None:
+    assert sched_sim(f"{COUNTED} --system own:stated --sparse -o sparse.toml").code == 0
+    line = "-N 10 -M 4 --costs sparse.toml --method dual-rate --format json"
+    assert json.loads(sched_sim(f"simulate {line}").out)["structure"] == "sparse"
+    assert set(json.loads(sched_sim(f"sweep {line}").out)["structure"].values()) == {"sparse"}
+
+
 ON_M4F = "measured over predicted 0.76 (one timing, predict of eskf-rs, STM32F405) on cortex-m4f"
 NOT_TIMED = "no published timing of sparse code on"
 GROUNDS = [
