@@ -20,7 +20,7 @@ LINES: Mapping[Written, Line] = {
     "with more around it": Line(GREY, "-", "D", 3.8),
     "generic matrix class": Line("#b3382f", "-", "^", 4.4),
     "zeros left out": Line("#6b5b1e", "-", "s", 4.0),
-    "left out of both": Line("#2e7d4f", "-", "v", 4.4),
+    "left out of both": Line("#7b5fc4", "-", "v", 4.4),
 }
 
 

@@ -239,8 +239,11 @@ def test_memory() -> None:
 
 
 def test_a_whole_folder_takes_less_ram_than_all_arguments_of_its_jobs() -> None:
+    """Of the methods whose jobs were measured one by one; the others have no such bound."""
     memory = {(row["Method"], row["precision"]): row for row in rows("memory.csv")}
-    for row in rows("folders.csv"):
+    folders = [row for row in rows("folders.csv") if (row["Method"], "single") in memory]
+    assert len(folders) == len(METHODS)
+    for row in folders:
         of = memory[row["Method"], "single"]
         arguments = sum(number(of[task]) for task in ("RAM, HR", "RAM, LR") if of[task] != "-")
         assert number(row["RAM, single"]) < arguments
