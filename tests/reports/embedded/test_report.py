@@ -234,7 +234,7 @@ def test_memory() -> None:
     assert float(single["RAM and stacks, KB"]) == pytest.approx(total / 1024, abs=0.005)
     assert {row["RAM, LR"] for (name, _), row in memory.items() if name == "Larsen"} == {"-"}
     said = about_memory(stored())
-    assert f"The dual-rate filter takes most, {said['dual_rate']} KB" in text()
+    assert f"{said['upper']} KB for the dual-rate filter, the most of them, is an upper bound" in text()
     assert sum(memory_bytes(stored(), "cortex-m4f", "textbook")["dual-rate"].values()) == total + number(single["code"])
 
 
@@ -247,6 +247,19 @@ def test_a_whole_folder_takes_less_ram_than_all_arguments_of_its_jobs() -> None:
         of = memory[row["Method"], "single"]
         arguments = sum(number(of[task]) for task in ("RAM, HR", "RAM, LR") if of[task] != "-")
         assert number(row["RAM, single"]) < arguments
+
+
+def test_the_headline_of_memory_is_of_what_is_written_as_a_whole() -> None:
+    folders = rows("folders.csv")
+    ram = {row["Method"]: row["RAM, single"] for row in folders}
+    flash = sorted((row["code, single"] for row in folders), key=number)
+    short = text().partition("**In short.**")[2].partition("## ")[0]
+    assert f"{flash[0]} to {flash[-1]} bytes of flash" in short
+    assert f"and {min(ram.values(), key=number)} bytes of RAM or more. Of {len(ram)} methods augmentation" in short
+    most = sorted(ram, key=lambda method: number(ram[method]), reverse=True)[:3]
+    assert most == ["Augmentation", "Dual-rate", "Larsen"]
+    first, second, third = (ram[method] for method in most)
+    assert f"{first} bytes, then the dual-rate filter, {second}, then Larsen's method, {third}" in short
 
 
 def test_the_known_loop_is_exact_on_all_cores() -> None:
@@ -286,6 +299,8 @@ def test_claims_that_no_longer_hold_are_not_printed() -> None:
         about_speeds(faster, compared(faster))
     with pytest.raises(ValueError, match="as many instructions an operation"):
         about_speeds(halved("cortex-m4f", "standard", "update"), compared(stored()))
+    with pytest.raises(ValueError, match="take most RAM"):
+        about_memory(changed("folders", 4, "9999"))
     with pytest.raises(ValueError, match="less than the least time"):
         about_boards(changed("boards", 3, "999999"))
 
