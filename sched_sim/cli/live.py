@@ -125,7 +125,7 @@ def live(
     """Run the dual rate filter that `code` writes as two real-time threads (SCHED_FIFO) on one core, each job for the
     CPU time that its costs say, and compare where corrections land with the prediction. Needs Linux, a C compiler and
     the right to real-time priorities. Exit code 0: agrees, 1: disagrees, 3: inconclusive, for too much was taken from
-    the core; 2, as of all commands: it could not be run.
+    the core or the cycles are too few; 2, as of all commands: it could not be run.
 
     sched-sim live -N 10 -M 4 --speed 0.85 --period-ms 10 --cycles 500 --gantt live.svg --trace live.json
     sched-sim live -N 10 -M 4 --speed 0.85 --staircase staircase.svg --cycles 100

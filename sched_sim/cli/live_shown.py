@@ -30,6 +30,8 @@ def show_run(run: Measured, core: int, swapped: bool, format: Format) -> None:
 
 def show_stairs(runs: Sequence[Measured], word: Word, core: int, swapped: bool, format: Format) -> None:
     """Runs at several speeds, and the word for all."""
+    from studies.live.agreement import together
+    from studies.live.stairs import far_from_steps
     from studies.live.taken import NEAR
 
     rows = [_about(run, core, swapped) | _figures(run) for run in runs]
@@ -40,6 +42,8 @@ def show_stairs(runs: Sequence[Measured], word: Word, core: int, swapped: bool, 
     else:
         near = float(100 * NEAR)
         note = f"{word}, by the speeds {near:g} % or more from a step"
+        if far := far_from_steps(runs):
+            note += f": {_calm(together(far))} landed as predicted at these {len(far)} together{_alone(far)}"
         print_table(_title(runs[0], core, swapped), [_speed_row(run) for run in runs], lines(note, _ground()))
 
 
@@ -127,20 +131,42 @@ def _landed_rows(run: Measured) -> list[dict[str, Any]]:
 
 def _verdict(run: Measured) -> str:
     """Its word first."""
-    from studies.live.agreement import ENOUGH
-
     found = run.agreement
-    few = (
-        f"only {found.undisturbed} of {found.cycles} cycles were undisturbed, and {float(100 * ENOUGH):g} % must be; "
-        if found.word == "inconclusive"
-        else ""
-    )
-    calm = f"{found.agreeing_undisturbed} of {found.undisturbed} undisturbed cycles"
-    share = found.share_undisturbed
-    how_many = "" if share is None else f" ({_no_more(share)})"
     where = f"landed as predicted, at l = k + {run.predicted}"
     everything = f"of all {found.cycles} cycles {found.agreeing} ({_no_more(found.share)})"
-    return f"{found.word}: {few}{calm}{how_many} {where}; {everything}"
+    return f"{found.word}: {_calm(found)} {where}; {everything}{_lacking(found)}"
+
+
+def _calm(found: Agreement) -> str:
+    share = found.share_undisturbed
+    how_many = "" if share is None else f" ({_no_more(share)})"
+    return f"{found.agreeing_undisturbed} of {found.undisturbed} undisturbed cycles{how_many}"
+
+
+def _alone(far: Sequence[Agreement]) -> str:
+    """Speeds that decide the word by themselves, or else what all of them together lack."""
+    from studies.live.agreement import ENOUGH, together
+
+    if wrong := sum(of.word == "disagrees" for of in far):
+        return f"; by its own cycles {wrong} disagrees" if wrong == 1 else f"; by their own cycles {wrong} disagree"
+    if spoilt := sum(of.too_disturbed for of in far):
+        return f"; at {spoilt} of them fewer than {float(100 * ENOUGH):g} % of the cycles were undisturbed"
+    return _lacking(together(far))
+
+
+def _lacking(found: Agreement) -> str:
+    """What there would have to be for a verdict, where there is none."""
+    from studies.live.agreement import ALIKE, CONFIDENCE, ENOUGH, would_do
+
+    if found.word != "inconclusive":
+        return ""
+    if found.too_disturbed:
+        least = f"{float(100 * ENOUGH):g} %"
+        return f"; only {found.undisturbed} of {found.cycles} cycles were undisturbed, and {least} must be"
+    return (
+        f"; too few to say with {float(100 * CONFIDENCE):g} % confidence whether at least {float(100 * ALIKE):g} % do: "
+        f"with {found.elsewhere} elsewhere {would_do(found.elsewhere)} undisturbed cycles would do"
+    )
 
 
 def _facts(run: Measured) -> list[str]:
@@ -207,8 +233,15 @@ def _speed_row(run: Measured) -> dict[str, Any]:
         "of undisturbed": None if calm is None else _no_more(calm),
         "of all": _no_more(found.share),
         "undisturbed": _no_more(Fraction(found.undisturbed, found.cycles)),
-        "verdict": found.word if abs(distance) >= NEAR else "near a step",
+        "verdict": _word(found) if abs(distance) >= NEAR else "near a step",
     }
+
+
+def _word(found: Agreement) -> str:
+    """With why it is none."""
+    if found.word != "inconclusive":
+        return found.word
+    return "inconclusive: disturbed" if found.too_disturbed else "inconclusive: few"
 
 
 def _no_more(share: Fraction) -> str:

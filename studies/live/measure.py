@@ -13,7 +13,7 @@ from studies.live.taken import busy_periods, disturbed, taken_by_cycle
 
 class Measured(NamedTuple):
     """What a run came to. predicted: l - k; achieved, taken, disturbed: by cycle, `taken` in ns; wake: ns by step;
-    taken_share: of all time, what was taken from jobs that were ready."""
+    taken_share: of all time that the run took, what was taken from jobs that were ready."""
 
     design: Design
     predicted: int
@@ -40,7 +40,8 @@ def measured(ran: Ran, design: Design, predicted: int) -> Measured:
     """Judges a run."""
     busy = busy_periods(ran.jobs, design)
     taken = taken_by_cycle(busy, design)
-    share = sum(period.taken for period in busy) / (design.steps * design.period_ns)
+    whole = max([design.steps * design.period_ns, *(period.end for period in busy)])
+    share = sum(period.taken for period in busy) / whole
     return Measured(
         design,
         predicted,

@@ -7,7 +7,7 @@ from fractions import Fraction
 from itertools import pairwise
 
 from sched_sim.design.least_speed import staircase
-from studies.live.agreement import Word
+from studies.live.agreement import Agreement, Word, together
 from studies.live.design import MOST_LOAD, Design
 from studies.live.measure import Measured
 from studies.live.taken import NEAR
@@ -41,10 +41,18 @@ def through_two_steps(design: Design) -> list[Design]:
     return [each for each in designs if each.load <= MOST_LOAD and each.predicted is not None]
 
 
+def far_from_steps(runs: Sequence[Measured]) -> list[Agreement]:
+    """Of the runs that are not near to a step. Near to it a run may disagree without there being anything wrong."""
+    return [run.agreement for run in runs if abs(nearest_step(run.design)) >= NEAR]
+
+
 def word_of(runs: Sequence[Measured]) -> Word:
-    """Of all that are not near to a step: they disagree if one does, and agree if each does. Near to it a run may
-    disagree without there being anything wrong."""
-    words = {run.agreement.word for run in runs if abs(nearest_step(run.design)) >= NEAR}
-    if "disagrees" in words:
+    """Of all that are far from steps, by the cycles of all together; they disagree if one does alone, and are
+    inconclusive if at one speed too many cycles were disturbed."""
+    far = far_from_steps(runs)
+    if not far:
+        return "inconclusive"
+    word = together(far).word
+    if word == "disagrees" or any(of.word == "disagrees" for of in far):
         return "disagrees"
-    return "agrees" if words == {"agrees"} else "inconclusive"
+    return "inconclusive" if any(of.too_disturbed for of in far) else word

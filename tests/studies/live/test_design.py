@@ -97,10 +97,19 @@ def test_how_far_a_step_is() -> None:
 
 
 def test_speeds_near_to_a_step_have_no_say() -> None:
-    agreeing, swapped = judged("ordinary"), judged("swapped")
-    near = design("0.8248")
+    swapped, near = judged("swapped"), design("0.8248")
+    agreeing = judged("ordinary")._replace(achieved=[7] * 299, disturbed=[False] * 299)
     wrong_near = measured(swapped.ran, near, 7)
     assert word_of([agreeing, wrong_near]) == "agrees"
     assert word_of([agreeing, swapped]) == "disagrees"
     assert word_of([wrong_near]) == "inconclusive"
     assert perfect(near)
+
+
+def test_speeds_too_few_alone_may_be_enough_together() -> None:
+    far, undisturbed = judged("ordinary"), [False] * 100
+    few = far._replace(achieved=[7] * 100, disturbed=undisturbed)
+    assert word_of([few, few]) == "inconclusive"
+    assert word_of([few, few, few]) == "agrees"
+    assert word_of([few, few, few, few._replace(disturbed=[True] * 21 + undisturbed[21:])]) == "inconclusive"
+    assert word_of([few] * 9 + [few._replace(achieved=[6] * 4 + [7] * 96)]) == "disagrees"
