@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from fractions import Fraction
 from math import floor
@@ -10,9 +11,9 @@ from typing import Any, NamedTuple
 from reports.pages.machine import marked
 from reports.pages.stored import Rows, Tables, records
 from studies.embedded.stairs import Record, judged
-from studies.live.agreement import ALIKE, ENOUGH, Agreement, Word
+from studies.live.agreement import ALIKE, CONFIDENCE, ENOUGH, Agreement, Word, together, would_do
 from studies.live.measure import Measured
-from studies.live.stairs import nearest_step, word_of
+from studies.live.stairs import far_from_steps, nearest_step, word_of
 from studies.live.taken import NEAR
 
 TABLES = ("live", "live-runs", "live-about")
@@ -56,56 +57,92 @@ def live_rows(runs: Sequence[Measured]) -> Rows:
     for run in runs:
         of, from_step = run.agreement, nearest_step(run.design)
         calm = "-" if of.share_undisturbed is None else _percent(of.share_undisturbed)
-        verdict = "near" if abs(from_step) < NEAR else of.word
+        verdict = "near" if abs(from_step) < NEAR else _verdict(of)
         row = [f"{float(run.design.speed):.4f}", f"{float(100 * from_step):+.0f}".replace("-", "−"), run.predicted]
         rows.append([*row, _percent(of.share), _percent(Fraction(of.undisturbed, of.cycles)), calm, verdict])
     return rows
 
 
+def _verdict(of: Agreement) -> str:
+    """With why there is none."""
+    if of.word != "inconclusive":
+        return of.word
+    return "inconclusive: disturbed" if of.too_disturbed else "inconclusive: few"
+
+
 class Said(NamedTuple):
-    """In the text. cycles: of each run; words: the verdict on all, with what it means."""
+    """In the text. cycles: of each run; speeds: how many there are; word: the verdict on all; words: what it means;
+    verdicts: of each speed alone, in numbers."""
 
     cycles: int
+    speeds: int
     word: Word
     words: str
-    near: str
+    verdicts: str
     far: str
+    near: str
     swapped: Word
     swapped_agreeing: str
     machine: str
     differing: int
 
 
-WORDS: dict[Word, str] = {
-    "agrees": "corrections land where they are predicted to",
-    "disagrees": "corrections do not all land where they are predicted to",
-    "inconclusive": "too much was taken from the core for a verdict",
-}
-
-
 def about_live(of: Record) -> dict[str, Any]:
     """For the text: what it came to, whatever that is."""
-    far = [run.agreement for run in of.runs if abs(nearest_step(run.design)) >= NEAR]
+    far = far_from_steps(of.runs)
     near = [run.agreement for run in of.runs if abs(nearest_step(run.design)) < NEAR]
     word, about = word_of(of.runs), of.about
     return Said(
         of.runs[0].design.cycles,
+        len(of.runs),
         word,
-        WORDS[word],
-        _least(near),
-        _least(far),
+        _meaning(word, far),
+        _verdicts(far, len(near)),
+        _landed(far),
+        _landed(near),
         of.swapped.agreement.word,
         f"{of.swapped.agreement.agreeing} of {of.swapped.agreement.cycles}",
         f"{about['machine']}, core {about['core']}, {about['kernel']}, {about['date']}",
         sum(run.ran.differing for run in of.runs),
-    )._asdict() | {"alike": _percent(ALIKE), "enough": _percent(ENOUGH), "within": _percent(NEAR)}
+    )._asdict() | {
+        "alike": _percent(ALIKE),
+        "enough": _percent(ENOUGH),
+        "within": _percent(NEAR),
+        "confidence": _percent(CONFIDENCE),
+        "fewest": would_do(0),
+    }
 
 
-def _least(of: Sequence[Agreement]) -> str:
-    """The worst share of all cycles, and of the undisturbed."""
-    calm = [each.share_undisturbed for each in of if each.share_undisturbed is not None]
-    undisturbed = _percent(min(calm)) if calm else "0"
-    return f"{_percent(min(each.share for each in of))} % of all cycles, {undisturbed} % of the undisturbed"
+def _meaning(word: Word, far: Sequence[Agreement]) -> str:
+    if word == "agrees":
+        return "corrections land where they are predicted to"
+    if word == "disagrees":
+        return "corrections do not all land where they are predicted to"
+    if any(of.too_disturbed for of in far):
+        return "too much was taken from the core for a verdict"
+    return "the cycles are too few for a verdict"
+
+
+def _verdicts(far: Sequence[Agreement], near: int) -> str:
+    """How many speeds have which, each by its own cycles."""
+    words = Counter(of.word for of in far)
+    disturbed = sum(of.too_disturbed for of in far)
+    few = words["inconclusive"] - disturbed
+    return (
+        f"{words['agrees']} agree, {words['disagrees']} disagree, {few + disturbed} are inconclusive ({few} for too "
+        f"few cycles, {disturbed} for too many disturbed ones), {near} are near a step and have no verdict"
+    )
+
+
+def _landed(of: Sequence[Agreement]) -> str:
+    """Of all these speeds together."""
+    if not of:
+        return "no cycles"
+    whole = together(of)
+    return (
+        f"{whole.agreeing_undisturbed:,} of {whole.undisturbed:,} undisturbed cycles and {whole.agreeing:,} of "
+        f"all {whole.cycles:,}"
+    )
 
 
 def _percent(share: Fraction) -> str:

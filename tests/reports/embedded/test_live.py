@@ -18,12 +18,12 @@ from studies.live.stairs import through_two_steps
 ABOUT = {"machine": "a desktop", "kernel": "Linux", "date": "2026-11-29", "core": "3"}
 
 
-def runs(landed: Callable[[Measured], int | None], disturbed: int = 0) -> Record:
-    """Ten cycles at each speed, of which so many are disturbed; landed: where they land, given one that is right."""
+def runs(landed: Callable[[Measured], int | None], disturbed: int = 0, cycles_each: int = 60) -> Record:
+    """Cycles at each speed, of which so many are disturbed; landed: where they land, given one that is right."""
     found = []
-    for of in through_two_steps(design(10)):
+    for of in through_two_steps(design(cycles_each)):
         right = judged(of.speed, [(None, False)], 0, 0.0)
-        cycles = [(landed(right), number < disturbed) for number in range(10)]
+        cycles = [(landed(right), number < disturbed) for number in range(cycles_each)]
         found.append(judged(of.speed, cycles, 0, 0.01))
     return Record(found, judged(SPEED, [(None, False)] * 10, 0, 0.0), ABOUT)
 
@@ -42,8 +42,30 @@ def test_what_is_stored_is_read_back() -> None:
 def test_every_word_is_said_as_it_is() -> None:
     assert about_live(runs(right))["words"] == "corrections land where they are predicted to"
     assert about_live(runs(lambda of: of.predicted + 1))["word"] == "disagrees"
-    assert about_live(runs(right, disturbed=3))["words"] == "too much was taken from the core for a verdict"
-    assert about_live(runs(right, disturbed=10))["far"] == "100 % of all cycles, 0 % of the undisturbed"
+    assert about_live(runs(right, disturbed=20))["words"] == "too much was taken from the core for a verdict"
+    assert about_live(runs(right, cycles_each=10))["words"] == "the cycles are too few for a verdict"
+    assert about_live(runs(right, disturbed=60))["far"] == "0 of 0 undisturbed cycles and 420 of all 420"
+
+
+def test_speeds_too_few_alone_may_be_enough_together_and_that_is_said() -> None:
+    found = about_live(runs(right))
+    assert found["word"] == "agrees"
+    assert found["far"] == "420 of 420 undisturbed cycles and 420 of all 420"
+    assert found["verdicts"] == (
+        "0 agree, 0 disagree, 7 are inconclusive (7 for too few cycles, 0 for too many disturbed ones), 5 are near a "
+        "step and have no verdict"
+    )
+
+
+def test_one_speed_that_disagrees_or_is_disturbed_is_not_hidden_by_the_others() -> None:
+    of = runs(right, cycles_each=400)
+    first = next(run for run in of.runs if run.agreement.word == "agrees" and run.design.speed > Fraction(85, 100))
+    wrong = first._replace(achieved=[first.predicted + 1] * 10 + first.achieved[10:])
+    spoilt = first._replace(disturbed=[True] * 100 + first.disturbed[100:])
+    for other, word, said in ((wrong, "disagrees", "6 agree, 1 disagree,"), (spoilt, "inconclusive", "1 are inconcl")):
+        found = about_live(of._replace(runs=[other if run is first else run for run in of.runs]))
+        assert found["word"] == word
+        assert said in found["verdicts"]
 
 
 def test_a_verdict_near_a_step_does_not_count() -> None:
@@ -54,7 +76,8 @@ def test_a_verdict_near_a_step_does_not_count() -> None:
 
     assert about_live(runs(right_but_near))["word"] == "agrees"
     verdicts = [row[-1] for row in live_rows(runs(right_but_near).runs)[1:]]
-    assert set(verdicts) == {"agrees", "near"}
+    assert set(verdicts) == {"inconclusive: few", "near"}
+    assert {row[-1] for row in live_rows(runs(right, cycles_each=300).runs)[1:]} == {"agrees", "near"}
 
 
 def test_the_record_that_ships_is_of_twelve_speeds_and_of_swapped_priorities_which_disagree() -> None:
