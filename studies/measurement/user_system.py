@@ -51,7 +51,8 @@ def _try_model(said: str, system: System, x: FloatArray) -> None:
     """Call each model function once and look at what it gives; R must be one that every filter can use."""
     if x.shape != (system.states,):
         raise InputError(f"{said}: the typical state has shape {x.shape}; needed is {(system.states,)}")
-    _check_finite(said, "the typical state", x)
+    if not np.isfinite(x).all():
+        raise InputError(f"{said}: the typical state is not finite; return (system, x0) with numbers that are")
     values = {}
     for trial in trials(system, x, np.zeros(system.inputs)):
         failed = f"{said}: {trial.signature} failed"

@@ -44,6 +44,9 @@ def of_lists():
 def not_finite():
     return car()._replace(H=lambda k, x, p: np.array([[np.nan, 0.0]]))
 
+def started_nowhere():
+    return car(), np.array([np.nan, 7.0])
+
 def noiseless():
     return car()._replace(R=lambda k, p: np.zeros((1, 1)))
 
@@ -191,6 +194,7 @@ def test_the_user_may_give_a_typical_state() -> None:
         ("own_system:returning", r"f\(j, x, u, p, out\) does not write out\[0\]; it must write all of out"),
         ("own_system:of_lists", r"Q\(j, p\) returns a list; needed is an array of numbers of shape \(2, 2\)"),
         ("own_system:not_finite", r"H\(k, x, p\) is not finite.*return \(system, x0\)"),
+        ("own_system:started_nowhere", r"the typical state is not finite; return \(system, x0\) with numbers that are"),
         ("own_system:noiseless", r"R\(k, p\) is not positive definite: its smallest eigenvalue is 0; give each"),
         ("own_system:lopsided", r"Q\(j, p\) is not symmetric, so it is no covariance"),
         ("own_system:negative", r"Q\(j, p\) is no covariance: its smallest eigenvalue is -1"),
