@@ -13,6 +13,7 @@ from filters.translation.library import Library
 from filters.translation.names import c_name
 from filters.translation.origins import TABLES, Origins, in_caller, wholly
 from filters.translation.overlaps import Effects, Site
+from filters.translation.refusal import Untranslatable
 from filters.translation.scope import Place, assigned, escaping, places
 from filters.translation.source import Source, source_of
 from filters.translation.translated import Translated
@@ -76,8 +77,9 @@ class Body:
         self.taken = {c_name(name) for name in (*self.source.parameters, *self.places)}
         self.escaping = escaping(self.source.body)
         if len(self.source.parameters) != len(self.kinds):
-            raise self.source.refusal(
-                ast.Pass(), f"{self.function.__name__} is called with {len(self.kinds)} arguments"
+            raise Untranslatable(
+                f"{self.source.file}:{self.source.first_line}: {self.function.__qualname__}: is "
+                f"called with {len(self.kinds)} arguments, and has {len(self.source.parameters)} parameters"
             )
         for name, kind in zip(self.source.parameters, self.kinds, strict=True):
             text = c_name(name) if lasts(kind) else ""

@@ -29,7 +29,9 @@ from filters.translation.kinds import (
 from filters.translation.made import as_real, chosen, constant, make_record, shape_of, truth
 from filters.translation.names import c_name
 from filters.translation.origins import in_caller
+from filters.translation.source import source_of
 from filters.translation.values import CHOICE, COMPARED, POSTFIX, UNARY, Value
+from filters.translation.words import of_call
 
 _OF_NUMBERS = {
     "arccos": "acos",
@@ -76,7 +78,9 @@ def call(body: Body, node: ast.Call, returned: bool) -> Value:
     if any(isinstance(value.kind, Array) for value in values) and isinstance(target, np.ufunc):
         return arrays.each(body, node, "all", values, lambda one: _of_numbers(body, node, target, one).text, returned)
     if any(not isinstance(value.kind, Int | Real | Flag) for value in values):
-        raise body.source.refusal(node, "this call is not translated; call a kernel, or write its loops")
+        raise body.source.refusal(
+            node, of_call(target, "this call is not translated; call a kernel, or write its loops")
+        )
     return _of_numbers(body, node, target, values)
 
 
@@ -100,6 +104,10 @@ def _length(body: Body, node: ast.Call, value: Value) -> Value:
 
 def _translated(body: Body, node: ast.Call, callee: Function, returned: bool) -> Value:
     """A call of a function of ours, or of the user's."""
+    if body.unit.is_open(callee.function):
+        raise body.source.refusal(node, f"{callee.function.__qualname__} calls itself; write a loop")
+    if len(node.args) != (number := len(source_of(callee.function).parameters)):
+        raise body.source.refusal(node, f"{callee.function.__qualname__} has {number} parameters")
     values = [body.expression(argument, returned=returned) for argument in node.args]
     done = body.unit.function(callee.function, tuple(parameter_of(value.kind) for value in values))
     given = dict(zip(done.parameters, values, strict=True))
@@ -155,7 +163,7 @@ def _of_numbers(body: Body, node: ast.Call, target: Any, values: list[Value]) ->
             return Value(f"(int){first.within(UNARY)}", Int(0, 1), UNARY)
         body.unit.helpers.add("whole_of")
         return Value(f"whole_of({first.text})", Int(), POSTFIX)
-    raise body.source.refusal(node, "this call is not translated")
+    raise body.source.refusal(node, of_call(target))
 
 
 def _extreme(body: Body, node: ast.Call, target: Callable[..., Any], a: Value, b: Value) -> Value:

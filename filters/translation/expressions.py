@@ -27,6 +27,7 @@ from filters.translation.made import as_real, chosen, constant, field, make_reco
 from filters.translation.ranges import difference, negative, product, quotient, remainder, steps_past_int, total
 from filters.translation.single import check_threshold, held
 from filters.translation.values import AND, COMPARED, OR, POSTFIX, PRIMARY, PRODUCT, SUM, UNARY, Value
+from filters.translation.words import construct
 
 _COMPARED = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "==", ast.NotEq: "!="}
 
@@ -61,7 +62,7 @@ def expression(body: Body, node: ast.expr, returned: bool = False) -> Value:
             return call(body, node, returned)
         case ast.Tuple(elts=parts):
             return make_record(body, None, [expression(body, part, returned=returned) for part in parts])
-    raise body.source.refusal(node, f"a {type(node).__name__} is not translated")
+    raise body.source.refusal(node, construct(node))
 
 
 def _held(body: Body, node: ast.expr, value: Any, name: str = "") -> Any:
@@ -192,7 +193,8 @@ def _unary(body: Body, node: ast.UnaryOp, returned: bool) -> Value:
         return Value(f"!{flag.within(UNARY)}", FLAG, UNARY)
     value = expression(body, node.operand)
     if isinstance(value.kind, Int) and value.kind.known is not None:
-        return constant(body, -value.kind.known if isinstance(node.op, ast.USub) else value.kind.known)
+        known = value.kind.known
+        return constant(body, {ast.USub: -known, ast.UAdd: known, ast.Invert: ~known}[type(node.op)])
     if isinstance(value.kind, Flag):
         value = Value(value.text, Int(0, 1), value.level)
     if isinstance(value.kind, Array) and isinstance(node.op, ast.USub):

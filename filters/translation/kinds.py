@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from types import FunctionType
+from types import FunctionType, MethodType
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -140,6 +140,8 @@ def kind_of(value: Any, *, given: bool = True) -> Kind:
         return (
             Record(type(value).__name__, fields, type(value)) if hasattr(value, "_fields") else Record("Tuple", fields)
         )
+    if isinstance(value, MethodType):
+        raise Untranslatable(f"{value.__qualname__} is a method; write a def outside the class")
     raise Untranslatable(f"{value!r:.60} is a {type(value).__name__}, for which there is nothing in C")
 
 

@@ -17,7 +17,6 @@ from filters.translation.kinds import Array, Kind, Record, lasts
 from filters.translation.names import c_name
 from filters.translation.overlaps import Pair, apart
 from filters.translation.prototype import prototype
-from filters.translation.refusal import Untranslatable
 from filters.translation.source import source_of
 from filters.translation.translated import Translated
 
@@ -50,8 +49,6 @@ class Library(ABC):
         Raises:
             Untranslatable: something in it is not understood, or it calls itself.
         """
-        if function in self._open:
-            raise Untranslatable(f"{function.__module__}.{function.__qualname__} calls itself; write a loop")
         if (function, kinds) not in self._functions:
             self._open.append(function)
             try:
@@ -59,6 +56,10 @@ class Library(ABC):
             finally:
                 self._open.pop()
         return self._functions[function, kinds]
+
+    def is_open(self, function: FunctionType) -> bool:
+        """Whether it is being translated: a call of it is a call of itself."""
+        return function in self._open
 
     def number(self, value: float) -> str:
         """A number as it is written in C."""

@@ -53,7 +53,7 @@ def source_of(function: FunctionType) -> Source:
     except (OSError, TypeError, SyntaxError) as error:
         raise Untranslatable(f"{function.__module__}.{function.__qualname__}: its source cannot be read") from error
     file = _shown(function.__code__.co_filename)
-    if not isinstance(tree, ast.FunctionDef):
+    if not isinstance(tree, ast.FunctionDef) or tree.name != function.__code__.co_name:  # of a lambda: what holds it
         raise Untranslatable(f"{file}:{first}: {function.__qualname__}: write it as a def")
     given = tree.args
     if given.vararg or given.kwarg or given.kwonlyargs or given.defaults:

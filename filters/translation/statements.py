@@ -28,6 +28,7 @@ from filters.translation.made import as_real, constant, field, number_of
 from filters.translation.names import c_name
 from filters.translation.scope import TOP, Block, assigned, mentions
 from filters.translation.values import POSTFIX, SUM, UNARY, Value
+from filters.translation.words import construct
 
 _SIGNS: dict[type[ast.operator], str] = {ast.Add: "+=", ast.Sub: "-=", ast.Mult: "*=", ast.Div: "/="}
 
@@ -92,7 +93,7 @@ def _translated(body: Body, statement: ast.stmt, undeclared: set[str]) -> tuple[
             return ["break;"], True
         case ast.Continue():
             return ["continue;"], True
-    raise body.source.refusal(statement, f"a {type(statement).__name__} is not translated")
+    raise body.source.refusal(statement, construct(statement))
 
 
 def _braced(head: str, lines: list[str]) -> list[str]:

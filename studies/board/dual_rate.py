@@ -41,8 +41,7 @@ def check_choices(low_rate_noise: str) -> None:
 
 
 def check_steps(steps: Steps) -> None:
-    """Raises InputError unless N is 2 or more, and 0 <= M < L: a correction is taken in behind the arrival, at the start
-    of an HR step."""
+    """Raises InputError unless N is 2 or more, and 0 <= M < L: a correction lands behind the arrival."""
     N = steps.N
     if N < 2:
         raise InputError(

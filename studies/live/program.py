@@ -94,8 +94,8 @@ def check_steps(N: int, M: int) -> None:
     """Raises InputError unless 0 <= M < N: one measurement is on its way at a time."""
     if N > 1 and not 0 <= M < N:
         raise InputError(
-            f"{option('M')} {M} must be from 0 to {N - 1}: live runs have one measurement on its way at a time, and the "
-            f"next is taken {option('N')} {N} steps later; sched-sim code writes others"
+            f"{option('M')} {M} must be from 0 to {N - 1}: live runs have one measurement on its way at a time, and "
+            f"the next is taken {option('N')} {N} steps later; sched-sim code writes others"
         )
     dual_rate.check_steps(steps_of(N, M))
 

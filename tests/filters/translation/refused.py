@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -14,7 +14,7 @@ def product(A: FloatArray) -> FloatArray:
 
 
 def recursive(n: int) -> int:
-    return recursive(n - 1) if n > 0 else 0
+    return recursive(n - 1) if n > 0 else 0  # recursive calls itself; write a loop
 
 
 def behind_its_loop(x: FloatArray) -> float:
@@ -24,7 +24,7 @@ def behind_its_loop(x: FloatArray) -> float:
 
 
 def list_of_numbers(x: FloatArray) -> float:
-    return sum([2.0 * value for value in x])  # a ListComp is not translated
+    return sum([2.0 * value for value in x])  # a list comprehension is not translated; write a loop
 
 
 def shape_not_known(n: int) -> FloatArray:
@@ -64,14 +64,14 @@ def helper(x: float, scale: float) -> float:
 
 
 def caught(x: float) -> float:
-    try:  # a Try is not translated
+    try:  # try is not translated; ask with if
         return 1.0 / x
     except ZeroDivisionError:
         return 0.0
 
 
 def strings(x: float) -> str:
-    return f"{x}"  # JoinedStr
+    return f"{x}"  # an f-string is not translated
 
 
 def with_step(x: FloatArray) -> float:
@@ -97,6 +97,44 @@ def one_of_computed(x: float) -> float:
     return np.sqrt(x) or 0.5  # must have a name; give it one first
 
 
+def clipped(x: float) -> float:
+    return np.clip(x, 0.0, 1.0)  # write min(max(x, least), most)
+
+
+def rounded(x: float) -> int:
+    return round(x)  # int(np.rint(x))
+
+
+def one_or_other(x: float) -> float:
+    return np.where(x > 0.0, x, 1.0)  # write a if condition else b
+
+
+def largest_of_three(x: float) -> float:
+    return max(x, 1.0, 2.0)  # write max(a, max(b, c))
+
+
+def assigned_within(x: float) -> float:
+    return (y := x) + y  # :=, is not translated; assign in a line of its own
+
+
+def one_too_many(x: float) -> float:
+    return helper(x, x, x)  # helper has 2 parameters
+
+
+class Scale(NamedTuple):
+    by: float
+
+    def times(self, x: float) -> float:
+        return self.by * x
+
+
+SCALE = Scale(2.0)
+
+
+def by_method(x: float) -> float:
+    return SCALE.times(x)  # Scale.times is a method; write a def outside the class
+
+
 X = np.array([1.0, 2.0, 3.0, 4.0])
 P = np.eye(3)
 
@@ -117,4 +155,12 @@ REFUSED: list[tuple[Any, tuple[Any, ...]]] = [
     (part_of_its_own, (X,)),
     (one_of_flag_and_number, (1.0,)),
     (one_of_computed, (1.0,)),
+    (recursive, (3,)),
+    (one_too_many, (1.0,)),
+    (by_method, (1.0,)),
+    (clipped, (1.0,)),
+    (rounded, (1.0,)),
+    (one_or_other, (1.0,)),
+    (largest_of_three, (1.0,)),
+    (assigned_within, (1.0,)),
 ]

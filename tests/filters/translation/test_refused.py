@@ -12,7 +12,8 @@ import pytest
 from filters.translation.kinds import kind_of
 from filters.translation.refusal import Untranslatable
 from filters.translation.unit import Unit
-from tests.filters.translation.refused import REFUSED, recursive
+from tests.filters.translation.programs import Program
+from tests.filters.translation.refused import REFUSED, helper
 
 
 def translate(function: Any, arguments: tuple[Any, ...]) -> None:
@@ -29,9 +30,16 @@ def test_the_line_and_the_reason(function: Any, arguments: tuple[Any, ...]) -> N
         translate(function, arguments)
 
 
-def test_recursion() -> None:
-    with pytest.raises(Untranslatable, match=r"refused\.recursive calls itself; write a loop"):
-        translate(recursive, (3,))
+def test_a_function_that_is_given_other_arguments() -> None:
+    with pytest.raises(Untranslatable, match=r"refused\.py:\d+: helper: called with 1 arguments, and has 2 parameters"):
+        translate(helper, (1.0,))
+
+
+def test_a_lambda_is_not_taken_for_what_holds_it() -> None:
+    def holds(x: float) -> Any: return lambda y: x * y  # fmt: skip
+
+    with pytest.raises(Untranslatable, match=r"test_refused\.py:\d+: .*<lambda>: write it as a def"):
+        translate(holds(1.0), (1.0,))
 
 
 @pytest.mark.parametrize(
@@ -41,6 +49,7 @@ def test_recursion() -> None:
         (np.zeros((2, 2), complex), "an array of complex128"),
         (np.zeros((4, 4))[:, ::2], "whose rows lie side by side"),
         (None, "None is a NoneType"),
+        (Program(1).text, r"Program.text is a method; write a def outside the class"),
     ],
 )
 def test_arguments(argument: Any, what: str) -> None:

@@ -98,7 +98,7 @@ def test_robust_and_composed_filters(sched_sim: Run) -> None:
         ("code -o board --method robust-lu", ["--method 'robust-lu' is unknown here"]),
         ("code -o board -N 1 -M 0", ["-N 1", "at least 2"]),
         ("code -o board -N 10 -M -1", ["-M -1 must be 0 or more: it is the delay"]),
-        ("code -o board -N 10 -M 4 -L 4", ["-L 4 must be more than -M 4: as C the correction lands behind the arrival"]),
+        ("code -o board -N 10 -M 4 -L 4", ["-L 4 must be more than -M 4: as C the correction lands behind"]),
         ("code -o board -N 10 -M 12 -L 12", ["-L 12 must be more than -M 12"]),
         ("code -o board -N 10 -M 12 --gain precomputed", ["--gain precomputed is not written as C", "-M less than -N"]),
         ("code -o board -N 2 -M 129", ["-M 129 is too large: give at most 128", "64 measurements"]),
