@@ -65,7 +65,10 @@ class Traced(NamedTuple):
                 f"in the structure of the system, or multiply all entries, with structure=None"
             )
         head = f"({', '.join(self.parameters)}):"
-        doc = f'"""{inspect.getdoc(self.kernel) or ""}\n\n{WITHOUT}\n"""'.splitlines()
+        said = [
+            part for part in (inspect.getdoc(self.kernel) or "").split("\n\n") if not re.search(r"\bloops?\b", part)
+        ]
+        doc = '"""{}\n"""'.format("\n\n".join([*said, WITHOUT])).splitlines()
         if len(parts) == 1:
             return _made({name: [f"def {name}{head}", *doc, *parts[0]]})
         texts: dict[str, list[str]] = {}

@@ -58,3 +58,7 @@ def test_and_by_the_test_of_the_folder(tmp_path: Path) -> None:
     status, printed = ran(tmp_path, "test")
     assert status == 1
     assert "FAILED" in printed
+
+
+def test_no_comment_speaks_of_loops_that_are_not_there() -> None:
+    assert "innermost loop" not in written(PENDULUM, update="short", steps=Steps(8, 3, 5))["filter.c"]
