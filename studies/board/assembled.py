@@ -9,7 +9,7 @@ from typing import NamedTuple
 from filters.jobs import Job
 from filters.translation.prototype import WIDTH, wrapped
 from studies.board.bits import test_c
-from studies.board.compiled import Compiled, compiled
+from studies.board.compiled import CLOCK_HZ, Compiled, compiled
 from studies.board.jobs import Jobs
 from studies.board.readme import About, readme
 
@@ -60,7 +60,7 @@ def assembled(about: About, jobs: Mapping[str, Job], in_c: Jobs, around: Around)
 def _costs(about: About, around: Around) -> dict[str, str]:
     head, line = around.costs or (f"[costs.{about.method}]", "%s = %.4f")
     structure = f'structure = \\"{about.structure}\\"\\n' if about.structure else ""
-    return {"structure": structure, "costs": head, "cost": line}
+    return {"clock_hz": CLOCK_HZ[about.precision], "structure": structure, "costs": head, "cost": line}
 
 
 def _readable(text: str) -> str:

@@ -19,6 +19,8 @@ CORES: Mapping[Precision, tuple[str, tuple[str, ...]]] = {
     "double": ("Cortex-M7", ("-mcpu=cortex-m7", "-mfpu=fpv5-d16", "-mfloat-abi=hard")),
 }
 """The core that has such numbers in hardware, and how it is compiled for."""
+CLOCK_HZ: Mapping[Precision, str] = {"single": "168e6", "double": "216e6"}
+"""An example of its clock: of an STM32F4, of an STM32F7."""
 
 
 class Compiled(NamedTuple):

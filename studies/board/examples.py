@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from filters.system import System
+from studies.board.assembled import USUAL
 from studies.board.compiled import Compiled
 from studies.board.dual_rate import stacks
 from studies.board.jobs import Jobs
@@ -11,7 +12,14 @@ from studies.board.template import filled
 
 def posix_c(system: System, several: bool) -> str:
     """Two threads on the record. several: measurements may be on their way at once."""
-    return filled("posix.c", {"u": "record_u[j - 1]" if system.inputs else "", **_awaited(several, "j + DELAY_STEPS")})
+    return filled(
+        "posix.c",
+        {
+            "u": "record_u[j - 1]" if system.inputs else "",
+            **_awaited(several, "j + DELAY_STEPS", 16),
+            "tolerance": USUAL,
+        },
+    )
 
 
 def freertos_c(system: System, in_c: Jobs, on_core: Compiled | None, several: bool) -> str:
@@ -28,27 +36,31 @@ def freertos_c(system: System, in_c: Jobs, on_core: Compiled | None, several: bo
             if m
             else "",
             "read_call": f"        real u[{m}];\n        read_inputs(u);\n" if m else "",
-            "stack_words": 256 + 8 * (-(-deepest // 32)),
-            **_awaited(several, "j + 1 + DELAY_STEPS"),
+            "stack_words": 256 + 8 * (-(-deepest // 32)) if on_core else 1024,
+            "stack_words_are": "what the deepest job takes and some for FreeRTOS itself"
+            if on_core
+            else "a guess: no arm-none-eabi-gcc was found when this was written, which says what the deepest job takes",
+            **_awaited(several, "j + 1 + DELAY_STEPS", 12),
             **_notifications(several),
         },
     )
 
 
-def _awaited(several: bool, m: str) -> dict[str, str]:
-    """How HR knows when a measurement arrives. m: the step in which one does that is taken now."""
+def _awaited(several: bool, m: str, indent: int) -> dict[str, str]:
+    """How HR knows when a measurement arrives. m: the step in which one does that is taken now; indent: of that line."""
+    at = " " * indent
     if several:
         return {
             "awaited": "    int arrives[SLOTS] = {DELAY_STEPS}; /* the steps m of measurements on their way */\n"
             "    int first = 0;\n"
             "    int count = 1;\n",
-            "await": f"            arrives[(first + count) % SLOTS] = {m};\n            count++;\n",
+            "await": f"{at}arrives[(first + count) % SLOTS] = {m};\n{at}count++;\n",
             "arrives": "count > 0 && j == arrives[first]",
             "arrived": "            first = (first + 1) % SLOTS;\n            count--;\n",
         }
     return {
         "awaited": "    int arrives = DELAY_STEPS; /* the step m of the measurement that is awaited */\n",
-        "await": f"            arrives = {m};\n",
+        "await": f"{at}arrives = {m};\n",
         "arrives": "j == arrives",
         "arrived": "",
     }

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from filters.translation.library import Precision
 from sched_sim.costs.methods import MULTIRATE_METHODS
-from studies.board.compiled import CORES, Compiled, stack_of
+from studies.board.compiled import CLOCK_HZ, CORES, Compiled, stack_of
 from studies.board.dual_rate import TASKS
 from studies.board.jobs import Jobs
 from studies.board.serial.methods import serial
@@ -68,6 +68,7 @@ def readme(about: About, in_c: Jobs, sizes: Mapping[str, int], sources: Sequence
         if about.part == "composed"
         else " what the board would have to do, and when the correction lands on it",
         "core": core,
+        "clock_hz": CLOCK_HZ[about.precision],
         "flags": " ".join(flags),
         "sources": " ".join(sources),
         "kinds": ", ".join(f"`{kind}`" for kind in in_c.by_kind),

@@ -1,7 +1,7 @@
 /* The two tasks on FreeRTOS: an example to start from.
 
    HR must have a higher priority than LR. What reads your sensors is declared here, and yours to write. STACK_WORDS is
-   what the deepest job takes and some for FreeRTOS itself. */
+   $stack_words_are. */
 #include <stdbool.h>
 #include <stddef.h>
 

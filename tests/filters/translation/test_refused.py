@@ -31,7 +31,9 @@ def test_the_line_and_the_reason(function: Any, arguments: tuple[Any, ...]) -> N
 
 
 def test_a_function_that_is_given_other_arguments() -> None:
-    with pytest.raises(Untranslatable, match=r"refused\.py:\d+: helper: called with 1 arguments, and has 2 parameters"):
+    with pytest.raises(
+        Untranslatable, match=r"refused\.py:\d+: helper: is called with 1 arguments, and has 2 parameters"
+    ):
         translate(helper, (1.0,))
 
 

@@ -71,8 +71,39 @@ def test_two_threads_land_every_correction(tmp_path: Path) -> None:
     put(tmp_path, written(*MODELS["linear"][:1], steps=STEPS))
     build(tmp_path, "-O2", "-DPERIOD_US=20000", *SOURCES, "posix.c", "-lm", "-lpthread", "-o", "threads")
     tries = [ran(tmp_path, "threads") for _ in range(3)]  # on a busy machine LR may be kept from its processor
-    assert all(status == 0 for status, _ in tries)
-    assert any(said.startswith("3 of 3 corrections have landed; from Python's states off by 0 ") for _, said in tries)
+    landed = [said.startswith("3 of 3 corrections have landed; from Python's states off by 0, ") for _, said in tries]
+    assert any(landed)
+    assert all(status == 0 for (status, _), exact in zip(tries, landed, strict=True) if exact)
+
+
+@needs_gcc
+def test_two_threads_that_give_other_states_fail(tmp_path: Path) -> None:
+    files = written(*MODELS["linear"][:1], steps=STEPS)
+    moved = files["posix.c"].replace("    tasks_start(", "    record_x0[0] += 9.0;\n    tasks_start(")
+    put(tmp_path, {**files, "posix.c": moved})
+    build(tmp_path, "-O2", "-DPERIOD_US=100", *SOURCES, "posix.c", "-lm", "-lpthread", "-o", "threads")
+    status, said = ran(tmp_path, "threads")
+    assert status == 1, said
+
+
+@needs_gcc
+def test_a_counter_that_does_not_run_gives_no_costs(tmp_path: Path) -> None:
+    put(tmp_path, written(*MODELS["linear"][:1], steps=STEPS))
+    status, said = ran_as_one(tmp_path, *SOURCES, "test.c", options=["-DCYCLES=7", "-DCLOCK_HZ=1e6"])
+    assert status == 1
+    assert "# no costs: the counter that CYCLES reads does not run" in said
+    assert "[costs" not in said
+
+
+def test_lines_are_indented_as_their_blocks_are() -> None:
+    for name, text in written(*MODELS["linear"][:1], steps=STEPS).items():
+        if name in ("posix.c", "freertos.c"):
+            depth = 0
+            for line in text.partition("*/")[2].splitlines():
+                depth -= line.lstrip().startswith("}")
+                if re.match(r" *(arrives|const|\(void\)|for|if|while|return)\b", line):
+                    assert len(line) - len(line.lstrip()) == 4 * depth, line
+                depth += line.endswith("{") + line.startswith("{") - (line == "{")
 
 
 @needs_gcc
