@@ -53,7 +53,7 @@ def assembled(about: About, jobs: Mapping[str, Job], in_c: Jobs, around: Around)
     }
     on_core = compiled(files, around.sources, about.precision)
     files |= around.late(on_core)
-    files["README.md"] = readme(about, in_c, around.sizes, around.sources, on_core)
+    files["README.md"] = readme(about, in_c, around.sizes, {name: files[name] for name in around.sources}, on_core)
     return {name: _readable(text) if name.endswith((".c", ".h")) else text for name, text in files.items()}
 
 

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 import subprocess
+from collections import Counter
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -53,7 +55,10 @@ def compiled(files: Mapping[str, str], sources: Iterable[str], precision: Precis
             ram += int(data) + int(bss)
         frames = [line.split("\t") for path in sorted(folder.glob("*.su")) for line in path.read_text().splitlines()]
     version = _run(Path(), COMPILER, "-dumpfullversion").stdout.strip()
-    return Compiled(core, flags, version, code, ram, {name.split(":")[-1]: int(size) for name, size, _ in frames})
+    sizes = Counter[str]()
+    for name, size, _ in frames:
+        sizes[name.split(":")[-1].partition(".")[0]] += int(size)  # f.part.0 is a part of f
+    return Compiled(core, flags, version, code, ram, dict(sizes))
 
 
 def stack_of(job: Translated, functions: Mapping[str, Translated], frames: Mapping[str, int]) -> int:
@@ -61,6 +66,24 @@ def stack_of(job: Translated, functions: Mapping[str, Translated], frames: Mappi
     their callers have no frame."""
     below = [stack_of(functions[name], functions, frames) for name in job.calls]
     return frames.get(job.name, 0) + max(below, default=0)
+
+
+def stacks_of(text: str, functions: Mapping[str, Translated], frames: Mapping[str, int]) -> dict[str, int]:
+    """Bytes of the stack that a call of each function takes at most that this C file has for others. functions: those
+    of filter.c, which it calls."""
+    found = [match.groups() for match in _FUNCTION.finditer(text)]
+    insides = {name: inside for _, name, inside in found}
+
+    def deepest(name: str) -> int:
+        if name in functions:
+            return stack_of(functions[name], functions, frames)
+        called = {each for each in re.findall(r"\b(\w+)\(", insides[name]) if each in insides or each in functions}
+        return frames.get(name, 0) + max(map(deepest, called), default=0)
+
+    return {name: deepest(name) for static, name, _ in found if not static}
+
+
+_FUNCTION = re.compile(r"^(static )?[a-zA-Z][\w *]*?\b(\w+)\([^;{}]*\)\n\{\n(.*?)^\}", re.MULTILINE | re.DOTALL)
 
 
 def _run(folder: Path, *command: str) -> subprocess.CompletedProcess[str]:

@@ -13,7 +13,6 @@ from filters.system import System
 from filters.translation.data import Data, Kept
 from filters.translation.kinds import Kind, Record
 from sched_sim.errors import InputError, option
-from studies.board.compiled import Compiled, stack_of
 from studies.board.jobs import Jobs, call, translated
 from studies.board.memory import add_model, add_workspace
 from studies.board.steps import Files, Steps
@@ -105,17 +104,6 @@ def task_words(wanted: Filter, in_c: Jobs, steps: Steps) -> dict[str, Any]:
 def one_of(in_c: Jobs, kind: str) -> str:
     """The job of this kind, whatever its noise."""
     return next(name for name in in_c.by_kind if name.startswith(kind))
-
-
-def stacks(in_c: Jobs, on_core: Compiled) -> dict[str, int]:
-    """Bytes of the stack that the jobs of each task take at most."""
-    functions = in_c.unit.functions()
-    return {
-        task: max(
-            stack_of(job, functions, on_core.frames) for kind, job in in_c.by_kind.items() if kind.startswith(task)
-        )
-        for task in TASKS
-    }
 
 
 def record_name(jobs: Jobs, kind: str, name: str) -> str:

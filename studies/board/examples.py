@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from filters.system import System
 from studies.board.assembled import USUAL
-from studies.board.compiled import Compiled
-from studies.board.dual_rate import stacks
-from studies.board.jobs import Jobs
 from studies.board.template import filled
 
 
@@ -22,10 +21,10 @@ def posix_c(system: System, several: bool) -> str:
     )
 
 
-def freertos_c(system: System, in_c: Jobs, on_core: Compiled | None, several: bool) -> str:
-    """The example for FreeRTOS, with room on the stacks for the deepest job."""
-    m = system.inputs
-    deepest = max(stacks(in_c, on_core).values()) if on_core else 0
+def freertos_c(system: System, stacks: Iterable[int], several: bool) -> str:
+    """The example for FreeRTOS, with room for the deepest call. stacks: of the functions of tasks.c in bytes; nothing
+    where they are not known."""
+    m, deepest = system.inputs, max(stacks, default=None)
     return filled(
         "freertos.c",
         {
@@ -36,10 +35,10 @@ def freertos_c(system: System, in_c: Jobs, on_core: Compiled | None, several: bo
             if m
             else "",
             "read_call": f"        real u[{m}];\n        read_inputs(u);\n" if m else "",
-            "stack_words": 256 + 8 * (-(-deepest // 32)) if on_core else 1024,
-            "stack_words_are": "what the deepest job takes and some for FreeRTOS itself"
-            if on_core
-            else "a guess: no arm-none-eabi-gcc was found when this was written, which says what the deepest job takes",
+            "stack_words": 256 + 8 * (-(-deepest // 32)) if deepest is not None else 1024,
+            "stack_words_are": "what the deepest call takes and some for FreeRTOS itself"
+            if deepest is not None
+            else "a guess: no arm-none-eabi-gcc, which says what a call takes, was found when this was written",
             **_awaited(several, "j + 1 + DELAY_STEPS", 12),
             **_notifications(several),
         },
@@ -47,7 +46,7 @@ def freertos_c(system: System, in_c: Jobs, on_core: Compiled | None, several: bo
 
 
 def _awaited(several: bool, m: str, indent: int) -> dict[str, str]:
-    """How HR knows when a measurement arrives. m: the step in which one does that is taken now; indent: of that line."""
+    """How HR knows when a measurement arrives. m: the step in which one does that is taken now. indent: of the line."""
     at = " " * indent
     if several:
         return {

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import NamedTuple
 
 from filters.translation.library import Precision
 from sched_sim.costs.methods import MULTIRATE_METHODS
-from studies.board.compiled import CLOCK_HZ, CORES, Compiled, stack_of
+from studies.board.compiled import CLOCK_HZ, CORES, Compiled, stack_of, stacks_of
 from studies.board.dual_rate import TASKS
 from studies.board.jobs import Jobs
 from studies.board.serial.methods import serial
@@ -59,7 +59,9 @@ def about_filter(wanted: Filter) -> About:
     )
 
 
-def readme(about: About, in_c: Jobs, sizes: Mapping[str, int], sources: Sequence[str], on_core: Compiled | None) -> str:
+def readme(
+    about: About, in_c: Jobs, sizes: Mapping[str, int], sources: Mapping[str, str], on_core: Compiled | None
+) -> str:
     """The file README.md. sizes: numbers in each array of state.h that is no constant. sources: for the board."""
     core, flags = CORES[about.precision]
     values = {
@@ -72,13 +74,15 @@ def readme(about: About, in_c: Jobs, sizes: Mapping[str, int], sources: Sequence
         "flags": " ".join(flags),
         "sources": " ".join(sources),
         "kinds": ", ".join(f"`{kind}`" for kind in in_c.by_kind),
-        "memory": "\n".join(_memory(about, in_c, sizes, on_core)),
+        "memory": "\n".join(_memory(about, in_c, sizes, sources, on_core)),
         "j_wraps": _wraps(in_c),
     }
     return "".join(filled(f"readme_{name}.md", values) for name in ("head", about.part, "end"))
 
 
-def _memory(about: About, in_c: Jobs, sizes: Mapping[str, int], on_core: Compiled | None) -> list[str]:
+def _memory(
+    about: About, in_c: Jobs, sizes: Mapping[str, int], sources: Mapping[str, str], on_core: Compiled | None
+) -> list[str]:
     each = BYTES[about.precision]
     lines = ["| what | bytes |", "| --- | ---: |"]
     tasks = TASKS if about.part == "tasks" else ()
@@ -93,8 +97,11 @@ def _memory(about: About, in_c: Jobs, sizes: Mapping[str, int], on_core: Compile
     if len(on_core.code) > 1:
         lines.append(f"| RAM of {[*on_core.code][-1]}, all | {on_core.ram} |")
     functions = in_c.unit.functions()
+    for text in [text for name, text in sources.items() if name != "filter.c"]:
+        for name, stack in stacks_of(text, functions, on_core.frames).items():
+            lines.append(f"| stack of {name}, with all that it calls | {stack} |")
     for kind, job in in_c.by_kind.items():
-        lines.append(f"| stack of {kind} | {stack_of(job, functions, on_core.frames)} |")
+        lines.append(f"| stack of the job {kind} | {stack_of(job, functions, on_core.frames)} |")
     said = f"arm-none-eabi-gcc {on_core.compiler} -O2 for {on_core.core}"
     return [*lines, "", f"By {said}, without the C library and interrupts."]
 

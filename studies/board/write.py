@@ -11,7 +11,7 @@ from filters.translation.kinds import LONG
 from sched_sim.errors import InputError, option
 from studies.board import dual_rate
 from studies.board.assembled import USUAL, Around, assembled, words_of_run
-from studies.board.compiled import Compiled
+from studies.board.compiled import Compiled, stacks_of
 from studies.board.examples import freertos_c, posix_c
 from studies.board.in_flight import are_several, check_in_flight, more_jobs, tasks_in_flight
 from studies.board.jobs import Jobs, named, translated
@@ -110,7 +110,8 @@ def _around(wanted: Filter, jobs: Mapping[str, Job], in_c: Jobs) -> Around:
         run = words_of_run("tasks", filled("tasks_run_in_flight.c" if several else "tasks_run.c", words))
 
         def late(on_core: Compiled | None) -> dict[str, str]:
-            return {"freertos.c": freertos_c(system, in_c, on_core, several)}
+            stacks = stacks_of(files["tasks.c"], in_c.unit.functions(), on_core.frames) if on_core else {}
+            return {"freertos.c": freertos_c(system, stacks.values(), several)}
 
         timed = {kind: kind for kind in dual_rate.kinds(wanted)}
         return Around(files, ["filter.c", "tasks.c"], sizes, run, timed, late)

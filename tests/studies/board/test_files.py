@@ -149,7 +149,13 @@ def test_for_a_cortex_m(precision: Precision, tmp_path: Path) -> None:
     assert found is not None
     assert 1000 < found.code["filter.c"] < 10_000
     assert 0 < max(found.frames.values()) < 1000
-    assert "stack of lr_update" in files["README.md"]
+    stacks = {
+        name: int(size) for name, size in re.findall(r"stack of (?:the job )?(\w+).* \| (\d+) \|", files["README.md"])
+    }
+    assert stacks["hr_step"] > stacks["hr_propagate"]
+    assert stacks["lr_measure"] > stacks["lr_update"]
+    words = re.findall(r"STACK_WORDS (\d+)", files["freertos.c"])
+    assert 4 * int(words[0]) >= 1024 + max(stacks.values())
 
 
 def test_without_a_cross_compiler_the_rest_is_written(monkeypatch: pytest.MonkeyPatch) -> None:
