@@ -164,6 +164,7 @@ def _runs(wanted: Filter, designs: Sequence[Design], core: int, swapped: bool, f
     """One after the other. failed: what is said before what is wrong with the filter."""
     from contextlib import ExitStack
 
+    from studies.live.alone import alone_on
     from studies.live.design import check_design
     from studies.live.measure import measured
     from studies.live.probe import check_resolved, resolution
@@ -172,6 +173,7 @@ def _runs(wanted: Filter, designs: Sequence[Design], core: int, swapped: bool, f
 
     runs = []
     with ExitStack() as there:
+        there.enter_context(alone_on(core))
         progress = there.enter_context(progress_bar("Running"))
         with explained(failed):
             program = there.enter_context(compiled(wanted))

@@ -17,6 +17,7 @@ from sched_sim.design.methods import select
 from sched_sim.errors import InputError
 from studies.board.wanted import Filter
 from studies.embedded.sources import FIRST, SIZES
+from studies.live.alone import alone_on
 from studies.live.design import Design, check_design, of_dual_rate
 from studies.live.jobs import Ran
 from studies.live.measure import Measured, measured
@@ -59,7 +60,7 @@ def record(thorough: bool = False, progress: Progress = silent) -> Record:
         steps_of(middle.N, middle.M), "",
     )  # fmt: skip
     try:
-        with compiled(wanted) as program:
+        with alone_on(core), compiled(wanted) as program:
             found = resolution(program, middle, core)
             for each in designs:
                 check_resolved(found, each, check_design(each))

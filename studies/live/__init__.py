@@ -2,6 +2,7 @@
 
 design      what is run: a design, a speed, a period, and the CPU time of each job
 rights      the core, and the right to real-time priorities
+alone       one run at a time on a core
 program     the program, from the files of `sched-sim code` and live.c
 jobs        what ran when, as the program says
 probe       whether the period is one that clock and kernel resolve

@@ -12,6 +12,7 @@ from pathlib import Path
 
 import pytest
 
+from studies.live.alone import alone_on
 from studies.live.design import Design
 from studies.live.jobs import Ran
 from studies.live.probe import Resolution
@@ -31,7 +32,7 @@ class Recorder:
 
 
 @pytest.fixture
-def replayed(monkeypatch: pytest.MonkeyPatch) -> None:
+def replayed(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     """Any machine can run it."""
 
     @contextmanager
@@ -40,6 +41,7 @@ def replayed(monkeypatch: pytest.MonkeyPatch) -> None:
 
     monkeypatch.setattr("studies.live.rights.check_rights", lambda: None)
     monkeypatch.setattr("studies.live.rights.chosen_core", lambda cpu: cpu)
+    monkeypatch.setattr("studies.live.alone.CORES", tmp_path)
     monkeypatch.setattr("studies.live.program.compiled", compiled)
     monkeypatch.setattr("studies.live.probe.resolution", lambda *_: Resolution(12_000.0, {"hr_update": 1_000.0}))
 
@@ -157,6 +159,19 @@ def test_refusals_name_the_option_and_the_remedy(line: str, said: list[str], sch
     assert list(Path().iterdir()) == []
 
 
+@pytest.mark.usefixtures("replayed")
+@pytest.mark.skipif(not hasattr(os, "SCHED_FIFO"), reason="live needs Linux")
+def test_two_runs_on_one_core_are_refused(
+    sched_sim: Run, monkeypatch: pytest.MonkeyPatch, tmp_path_factory: pytest.TempPathFactory
+) -> None:
+    cores = tmp_path_factory.mktemp("cores")
+    (cores / "cpu0").mkdir()
+    monkeypatch.setattr("studies.live.alone.CORES", cores)
+    with alone_on(0):
+        is_refused(sched_sim(RECORDED), ["--cpu 0: another live run has this core", "give another, or wait"])
+    assert sched_sim(RECORDED).code == 3
+
+
 @pytest.mark.skipif(not hasattr(os, "SCHED_FIFO"), reason="live needs Linux")
 def test_without_the_right_to_real_time_priorities(sched_sim: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     def refused(*_: object) -> None:
@@ -182,7 +197,7 @@ def test_it_runs(sched_sim: Run) -> None:
     """The word may be any, or the period refused, for the machine may be busy; the exit code is the word's."""
     result = sched_sim("live --speed 0.85 --cycles 6 --states 3 --inputs 1 --measurements 1 --format json")
     if result.code == 2:
-        assert "--period-ms 10 is too short to be resolved" in result.err
+        assert "--period-ms 10 is too short" in result.err or "another live run has this core" in result.err
         return
     document = json.loads(result.out)
     assert result.code == {"agrees": 0, "disagrees": 1, "inconclusive": 3}[document["verdict"]]
