@@ -42,7 +42,7 @@ def instructions_figure(of_jobs: PerOperation, assumed: float) -> Figure:
                 axes.set(xscale="log", xlim=(min(numbers) / 1.3, 1.3 * max(numbers)))
                 numbers_at(axes.xaxis, (10, 30, 100, 300, 1000, 3000, 10_000))
             label(above, f"{form} update")
-            label(below, across="operations of the job")
+            label(below, across="operations of the job (logarithmic)")
         rows[0][0].set_ylabel("instructions for each", labelpad=2)
         rows[1][0].set_ylabel("instructions for each", labelpad=2)
         return figure

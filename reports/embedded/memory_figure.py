@@ -15,7 +15,7 @@ from reports.drawing.style import PALE, TITLE_PT, WIDTH_MM, axes_at, drawing, pa
 from reports.embedded.signs import beside, swatch_entry
 from reports.embedded.words import SOURCES
 
-ROW_MM, BAR_SHARE, GAP_MM = 5.2, 0.62, 8.0
+ROW_MM, BAR_SHARE, GAP_MM = 7.0, 0.36, 8.0
 KB = 1024
 PARTS = {
     "HR": ("#11538c", "RAM of the HR task"),
@@ -24,10 +24,11 @@ PARTS = {
     "code": ("#dcdcdc", "code, in flash"),
 }
 """Colours of bars, and what they are."""
+FLASH = "code"
 
 
 def memory_figure(memory: Mapping[str, Mapping[str, Mapping[str, int]]]) -> Figure:
-    """A plot for each core, a bar for each method: RAM by task, stacks, and code, one behind the other.
+    """A plot for each core, two bars for each method: above RAM by task and stacks, one behind the other, below code.
 
     memory: bytes by core, method and part, as in `PARTS`.
     """
@@ -39,18 +40,20 @@ def memory_figure(memory: Mapping[str, Mapping[str, Mapping[str, int]]]) -> Figu
         height, top = ROW_MM * len(methods), EDGE_MM + TITLE_MM
         legend = [swatch_entry(text, colour) for colour, text in PARTS.values()]
         figure = page(top + height + AXIS_MM + legend_height(legend, across) + EDGE_MM)
-        most = max(sum(parts.values()) for of in memory.values() for parts in of.values()) / KB
+        bars = [bar for of in memory.values() for parts in of.values() for bar in _bars(parts)]
+        most = max(sum(bar.values()) for bar in bars) / KB
         for column, (core, of) in enumerate(memory.items()):
             axes = axes_at(figure, left + column * (width + GAP_MM), top, width, height)
             axes.set(xlim=(0, 1.03 * most), ylim=(len(methods) - 0.5, -0.5), yticks=[])
             axes.grid(axis="x", color=PALE, lw=0.5)
             axes.xaxis.set_major_locator(MaxNLocator(nbins=6, integer=True))
             for y, method in enumerate(methods):
-                at = 0.0
-                for part, (colour, _) in PARTS.items():
-                    size = of[method].get(part, 0) / KB
-                    axes.add_patch(Rectangle((at, y - BAR_SHARE / 2), size, BAR_SHARE, facecolor=colour, lw=0))
-                    at += size
+                for top_at, bar in zip((y - BAR_SHARE, y), _bars(of[method]), strict=True):
+                    at = 0.0
+                    for part, size in bar.items():
+                        colour, _ = PARTS[part]
+                        axes.add_patch(Rectangle((at, top_at), size / KB, BAR_SHARE, facecolor=colour, lw=0))
+                        at += size / KB
                 if column == 0:
                     beside(axes, y, METHOD_NAMES[method], left=True)
             axes.set_title(SOURCES[core], loc="left", size=TITLE_PT)
@@ -58,3 +61,8 @@ def memory_figure(memory: Mapping[str, Mapping[str, Mapping[str, int]]]) -> Figu
             plain(axes)
         draw_legend(figure, legend, left, top + height + AXIS_MM, across)
         return figure
+
+
+def _bars(parts: Mapping[str, int]) -> tuple[dict[str, int], dict[str, int]]:
+    """Of RAM, by part in the order of `PARTS`, and of flash."""
+    return {part: parts[part] for part in PARTS if part in parts and part != FLASH}, {FLASH: parts[FLASH]}

@@ -51,7 +51,7 @@ def published_figure(timings: Mapping[str, PublishedTiming], within: float) -> F
             note = axes.annotate(text, (ends[1], y), (6, 0), textcoords="offset points", va="center", size=SMALL_PT)
             note.set_path_effects([withStroke(linewidth=2.0, foreground="white")])
         numbers_at(axes.xaxis, (0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20))
-        axes.set_xlabel("published time over that predicted by counts; right of 1 the board is slower", labelpad=2)
+        axes.set_xlabel("published over predicted time (logarithmic); right of 1 the board is slower", labelpad=2)
         plain(axes)
         axes.spines["left"].set_visible(False)
         draw_legend(figure, legend, left, EDGE_MM + height + AXIS_MM, across)

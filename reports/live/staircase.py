@@ -6,7 +6,6 @@ from collections import Counter
 from collections.abc import Sequence
 from fractions import Fraction
 from itertools import pairwise
-from math import floor, isnan
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -31,8 +30,6 @@ LATER = Line(RED, "-", "^", 4.5)
 MOST_LATER = 3
 """Steps that the axis goes beyond the latest predicted landing."""
 ELSEWHERE = Line(RED, "-", "o", 4.5)
-LOWEST = 80
-"""The axis of shares, in %, begins there or below."""
 LARGEST = 5.5
 """Of a sign for all cycles of a speed, in points."""
 LEAST = 5.0
@@ -44,14 +41,16 @@ def staircase_figure(runs: Sequence[Measured]) -> Figure:
     legend = [
         line_entry("predicted l", PREDICTED),
         line_entry("measured l, its area the share of the cycles", MEASURED, dashes=False),
-        line_entry("measured elsewhere", ELSEWHERE, dashes=False),
         line_entry("as predicted, of undisturbed cycles", CALM, dashes=False),
         line_entry("as predicted, of all cycles", ALL, dashes=False),
         line_entry("undisturbed", Line(UNDISTURBED, "-", "s", 5.0), dashes=False),
         line_entry(f"within {float(100 * NEAR):g} % of a step", NEAR_STEP, dashes=False),
     ]
-    if any(l is not None and l > _top(runs) for run in runs for l in run.achieved):
-        legend.insert(3, line_entry("later than shown", LATER, dashes=False))
+    elsewhere = [l for run in runs for l in run.achieved if l is not None and l != run.predicted]
+    if any(l > _top(runs) for l in elsewhere):
+        legend.insert(2, line_entry("later than shown", LATER, dashes=False))
+    if any(l <= _top(runs) for l in elsewhere):
+        legend.insert(2, line_entry("measured elsewhere", ELSEWHERE, dashes=False))
     with drawing():
         across = WIDTH_MM - LEFT_MM - RIGHT_MM
         top = EDGE_MM + TITLE_MM
@@ -117,6 +116,5 @@ def _shares(axes: Axes, runs: Sequence[Measured]) -> None:
     axes.bar(speeds, undisturbed, 0.012 * (high - low), color=UNDISTURBED, lw=0, zorder=1)
     for line, values in ((ALL, everything), (CALM, calm)):
         axes.plot(speeds, values, line.marker, color=line.colour, ms=line.size, mew=0, clip_on=False, zorder=3)
-    least = min(value for value in (*undisturbed, *everything, *calm) if not isnan(value))
-    axes.set_ylim(min(LOWEST, 10 * floor((least - 1) / 10)), 100)
+    axes.set_ylim(0, 100)
     label(axes, "", "speed (cost units per HR period)", "% of the cycles")

@@ -60,7 +60,7 @@ def record(thorough: bool = False, progress: Progress = silent) -> Record:
         steps_of(middle.N, middle.M), "",
     )  # fmt: skip
     try:
-        with alone_on(core), compiled(wanted) as program:
+        with compiled(wanted) as program, alone_on(core):
             found = resolution(program, middle, core)
             for each in designs:
                 check_resolved(found, each, check_design(each))

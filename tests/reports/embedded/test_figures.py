@@ -5,13 +5,14 @@ from __future__ import annotations
 from functools import cache
 
 import numpy as np
+from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
 
 from reports.embedded.board_tables import KB, memory_bytes, timings
 from reports.embedded.compared import Compared, compared
 from reports.embedded.instructions_figure import instructions_figure
 from reports.embedded.least_speed_figure import WITHIN, least_speed_figure
-from reports.embedded.memory_figure import memory_figure
+from reports.embedded.memory_figure import PARTS, memory_figure
 from reports.embedded.published_figure import LINES as WAYS
 from reports.embedded.published_figure import grouped, published_figure
 from reports.embedded.results import Results, read
@@ -95,7 +96,22 @@ def test_memory() -> None:
     figure = memory_figure(memory)
     assert flaws(figure) == []
     for axes, of in zip(figure.axes, memory.values(), strict=False):
-        assert sum(bar.get_width() for bar in axes.patches) * KB == sum(sum(parts.values()) for parts in of.values())
+        drawn = sum(bar.get_width() for bar in axes.patches) * KB
+        np.testing.assert_allclose(drawn, sum(sum(parts.values()) for parts in of.values()))
+
+
+def test_flash_is_not_stacked_on_ram() -> None:
+    memory = {core: memory_bytes(stored(), core, "textbook") for core in ("cortex-m4f", "cortex-m7")}
+    for axes, of in zip(memory_figure(memory).axes, memory.values(), strict=False):
+        flash = [bar for bar in axes.patches if bar.get_facecolor() == to_rgba(PARTS["code"][0])]
+        assert [(bar.get_x(), bar.get_width() * KB) for bar in flash] == [(0, parts["code"]) for parts in of.values()]
+
+
+def test_logarithmic_axes_say_that_they_are() -> None:
+    for figure in (instructions_figure(per_operation(stored()), 3.5), published_figure(timings(), 1.5)):
+        for axes in figure.axes:
+            if axes.get_xlabel():
+                assert (axes.get_xscale() == "log") == ("logarithmic" in axes.get_xlabel())
 
 
 def test_every_source_and_every_way_to_write_code_has_a_sign_of_its_own() -> None:

@@ -56,6 +56,29 @@ def test_histograms_can_be_read() -> None:
         assert flaws(histograms_figure(run)) == []
 
 
+def test_what_landed_elsewhere_has_a_colour_of_its_own() -> None:
+    moved = judged("ordinary")._replace(achieved=[7, 7, 7, 8, 7, 7, 7, 7])
+    right, elsewhere = histograms_figure(moved).axes[0].patches
+    assert right.get_facecolor() != elsewhere.get_facecolor()
+    for run, there in ((moved, True), (judged("ordinary"), False)):
+        assert ("landed elsewhere" in {text.get_text() for text, _ in texts(histograms_figure(run))}) == there
+
+
+def test_logarithmic_axes_say_that_they_are() -> None:
+    for axes in histograms_figure(judged("ordinary")).axes[:3]:
+        assert (axes.get_xscale() == "log") == ("logarithmic" in axes.get_xlabel())
+
+
+def test_shares_are_of_all_cycles_whatever_they_are() -> None:
+    """The bars begin at 0 and the axis ends at 100 %; the legend is of what is there."""
+    for run in (perfect_run("0.85"), judged("ordinary")._replace(achieved=[8] * 8)):
+        figure = staircase_figure([run])
+        assert figure.axes[1].get_ylim() == (0, 100)
+        said = {text.get_text() for text, _ in texts(figure)}
+        assert ("measured elsewhere" in said) == (run.agreement.share < 1)
+        assert "later than shown" not in said
+
+
 def test_the_staircase_can_be_read() -> None:
     runs = [measured(judged("ordinary").ran, of, of.predicted or 0) for of in through_two_steps(design())]
     figure = staircase_figure(runs)
