@@ -25,19 +25,22 @@ class Job(NamedTuple):
 
 class Ran(NamedTuple):
     """A whole run. jobs: each task's in order; differing: states that are not to the bit those of one thread that does
-    the same steps."""
+    the same steps; idle: ns in which the core had nothing to do, in ticks of the kernel, 0 where it is not known."""
 
     jobs: tuple[Job, ...]
     differing: int
+    idle: int = 0
 
 
 def parsed(lines: Iterable[str]) -> Ran:
     """Of what live.c prints."""
-    jobs, differing = [], 0
+    jobs, differing, idle = [], 0, 0
     for line in lines:
         kind, *numbers = line.split(",")
         if kind in KINDS:
             jobs.append(Job(kind, *map(int, numbers)))
         elif kind == "differing":
             differing = int(numbers[0])
-    return Ran(tuple(jobs), differing)
+        elif kind == "idle":
+            idle = int(numbers[0])
+    return Ran(tuple(jobs), differing, idle)

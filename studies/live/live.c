@@ -19,6 +19,7 @@
 #include <string.h>
 #include <sys/mman.h>
 #include <time.h>
+#include <unistd.h>
 
 #include "filter.h"
 
@@ -65,6 +66,8 @@ static _Thread_local Log *of_thread; /* none: each job is done once */
 static _Thread_local Job this;       /* step, start and CPU time of the thread then */
 
 static int64_t period, origin;
+static int core;
+static int64_t idle; /* of the core in all steps, ns */
 static int steps;
 static real (*inputs)[INPUTS > 0 ? INPUTS : 1];
 static real (*measurements)[MEASUREMENTS];
@@ -113,12 +116,33 @@ static void sleep_until(int64_t instant)
     }
 }
 
+/* For how long the core has had nothing to do since the machine was started, ns, as /proc/stat has it in ticks. */
+static int64_t idle_so_far(void)
+{
+    char line[256];
+    long long idle = 0;
+    FILE *const file = fopen("/proc/stat", "r");
+    while (file != NULL && fgets(line, sizeof line, file) != NULL) {
+        int number;
+        long long waits, ticks;
+        if (sscanf(line, "cpu%d %*s %*s %*s %lld %lld", &number, &ticks, &waits) == 3 && number == core) {
+            idle = ticks + waits;
+        }
+    }
+    if (file != NULL) {
+        (void)fclose(file);
+    }
+    return idle * (INT64_C(1000000000) / sysconf(_SC_CLK_TCK));
+}
+
 static void *hr_thread(void *unused)
 {
     (void)unused;
     of_thread = &hr_log;
     (void)pthread_barrier_wait(&both_are_there);
     origin = now(CLOCK_MONOTONIC) + LEAD_NS;
+    sleep_until(origin);
+    idle = -idle_so_far();
     for (int j = 1; j <= steps; j++) {
         sleep_until(origin + j * period);
         begins(j);
@@ -135,6 +159,7 @@ static void *hr_thread(void *unused)
             }
         }
     }
+    idle += idle_so_far();
     over = true;
     (void)sem_post(&sent);
     (void)sem_post(&arrived);
@@ -235,8 +260,9 @@ int main(int count, char **values)
     if (count != 6 + KINDS) {
         return 2;
     }
-    const int cpu = atoi(values[1]), cycles = atoi(values[3]), hr_priority = atoi(values[4]);
+    const int cycles = atoi(values[3]), hr_priority = atoi(values[4]);
     const int lr_priority = atoi(values[5]);
+    core = atoi(values[1]);
     period = atoll(values[2]);
     for (int kind = 0; kind < KINDS; kind++) {
         wanted[kind] = atoll(values[6 + kind]);
@@ -255,13 +281,14 @@ int main(int count, char **values)
     (void)sem_init(&sent, 0, 1u); /* step 0 is a k */
     (void)sem_init(&arrived, 0, DELAY_STEPS == 0);
     (void)pthread_barrier_init(&both_are_there, NULL, 2u);
-    const pthread_t lr = started(lr_thread, lr_priority, cpu);
-    const pthread_t hr = started(hr_thread, hr_priority, cpu);
+    const pthread_t lr = started(lr_thread, lr_priority, core);
+    const pthread_t hr = started(hr_thread, hr_priority, core);
     (void)pthread_join(hr, NULL);
     (void)pthread_join(lr, NULL);
     printf("kind,step,start_ns,end_ns,cpu_ns\n");
     print_log(&hr_log);
     print_log(&lr_log);
+    printf("idle,%lld\n", (long long)idle);
     printf("differing,%d\n", differing());
     return 0;
 }

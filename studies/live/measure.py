@@ -38,7 +38,7 @@ class Measured(NamedTuple):
 
 def measured(ran: Ran, design: Design, predicted: int) -> Measured:
     """Judges a run."""
-    busy = busy_periods(ran.jobs, design)
+    busy = busy_periods(ran.jobs, design, ran.idle)
     taken = taken_by_cycle(busy, design)
     whole = max([design.steps * design.period_ns, *(period.end for period in busy)])
     share = sum(period.taken for period in busy) / whole

@@ -17,6 +17,8 @@ from studies.live.jobs import Job
 NEAR = Fraction(2, 100)
 """Relative to its speed, how near a step of the staircase may be for little that is taken to change where corrections
 land."""
+TICKS_NS = 20_000_000
+"""By which the kernel's figure of idle time may be wrong."""
 
 
 class Busy(NamedTuple):
@@ -31,13 +33,16 @@ class Busy(NamedTuple):
         return self.end - self.start - self.cpu
 
 
-def busy_periods(jobs: Iterable[Job], design: Design) -> list[Busy]:
+def busy_periods(jobs: Iterable[Job], design: Design, idle: int = 0) -> list[Busy]:
     """In their order. What the thread of a job had beyond its CPU time was taken from it too: a hypervisor may not say
-    what it takes, so that the clock of CPU time runs on."""
+    what it takes, so that the clock of CPU time runs on.
+
+    idle: ns in which the core had nothing to do.
+    """
     kept = list(jobs)
     wanted = design.job_ns
     found: list[Busy] = []
-    for ready, job in sorted(_ready([*kept, *_never_begun(kept, design)], design)):
+    for ready, job in sorted(_ready([*kept, *_never_begun(kept, design, idle)], design)):
         cpu = min(job.cpu, wanted[job.kind])
         if found and ready <= found[-1].end:
             last = found.pop()
@@ -70,9 +75,9 @@ def disturbed(taken: Sequence[int], design: Design, predicted: int) -> list[bool
     return [each > most for each in taken]
 
 
-def _never_begun(jobs: Iterable[Job], design: Design) -> list[Job]:
+def _never_begun(jobs: Sequence[Job], design: Design, idle: int) -> list[Job]:
     """Updates of measurements that HR has sent to LR, and for which LR got no core to the end of the run: as jobs of no
-    length there."""
+    length there. None if the core stood idle for one of them, for then nothing was taken from LR."""
     end, sent, updated = design.steps * design.period_ns, {0}, set()
     for job in jobs:
         end = max(end, job.end)
@@ -80,7 +85,17 @@ def _never_begun(jobs: Iterable[Job], design: Design) -> list[Job]:
             sent.add(job.step - 1)
         elif job.kind == "lr_update":
             updated.add(job.step)
-    return [Job("lr_update", k, end, end, 0) for k in sorted(sent - updated)]
+    waiting = sorted(sent - updated)
+    if waiting and _stood_idle(jobs, design, idle, (waiting[0] + design.M) * design.period_ns):
+        return []
+    return [Job("lr_update", k, end, end, 0) for k in waiting]
+
+
+def _stood_idle(jobs: Iterable[Job], design: Design, idle: int, ready: int) -> bool:
+    """Whether the core had nothing to do for as long as an update takes after it was ready: more than it can have had
+    before."""
+    before = ready - sum(job.cpu for job in jobs if job.end <= ready)
+    return idle - before >= design.job_ns["lr_update"] + TICKS_NS
 
 
 def _ready(jobs: Iterable[Job], design: Design) -> Iterator[tuple[int, Job]]:

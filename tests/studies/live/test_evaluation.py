@@ -133,6 +133,11 @@ def test_an_update_that_never_got_the_core_disturbs_all_that_is_left() -> None:
     assert run.achieved == [7, 7, 7, 7, None, None, None, None]
     assert run.disturbed == [False] * 4 + [True] * 4
     assert run.agreement.word == "inconclusive"
+    idle = measured(Ran(tuple(left), 0, idle=300 * MS), design(), 7)
+    assert idle.achieved == run.achieved
+    assert not any(idle.disturbed)  # the core stood idle, so that LR had no excuse
+    assert idle.agreement.word == "disagrees"
+    assert measured(Ran(tuple(left), 0, idle=100 * MS), design(), 7).disturbed == run.disturbed
 
 
 def test_the_latency_is_that_of_the_first_job_of_a_step() -> None:
@@ -209,5 +214,5 @@ def test_preempted_jobs_are_in_pieces_whoever_is_above() -> None:
 
 
 def test_what_the_program_prints_is_read() -> None:
-    ran = parsed(["kind,step,start_ns,end_ns,cpu_ns", "hr_restart,1,10,20,9", "differing,3"])
-    assert ran == Ran((Job("hr_restart", 1, 10, 20, 9),), 3)
+    ran = parsed(["kind,step,start_ns,end_ns,cpu_ns", "hr_restart,1,10,20,9", "idle,70", "differing,3"])
+    assert ran == Ran((Job("hr_restart", 1, 10, 20, 9),), 3, 70)

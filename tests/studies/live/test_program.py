@@ -56,6 +56,7 @@ def test_a_short_run(program: Program) -> None:
     assert len(found.achieved) == 8
     assert found.agreement.word in ("agrees", "disagrees", "inconclusive")
     assert found.ran.differing == 0
+    assert 0 <= found.ran.idle <= 2 * found.design.steps * found.design.period_ns
 
 
 @pytest.mark.parametrize(
