@@ -39,7 +39,8 @@ HowMany = Annotated[
     int,
     typer.Option(
         "--cycles",
-        help="Measurement cycles to compare, after a first that is not; with --staircase at each speed.",
+        help="Measurement cycles to compare, after a first that is not; with --staircase at each speed. Fewer than 299 "
+        "undisturbed ones never agree.",
         parser=opt.at_least_one,
         metavar="COUNT",
         rich_help_panel=LIVE,
