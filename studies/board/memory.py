@@ -25,7 +25,7 @@ def add_model(data: Data, task: str, system: System, kind: Kind, name: str = "mo
     Returns the name of the record, `hr_model`.
     """
     assert isinstance(kind, Record)
-    data.record(f"{task}_{name}", _with_own_scratch(system), kind, model_placing(task, name))
+    data.record(f"{task}_{name}", with_own_scratch(system), kind, model_placing(task, name))
     return f"{task}_{name}"
 
 
@@ -56,7 +56,7 @@ def work_placing(fields: frozenset[str]) -> Placing:
     return placing
 
 
-def jobs_memory(jobs: Mapping[str, Job], in_c: Jobs) -> tuple[str, dict[str, int]]:
+def jobs_memory(system: System, jobs: Mapping[str, Job], in_c: Jobs) -> tuple[str, dict[str, int]]:
     """The file state.h of a method of which the jobs are written without tasks: the model, and each argument of the
     jobs, once for all that have it.
 
@@ -70,7 +70,7 @@ def jobs_memory(jobs: Mapping[str, Job], in_c: Jobs) -> tuple[str, dict[str, int
             if name not in done.used or own in taken or not isinstance(part, Array | Record):
                 continue
             taken[own] = part
-            _add_argument(data, own, value, part, in_c)
+            _add_argument(data, own, system if isinstance(value, System) else value, part, in_c)
         for name, array in done.memory.items():
             data.array(Kept(f"{kind}_{name}"), np.zeros([length or 0 for length in array.shape]))
     return filled("jobs_state.h", {"memory": "\n".join(data.lines)}), data.sizes
@@ -87,7 +87,8 @@ def _add_argument(data: Data, name: str, value: Any, kind: Array | Record, in_c:
         data.record(name, _zero(value), kind, lambda names: Kept("_".join(names)))
 
 
-def _with_own_scratch(system: System) -> System:
+def with_own_scratch(system: System) -> System:
+    """The system with a copy of its scratch."""
     parameters = system.parameters
     if not hasattr(parameters, SCRATCH):
         return system

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from filters.delayed.dual_rate import GainTime
 from filters.jobs import Job
 from filters.registry import ALL_METHODS
+from filters.systems.scratch import restored
 from filters.translation.kinds import LONG
 from sched_sim.errors import InputError, option
 from studies.board import dual_rate
@@ -15,7 +16,7 @@ from studies.board.compiled import Compiled, stacks_of
 from studies.board.examples import freertos_c, posix_c
 from studies.board.in_flight import are_several, check_in_flight, more_jobs, tasks_in_flight
 from studies.board.jobs import Jobs, named, translated
-from studies.board.memory import jobs_memory
+from studies.board.memory import jobs_memory, with_own_scratch
 from studies.board.readme import about_filter
 from studies.board.record import record_h, simulated
 from studies.board.serial.files import steps_files, steps_run
@@ -75,8 +76,8 @@ def board_files(wanted: Filter) -> dict[str, str]:
         InputError: steps or sizes do not fit.
         ValueError: the system cannot be filtered from x0.
     """
-    system = wanted.system
-    check_wanted(wanted.method, system[:3], wanted.steps, wanted.gain)
+    check_wanted(wanted.method, wanted.system[:3], wanted.steps, wanted.gain)
+    system = with_own_scratch(wanted.system)  # that of `wanted` stays as it is given, for the board
     jobs, dense = (_jobs(wanted._replace(system=each)) for each in (system, system._replace(structure=None)))
     in_c = translated(jobs, wanted.precision)
     return assembled(about_filter(wanted), dense, in_c, _around(wanted, jobs, in_c))
@@ -98,10 +99,11 @@ def _around(wanted: Filter, jobs: Mapping[str, Job], in_c: Jobs) -> Around:
     method, system, steps = wanted.method, wanted.system, wanted.steps
     all_of_them = {kind: kind for kind in jobs}
     if steps is None:
-        state, sizes = jobs_memory(jobs, in_c)
+        state, sizes = jobs_memory(system, jobs, in_c)
         words = {"tolerance": USUAL, "sources": "filter.c test.c", "includes": "", "functions": "", "run": ""}
         return Around({"state.h": state}, ["filter.c"], sizes, words, all_of_them)
-    record = record_h(simulated(wanted, steps), wanted.precision)
+    with restored(system):
+        record = record_h(simulated(wanted, steps), wanted.precision)
     if method == "dual-rate":
         words = {"u": "record_u[j - 1]" if system.inputs else ""}
         several = are_several(steps)

@@ -8,6 +8,7 @@ from filters.registry import SPARSE_METHODS
 from filters.sparse.found import PROBES, contradiction, linear_structure, probed
 from filters.sparse.structure import Structure, left_out, shown
 from filters.system import System
+from filters.systems.scratch import restored
 from sched_sim.errors import InputError, option
 
 
@@ -24,7 +25,8 @@ def with_structure(system: System, x0: FloatArray, said: str, *, confirmed: bool
         stated = checked_structure(system)
         if stated is None and (known := linear_structure(system)) is not None:
             return system._replace(structure=known)
-        found = probed(system, x0)
+        with restored(system):
+            found = probed(system, x0)
     except ValueError as error:
         raise InputError(f"{said}: {error}") from error
     if stated is not None:

@@ -7,6 +7,7 @@ import numpy as np
 from filters.arrays import FloatArray, as_array
 from filters.covariances import check_covariance, check_measurement_noise
 from filters.system import System
+from filters.systems.scratch import restored
 from filters.systems.trial import check_result, trials
 from filters.systems.turns import check_turns
 from sched_sim.bounds import MOST_STATES, short
@@ -43,7 +44,8 @@ def checked_system(returned_value: Returned, said: str, how: str) -> tuple[Syste
             raise InputError(f"{said}: {what}={short(repr(size))} must be a whole number from {least} to {MOST_STATES}")
     with explained(said):
         state = np.zeros(system.states) if x0 is None else as_array("the typical state", x0)
-    _try_model(said, system, state)
+    with restored(system):
+        _try_model(said, system, state)
     return system, state
 
 

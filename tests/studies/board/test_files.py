@@ -15,6 +15,9 @@ from filters.systems.navigation import vehicle
 from filters.translation.library import Precision
 from studies.board.compiled import compiled
 from studies.board.steps import Steps
+from studies.measurement.sparsity import with_structure
+from studies.measurement.user_function import Returned
+from studies.measurement.user_system import checked_system
 from tests.command_line import Run
 from tests.studies.board.build import ARM, HERE, STRICT, build, needs_arm_gcc, needs_gcc, put, ran, ran_as_one, written
 from tests.studies.board.systems import beyond_floats, pendulum, unchanging, writing_to_its_parameters
@@ -192,3 +195,19 @@ def test_a_model_beyond_single_precision() -> None:
 
 def test_warnings_are_errors() -> None:
     assert {"-Wconversion", "-Wpedantic", "-Werror"} <= set(STRICT)
+
+
+@pytest.mark.parametrize("steps", [STEPS, None], ids=["tasks", "jobs"])
+def test_the_scratch_of_a_model_begins_as_the_user_gave_it(steps: Steps | None) -> None:
+    system = pendulum()
+    files = written(system, x0=np.array([0.1, 0.2]), method="dual-rate" if steps else "standard", steps=steps)
+    assert re.search(r"\w+_scratch_F\[2\]\[2\]\[2\];", files["state.h"])
+    assert not re.search(r"scratch\w*(\[\d\])+ =", files["state.h"])
+    assert not system.parameters.scratch.F.any()
+
+
+def test_nor_is_it_left_otherwise_by_what_tries_the_model() -> None:
+    system = pendulum()
+    checked_system(Returned("pendulum", (system, [0.1, 0.2])), "--system 'a:pendulum'", "how")
+    with_structure(system, np.array([0.1, 0.2]), "--system 'a:pendulum'", confirmed=True)
+    assert not system.parameters.scratch.F.any()
