@@ -82,6 +82,8 @@ class Body:
                 f"called with {len(self.kinds)} arguments, and has {len(self.source.parameters)} parameters"
             )
         for name, kind in zip(self.source.parameters, self.kinds, strict=True):
+            if isinstance(kind, Int) and lasts(kind):
+                kind = self.wide.get(name, kind)
             text = c_name(name) if lasts(kind) else ""
             if isinstance(kind, Int | Flag) and kind.known is not None:
                 text = str(kind.known).lower()

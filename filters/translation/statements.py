@@ -260,7 +260,7 @@ def _augmented(body: Body, statement: ast.AugAssign) -> list[str]:
         shape = [target.rows if length is None else length for length in target.kind.shape]
         return filled(target, shape, lambda index: item(result, index).text)
     if isinstance(statement.target, ast.Name):
-        _check_fits(statement.target.id, target, variable_of(result.kind))
+        _check_fits(body, statement, statement.target.id, target, variable_of(result.kind))
     if sign is None:
         return [f"{_place(target)} = {result.text};"]
     return [f"{_place(target)} {sign} {(as_real(value) if isinstance(target.kind, Real) else value).text};"]
@@ -271,16 +271,21 @@ def _place(element: Value) -> str:
     return element.text.removeprefix("(int)")
 
 
-def _check_fits(name: str, known: Value, kind: Kind) -> None:
-    """Raises Widened if the variable cannot hold it."""
+def _check_fits(body: Body, statement: ast.stmt, name: str, known: Value, kind: Kind) -> None:
+    """Raises Widened if the variable cannot hold it, or a refusal if it is a parameter, which the caller knows."""
+    is_parameter = name in body.source.parameters
+    if is_parameter and not lasts(known.kind):
+        raise body.source.refusal(statement, f"{name} is a parameter; give the new value another name")
     if known.kind == kind or (isinstance(known.kind, Real) and isinstance(kind, Int)):
         return
     if isinstance(known.kind, Int) and isinstance(kind, Int):
         if kind.counts or not known.kind.counts:
             return
         raise Widened(name, Int())
-    if isinstance(known.kind, Int) and isinstance(kind, Real):
-        raise Widened(name, REAL)
+    if isinstance(known.kind, Int | Flag) and isinstance(kind, Int | Real):
+        if is_parameter:
+            raise body.source.refusal(statement, f"{name} is a parameter; give the new value another name")
+        raise Widened(name, kind)
 
 
 def _assignment(
@@ -337,10 +342,11 @@ def _to_name(body: Body, statement: ast.stmt, name: str, value: Value, undeclare
             const = "const " if once and not isinstance(kind, Array) else ""
             return [f"{const}{variable(kind, text, body.unit.record_name)} = {right};"]
         return [f"{text} = {right};"]
-    _check_fits(name, known, variable_of(value.kind))
+    _check_fits(body, statement, name, known, variable_of(value.kind))
     if known.by_pointer:
         raise body.source.refusal(statement, f"{name} is a parameter; give the new value another name")
-    if variable_of(value.kind) != known.kind and not isinstance(known.kind, Int | Real | Flag):
+    numbers = isinstance(known.kind, Int | Real | Flag) and isinstance(value.kind, Int | Real | Flag)
+    if variable_of(value.kind) != known.kind and not numbers:
         raise body.source.refusal(statement, f"{name} gets another kind of value, or another shape, than before")
     if isinstance(kind, Array | Record) and not value.origins <= known.origins:
         raise Elsewhere(name, value.origins | known.origins)

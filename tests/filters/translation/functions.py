@@ -384,6 +384,20 @@ def past_an_int(j: int) -> float:
     return a + b + c + d + e + large + total
 
 
+def flag_that_is_counted(n: int) -> int:
+    m = n > 1
+    m = m + 1
+    k = n > 2
+    k += n
+    return 10 * m + k
+
+
+def parameter_that_is_counted_down(x: FloatArray, n: int) -> float:
+    n = n - 6
+    n += 1
+    return x[n] + n
+
+
 def inverted(x: FloatArray) -> float:
     return x[~0] + ~2
 
@@ -405,6 +419,8 @@ CASES: list[tuple[Any, list[tuple[Any, ...]]]] = [
     (logic, [(x, y, i) for x in (0.5, 2.0) for y in (1.5, 0.1) for i in range(4)]),
     (one_of_numbers, [(np.array(x), n) for x in ([3.0, 4.0, 5.0, 0.0], [0.0, 0.0, np.nan, 8.0]) for n in (0, 3)]),
     (past_an_int, [(3,), (7,), (2**30,)]),
+    (flag_that_is_counted, [(1,), (2,), (3,)]),
+    (parameter_that_is_counted_down, [(X4, 4), (X4, 6)]),
     (inverted, [(X4,)]),
     (without_fraction, [(-2.75,), (3.5,), (2147483647.5,), (-2147483648.0,)]),
     (extremes, [(1.0, 2.0, 1), (np.nan, 1.0, 5), (1.0, np.nan, 0)]),

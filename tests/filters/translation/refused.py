@@ -97,6 +97,27 @@ def one_of_computed(x: float) -> float:
     return np.sqrt(x) or 0.5  # must have a name; give it one first
 
 
+def number_then_array(x: FloatArray) -> float:
+    y: Any = 0.0
+    if x[0] > 1.0:
+        y = x  # y gets another kind of value, or another shape, than before
+    return y + 1.0  # type: ignore[no-any-return]
+
+
+def parameter_made_real(n: float) -> float:
+    n = n * 0.5  # n is a parameter; give the new value another name
+    return n + 1.0
+
+
+def known_parameter_changed(x: float) -> float:
+    return changed(x, 3)
+
+
+def changed(x: float, n: int) -> float:
+    n = n - 1
+    return x * n
+
+
 def clipped(x: float) -> float:
     return np.clip(x, 0.0, 1.0)  # write min(max(x, least), most)
 
@@ -158,6 +179,8 @@ REFUSED: list[tuple[Any, tuple[Any, ...]]] = [
     (recursive, (3,)),
     (one_too_many, (1.0,)),
     (by_method, (1.0,)),
+    (number_then_array, (X,)),
+    (parameter_made_real, (3,)),
     (clipped, (1.0,)),
     (rounded, (1.0,)),
     (one_or_other, (1.0,)),

@@ -13,7 +13,7 @@ from filters.translation.kinds import kind_of
 from filters.translation.refusal import Untranslatable
 from filters.translation.unit import Unit
 from tests.filters.translation.programs import Program
-from tests.filters.translation.refused import REFUSED, helper
+from tests.filters.translation.refused import REFUSED, helper, known_parameter_changed
 
 
 def translate(function: Any, arguments: tuple[Any, ...]) -> None:
@@ -35,6 +35,11 @@ def test_a_function_that_is_given_other_arguments() -> None:
         Untranslatable, match=r"refused\.py:\d+: helper: is called with 1 arguments, and has 2 parameters"
     ):
         translate(helper, (1.0,))
+
+
+def test_a_known_argument_that_is_changed() -> None:
+    with pytest.raises(Untranslatable, match=r"refused\.py:\d+: n = n - 1: n is a parameter; give the new"):
+        translate(known_parameter_changed, (1.0,))
 
 
 def test_a_lambda_is_not_taken_for_what_holds_it() -> None:
