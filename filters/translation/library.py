@@ -63,10 +63,11 @@ class Library(ABC):
 
     def number(self, value: float) -> str:
         """A number as it is written in C."""
+        as_real = "" if self.precision == "single" else "(double)"  # in C they are floats
         if math.isnan(value):
-            return "NAN"
+            return f"{as_real}NAN"
         if math.isinf(value):
-            return "INFINITY" if value > 0 else "-INFINITY"
+            return f"{'' if value > 0 else '-'}{as_real}INFINITY"
         return repr(value) + ("f" if self.precision == "single" else "")
 
     def constant(self, name: str, text: str) -> str:

@@ -86,6 +86,7 @@ def test_long_rows_are_broken_between_numbers() -> None:
         ("double", 1e-300, "1e-300"),
         ("single", 1 / 3, "0.33333334f"),
         ("single", float("inf"), "INFINITY"),
+        ("double", -float("inf"), "-(double)INFINITY"),
     ],
 )
 def test_numbers(precision: Precision, value: float, text: str) -> None:

@@ -23,7 +23,10 @@ from studies.board.wanted import Filter
 from studies.board.write import board_files
 
 HERE = Path(__file__).parent
-WARNINGS = ("all", "extra", "pedantic", "conversion", "shadow", "missing-prototypes", "cast-align", "undef", "error")
+WARNINGS = (
+    *("all", "extra", "pedantic", "conversion", "double-promotion", "shadow"),
+    *("missing-prototypes", "cast-align", "undef", "error"),
+)
 STRICT = ["-std=c99", *(f"-W{name}" for name in WARNINGS), "-ffp-contract=off"]
 ARM = ["arm-none-eabi-gcc", "-mcpu=cortex-m4", "-mthumb", "-mfpu=fpv4-sp-d16", "-mfloat-abi=hard"]
 
