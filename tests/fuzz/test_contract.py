@@ -21,6 +21,7 @@ def test_the_contract_holds(case: Case) -> None:
     check(case)
 
 
+@pytest.mark.exhaust
 @settings(max_examples=3)
 @given(cases(drawn=True))
 def test_the_contract_holds_for_pictures(case: Case) -> None:

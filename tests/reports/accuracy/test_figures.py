@@ -50,6 +50,7 @@ def front() -> Figure:
     return front_figure({name: placed(name) for name in MODELS})
 
 
+@pytest.mark.exhaust
 def test_power_against_accuracy() -> None:
     assert flaws(front()) == []
     for axes, name in zip(front().axes[:4], MODELS, strict=True):

@@ -62,6 +62,7 @@ def test_the_committed_file_is_rebuilt_byte_for_byte(name: str) -> None:
     published.is_rebuilt("embedded", name, rebuilt())
 
 
+@pytest.mark.exhaust
 def test_the_command_writes_the_report(sched_sim: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("reports.embedded.results.results", lambda _thorough, _progress: stored())
     published.is_written("embedded", rebuilt(), sched_sim, tmp_path)
@@ -79,6 +80,7 @@ def slower(table: CostTable) -> CostTable:
     return replace(table, costs=costs, provenance={**table.provenance, "machine": "another"})
 
 
+@pytest.mark.exhaust
 def test_another_machine_changes_only_what_is_marked() -> None:
     native = {source.name for source in NATIVE}
     costs = {key: slower(table) if key[0] in native else table for key, table in stored().costs.items()}
@@ -107,6 +109,7 @@ def asked_of(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     return asked
 
 
+@pytest.mark.exhaust
 def test_what_is_not_there_is_said_and_the_rest_is_of_what_is_shipped(monkeypatch: pytest.MonkeyPatch) -> None:
     """No emulator, no C compiler, no right to real-time priorities."""
 
@@ -131,6 +134,7 @@ def test_what_is_not_there_is_said_and_the_rest_is_of_what_is_shipped(monkeypatc
         assert here == {heading: cell for heading, cell in everywhere.items() if heading != "C †"}
 
 
+@pytest.mark.exhaust
 def test_with_all_tools_everything_is_run(monkeypatch: pytest.MonkeyPatch) -> None:
     asked, told = asked_of(monkeypatch), []
     monkeypatch.setattr(results_of, "missing", list)

@@ -135,6 +135,7 @@ def test_at_the_least_speed_nothing_is_late_at_any_phase(loaded: Loaded, number:
     holds_at_every_phase(loaded, Random(number))
 
 
+@pytest.mark.exhaust
 @settings(max_examples=20)
 @given(with_tasks(in_flight=True), st.integers(0, 2**32))
 def test_nor_is_anything_with_several_corrections_on_their_way(loaded: Loaded, number: int) -> None:

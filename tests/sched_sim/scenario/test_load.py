@@ -268,6 +268,7 @@ def certain(draw: st.DrawFn) -> Scenario:
     return case(speed, entries | more, *sensors, **of)
 
 
+@pytest.mark.exhaust
 @settings(max_examples=100)
 @given(certain())
 def test_where_all_lands_in_the_step_of_its_arrival_the_simulation_is_as_busy_as_the_demand(

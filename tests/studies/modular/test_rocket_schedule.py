@@ -111,6 +111,7 @@ def test_misses_go_from_none_to_all_as_the_processor_gets_slower(way: str, urgen
     assert max(of_job[-1] for of_job in found) > 0.95
 
 
+@pytest.mark.exhaust
 def test_in_the_loop_a_replay_makes_the_loop_late_first() -> None:
     """At 1 GHz a replay of 20 steps takes 15 to 19 ms."""
     for way in (UNSCENTED, EXTENDED):

@@ -125,7 +125,7 @@ def test_kill_9_of_a_worker(tmp_path, uninterrupted):
 @pytest.mark.parametrize(
     ("number", "to_all"),
     [
-        pytest.param(signal.SIGINT, True, id="ctrl-c"),
+        pytest.param(signal.SIGINT, True, id="ctrl-c", marks=pytest.mark.exhaust),
         pytest.param(signal.SIGINT, False, id="sigint", marks=pytest.mark.exhaust),
         pytest.param(signal.SIGTERM, False, id="sigterm", marks=pytest.mark.exhaust),
     ],

@@ -81,6 +81,7 @@ def test_what_cannot_be_translated_is_refused_with_its_line(
     is_refused(sched_sim(f"measure --backend emulated --target {target} --system own:model --method larsen"), said)
 
 
+@pytest.mark.exhaust
 def test_the_robust_filter_is_emulated_too(sched_sim: Run) -> None:
     rows = json.loads(sched_sim("measure --backend emulated --target cortex-m7 --robust attitude --format json").out)
     steps = {row["method"]: row["median"] for row in rows if row["job"] == "robust_step"}
