@@ -96,7 +96,7 @@ def several(draw: st.DrawFn, case: Case) -> Problem:
 
 
 @each_case
-@settings(max_examples=60)
+@settings(max_examples=30)
 @given(data=st.data())
 def test_each_state_is_the_mean_given_what_has_landed(case: Case, data: st.DataObject) -> None:
     given_problem = data.draw(several(case))

@@ -86,6 +86,7 @@ def run(folder: Path, **helper: str) -> str:
     return started(folder).communicate()[0].strip()
 
 
+@pytest.mark.exhaust
 def test_another_process_finds_the_machine_code_unless_a_callee_changed(tmp_path: Path) -> None:
     assert run(tmp_path, sign="+", step="10.0") == "0 1 12.0"
     assert run(tmp_path, sign="+", step="10.0") == "1 0 12.0"

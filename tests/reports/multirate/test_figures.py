@@ -22,6 +22,7 @@ TABLE = on_part(patents_form().table, PATENT)
 READINGS = {"averaged": "$K(R/n)/n$", "sampled": "$K(R)/n$", "skipped": "every $n$-th measurement"}
 
 
+@pytest.mark.exhaust
 def test_load_against_n() -> None:
     forms = [patents_form(), *our_forms().values()]
     figure = load_figure(

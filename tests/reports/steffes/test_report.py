@@ -33,6 +33,7 @@ def test_the_committed_file_is_rebuilt_byte_for_byte(name: str) -> None:
     published.is_rebuilt("steffes2014", name, rebuilt())
 
 
+@pytest.mark.exhaust
 def test_another_machine_changes_only_what_is_marked_as_measured() -> None:
     """Other measured costs: in the tables only columns with the mark change, in the text only lines with it, and no
     figure but the two that show measured costs."""

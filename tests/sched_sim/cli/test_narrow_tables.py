@@ -45,7 +45,9 @@ def terminal(sched_sim: Run, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) ->
     return run
 
 
-@pytest.mark.parametrize("width", [60, 80, 120])
+@pytest.mark.parametrize(
+    "width", [pytest.param(60, marks=pytest.mark.exhaust), 80, pytest.param(120, marks=pytest.mark.exhaust)]
+)
 @pytest.mark.parametrize("line", TABLES)
 def test_a_narrow_table_breaks_no_number_and_no_name(line: str, width: int, terminal: Run) -> None:
     narrow, wide = terminal(f"{width} {line}"), terminal(f"400 {line}")

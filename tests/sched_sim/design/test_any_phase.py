@@ -242,7 +242,7 @@ FAST, SLOW = Task("fast", Fraction(1), Fraction(6), 5), Task("slow", Fraction(3)
 
 
 @pytest.mark.parametrize("timing", [Timing(2, 1, 4), Timing(2, 3, 5), Timing(3, 3, 5), Timing(1, 2, 4)])
-@pytest.mark.parametrize("gain", [0, 6])
+@pytest.mark.parametrize("gain", [pytest.param(0, marks=pytest.mark.exhaust), 6])
 @pytest.mark.parametrize("task", [FAST, SLOW])
 def test_with_several_on_their_way_it_holds_at_each_phase_of_a_grid(timing: Timing, gain: int, task: Task) -> None:
     """Eighths of a step, over a time after which the schedule repeats; it lands no later than is said."""
@@ -267,6 +267,7 @@ def test_a_landing_beyond_the_next_measurement_asks_for_no_more_than_one_before_
     assert speeds[-1] < speeds[1]
 
 
+@pytest.mark.exhaust
 def test_on_a_processor_of_their_own_lr_jobs_that_pile_up_are_too_much() -> None:
     """21 in each step, and for the correction that is missing two more."""
     costs, task = DualRateCosts(*map(Fraction, (60, 5, 2, 3, 13, 5))), Task("a", Fraction(1), Fraction(8), 15)

@@ -76,17 +76,19 @@ def test_no_message_asks_for_other_facts(sched_sim: Run, tmp_path: Path, line: s
         "simulate -N 25 -M 200 --speed 1",
         "gantt -N 5 -M 12",
         "processors -N 25 -M 60 --hr-hz 100 --processor leon3",
-        "sweep -N 25 -M 60 --method dual-rate",
+        pytest.param("sweep -N 25 -M 60 --method dual-rate", marks=pytest.mark.exhaust),
         "sweep -N 5:15:5 -M 20:30:10 --costs counted-9-3-3",
         "minimum -N 4 -M 4 --method dual-rate",
-        "minimum -N 4 -M 4 --method dual-rate --feedback same-step",
+        pytest.param("minimum -N 4 -M 4 --method dual-rate --feedback same-step", marks=pytest.mark.exhaust),
         "minimum -N 10 -M 4 -L 12",
         "minimum --hr-hz 400 --measurement-hz 30 --delay-ms 33.3",
         "simulate --hr-hz 400 --measurement-hz 5 --delay-ms 250 --method larsen --costs counted-9-3-3",
         "gantt --hr-hz 400 --measurement-hz 30 -M 14",
-        "gantt --hr-hz 400 -N 13 --delay-ms 33.3",
+        pytest.param("gantt --hr-hz 400 -N 13 --delay-ms 33.3", marks=pytest.mark.exhaust),
         "minimum --hr-hz 400 --measurement-hz 5 --delay-ms 100 --land-within-ms 210",
-        "minimum --hr-hz 400 --measurement-hz 5 --delay-ms 100 --land-within-ms 200",
+        pytest.param(
+            "minimum --hr-hz 400 --measurement-hz 5 --delay-ms 100 --land-within-ms 200", marks=pytest.mark.exhaust
+        ),
         "simulate --hr-hz 400 --measurement-hz 30 --delay-ms 20 --land-within-ms 24.167",
     ],
 )

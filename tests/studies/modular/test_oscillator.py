@@ -151,6 +151,7 @@ def test_innovation_of_position_rises_by_half_up_to_80_percent_and_that_of_accel
     assert ratio("innovation", CLAIMED, Setting(rate=400))[0] < 1.15
 
 
+@pytest.mark.exhaust
 def test_what_is_left_after_the_update_falls_with_dropout() -> None:
     """With a gap before it a measurement is believed more, and nothing is left of it: however wrong the filter is."""
     left = np.array([pooled(row(dropout).after) for dropout in (0.1, 0.5, 0.8, 0.9, 0.98)])

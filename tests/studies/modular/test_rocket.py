@@ -132,6 +132,7 @@ def test_unscented_and_extended_prediction_agree() -> None:
     assert (np.abs(early().errors - early(EXTENDED).errors) < 1e-3 * sigma)[1:].all()
 
 
+@pytest.mark.exhaust
 def test_errors_are_those_of_the_estimate() -> None:
     one = early()
     np.testing.assert_array_equal(one.errors[:, :12], one.truth[:, :12] - one.x[:, :12])

@@ -43,6 +43,7 @@ def test_givens_is_cheaper_by_the_papers_own_accounting_and_dearer_than_one_inve
     assert 1.20 < found.givens.total / found.inverse.total < 1.22
 
 
+@pytest.mark.exhaust
 @pytest.mark.parametrize("way", ["inverse", "dense lu"])
 @pytest.mark.parametrize("penalty", PENALTIES)
 @pytest.mark.parametrize("system", SYSTEMS)

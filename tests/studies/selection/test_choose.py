@@ -41,7 +41,6 @@ def choice(within: float, **more: Any) -> Choice:
 @pytest.mark.parametrize(
     ("within", "metric"),
     [
-        (4.9, "worst"),
         (6.2, "rms"),
         *(
             pytest.param(within, metric, marks=pytest.mark.exhaust)

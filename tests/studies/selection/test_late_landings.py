@@ -60,7 +60,7 @@ def asked_for(N: int, M: int, within: float, metric: str = "worst") -> Any:
 @pytest.mark.parametrize(
     ("N", "M", "within", "metric"),
     [
-        (3, 1, 2.4, "worst"),
+        pytest.param(3, 1, 2.4, "worst", marks=pytest.mark.exhaust),
         (2, 5, 3.0, "worst"),
         *(
             pytest.param(N, M, within, metric, marks=pytest.mark.exhaust)

@@ -99,6 +99,7 @@ def assert_resumed_equals(folder, uninterrupted):
     assert sorted(os.listdir(folder)) == ["r.csv", "r.sqlite"]
 
 
+@pytest.mark.exhaust
 def test_kill_9_of_the_parent(tmp_path, uninterrupted):
     with begun(tmp_path) as process:
         acknowledged = wait_for(lambda: rows_in(tmp_path))
