@@ -23,7 +23,7 @@ os.environ["MPLBACKEND"] = "Agg"
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 ANY_TIME: dict[str, Any] = {"deadline": None, "suppress_health_check": [HealthCheck.too_slow]}  # of a busy machine
-settings.register_profile("ci", max_examples=18, derandomize=True, print_blob=True, **ANY_TIME)
+settings.register_profile("ci", max_examples=15, derandomize=True, print_blob=True, **ANY_TIME)
 settings.register_profile("thorough", max_examples=2000, print_blob=True, **ANY_TIME)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "ci"))
 

@@ -29,6 +29,7 @@ def front_of(name: str, within: float) -> Front:
     return front(question, METHODS, (1, 2))
 
 
+@pytest.mark.exhaust
 @pytest.mark.parametrize(
     ("name", "within"),
     [

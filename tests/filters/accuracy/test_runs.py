@@ -41,6 +41,7 @@ def errors(run: Any, L: int, believed: FloatArray, true: FloatArray, **options: 
     return np.concatenate(found, axis=1)
 
 
+@pytest.mark.exhaust
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("run", "L", "options"),

@@ -119,6 +119,7 @@ def test_a_landing_before_arrival_is_refused_with_the_first_that_the_method_can_
     assert sched_sim(f"{line} -L {first}").code == 0
 
 
+@pytest.mark.exhaust
 @pytest.mark.parametrize(("method", "load"), [("larsen", "5.92 %"), ("recalculate", "11.5 %")])
 def test_what_is_shown_of_the_start_has_the_load_of_later_beside_it(sched_sim: Run, method: str, load: str) -> None:
     design = f"-N 25 -M 200 --hr-hz 100 --costs counted-9-3-3 --processor cortex-m4f --method {method}"

@@ -224,6 +224,7 @@ def test_random_delays_and_dropout_weigh_by_probability(priority: int, dropout: 
     assert demand(asked) == [pytest.approx(float(run_scenario(asked).schedule.utilization), rel=0.02)]
 
 
+@pytest.mark.exhaust
 def test_larsen_waits_for_a_lost_one_until_the_next_is_taken() -> None:
     """In 6 of 10 it flies 5 of 9 steps, else all 9; in the last the next is taken before the more urgent b corrects."""
     a = sensor("a", 9, 5, dropout=0.4)

@@ -240,6 +240,7 @@ def test_responses_are_in_milliseconds() -> None:
 # ---------------------------------------------------------------------------------------------- what it is made from
 
 
+@pytest.mark.exhaust
 def test_costs_are_the_counted_operations_by_the_data_sheet_and_their_spread() -> None:
     """Arithmetic by the processor's file, and so much logic around each of it."""
     for predictor, costs in counted().items():

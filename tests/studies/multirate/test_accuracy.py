@@ -48,6 +48,7 @@ def test_no_gain_is_better_than_the_optimal_one(found: dict[str, list[Accuracy]]
         assert 1 - 1e-9 <= row.steady_mean <= row.steady_worst + 1e-12 <= row.worst + 2e-12
 
 
+@pytest.mark.exhaust
 def test_a_gain_in_every_step_is_the_optimal_one(found: dict[str, list[Accuracy]]) -> None:
     for of_one in found.values():
         for reading in READINGS:

@@ -38,6 +38,7 @@ def along(of: Scenario, **asked: Any) -> tuple[ScenarioAccuracy, Outcome]:
     return accuracy_along(question_of(of, Path(), **asked), of, outcome), outcome
 
 
+@pytest.mark.exhaust
 @pytest.mark.parametrize(("speed", "delay", "L"), [(100, 44, 44), (1.4, 44, 100), (100, 176, 176)])
 def test_of_one_sensor_that_is_periodic_it_is_the_closed_form(speed: float, delay: int, L: int) -> None:
     costs = {"predict": 0.5, "correct.gps": 1}
