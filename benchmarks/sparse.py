@@ -15,7 +15,7 @@ from filters.backends.in_c import in_c
 from filters.covariance_forms import covariance_form
 from filters.records import new_workspace
 from filters.systems.example import example_system
-from studies.measurement.published_timings import ERROR_STATE
+from studies.measurement.published_jobs import ERROR_STATE
 
 ROUNDS = 61
 
