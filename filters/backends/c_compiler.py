@@ -27,7 +27,7 @@ FLAGS = ("-std=c99", "-O3", "-march=native", "-ffp-contract=off", "-fno-math-err
 """Operations are neither reordered nor fused."""
 
 
-class NoCompiler(ValueError):  # noqa: N818 - what it is
+class NoCompiler(ValueError):  # noqa: N818 - what is missing, as it reads where it is caught
     """There is none on this machine; the message is the remedy."""
 
 

@@ -76,9 +76,7 @@ def tasks(wanted: Filter, jobs: Mapping[str, Job], in_c: Jobs, steps: Steps) -> 
         "memory": "\n".join(data.lines),
         **calls,
         "hr_propagate": calls[one_of(in_c, "hr_propagate")],
-        "at_k": filled("tasks_gain.c", {**calls, "Estimate": record_name(in_c, "lr_gain", "reference")})
-        if early
-        else "",
+        "at_k": _gain_at_k(in_c, calls) if early else "",
         "at_m": "" if early else "    lr.posterior = 1 - lr.prior;\n",
         "lr_update": calls["lr_correct" if early else "lr_update"],
     }
@@ -86,6 +84,7 @@ def tasks(wanted: Filter, jobs: Mapping[str, Job], in_c: Jobs, steps: Steps) -> 
 
 
 def _gain_at_k(in_c: Jobs, calls: Mapping[str, str]) -> str:
+    """What LR does at k where the gain is computed early (III.D)."""
     return filled("tasks_gain.c", {**calls, "Estimate": record_name(in_c, "lr_gain", "reference")})
 
 
