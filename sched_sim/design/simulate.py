@@ -12,12 +12,14 @@ from typing import NamedTuple
 
 from sched_sim.bounds import at_least_one, short
 from sched_sim.design.arguments import checked
+from sched_sim.design.engine.plan import Plan, holds, plan_of
 from sched_sim.design.hr_loop import OnLanding
 from sched_sim.design.methods import method_of
 from sched_sim.design.options import Options
-from sched_sim.design.pieces import Costs, converted, works
+from sched_sim.design.pieces import Costs, JobCosts, converted, works
 from sched_sim.design.timing import Timing
 from sched_sim.schedule.clock import Clock, OnProgress
+from sched_sim.schedule.engine import Engine, check_engine, is_compiled
 from sched_sim.schedule.jobs import RecurringSource
 from sched_sim.schedule.length import check_simulation
 from sched_sim.schedule.outcome import Schedule, Slice
@@ -38,6 +40,7 @@ def simulate(
     on_slice: OnSlice | None = None,
     on_landing: OnLanding | None = None,
     on_progress: OnProgress | None = None,
+    engine: Engine = "auto",
 ) -> Schedule:
     """Run one filter, and the user's tasks beside it, for `cycles` measurement cycles, and for as many steps more as it
     takes until the correction of the last must be in the state (with M = N that is one step for recalculate).
@@ -49,13 +52,25 @@ def simulate(
     start on.
     on_slice, on_landing: called as slices end and as corrections land, with a `Slice` and with
     (cycle, achieved L). on_progress: called about a hundred times.
-    Raises InputError for a speed that is not positive, an L the method cannot have, a task on a missing CPU, and more
-    than can be simulated (`sched_sim.bounds`).
+    engine: SimPy, or compiled, which gives the same schedule, but no slices, and calls on_landing once it is done; by
+    default ("auto") compiled from `MANY_JOBS` on, where it can.
+    Raises InputError for a speed that is not positive, an L the method cannot have, a task on a missing CPU, more than
+    can be simulated (`sched_sim.bounds`), and what the engine asked for cannot.
     """
     tasks = checked(timing, options, tasks)
+    check_engine(engine)
     speed, cycles = positive(speed, "speed"), at_least_one(cycles, "cycles")
     check_simulation(timing.taken.step(cycles), tasks, f"{short(cycles)} cycles of N={timing.N}")
     tasks = at_worst_phase(costs, timing, speed, options, tasks)
+    run = in_ticks(costs, timing, speed, options, tasks)
+    steps = simulated_steps(costs, timing, cycles, options)
+    jobs = check_simulation(steps, tasks, f"{short(cycles)} cycles of N={timing.N} with L={timing.L}")
+    plan = plan_of(run.costs, timing, options, run.period, run.platform, steps, cycles)
+    only_simpy = "slices" if keep_slices or on_slice is not None else ""
+    if is_compiled(engine, jobs, holds=holds(plan, run.tasks), only_simpy=only_simpy):
+        if on_progress is not None:
+            on_progress(0, steps, "HR steps")
+        return _in_machine_code(plan, run.tasks, on_landing)
     achieved: Counter[int] = Counter()
 
     def landed(cycle: int, L: int) -> None:
@@ -64,10 +79,7 @@ def simulate(
             if on_landing is not None:
                 on_landing(cycle, L)
 
-    workload = workload_in_ticks(costs, timing, speed, options, tasks, landed)
-    steps = simulated_steps(costs, timing, cycles, options)
-    check_simulation(steps, tasks, f"{short(cycles)} cycles of N={timing.N} with L={timing.L}")
-    clock = [] if on_progress is None else [Clock(workload.period, steps, on_progress)]
+    clock = [] if on_progress is None else [Clock(run.period, steps, on_progress)]
     slices: list[Slice] = []
 
     def keep(piece: Slice) -> None:
@@ -76,14 +88,25 @@ def simulate(
             on_slice(piece)
 
     processor = Processor(
-        [*workload.sources, *clock],
-        workload.period,
-        steps * workload.period,
-        workload.platform,
+        [run.source(landed), *run.tasks, *clock],
+        run.period,
+        plan.horizon,
+        run.platform,
         keep if keep_slices else on_slice,
     )
     processor.run()
     return replace(processor.schedule(), achieved=achieved, slices=tuple(slices))
+
+
+def _in_machine_code(plan: Plan, tasks: Sequence[TaskSource], on_landing: OnLanding | None) -> Schedule:
+    from sched_sim.design.engine.run import kinds_of, run_plans, schedule_of
+
+    outcome = run_plans([plan], [tasks])
+    if on_landing is not None:
+        for cycle, L in enumerate(outcome.landed[0].tolist()):
+            if L >= 0:
+                on_landing(cycle, L)
+    return schedule_of(plan, kinds_of(tasks), outcome)
 
 
 def simulated_steps(costs: Costs, timing: Timing, cycles: int, options: Options) -> int:
@@ -126,31 +149,36 @@ def worst_start(
     return start + ceil(max(longest - start, Fraction(0)) / design.steps) * design.steps  # of all by the same
 
 
-class Workload(NamedTuple):
+class InTicks(NamedTuple):
     """What a processor has to do, in ticks. period: of the HR loop.
 
-    sources: the filter's, then the user's tasks; of jobs of one priority, released at one instant, the filter's goes
-    first.
+    Of jobs of one priority, released at one instant, the filter's goes before the tasks'.
     """
 
-    sources: tuple[RecurringSource, ...]
+    costs: JobCosts[int]
+    timing: Timing
+    options: Options
+    tasks: tuple[TaskSource, ...]
     period: int
     platform: Platform
 
+    def source(self, on_landing: OnLanding) -> RecurringSource:
+        """Of the filter's jobs."""
+        return method_of(self.costs).source(self.costs, self.timing, self.options, self.period, on_landing)
 
-def workload_in_ticks(
-    costs: Costs, timing: Timing, speed: Fraction, options: Options, tasks: Sequence[Task], on_landing: OnLanding
-) -> Workload:
+
+def in_ticks(costs: Costs, timing: Timing, speed: Fraction, options: Options, tasks: Sequence[Task]) -> InTicks:
     """The fewest ticks per cost unit in which all is whole. Raises InputError as `simulate` does."""
     check_cpus(tasks, options.cpus)
-    method = method_of(costs)
-    method.check_design(costs, timing, options.feedback)
+    method_of(costs).check_design(costs, timing, options.feedback)
     costs = converted(costs, Fraction)
     of_tasks = chain.from_iterable(work_and_times(task, speed) for task in tasks)
     resolution = ticks_per_unit([speed, options.context_switch, *works(costs), *of_tasks])
-    period = to_ticks(speed, resolution)
-    in_ticks = converted(costs, lambda work: to_ticks(work, resolution))
-    source = method.source(in_ticks, timing, options, period, on_landing)
-    task_sources = (TaskSource(task, speed, resolution) for task in tasks)
-    platform = Platform(options.cpus, to_ticks(options.context_switch, resolution), options.policy)
-    return Workload((source, *task_sources), period, platform)
+    return InTicks(
+        converted(costs, lambda work: to_ticks(work, resolution)),
+        timing,
+        options,
+        tuple(TaskSource(task, speed, resolution) for task in tasks),
+        to_ticks(speed, resolution),
+        Platform(options.cpus, to_ticks(options.context_switch, resolution), options.policy),
+    )

@@ -18,7 +18,7 @@ from sched_sim.bounds import MOST_IN_FLIGHT, MOST_JOBS_TO_REPEAT, short
 from sched_sim.design.common_period import common_period
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import Costs
-from sched_sim.design.simulate import workload_in_ticks
+from sched_sim.design.simulate import in_ticks
 from sched_sim.design.timing import Timing
 from sched_sim.errors import InputError, option
 from sched_sim.schedule.jobs import Job, RecurringSource, Source
@@ -68,12 +68,12 @@ def run_until_steady(
     """
     longest = longest_run(timing, tasks)
     achieved: Counter[int] = Counter()
-    workload = workload_in_ticks(costs, timing, speed, options, tasks, lambda _cycle, L: achieved.update((L,)))
-    period = workload.period
+    run = in_ticks(costs, timing, speed, options, tasks)
+    period, sources = run.period, (run.source(lambda _cycle, L: achieved.update((L,))), *run.tasks)
     hyperperiod = hyperperiod_steps(timing, tasks) * period
-    watch = Watch(workload.sources, period, hyperperiod)
+    watch = Watch(sources, period, hyperperiod)
     horizon = min(at_most or longest, longest) * period
-    processor = Processor([watch, *workload.sources], period, horizon, workload.platform)
+    processor = Processor([watch, *sources], period, horizon, run.platform)
     watch.processor = processor
     processor.run()
     schedule = replace(processor.schedule(), achieved=achieved)

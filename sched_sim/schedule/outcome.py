@@ -82,7 +82,8 @@ class Schedule:
 
     period: the HR period in ticks; busy: ticks in which a job ran, summed over the processors;
     responses: by job kind ("hr", "lr_propagate", "lr_update", "task:NAME", ...);
-    first_miss: (kind, whether it waited for an earlier LR job) of the missed job whose deadline was first, if any;
+    first_miss: (kind, whether it waited for an earlier LR job) of the missed job whose deadline was first, if any; of
+    several, finished or not, that of the most urgent priority, then of the first release, then of the first name;
     achieved: how many cycles landed at each achieved L;
     instants: how many points in time the simulation visited; slices: if they were asked for.
     """

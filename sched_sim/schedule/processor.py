@@ -85,7 +85,7 @@ class Processor:
         self.on_slice = on_slice
         self.on_finish = on_finish
         self.tallies: defaultdict[str, Tally] = defaultdict(Tally)
-        self.first_miss: tuple[int, str, bool] | None = None
+        self.first_miss: tuple[int, int, int, str, bool] | None = None
         self.instants = 0
 
     def run(self) -> None:
@@ -210,8 +210,9 @@ class Processor:
         tally = self.tallies[job.kind]
         tally.misses += 1
         tally.worst_lateness = max(tally.worst_lateness, now - job.deadline)
-        if self.first_miss is None or job.deadline < self.first_miss[0]:
-            self.first_miss = (job.deadline, job.kind, job.held)
+        this = job.deadline, job.priority, job.release, job.kind, job.held
+        if self.first_miss is None or this < self.first_miss:
+            self.first_miss = this
 
     def schedule(self) -> Schedule:
         """The outcome, once `run` has reached the horizon; unfinished jobs are counted as they stand, and each has
@@ -240,7 +241,7 @@ class Processor:
             cpus=len(self.cpus),
             busy=sum(cpu.busy for cpu in self.cpus),
             responses={kind: tally.frozen() for kind, tally in sorted(self.tallies.items())},
-            first_miss=self.first_miss[1:] if self.first_miss else None,
+            first_miss=self.first_miss[3:] if self.first_miss else None,
             instants=self.instants,
         )
 

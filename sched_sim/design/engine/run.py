@@ -1,0 +1,124 @@
+"""Runs plans in machine code: the arrays around `event_loop`, and the schedule that comes out."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from sched_sim.compiled import compiled
+from sched_sim.design.engine.event_loop import CARRY, simulate_each
+from sched_sim.design.engine.plan import Plan
+from sched_sim.design.engine.records import Cpu, Figures, Job, State, TaskRow
+from sched_sim.design.engine.rules import FIRST_TASK
+from sched_sim.schedule.outcome import Response, Schedule
+from sched_sim.schedule.tasks import TaskSource
+
+if TYPE_CHECKING:
+    from sched_sim.design.engine.records import Numbers
+
+ROOM = 64
+"""Jobs unfinished at once that there is room for at first; where that was not enough, MORE times as many."""
+
+MORE = 8
+
+
+def _record(of: type) -> np.dtype[np.void]:
+    return np.dtype([(name, np.int64) for name in of.__annotations__], align=True)
+
+
+PLAN, STATE, CPU, JOB, TASK, FIGURES = map(_record, (Plan, State, Cpu, Job, TaskRow, Figures))
+
+Records: TypeAlias = NDArray[np.void]
+
+FILTER_KINDS = ("hr", "hr_update", "lr_gain", "lr_propagate", "lr_step", "lr_update")
+
+
+class Outcome(NamedTuple):
+    """Of each plan a row. states: STATE; figures: FIGURES of each kind of job; landed, log: as of a `Run`."""
+
+    states: Records
+    figures: Records
+    landed: Numbers
+    log: Numbers
+
+
+def run_plans(plans: Sequence[Plan], tasks: Sequence[Sequence[TaskSource]], log: int = 0) -> Outcome:
+    """tasks: of each plan, the same but for their times. log: how many jobs of it to keep."""
+    rows = np.array([_task_rows(of_plan) for of_plan in tasks], TASK).reshape(len(plans), -1)
+    in_numbers, cycles = np.array(plans, PLAN), max(plan.cycles for plan in plans)
+    room = ROOM
+    while True:
+        outcome = Outcome(
+            np.zeros(len(plans), STATE),
+            np.zeros((len(plans), FIRST_TASK + rows.shape[1]), FIGURES),
+            np.full((len(plans), cycles), -1),
+            np.zeros((log, 4), np.int64),
+        )
+        compiled(simulate_each)(
+            in_numbers,
+            outcome.states,
+            np.zeros(2, CPU),
+            np.zeros(room, JOB),
+            np.zeros(room, np.int64),
+            np.zeros(4, np.int64),
+            np.zeros((5, room), np.int64),
+            np.zeros((5, 2), np.int64),
+            np.zeros((3, 2 * ROOM + room + rows.shape[1], 3), np.int64),
+            rows.copy(),
+            outcome.figures,
+            outcome.landed,
+            outcome.log,
+        )
+        if not outcome.states["full"].any():
+            return outcome
+        room *= MORE
+
+
+def _task_rows(tasks: Sequence[TaskSource]) -> list[tuple[int, ...]]:
+    names = sorted(source.task.name for source in tasks)
+    return [
+        (
+            FIRST_TASK + names.index(source.task.name),
+            source.task.priority,
+            source.task.cpu - 1,
+            source.task.preemptive,
+            source.period,
+            source.deadline,
+            source.cost,
+            source.nominal,
+            source.next_release,
+            0,
+        )
+        for source in tasks
+    ]
+
+
+def kinds_of(tasks: Sequence[TaskSource]) -> list[str]:
+    return [*FILTER_KINDS, *(f"task:{name}" for name in sorted(source.task.name for source in tasks))]
+
+
+def schedule_of(plan: Plan, kinds: Sequence[str], outcome: Outcome, number: int = 0) -> Schedule:
+    """That of the plan of this number."""
+    state, landed = outcome.states[number], outcome.landed[number]
+    responses = {}
+    for kind, of_kind in zip(kinds, outcome.figures[number].tolist(), strict=True):
+        releases, finished, worst, total, misses, lateness, preemptions, carries = of_kind
+        if releases:
+            total += carries * CARRY
+            responses[kind] = Response(releases, finished, worst, total, misses, lateness, preemptions)
+    first = int(state["first_kind"])
+    lands, times = np.unique(landed[landed >= 0], return_counts=True)
+    return Schedule(
+        period=plan.period,
+        horizon=plan.horizon,
+        cpus=plan.cpus,
+        busy=int(state["busy_ticks"]),
+        responses=responses,
+        first_miss=None if first < 0 else (kinds[first], bool(state["first_held"])),
+        instants=int(state["instants"]),
+        achieved=Counter(dict(zip(lands.tolist(), times.tolist(), strict=True))),
+    )
