@@ -21,10 +21,12 @@ from sched_sim.cli.outputs import refuse_one_file_for_two
 from sched_sim.cli.parts import HIGHEST_HR_HZ, TASKS_ON_PARTS, WORDS
 from sched_sim.costs.table import COUNTED, PAPERS
 from sched_sim.design.pieces import Statistic
+from sched_sim.errors import InputError
 
 if TYPE_CHECKING:
     from sched_sim.costs.table import CostTable
     from studies.sweep.accuracy import OutputAccuracy
+    from studies.sweep.dispatch import Compute
     from studies.sweep.run import Outcome, Sweep
     from studies.sweep.store import Store
 
@@ -127,6 +129,16 @@ Workers = Annotated[
         rich_help_panel=opt.OUTPUT,
     ),
 ]
+Dask = Annotated[
+    str | None,
+    typer.Option(
+        "--dask",
+        help="Simulate on the workers of this Dask scheduler, tcp://HOST:PORT or tls://HOST:PORT, in place of "
+        '--workers. Needs the extra: pip install "sched-sim\\[cluster]".',
+        rich_help_panel=opt.OUTPUT,
+        metavar="ADDRESS",
+    ),
+]
 
 
 @with_axes
@@ -150,6 +162,7 @@ def sweep(
     results: ResultsFile = None,
     export: Exports = None,
     workers: Workers = None,
+    dask: Dask = None,
     format: opt.Format = "table",
 ) -> None:
     """Analyse a whole grid of designs, and simulate it with --simulate; all cores, and it resumes after any stop.
@@ -202,10 +215,10 @@ def sweep(
             ("--tasks", wanted.tasks),
         ],
     )
-    with asked.open(path) as store:
+    with _simulating(asked, workers, dask) as compute, asked.open(path) as store:
         try:
             with _progress(asked.grid.size) as show:
-                outcome = run(asked, store, workers or _cores(), show)
+                outcome = run(asked, store, compute, show)
             if outcome.stopped is None:
                 for file in exports:
                     write(store, file)
@@ -220,6 +233,22 @@ def sweep(
                 f"the same command again goes on from there."
             )
             raise typer.Exit(128 + outcome.stopped)
+
+
+@contextmanager
+def _simulating(asked: Sweep, workers: int | None, dask: str | None) -> Iterator[Compute]:
+    """Who does: processes of this machine, or the workers of a scheduler."""
+    from studies.sweep.workers import processes
+
+    if dask is None:
+        yield processes(workers or _cores())
+        return
+    if workers is not None:
+        raise InputError("--workers is for this machine's processes, and --dask has workers of its own: leave one out")
+    from studies.sweep.scheduler import cluster
+
+    with cluster(dask, asked) as compute:
+        yield compute
 
 
 def _cores() -> int:

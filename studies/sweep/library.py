@@ -20,6 +20,7 @@ from studies.sweep.axes import LONGEST_RANGE
 from studies.sweep.export import AT_A_TIME
 from studies.sweep.run import run
 from studies.sweep.settings import settings
+from studies.sweep.workers import processes
 
 SHOWN = 20
 """Rows in a notebook."""
@@ -81,7 +82,7 @@ def run_sweep(
         raise InputError(f"results is {short(repr(results))}: give the path of an SQLite file")
     sweep = settings({name: _plain(values) for name, values in axes.items()}).sweep()
     with TemporaryDirectory() as folder, sweep.open(Path(results or Path(folder, "rows.sqlite"))) as store:
-        stopped = run(sweep, store, workers, on_progress).stopped
+        stopped = run(sweep, store, processes(workers), on_progress).stopped
         if stopped is not None:
             raise KeyboardInterrupt(f"stopped by {signal.Signals(stopped).name}")
         return Rows(pa.concat_tables([schema(store.columns).empty_table(), *tables(store, AT_A_TIME)]))

@@ -13,12 +13,12 @@ from sched_sim.design.pieces import works
 from sched_sim.design.steady import hyperperiod_steps
 from sched_sim.design.timing import Timing
 from sched_sim.errors import InputError, option
+from studies.sweep.dispatch import Compute, WorkerDeathError
 from studies.sweep.grid import Chunk, Grid
 from studies.sweep.rows import Column, Row, columns, rows_of
 from studies.sweep.stopping import stop_signals
 from studies.sweep.store import Store
 from studies.sweep.store_layout import Layout, digest
-from studies.sweep.workers import WorkerDeathError, compute
 
 ANALYSED = 20_000
 """Points between two commits where there is a closed form: some 50 ms of work."""
@@ -87,24 +87,24 @@ class Outcome(NamedTuple):
     stopped: int | None
 
 
-def run(sweep: Sweep, store: Store, workers: int, on_progress: Callable[[int], None]) -> Outcome:
+def run(sweep: Sweep, store: Store, compute: Compute, on_progress: Callable[[int], None]) -> Outcome:
     """Do all points that `store` has not; `on_progress` is called with the number of points in the file.
 
-    Ctrl-C and SIGTERM end it early, after what is done has been kept. Simulations run in `workers` processes.
+    Ctrl-C and SIGTERM end it early, after what is done has been kept. compute: who simulates, such as `processes(2)`.
     Raises InputError for a point whose simulation kills its process again and again.
     """
     before = done = store.count()
     on_progress(done)
     with stop_signals() as stopped:
-        for rows in _computed(sweep, store.missing(sweep.grid.size), workers, lambda: stopped() is not None):
+        for rows in _computed(sweep, store.missing(sweep.grid.size), compute, lambda: stopped() is not None):
             store.add(rows)
             done += len(rows)
             on_progress(done)
         return Outcome(before, done - before, stopped() if done < sweep.grid.size else None)
 
 
-def _computed(sweep: Sweep, missing: list[range], workers: int, stopped: Callable[[], bool]) -> Iterator[list[Row]]:
-    """The rows of the missing points in portions: first what has a closed form, here, then the rest, by the workers."""
+def _computed(sweep: Sweep, missing: list[range], compute: Compute, stopped: Callable[[], bool]) -> Iterator[list[Row]]:
+    """The rows of the missing points in portions: first what has a closed form, here, then the rest, by `compute`."""
     grid, cycles = sweep.grid, sweep.cycles
 
     def chunk_of(span: range) -> Chunk:
@@ -131,7 +131,7 @@ def _computed(sweep: Sweep, missing: list[range], workers: int, stopped: Callabl
 
     smaller = chain.from_iterable(grid.spans(span, size) for span in simulated)
     try:
-        yield from compute(partial(rows_of, cycles=cycles), smaller, chunk_of, workers, stopped)
+        yield from compute(partial(rows_of, cycles=cycles), smaller, chunk_of, stopped)
     except WorkerDeathError as error:
         point = grid.chunk(error.point, error.point + 1)
         (N,), (M,), (L,) = point.designs

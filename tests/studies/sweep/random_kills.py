@@ -143,10 +143,10 @@ KILLS: dict[str, Callable[[Path, random.Random, float], tuple[Sweep, bool]]] = {
 }
 
 
-def _life(sweep: Sweep, path: Path, processes: int) -> None:
+def _life(sweep: Sweep, path: Path, number: int) -> None:
     with sweep.open(path) as store:
         store.query("PRAGMA wal_autocheckpoint = 2")  # pages
-        run(sweep, store, processes, lambda _: None)
+        run(sweep, store, workers.processes(number), lambda _: None)
 
 
 def _exported(sweep: Sweep, folder: Path) -> bytes:
@@ -154,7 +154,7 @@ def _exported(sweep: Sweep, folder: Path) -> bytes:
 
     def resume() -> None:
         with sweep.open(folder / "r.sqlite") as store:
-            run(sweep, store, 1, lambda _: None)
+            run(sweep, store, workers.processes(1), lambda _: None)
             export(store, folder / "r.csv")
 
     _, status = os.waitpid(_forked(resume), 0)

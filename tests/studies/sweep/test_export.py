@@ -11,6 +11,7 @@ from studies.sweep import export as exporting
 from studies.sweep.export import check_export, export
 from studies.sweep.run import run
 from studies.sweep.settings import settings
+from studies.sweep.workers import processes
 from tests.full_disk import room_for
 
 SWEEP = settings({"N": "4:6", "M": "1:2", "speed": "0.5,0.8", "simulate": True, "cycles": 2}).sweep()
@@ -19,7 +20,7 @@ SWEEP = settings({"N": "4:6", "M": "1:2", "speed": "0.5,0.8", "simulate": True, 
 @pytest.fixture(scope="module")
 def store(tmp_path_factory):
     with SWEEP.open(tmp_path_factory.mktemp("sweep") / "r.sqlite") as store:
-        run(SWEEP, store, 2, lambda _: None)
+        run(SWEEP, store, processes(2), lambda _: None)
         yield store
 
 

@@ -9,12 +9,13 @@ import pytest
 
 from sched_sim.errors import InputError
 from studies.sweep import run as sweeping
+from studies.sweep.dispatch import WorkerDeathError
 from studies.sweep.export import export
 from studies.sweep.rows import rows_of
 from studies.sweep.run import run
 from studies.sweep.settings import settings
 from studies.sweep.stopping import stop_signals
-from studies.sweep.workers import WorkerDeathError
+from studies.sweep.workers import processes
 
 ANALYSED = {"N": "10:60:10", "M": "1:4", "speed": "0.6:1.6:0.1"}
 SIMULATED = {"N": "4:6", "M": "1:2", "simulate": True, "context_switch": "0,0.01"}
@@ -41,17 +42,17 @@ def test_a_resumed_sweep_equals_an_uninterrupted_one(tmp_path, flags):
     chance = random.Random(1)
     with opened(flags, tmp_path / "whole.sqlite") as (sweep, store):
         size = sweep.grid.size
-        assert run(sweep, store, 2, no_progress) == (0, size, None)
+        assert run(sweep, store, processes(2), no_progress) == (0, size, None)
         whole = [exported(store, tmp_path / f"whole.{kind}") for kind in ("csv", "parquet")]
     with opened(flags, tmp_path / "parts.sqlite") as (sweep, store):
         for span in chance.sample(list(sweep.grid.spans(range(size), lambda _: 17)), 5):
             store.add(rows_of(sweep.grid.chunk(span.start, span.stop), sweep.cycles))
         done = store.count()
     with opened(flags, tmp_path / "parts.sqlite") as (sweep, store):
-        assert run(sweep, store, 1, no_progress) == (done, size - done, None)
+        assert run(sweep, store, processes(1), no_progress) == (done, size - done, None)
         assert [exported(store, tmp_path / f"parts.{kind}") for kind in ("csv", "parquet")] == whole
     with opened(flags, tmp_path / "parts.sqlite") as (sweep, store):
-        assert run(sweep, store, 1, no_progress) == (size, 0, None)
+        assert run(sweep, store, processes(1), no_progress) == (size, 0, None)
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
@@ -67,11 +68,15 @@ def test_a_signal_ends_it_with_what_is_done_kept(tmp_path, monkeypatch, flags, n
             os.kill(os.getpid(), number)
 
     with opened(flags, tmp_path / "r.sqlite") as (sweep, store):
-        outcome = run(sweep, store, 1, stop_soon)
+        outcome = run(sweep, store, processes(1), stop_soon)
         assert outcome.stopped == number
         assert 0 < outcome.computed < sweep.grid.size
         assert store.count() == outcome.computed == told[-1]
-        assert run(sweep, store, 1, no_progress) == (outcome.computed, sweep.grid.size - outcome.computed, None)
+        assert run(sweep, store, processes(1), no_progress) == (
+            outcome.computed,
+            sweep.grid.size - outcome.computed,
+            None,
+        )
 
 
 def test_signals_are_as_before_afterwards():
@@ -94,14 +99,13 @@ def test_an_ignored_signal_stays_ignored():
         signal.signal(signal.SIGINT, before)
 
 
-def test_a_point_whose_process_dies_is_named(tmp_path, monkeypatch):
+def test_a_point_whose_process_dies_is_named(tmp_path):
     def die(*_args):
         raise WorkerDeathError(30)
         yield
 
-    monkeypatch.setattr(sweeping, "compute", die)
     with opened(SIMULATED, tmp_path / "r.sqlite") as (sweep, store):
         row = rows_of(sweep.grid.chunk(30, 31), None)[0]
         where = rf"point 30 \(costs steffes2014, method larsen, N={row[2]}, M={row[3]}, L={row[4]}\)"
         with pytest.raises(InputError, match=where):
-            run(sweep, store, 1, no_progress)
+            run(sweep, store, die, no_progress)

@@ -11,6 +11,7 @@ from sched_sim.errors import InputError
 from studies.sweep.run import run
 from studies.sweep.settings import settings
 from studies.sweep.summary import best, by_method
+from studies.sweep.workers import processes
 
 SWEEP = settings({"N": "5:6", "M": "1:2", "speed": "0.6,1", "lr_propagate_by": "m,l"}).sweep()
 
@@ -18,7 +19,7 @@ SWEEP = settings({"N": "5:6", "M": "1:2", "speed": "0.6,1", "lr_propagate_by": "
 def figures(path):
     """All that is read of the file, after what is missing has been computed anew."""
     with SWEEP.open(path) as store:
-        run(SWEEP, store, 1, lambda _: None)
+        run(SWEEP, store, processes(1), lambda _: None)
         return [row for rows in store.results(1000) for row in rows], by_method(store), best(store)
 
 
@@ -115,7 +116,7 @@ def test_rows_of_another_sweep_are_damaged_ones(tmp_path, whole):
     content, _ = whole
     other = settings({"N": "5:6", "M": "1:2", "speed": "0.6,1.1", "lr_propagate_by": "m,l"}).sweep()
     with other.open(tmp_path / "other.sqlite") as store:
-        run(other, store, 1, lambda _: None)
+        run(other, store, processes(1), lambda _: None)
     path = tmp_path / "r.sqlite"
     path.write_bytes(content)
     with closing(sqlite3.connect(path)) as connection, connection:

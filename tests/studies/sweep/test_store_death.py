@@ -12,6 +12,7 @@ from studies.sweep.export import export
 from studies.sweep.rows import rows_of
 from studies.sweep.run import run
 from studies.sweep.settings import settings
+from studies.sweep.workers import processes
 from tests.deaths import call_alone, killed_at_call, traceable
 from tests.full_disk import room_for
 
@@ -23,7 +24,7 @@ LARGER = settings({"N": "24,26"}).sweep()
 def resumed(sweep, path):
     """All rows, after what is missing has been computed."""
     with sweep.open(path) as store:
-        run(sweep, store, 1, lambda _: None)
+        run(sweep, store, processes(1), lambda _: None)
         return [row for rows in store.results(1000) for row in rows]
 
 

@@ -10,13 +10,14 @@ from sched_sim.errors import InputError
 from studies.sweep.run import run
 from studies.sweep.settings import settings
 from studies.sweep.store_layout import APPLICATION_ID
+from studies.sweep.workers import processes
 
 SWEEP = settings({"N": "5", "M": "1:2"}).sweep()
 
 
 def resumed(path):
     with SWEEP.open(path) as store:
-        run(SWEEP, store, 1, lambda _: None)
+        run(SWEEP, store, processes(1), lambda _: None)
         return store.count()
 
 

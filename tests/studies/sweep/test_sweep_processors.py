@@ -19,6 +19,7 @@ from sched_sim.schedule.task_file import read_tasks
 from studies.sweep.export import export
 from studies.sweep.run import run
 from studies.sweep.settings import settings
+from studies.sweep.workers import processes
 from tests.command_line import is_refused
 
 PART = """
@@ -77,7 +78,7 @@ def rows_of(workers=1, **flags):
     """All rows of a sweep, as text by name of column."""
     sweep = settings(flags).sweep()
     with sweep.open(flags.pop("results", None) or sweep_file(sweep)) as store:
-        run(sweep, store, workers, lambda _: None)
+        run(sweep, store, processes(workers), lambda _: None)
         export(store, sweep_file(sweep, ".csv"))
     with sweep_file(sweep, ".csv").open() as file:
         return list(csv.DictReader(file))
@@ -177,7 +178,7 @@ def test_other_figures_of_the_part_and_other_tasks_are_another_sweep(folder, fil
     before = digest()
     asked = settings(ASKED).sweep()
     with asked.open(folder / "r.sqlite") as store:
-        run(asked, store, 1, lambda _: None)
+        run(asked, store, processes(1), lambda _: None)
     (folder / file).write_text((folder / file).read_text().replace(was, becomes))
     assert digest() != before
     with pytest.raises(InputError, match="belongs to another sweep"):
@@ -199,12 +200,12 @@ def test_other_parts_rates_and_no_tasks_are_another_sweep(flag):
 def test_a_sweep_goes_on_where_it_ended(folder):
     asked = settings(ASKED | {"M": "1:6", "hr_hz": "100,400"}).sweep()
     with asked.open(folder / "r.sqlite") as store:
-        run(asked, store, 1, lambda _: None)
+        run(asked, store, processes(1), lambda _: None)
         whole = store.query("SELECT * FROM results ORDER BY point")
         with store._connection:
             store._connection.execute("DELETE FROM rows WHERE point % 3 = 1")
     with asked.open(folder / "r.sqlite") as store:
-        outcome = run(asked, store, 1, lambda _: None)
+        outcome = run(asked, store, processes(1), lambda _: None)
         assert (outcome.before, outcome.computed) == (8, 4)
         assert store.query("SELECT * FROM results ORDER BY point") == whole
 

@@ -12,7 +12,8 @@ from threading import Thread
 
 import pytest
 
-from studies.sweep.workers import WorkerDeathError, compute
+from studies.sweep.dispatch import WorkerDeathError
+from studies.sweep.workers import processes
 
 SIZE = 5
 
@@ -47,7 +48,7 @@ def spans(count):
 
 
 def test_every_span_is_computed():
-    found = compute(operator.call, spans(8), lambda span: partial(list, span), 2, lambda: False)
+    found = processes(2)(operator.call, spans(8), lambda span: partial(list, span), lambda: False)
     assert sorted(point for part in found for point in part) == list(range(8 * SIZE))
 
 
@@ -58,7 +59,7 @@ def test_a_point_that_kills_its_worker_each_time_is_named():
         return partial(os._exit, 1) if bad in span else partial(list, span)
 
     with pytest.raises(WorkerDeathError) as error:
-        list(compute(operator.call, spans(3), task, 2, lambda: False))
+        list(processes(2)(operator.call, spans(3), task, lambda: False))
     assert error.value.point == bad
 
 
@@ -72,7 +73,7 @@ def test_a_worker_that_dies_loses_no_span(tmp_path):
             return partial(os._exit, 1)
         return partial(list, span)
 
-    found = compute(operator.call, spans(8), task, 2, lambda: False)
+    found = processes(2)(operator.call, spans(8), task, lambda: False)
     assert sorted(point for part in found for point in part) == list(range(8 * SIZE))
 
 
@@ -87,7 +88,7 @@ def test_a_worker_that_dies_as_it_sends_its_result_loses_no_span(tmp_path):
             return partial(exec, HALF_SENT)
         return partial(list, span)
 
-    assert ends(lambda: found.extend(compute(operator.call, spans(8), task, 2, lambda: False)))
+    assert ends(lambda: found.extend(processes(2)(operator.call, spans(8), task, lambda: False)))
     assert sorted(point for part in found for point in part) == list(range(8 * SIZE))
 
 
@@ -96,18 +97,18 @@ def test_workers_end_though_the_word_to_stop_does_not_reach_them(monkeypatch):
     monkeypatch.setattr(_ExecutorManagerThread, "shutdown_workers", lambda _: None)
     found = []
     assert ends(
-        lambda: found.extend(compute(operator.call, spans(2), lambda span: partial(list, span), 2, lambda: False))
+        lambda: found.extend(processes(2)(operator.call, spans(2), lambda span: partial(list, span), lambda: False))
     )
     assert len(found) == 2
 
 
 def test_an_error_in_the_work_is_raised():
     with pytest.raises(ZeroDivisionError):
-        list(compute(operator.call, spans(2), lambda _: partial(operator.truediv, 1, 0), 2, lambda: False))
+        list(processes(2)(operator.call, spans(2), lambda _: partial(operator.truediv, 1, 0), lambda: False))
 
 
 def test_once_stopped_no_more_is_begun():
-    found = list(compute(operator.call, spans(3), lambda span: partial(list, span), 2, lambda: True))
+    found = list(processes(2)(operator.call, spans(3), lambda span: partial(list, span), lambda: True))
     assert found == []
 
 
@@ -116,5 +117,5 @@ def test_where_no_worker_can_be_started_the_work_is_done_here(monkeypatch):
         raise OSError(errno.EROFS, "Read-only file system")
 
     monkeypatch.setattr(synchronize.SemLock, "__init__", read_only)  # as with a read-only /dev/shm
-    found = compute(operator.call, spans(3), lambda span: partial(lambda: (os.getpid(), *span)), 2, lambda: False)
+    found = processes(2)(operator.call, spans(3), lambda span: partial(lambda: (os.getpid(), *span)), lambda: False)
     assert list(found) == [(os.getpid(), *span) for span in spans(3)]
