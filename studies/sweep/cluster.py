@@ -132,8 +132,6 @@ async def _outcome(promise: distributed.Future[bytes], where: str) -> bytes | No
         return result
     except KilledWorker:
         return None
-    except ImportError as error:
-        raise InputError(f"{where}: a worker that came later {refusal(error, versions())}") from None
     except Exception:
         if promise.status == "error":
             raise
