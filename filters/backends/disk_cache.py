@@ -73,6 +73,8 @@ def _told(item: Any) -> Any:
         if (digest := getattr(item.dispatcher, "digest", None)) is None:
             raise ValueError(f"{item} is not kept")
         return "function", digest
+    if isinstance(item, types.ExternalFunctionPointer):  # its address is an argument
+        return "function of C", str(item.sig), str(item.cconv)
     if isinstance(item, types.BaseTuple):
         kind = getattr(item, "instance_class", tuple)
         names = (kind.__module__, kind.__qualname__, *getattr(kind, "_fields", ()))

@@ -10,7 +10,15 @@ import typer
 
 from sched_sim.bounds import MOST_STATES
 from sched_sim.cli import options as opt
-from sched_sim.cli.measure_filter import OF_A_SYSTEM, SIZES, measure_own_filter, refuse_with_filter
+from sched_sim.cli.measure_filter import (
+    OF_A_SYSTEM,
+    OF_TIMES,
+    SIZES,
+    Cold,
+    InSequence,
+    measure_own_filter,
+    refuse_with_filter,
+)
 from sched_sim.cli.output import lines, print_csv, print_json, print_table, say, units
 from sched_sim.cli.outputs import module_files, refuse_one_file_for_two
 from sched_sim.costs.methods import SYSTEM_METHODS
@@ -131,8 +139,8 @@ OwnFilter = Annotated[
     typer.Option(
         "--filter",
         help="Your own composed filter: package.module:function that returns a ModularFilter, or with it a typical "
-        "state, covariance and input. Its times are written sample by sample, each mostly that of the timing loop: "
-        "they rank parts, and give no probability of a miss.",
+        "state, covariance and input. The time of each of 100,000 executions of each part is written, for a scenario "
+        "to draw from.",
         rich_help_panel=SYSTEM,
     ),
 ]
@@ -172,7 +180,11 @@ def measure(
     update: UpdateForm = "textbook",
     sparse: Sparse = False,
     confirm_probed: ConfirmProbed = False,
-    thorough: Annotated[bool, typer.Option("--thorough", help="Ten times as many rounds.")] = False,
+    cold: Cold = False,
+    sequence: InSequence = False,
+    thorough: Annotated[
+        bool, typer.Option("--thorough", help="Ten times as many rounds; with --filter, executions.")
+    ] = False,
     output: CostFile = None,
     format: opt.Format = "table",
 ) -> None:
@@ -181,7 +193,7 @@ def measure(
     sched-sim measure --states 15 --inputs 6 --measurements 3 -o costs.toml
     sched-sim measure --system mymodule:my_system -o costs.toml
     sched-sim measure --robust position --backend counted -o erkf.toml
-    sched-sim measure --filter mymodule:my_filter -o samples.toml
+    sched-sim measure --filter mymodule:my_filter --sequence -o samples.toml
     sched-sim measure --backend emulated --target cortex-m4f -o m4f.toml
     sched-sim measure --system mymodule:my_system --backend counted --sparse -o sparse.toml
     """
@@ -214,8 +226,10 @@ def measure(
         check_installed()
     if own_filter is not None:
         refuse_with_filter(own_filter, context)
-        measure_own_filter(own_filter, backend, thorough, output, format)
+        measure_own_filter(own_filter, backend, thorough, cold, sequence, output, format)
         return
+    if options := opt.given_options(context, lambda name: name in OF_TIMES):
+        raise InputError(f"{', '.join(options)}: only with --filter, whose executions are timed one by one")
     if robust is None and parallel is not None:
         raise InputError(f"--parallel {parallel} is for the robust filter: give --robust attitude or position too")
     if robust is not None and (options := opt.given_options(context, lambda name: name in OF_A_SYSTEM)):

@@ -1,5 +1,5 @@
 """Measured execution times of a filter's parts, one number for each execution: the file that `sched-sim measure
---filter` writes and a scenario reads. Numbers are read as exact decimals."""
+--filter` writes and a scenario reads. Numbers are read as exact decimals, from a list or from a text."""
 
 from __future__ import annotations
 
@@ -9,16 +9,25 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Annotated, Any, Self
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic import (
+    BaseModel,
+    ConfigDict,
+    Field,
+    ValidationError,
+    ValidatorFunctionWrapHandler,
+    WrapValidator,
+    model_validator,
+)
 
 from sched_sim.costs.documents import CORRECT, PREDICT, refuse_cost_table
 from sched_sim.costs.operations import Counts, arithmetic
+from sched_sim.costs.sample_text import of_each, samples_in, samples_value
 from sched_sim.costs.table import SECONDS
 from sched_sim.costs.table_file import CountsOfJob, Number
 from sched_sim.errors import InputError
 from sched_sim.files.toml_problems import problems
 from sched_sim.files.toml_reader import read_toml
-from sched_sim.files.toml_writer import toml_key, toml_number, toml_tables, toml_value
+from sched_sim.files.toml_writer import toml_key, toml_tables, toml_value
 from sched_sim.files.writable import write
 
 
@@ -38,7 +47,9 @@ class SampledCosts:
     "gain_again.gps", and "gain_kept.gps" where the correction has landed.
     operations: counts by the same parts, where they are known; with the unit "operation" the samples may be left out,
     and each part has one: its arithmetic.
-    provenance: whatever else the file says; path: where it was read from, for messages.
+    provenance: whatever else the file says, such as `executions`, whether each sample is one execution, timed by
+    itself, in the order of `samples`; and `autocorrelation`, by part, see `rank_autocorrelation`. path: where it was
+    read from, for messages.
     Raises InputError for a part that does not exist or has no samples.
     """
 
@@ -56,15 +67,17 @@ class SampledCosts:
                 known = ", ".join([*PREDICT, *(f"{kind}.SENSOR" for kind in CORRECT)])
                 raise InputError(f"sampled costs {self.shown}: {part!r} is no part of a filter: choose from {known}")
         for part, values in self.samples.items():
-            if not values or min(values) <= 0:
+            if not values or not all(of_each(_is_positive, values)):
                 raise InputError(
                     f"sampled costs {self.shown}: samples of {part} must be one or more numbers greater than 0"
                 )
 
     @property
     def harness(self) -> bool:
-        """Whether `measure --filter` timed the samples: most of such a sample is the loop that timed it."""
-        return self.unit in SECONDS and self.provenance.get("backend") == "compiled"
+        """Whether an earlier `measure --filter` timed the samples, several executions in each: most of such a sample is
+        the loop that timed it."""
+        timed = self.unit in SECONDS and self.provenance.get("backend") == "compiled"
+        return timed and not self.provenance.get("executions")
 
     @property
     def shown(self) -> str:
@@ -72,7 +85,15 @@ class SampledCosts:
         return f"{self.name!r} ({self.path})" if self.path else repr(self.name)
 
 
-_Samples = Annotated[list[Number], Field(min_length=1)]
+def _is_positive(sample: Fraction) -> bool:
+    return sample.numerator > 0
+
+
+def _listed_or_text(value: Any, listed: ValidatorFunctionWrapHandler) -> Any:
+    return samples_in(value) if isinstance(value, str) and value.strip() else listed(value)
+
+
+_Samples = Annotated[list[Number], Field(min_length=1), WrapValidator(_listed_or_text)]
 
 
 class _SampleTables(BaseModel):
@@ -167,7 +188,7 @@ def sampled_costs_text(costs: SampledCosts) -> str:
             tables += toml_tables(key, value)
         else:
             lines.append(f"{toml_key(key)} = {toml_value(value)}")
-    samples = {part: f"[{', '.join(map(toml_number, values))}]" for part, values in costs.samples.items()}
+    samples = {part: samples_value(values) for part, values in costs.samples.items()}
     counts = {part: toml_value(counts) for part, counts in costs.operations.items()}
     return "\n".join([*lines, *tables, *_nested("samples", samples), *_nested("operations", counts)]) + "\n"
 

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from fractions import Fraction
+from functools import partial
 from typing import Any, TypeVar
 
 from sched_sim.bounds import MOST_DIGITS, MOST_STEPS, short, whole
+from sched_sim.costs.sample_text import of_each
 from sched_sim.errors import InputError
 from sched_sim.scenario.instants import Spread, Steps
 from sched_sim.ticks import exact, positive
@@ -140,9 +142,7 @@ def samples(value: Any, name: str) -> Mapping[str, Sequence[Fraction]]:
     """Execution times by part, of one or several numbers each."""
     if not isinstance(value, Mapping):
         raise InputError(f'{name} is {short(repr(value))}: give execution times by part, such as {{"predict": [0.1]}}')
-    return {
-        part: tuple(positive(time, f"{name} of {part}") for time in several(times)) for part, times in value.items()
-    }
+    return {part: of_each(partial(positive, what=f"{name} of {part}"), several(times)) for part, times in value.items()}
 
 
 def all_of(kind: type, *, least: int = 0) -> Made[tuple[Any, ...]]:

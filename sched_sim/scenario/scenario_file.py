@@ -13,6 +13,7 @@ from pydantic import BeforeValidator, Field, ValidationError, ValidationInfo, mo
 
 from sched_sim.bounds import MOST_STEPS, check_sensors, short
 from sched_sim.costs.sample_file import SampledCosts, read_sampled_costs
+from sched_sim.costs.sample_text import of_each
 from sched_sim.costs.table import SECONDS
 from sched_sim.errors import InputError, option
 from sched_sim.files.kinds import refuse_other_kind
@@ -318,4 +319,4 @@ def _from_file(sampled: SampledCosts, checked: _ScenarioFile, folder: Path) -> S
             f"times write one of these units: {', '.join(SECONDS)}"
         )
     slower = (checked.times_slower or Fraction(1)) * (1 if checked.hr_hz is None else SECONDS[sampled.unit])
-    return {name: tuple(slower * sample for sample in samples) for name, samples in sampled.samples.items()}
+    return {name: of_each(slower.__mul__, samples) for name, samples in sampled.samples.items()}

@@ -77,7 +77,7 @@ def time_jobs(
     overhead: dict[Key, list[int]] = {key: [] for key in jobs}
     order, shuffle = list(jobs), random.Random(seed)
     start = clocks()
-    with _no_garbage_collection():
+    with no_garbage_collection():
         for round_number in range(protocol.rounds):
             progress(len(jobs) + round_number, total, "timing")
             shuffle.shuffle(order)
@@ -138,7 +138,8 @@ def _nothing(*_arguments: Any) -> None:
 
 
 @contextmanager
-def _no_garbage_collection() -> Iterator[None]:
+def no_garbage_collection() -> Iterator[None]:
+    """While jobs are timed."""
     was_enabled = gc.isenabled()
     gc.disable()
     try:

@@ -29,6 +29,7 @@ from sched_sim.costs.table import Cost, CostTable
 from sched_sim.errors import InputError, option
 from studies.measurement.emulation.table import emulated_table
 from studies.measurement.emulation.targets import precision_of, target_of
+from studies.measurement.executions import Wanted
 from studies.measurement.job_times import ARGUMENT_SETS, Progress, Protocol, silent, time_jobs
 from studies.measurement.own_functions import with_own, with_shares
 
@@ -204,7 +205,7 @@ def counted(jobs: Mapping[Key, Job], progress: Progress = silent) -> dict[Key, O
     return operations
 
 
-def where_timed(protocol: Protocol, seed: int, busy: str) -> dict[str, Any]:
+def where_timed(protocol: Protocol | Wanted, seed: int, busy: str) -> dict[str, Any]:
     """The machine, the day, the versions and the protocol of what was timed just now; busy: what says that the machine
     was."""
     return {

@@ -1,30 +1,44 @@
-"""What each part of a composed filter takes, one figure for each of many samples.
-
-Not yet the distribution of one execution: a call of the loop takes longer than the jobs in it, and its least time is
-what is subtracted. So the samples rank parts, and carry no probability of a rare event.
-"""
+"""What each part of a composed filter takes: many executions, each timed by itself and kept in its order."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import replace
 from fractions import Fraction
 from typing import Any, Literal, TypeAlias, get_args
 
+import numpy as np
+
 from filters.backends.allocations import allocations
+from filters.backends.timed import Clock
 from filters.choice import check_choice
+from filters.kernels.place import IntArray
 from filters.seed import check_seed
+from sched_sim.costs.autocorrelation import rank_autocorrelation
 from sched_sim.costs.sample_file import SampledCosts
 from sched_sim.errors import InputError
-from studies.measurement.job_times import Progress, Protocol, silent, time_jobs
+from studies.measurement.busy import clocks, load, signs_of_others
+from studies.measurement.clock import described, monotonic
+from studies.measurement.executions import FLUSHED, Course, Wanted, alone, in_order, run
+from studies.measurement.job_times import Progress, silent
+from studies.measurement.loop_order import loops_of, order_of
 from studies.measurement.methods import COUNTED_SOURCE, counted, nonzero, where_timed
 from studies.measurement.user_filter import UserFilter
 
 Backend: TypeAlias = Literal["compiled", "counted"]
+Caches: TypeAlias = Literal["warm", "cold", "sequence"]
+"""Before each execution: the same job has just run; other work has; the filter's loop has, part by part."""
 
-QUICK = Protocol(rounds=1000, repetitions=20)
-THOROUGH = Protocol(rounds=10_000, repetitions=20)
-"""Few repetitions, so that what slows one of them (a cold cache, another clock rate) is seen in its sample."""
+QUICK = Wanted(executions=100_000, seconds=5.0)
+THOROUGH = Wanted(executions=1_000_000, seconds=50.0)
+BEFORE = {
+    "warm": "the same part has just run before each execution: caches are warm",
+    "cold": f"{FLUSHED >> 20} MB were written to before each execution: what caches larger than that hold stays there, "
+    "and so does what predicts branches",
+    "sequence": "parts run in the order in which the filter's loop runs them, a sensor's when its measurement is due",
+}
+MOST_TOGETHER = 10_000_000
+"""Samples in one file."""
+STEPS_IN_ORDER = 100_000
+"""Of a loop, before it begins again with a measurement of each sensor."""
 
 
 def measure_filter(
@@ -32,55 +46,82 @@ def measure_filter(
     backend: Backend = "compiled",
     *,
     name: str,
+    caches: Caches = "warm",
     thorough: bool = False,
     seed: int = 0,
     progress: Progress = silent,
 ) -> SampledCosts:
-    """The costs of the filter's parts. compiled: samples in seconds, and under `allocations` in the provenance the new
-    arrays that each part makes, all of them in the user's functions; counted: exact operations, one sample of each.
+    """The costs of the filter's parts. compiled: samples in ns, each one execution, with `caches` as they are before
+    it; their rank autocorrelation, and under `allocations` the new arrays that each part makes, all of them in the
+    user's functions, in the provenance. counted: exact operations, one sample of each.
 
-    Raises InputError for another backend or seed, and for a part that numba cannot compile, or that cannot be counted.
+    Raises InputError for another backend, caches or seed, and for a part that numba cannot compile, or that cannot be
+    counted.
     """
     try:
         check_choice("backend", backend, get_args(Backend))
+        check_choice("caches", caches, get_args(Caches))
         check_seed(seed)
     except ValueError as error:
         raise InputError(str(error)) from None
     if backend == "compiled":
-        costs = timed_together({name: user}, thorough=thorough, seed=seed, progress=progress)[name]
-        new = {part: allocations(job.function, job.arguments(0)) for part, job in user.jobs.items()}
-        return replace(costs, provenance={**costs.provenance, "allocations": new})
+        return _timed(user, name, caches, THOROUGH if thorough else QUICK, seed, progress)
     operations = counted(user.jobs, progress)
     samples = {part: (Fraction(tally.total),) for part, tally in operations.items()}
     counts = {part: nonzero(tally) for part, tally in operations.items()}
     return SampledCosts(name, "operation", samples, counts, _about(user, backend) | {"source": COUNTED_SOURCE})
 
 
-def timed_together(
-    users: Mapping[str, UserFilter], *, thorough: bool = False, seed: int = 0, progress: Progress = silent
-) -> dict[str, SampledCosts]:
-    """Samples of several filters' parts, by name, timed in the same rounds: what disturbs one disturbs all.
-
-    Raises InputError for a part that numba cannot compile.
-    """
-    protocol = THOROUGH if thorough else QUICK
-    jobs = {(name, part): job for name, user in users.items() for part, job in user.jobs.items()}
-    timed = time_jobs(jobs, "compiled", protocol, seed, progress)
-    source = (
-        f"{protocol.rounds} samples of each part; a sample is the mean of {protocol.repetitions} executions in one "
-        "compiled call, less the least time of an empty loop, so that most of it is the loop's; other parts run in "
-        "between; time in which the operating system runs something else is not counted"
-    )
-    return {
-        name: SampledCosts(
-            name,
-            "second",
-            {part: tuple(Fraction(f"{each:.4g}") for each in timed.seconds[name, part]) for part in user.jobs},
-            {},
-            _about(user, "compiled") | {"source": source, **where_timed(protocol, seed, timed.busy)},
-        )
-        for name, user in users.items()
+def _timed(user: UserFilter, name: str, caches: Caches, most: Wanted, seed: int, progress: Progress) -> SampledCosts:
+    wanted = Wanted(min(most.executions, MOST_TOGETHER // len(user.jobs)), most.seconds)
+    before, clock = load(), monotonic()
+    found = run(_courses(user, caches, wanted, clock, progress), wanted, seed, progress)
+    spans = {part: np.maximum(found.ns[part], 1) for part in user.jobs}  # 0: less than the clock's resolution
+    busy = signs_of_others(before, found.began, clocks(), [_some(each) for each in spans.values()])
+    about_clock = described(clock)
+    about = {
+        "source": (
+            f"{BEFORE[caches]}; each sample is one execution, timed by itself in compiled code, in their order; two "
+            f"readings of the clock are in it, {about_clock['median_ns']} ns with nothing between them, and interrupts, "
+            f"and what a hypervisor took; blocks in which the operating system ran something else were timed again: "
+            f"{found.again} of {found.blocks + found.again}"
+            f"{f', {found.disturbed} never without' if found.disturbed else ''}"
+        ),
+        "executions": True,
+        "caches": caches,
+        **where_timed(wanted, seed, busy),
+        "clock": about_clock,
+        "autocorrelation": {part: round(rank_autocorrelation(each), 4) for part, each in spans.items()},
+        "allocations": {part: allocations(job.function, job.arguments(0)) for part, job in user.jobs.items()},
     }
+    samples = {part: _exact(each) for part, each in spans.items()}
+    return SampledCosts(name, "ns", samples, {}, _about(user, "compiled") | about)
+
+
+def _courses(user: UserFilter, caches: Caches, wanted: Wanted, clock: Clock, progress: Progress) -> list[Course]:
+    courses = []
+    loops = loops_of(user.jobs) if caches == "sequence" else [[part] for part in user.jobs]
+    for number, loop in enumerate(loops):
+        progress(number, len(loops), f"preparing {' '.join(loop)}")
+        if caches == "sequence":
+            order = order_of(loop, user.composed, STEPS_IN_ORDER)
+            courses.append(in_order(loop, [user.jobs[part] for part in loop], order, wanted, clock))
+        else:
+            courses += [alone(part, user.jobs[part], caches, wanted, clock) for part in loop]
+    return courses
+
+
+def _exact(spans: IntArray) -> tuple[Fraction, ...]:
+    """Equal ones are one object."""
+    values, places = np.unique(spans, return_inverse=True)
+    fractions = [Fraction(value) for value in values.tolist()]
+    return tuple(map(fractions.__getitem__, places.tolist()))
+
+
+def _some(spans: IntArray) -> list[int]:
+    """Enough of them to tell the spread."""
+    few: list[int] = spans[:: 1 + len(spans) // 10_000].tolist()
+    return few
 
 
 def _about(user: UserFilter, backend: Backend) -> dict[str, Any]:
