@@ -1,0 +1,1 @@
+"""Probabilities of misses and late landings, computed from distributions of execution times and not sampled."""
