@@ -1,20 +1,47 @@
-"""Exact probability of misses and late landings of one filter, and the user's tasks beside it."""
+"""Exact probability of misses and late landings of one filter, and the user's tasks beside it.
+
+The law of what is left to do is followed from step to step (J. L. Diaz et al., Stochastic Analysis of Periodic
+Real-Time Systems, RTSS 2002; K. Kim et al., An Exact Stochastic Analysis of Priority-Driven Periodic Real-Time Systems
+and Its Approximations, IEEE Transactions on Computers 54 (2005), p. 1460; costs of several values: D. Maxim and
+L. Cucu-Grosjean, Response Time Analysis for Fixed-Priority Tasks with Multiple Probabilistic Parameters, RTSS 2013,
+p. 224). Nothing is simulated here: `sched_sim.design.simulate` is the oracle of this package, and this package of that.
+
+Where an HR period has too many ticks, costs are rounded to bins, down and up. Of serial methods and tasks every
+response time is a maximum of sums of costs, and so does not fall when a cost rises: what comes of costs rounded down is
+a lower bound, of those rounded up an upper one. Of dual-rate that is so with same-step feedback for the landings; with
+next-step feedback an HR update is charged where it bounds them (`low_rate.Design`). HR jobs of dual-rate may miss
+because an LR job took less, for then its correction lands in another step: there the bounds are those of an HR update
+in no step and in each. With exact ticks none of this matters.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from typing import Any, TypeAlias
 
+from sched_sim.bounds import at_least_one
+from sched_sim.design.arguments import checked
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import JobCosts
 from sched_sim.design.timing import Timing
+from sched_sim.errors import InputError, option
+from sched_sim.probability.bounded import bounded
 from sched_sim.probability.cost_distribution import CostDistribution
+from sched_sim.probability.delay import Delay
+from sched_sim.probability.first_cycles import first_cycles
+from sched_sim.probability.had import check_had
+from sched_sim.probability.in_ticks import Given, Rounded, grid_of, pieces_of
+from sched_sim.probability.long_run import long_run
+from sched_sim.probability.model import Model
 from sched_sim.probability.outcome import Probabilities
+from sched_sim.probability.tally import Tally
 from sched_sim.schedule.tasks import Task
-from sched_sim.ticks import Number
+from sched_sim.ticks import Number, positive
 
 RandomCosts: TypeAlias = JobCosts[Any]
 """The pieces of one method, each a CostDistribution: `DualRateCosts(hr=CostDistribution.certain(63), ...)`."""
+
+MOST_CYCLES = 100_000
 
 
 def probabilities(
@@ -28,19 +55,93 @@ def probabilities(
     task_costs: Mapping[str, CostDistribution] | None = None,
     delays: CostDistribution | None = None,
     dropout: float = 0.0,
-    preempted: bool = False,
     bins: int | None = None,
     debt: int = 8,
 ) -> Probabilities:
     """Of the first `cycles` measurement cycles, and in the long run.
 
     costs: of the method, each piece a `CostDistribution`; speed: cost units the processor does per HR period.
-    task_costs: by the name of the task, where its cost is not certain.
-    delays: of a measurement, whole HR steps, in place of M; dropout: the probability that it never arrives.
-    preempted: recalculate corrects in a job of its own, of LR priority, that catches up with the steps that pass
-    meanwhile; else the HR job of m does it.
+    tasks: those less urgent than LR jobs delay nothing and are left out; task_costs: by the name of the task, where its
+    cost is not certain.
+    delays: of a measurement, whole HR steps, in place of M; dropout: the probability that it never arrives. A lost one
+    is awaited by serial methods as long as the longest delay; the dual-rate filter's LR jobs go on without it.
     bins: of an HR period, to which costs are rounded, up and down; None: none where costs are whole ticks of which a
-    period has few. debt: so many cycles behind is followed.
+    period has few. debt: so many cycles behind is followed, more if the design has more on their way.
     Raises InputError for what is not had: its message names it.
     """
-    raise NotImplementedError
+    tasks = checked(timing, options, tasks)
+    speed, cycles = positive(speed, "speed"), at_least_one(cycles, "cycles")
+    if cycles > MOST_CYCLES:
+        raise InputError(f"{option('cycles')} {cycles} is more than {MOST_CYCLES:,}: the long run is computed too")
+    if bins is not None:
+        bins = at_least_one(bins, "bins")
+    debt = at_least_one(debt, "debt")
+    pieces = pieces_of(costs)
+    delay = _delay(delays, dropout, timing)
+    tasks = check_had(costs, timing, options, tasks, delay)
+    of_tasks = {task.name: CostDistribution.certain(task.cost) for task in tasks} | _of_tasks(task_costs, tasks)
+    given = Given(pieces, tasks, of_tasks, speed)
+    grid = grid_of(given, bins)
+    rounded: tuple[Rounded, ...] = ("down",) if grid.exact else ("down", "up")
+    models = [Model(costs, timing, options, given, grid, each, delay, debt) for each in rounded]
+    by_cycle, in_long_run, why = [], [], ""
+    for model in models:
+        by_cycle.append(_first(model, cycles))
+        reason = model.no_long_run()
+        tally = None if reason else _long(model)
+        why = why or reason or ("" if tally else NOT_SETTLED)
+        in_long_run.append(tally)
+    arrive = 1.0 if delay is None else 1 - delay.lost
+    ends = by_cycle[0], by_cycle[-1]
+    found = [bounded(lower, upper, arrive, exact=grid.exact) for lower, upper in zip(*ends, strict=True)]
+    last = None
+    if not why:
+        lower, upper = in_long_run[0], in_long_run[-1]
+        assert lower is not None
+        assert upper is not None
+        last = bounded(lower, upper, arrive, exact=grid.exact)
+    return Probabilities(found, last, why, grid.ticks, grid.exact, 1 - arrive)
+
+
+NOT_SETTLED = "the distribution of what is left to do does not settle"
+
+
+def _delay(delays: CostDistribution | None, dropout: float, timing: Timing) -> Delay | None:
+    """None where every measurement is M steps late."""
+    if not 0 <= dropout < 1:
+        raise InputError(f"{option('dropout')} is {dropout}: it must be a probability from 0 to less than 1")
+    if delays is None and not dropout:
+        return None
+    return Delay.of(CostDistribution.certain(timing.M) if delays is None else delays, dropout)
+
+
+def _of_tasks(given: Mapping[str, CostDistribution] | None, tasks: Sequence[Task]) -> dict[str, CostDistribution]:
+    """Raises InputError for a name that no task has."""
+    given = given or {}
+    names = [task.name for task in tasks]
+    for name in given:
+        if name not in names:
+            raise InputError(
+                f"{option('task_costs')}: there is no task {name!r}, but {', '.join(names) or 'none at all'}"
+            )
+    return dict(given)
+
+
+def _first(model: Model, cycles: int) -> list[Tally]:
+    tallies = [Tally() for _ in range(cycles)]
+    for process in model.processes():
+        own = first_cycles(process, cycles, model.taken, model.hyperperiod, model.begin, model.after)
+        for tally, more in zip(tallies, own, strict=True):
+            tally.add(more)
+    return tallies
+
+
+def _long(model: Model) -> Tally | None:
+    """Of a cycle; None if one of the processes does not settle."""
+    whole = Tally()
+    for process in model.processes():
+        tally = long_run(process, model.hyperperiod, model.begin)
+        if tally is None:
+            return None
+        whole.add(tally, 1 / model.cycles)
+    return whole

@@ -1,0 +1,274 @@
+"""The dual-rate filter's low-rate jobs, one after another, behind all that is more urgent.
+
+An LR job finishes when the work of the HR jobs and tasks, and its own, is done: one number, whose law is followed
+beside what is discrete, the `Front`. The cost of an LR job is drawn when it comes to the front of the queue. When an LR
+update finishes nothing more urgent is left, so that the HR job which lands it meets no backlog but that of tasks
+released since: this ties the levels of HR jobs and tasks to the LR jobs, without a law of both numbers together.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Hashable, Mapping, Sequence
+
+import numpy as np
+
+from sched_sim.design.taken import Taken
+from sched_sim.probability.high_rate import WithCorrections
+from sched_sim.probability.law import Law, cut, later_of, served, sum_of
+from sched_sim.probability.level import Level
+from sched_sim.probability.low_rate import EARLY, FEEDBACK, GAIN, UPDATE, Design, Front
+from sched_sim.probability.outcome import Floats
+from sched_sim.probability.tally import Tallies, Tally
+from sched_sim.probability.timeline import Segment, Timeline
+
+
+class DualRate:
+    """From step 0 on. levels: of HR jobs, and of tasks between them and LR jobs, where they are exact."""
+
+    def __init__(self, design: Design, timeline: Timeline, levels: Sequence[Level]) -> None:
+        self.design, self.timeline, self.levels = design, timeline, levels
+        self.taken: Taken = design.timing.taken
+        self.most = (design.debt + 1) * design.timing.N * timeline.period
+        self.high = WithCorrections(design.pieces, self.taken)
+        self.parts: dict[Front, Floats] = {Front(0, EARLY, drawn=False): np.ones(1)}
+        self.step, self.weight, self.gone = 0, 1.0, 0.0
+        self.high_done: Floats | None = None
+        self.tallies = Tallies()
+
+    @property
+    def total(self) -> float:
+        return sum(float(mass.sum()) for mass in self.parts.values())
+
+    @property
+    def behind(self) -> float:
+        return self.gone + sum(level.gone for level in self.levels)
+
+    def advance(self, end: int, tallies: Tallies) -> None:
+        """Up to the start of this step."""
+        self.tallies = tallies
+        while self.step < end:
+            self._judge(self.step)
+            left: dict[Front, Floats] = {}
+            for parts in self._separate():
+                if self.design.two_cpus and self._overruns(self.step, parts):
+                    self.gone += sum(float(mass.sum()) for mass in parts.values())
+                    continue
+                for front, mass in self._one_step(self.step, parts).items():
+                    _add(left, front, mass)
+            self.parts = {}
+            for front, mass in left.items():
+                self.parts[front], gone = cut(mass, self.most)
+                self.gone += gone
+            self.step += 1
+
+    def _separate(self) -> list[dict[Front, Floats]]:
+        """Those between which nothing is common in this step: on one processor all is, on two the HR job."""
+        if not self.design.two_cpus:
+            return [self.parts]
+        groups: defaultdict[int, dict[Front, Floats]] = defaultdict(dict)
+        for front, mass in self.parts.items():
+            groups[front.to_apply][front] = mass
+        return list(groups.values())
+
+    def _overruns(self, step: int, parts: dict[Front, Floats]) -> bool:
+        """Whether the HR job may not be done when the next one comes: no backlog of HR jobs is followed here."""
+        (applied,) = {front.to_apply for front in parts}
+        return self._high_rate(step, applied).worst > self.timeline.period
+
+    def _high_rate(self, step: int, applied: int) -> Law:
+        """The HR job on a processor of its own, with so many HR updates, or as charged."""
+        return self.high.cost(step, {"most": self.design.usual, "least": 0}.get(self.design.charge, applied))
+
+    def _one_step(self, step: int, parts: dict[Front, Floats]) -> dict[Front, Floats]:
+        tally = self.tallies[self.taken.before(step + 1) - 1]
+        self.high_done = self._high_done(step, parts, tally) if self.design.two_cpus else None
+        parts = self._begin(step, parts)
+        for index, segment in enumerate(self.timeline.segments(step)):
+            for level in self.levels:
+                level.run(step, index, tally, self.weight)
+            for task in segment.released:
+                parts = {front: task.cost.added_to(mass) for front, mass in parts.items()}
+            parts = self._run(step, segment, parts)
+            self._settle(parts)
+        return parts
+
+    def clear(self) -> dict[Hashable, float]:
+        """As `Serial.clear`."""
+        return {front: float(mass[0]) for front, mass in self.parts.items() if not front.drawn}
+
+    def restart(self, key: Hashable) -> None:
+        assert isinstance(key, Front)
+        self.parts, self.gone = {key: np.ones(1)}, 0.0
+        for level in self.levels:
+            level.parts, level.gone = {key.to_apply: np.ones(1)}, 0.0
+
+    def take(self, key: Hashable) -> float:
+        assert isinstance(key, Front)
+        mass = self.parts.get(key)
+        if mass is None:
+            return 0.0
+        taken, mass[0] = float(mass[0]), 0.0
+        self._settle(self.parts)
+        return taken
+
+    def state(self) -> Mapping[Hashable, Floats]:
+        of_parts: dict[Hashable, Floats] = dict(self.parts.items())
+        of_levels: dict[Hashable, Floats] = {
+            (number, key): mass for number, level in enumerate(self.levels) for key, mass in level.parts.items()
+        }
+        return of_parts | of_levels
+
+    def _settle(self, parts: Mapping[Front, Floats]) -> None:
+        totals: defaultdict[Hashable, float] = defaultdict(float)
+        for front, mass in parts.items():
+            totals[front.to_apply] += float(mass.sum())
+        for level in self.levels:
+            level.settle(totals)
+
+    def _judge(self, step: int) -> None:
+        """What is due at the start of this step and not done."""
+        design, before = self.design, self.taken.before(step)
+        for due, kind in ((design.early_due, "lr_propagate"), (design.update_due, "lr_update")):
+            k = step - due
+            if k < 0 or self.taken.since(k):
+                continue
+            cycle, is_update = self.taken.before(k) - before, kind == "lr_update"
+            lost = 0.0 if design.delay is None else design.delay.lost
+            late = 0.0
+            for front, mass in self.parts.items():
+                if front.cycle < cycle or (front.cycle == cycle and (is_update or front.stage < UPDATE)):
+                    known = front.cycle == cycle and front.stage >= UPDATE
+                    late += float(mass.sum()) * (1 - lost if is_update and not known else 1)
+            tally, weight = self.tallies[self.taken.before(k)], self.weight
+            if is_update:
+                tally.due += weight * (1 - lost)
+                tally.late += late
+            else:
+                tally.job(kind, weight, late)
+
+    def _begin(self, step: int, parts: dict[Front, Floats]) -> dict[Front, Floats]:
+        """The HR job of this step is released, at k a measurement is taken, at m the LR update is released."""
+        at_k = not self.taken.since(step)
+        begun: dict[Front, Floats] = {}
+        for front, mass in parts.items():
+            now = front._replace(to_apply=0)
+            if front.stage == FEEDBACK:
+                now, mass = self._fed_back(step, now, mass)
+            if not self.design.two_cpus:
+                applied = 0 if self.design.charge == "least" else front.to_apply
+                mass = self.high.cost(step, applied).added_to(mass)
+            if at_k:
+                now = now._replace(cycle=now.cycle - 1, missing=(*now.missing, -front.cycle))
+            if -now.cycle > self.design.debt:
+                self.gone += float(mass.sum())
+                continue
+            for ready, part in self._looked_up(step, now, mass, first=False):
+                _add(begun, ready, part)
+        return begun
+
+    def _fed_back(self, step: int, front: Front, mass: Floats) -> tuple[Front, Floats]:
+        """The HR update that was under way goes on first, and lands in this step."""
+        period = self.timeline.period
+        self.gone += float(mass[period + 1 :].sum())
+        mass = mass[: period + 1]
+        k = self.taken.step(self.taken.before(step) + front.cycle)
+        self.tallies[self.taken.before(k)].landing[step - k] += float(mass.sum())
+        return self._next(front, 0), mass
+
+    def _high_done(self, step: int, parts: dict[Front, Floats], tally: Tally) -> Floats:
+        """When the HR job of this step has finished, on a processor of its own, in all these parts."""
+        (applied,) = {front.to_apply for front in parts}
+        law = self._high_rate(step, applied).mass
+        share = sum(float(mass.sum()) for mass in parts.values())
+        tally.responded("hr", share * law)
+        tally.job("hr", share, share * float(law[self.timeline.period + 1 :].sum()))
+        return law
+
+    def _looked_up(self, step: int, front: Front, mass: Floats, *, first: bool) -> list[tuple[Front, Floats]]:
+        """With the work of the job at the front, if it is there. first: it has just come to the front."""
+        if front.drawn or front.cycle == 0:
+            return [(front, mass)]
+        if front.stage != UPDATE:
+            at_k = front.cycle == -1 and front.stage == EARLY and not self.taken.since(step)
+            begins = later_of(mass, self.high_done) if self.high_done is not None and at_k else mass
+            law = self.design.pieces.laws["lr_gain" if front.stage == GAIN else "lr_propagate"]
+            return [(front._replace(drawn=True), law.added_to(begins))]
+        delay, age = self.design.delay, step - self._k(step, front)
+        if delay is None:
+            there, later, lost = float(age >= self.design.timing.M), float(age < self.design.timing.M), 0.0
+        elif first:
+            lost = delay.lost
+            there, later = (1 - lost) * delay.by(age), (1 - lost) * delay.after(age)
+        else:
+            (there, later), lost = delay.next(age), 0.0
+        found = []
+        if there:
+            law = self.design.pieces.together({"lr_update": 1, "hr_update": front.missing[0]})
+            found.append((front._replace(drawn=True), there * law.added_to(mass)))
+        if later:
+            found.append((front, later * mass))
+        if lost:
+            found += self._looked_up(step, self._next(front, 0), lost * mass, first=True)
+        return found
+
+    def _k(self, step: int, front: Front) -> int:
+        """Of its cycle, in this step."""
+        return self.taken.step(self.taken.before(step + 1) + front.cycle)
+
+    def _next(self, front: Front, updates: int) -> Front:
+        """That of the next cycle, with so many HR updates to do for this one."""
+        return Front(front.cycle + 1, EARLY, False, front.to_apply + updates, front.missing[1:])
+
+    def _run(self, step: int, segment: Segment, begun: dict[Front, Floats]) -> dict[Front, Floats]:
+        """What is left at the end of the segment."""
+        left: dict[Front, Floats] = {}
+        at_start = dict(begun)
+        while at_start:
+            front = min(at_start)
+            mass = at_start.pop(front)
+            if not front.drawn:
+                _add(left, front, served(mass, segment.length))
+                continue
+            done, rest = mass[: segment.length + 1], mass[segment.length :].copy()
+            if len(rest) > 1:
+                rest[0] = 0.0
+                _add(left, front, rest)
+                if front.stage == FEEDBACK:
+                    for level in self.levels:
+                        level.parts[0] = sum_of(level.parts[0], rest)
+            if done.any():
+                for following, part in self._finished(step, segment, front, done):
+                    _add(at_start, following, part)
+        return left
+
+    def _finished(self, step: int, segment: Segment, front: Front, done: Floats) -> list[tuple[Front, Floats]]:
+        """The job at the front has finished at these instants of the segment."""
+        if front.stage == EARLY and self.design.precomputed:
+            return self._looked_up(step, front._replace(stage=GAIN, drawn=False), done, first=True)
+        if front.stage < UPDATE:
+            return self._looked_up(step, front._replace(stage=UPDATE, drawn=False), done, first=True)
+        k = self._k(step, front)
+        cycle = self.taken.before(k)
+        tally = self.tallies[cycle]
+        if front.stage == FEEDBACK:
+            tally.landing[max(step - k, 0)] += float(done.sum())
+            return self._looked_up(step, self._next(front, 0), done, first=True)
+        if self.design.delay is None:
+            waited = (step - k - self.design.timing.M) * self.timeline.period + segment.start
+            tally.responded("lr_update", np.concatenate([np.zeros(waited), done]))
+        in_state = step if self.design.same_step else step + 1
+        updates = max(self.taken.before(in_state) - cycle, 1)
+        if updates > self.design.usual:
+            tally.crowded += float(done.sum())
+        correction = self.design.pieces.together({"hr_update": updates})
+        if self.design.same_step:
+            return [(front._replace(stage=FEEDBACK), correction.added_to(done))]
+        tally.landing[in_state - k] += float(done.sum())
+        if self.design.charge == "most" and not self.design.two_cpus:
+            done = correction.added_to(done)
+        return self._looked_up(step, self._next(front, updates), done, first=True)
+
+
+def _add(parts: dict[Front, Floats], front: Front, mass: Floats) -> None:
+    parts[front] = sum_of(parts[front], mass) if front in parts else mass

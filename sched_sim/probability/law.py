@@ -1,0 +1,93 @@
+"""Laws over whole ticks: arrays of masses, number i that of i ticks.
+
+All is sums and products of non-negative numbers, so that a mass of 1e-21 is as accurate as one near 1; a convolution by
+FFT would leave rounding errors of the largest mass everywhere.
+"""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+import numpy as np
+
+from sched_sim.probability.outcome import Floats
+
+FEW = 24
+"""A law of so few values is added value by value, which is faster than to convolve."""
+
+NOTHING = 1e-45
+"""A mass that is not followed; what is left out is counted."""
+
+
+class Law:
+    """Of the time that an execution takes; its masses sum to 1."""
+
+    def __init__(self, mass: Floats) -> None:
+        self.mass = mass
+        self.values = np.flatnonzero(mass)
+        self._powers = {1: self}
+
+    @property
+    def worst(self) -> int:
+        return int(self.values[-1])
+
+    @cached_property
+    def mean(self) -> float:
+        return float(self.mass @ np.arange(len(self.mass)))
+
+    def added_to(self, mass: Floats) -> Floats:
+        """The law of a sum, of a work and one execution."""
+        if len(self.values) > FEW:
+            return np.convolve(mass, self.mass)
+        total = np.zeros(len(mass) + self.worst)
+        for value in self.values:
+            total[value : value + len(mass)] += self.mass[value] * mass
+        return total
+
+    def and_then(self, other: Law) -> Law:
+        return Law(other.added_to(self.mass))
+
+    def times(self, count: int) -> Law:
+        """So many executions."""
+        if count not in self._powers:
+            self._powers[count] = self.times(count - 1).and_then(self) if count else Law(np.ones(1))
+        return self._powers[count]
+
+
+def sum_of(*masses: Floats) -> Floats:
+    """Of laws that exclude one another."""
+    total = np.zeros(max(map(len, masses)))
+    for mass in masses:
+        total[: len(mass)] += mass
+    return total
+
+
+def served(mass: Floats, ticks: int) -> Floats:
+    """What is left of a work after so many ticks."""
+    left = mass[ticks:].copy()
+    if not len(left):
+        return np.array([mass.sum()])
+    left[0] = mass[: ticks + 1].sum()
+    return left
+
+
+def later_of(one: Floats, other: Floats) -> Floats:
+    """The law of the later of two independent instants."""
+    length = max(len(one), len(other))
+    one, other = (np.pad(mass, (0, length - len(mass))) for mass in (one, other))
+    earlier = np.concatenate([[0.0], np.cumsum(one)[:-1]])
+    both: Floats = one * np.cumsum(other) + other * earlier
+    return both
+
+
+def cut(mass: Floats, most: int) -> tuple[Floats, float]:
+    """Without what is more than so many ticks or not worth following, and the mass of that."""
+    worth = np.flatnonzero(mass[: most + 1] > NOTHING)
+    length = int(worth[-1]) + 1 if len(worth) else 1
+    return mass[:length], float(mass[length:].sum())
+
+
+def exceedance(mass: Floats) -> Floats:
+    """P(more than i), summed from the smallest."""
+    above = np.cumsum(mass[::-1])[::-1]
+    return np.append(above[1:], 0.0)

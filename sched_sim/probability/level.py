@@ -1,0 +1,125 @@
+"""The backlog of all work that is as urgent as some job or more: J. L. Diaz et al., Stochastic Analysis of Periodic
+Real-Time Systems, 2002, for fixed priorities.
+
+Between two releases it falls to 0 tick by tick, at a release it grows by one execution (D. V. Lindley, The theory of
+queues with a single server, 1952). The response time of a job is the backlog that it meets, its own work, and what more
+urgent is released until both are done. Each is a sum of independent executions.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Hashable, Mapping
+
+import numpy as np
+
+from sched_sim.probability.high_rate import Branch, HighRate
+from sched_sim.probability.law import cut, served, sum_of
+from sched_sim.probability.outcome import Floats
+from sched_sim.probability.tally import Tally
+from sched_sim.probability.timeline import Segment, TaskInTicks, Timeline
+from sched_sim.schedule.jobs import HR
+
+Parts = dict[Hashable, Floats]
+"""Laws that exclude one another, by what the next HR job must know."""
+
+Landed = Callable[[int, Branch, Floats], None]
+"""Called with the step, how its HR job was, and the mass of its response times."""
+
+
+class Level:
+    """Of one priority, and all that is more urgent. most: ticks of backlog that are followed; gone: mass of more."""
+
+    def __init__(
+        self, priority: int, high: HighRate | None, timeline: Timeline, most: int, landed: Landed | None = None
+    ) -> None:
+        self.priority, self.timeline, self.most, self.landed = priority, timeline, most, landed
+        self.high = high if priority >= HR else None
+        self.preempted = priority > HR or any(task.priority < priority for task in timeline.tasks)
+        self.parts: Parts = {0: np.ones(1)}
+        self.gone = 0.0
+
+    @property
+    def total(self) -> float:
+        return sum(float(mass.sum()) for mass in self.parts.values())
+
+    def settle(self, totals: Mapping[Hashable, float]) -> None:
+        """What these parts sum to, as is known from elsewhere: what is not backlog is none."""
+        for key in self.parts.keys() | totals.keys():
+            mass = self.parts.setdefault(key, np.zeros(1))
+            mass[0] = max(totals.get(key, 0.0) - float(mass[1:].sum()), 0.0)
+
+    def run(self, step: int, index: int, tally: Tally, weight: float) -> None:
+        """One segment of a step. weight: of each job in the tally."""
+        segment = self.timeline.segments(step)[index]
+        urgent = [task for task in segment.released if task.priority < self.priority]
+        own = [task for task in segment.released if task.priority == self.priority]
+        parts = self._with_tasks(self.parts, urgent)
+        if self.high is not None and not index:
+            parts = self._with_high_rate(parts, step, self.high, tally, weight)
+        for task in own:
+            parts = self._with_tasks(parts, [task])
+            response = self._response(parts, step, index)
+            tally.responded(task.kind, response)
+            tally.job(task.kind, weight, float(response[task.deadline + 1 :].sum()))
+        self.parts = {}
+        for key, mass in parts.items():
+            self.parts[key], gone = cut(served(mass, segment.length), self.most)
+            self.gone += gone
+
+    def _with_tasks(self, parts: Parts, tasks: list[TaskInTicks]) -> Parts:
+        for task in tasks:
+            parts = {key: task.cost.added_to(mass) for key, mass in parts.items()}
+        return parts
+
+    def _with_high_rate(self, parts: Parts, step: int, high: HighRate, tally: Tally, weight: float) -> Parts:
+        after: Parts = {}
+        own = self.priority == HR
+        for key, mass in parts.items():
+            for branch in high.branches(step, key):
+                work = branch.probability * branch.cost.added_to(mass)
+                after[branch.key] = sum_of(after[branch.key], work) if branch.key in after else work
+                if own:
+                    response = self._response({branch.key: work}, step, 0)
+                    tally.responded("hr", response)
+                    tally.job("hr", 0.0, float(response[self.timeline.period + 1 :].sum()))
+                    if self.landed is not None and branch.arrived:
+                        self.landed(step, branch, response)
+        if own:
+            tally.job("hr", weight, 0.0)
+        return after
+
+    def _response(self, parts: Parts, step: int, index: int) -> Floats:
+        """From a release at the start of this segment, with all that is ahead of it or as urgent and there."""
+        if not self.preempted:
+            return sum_of(*parts.values())
+        done, at = np.zeros(1), 0
+        while parts:
+            segment = self.timeline.segments(step)[index]
+            parts = {key: mass for key, mass in parts.items() if mass.any()}
+            for mass in parts.values():
+                done = sum_of(done, np.concatenate([np.zeros(at), mass[: segment.length + 1]]))
+            left = {key: mass[segment.length :].copy() for key, mass in parts.items() if len(mass) > segment.length + 1}
+            at += segment.length
+            if at > self.most:
+                return sum_of(done, *(np.concatenate([np.zeros(at), mass]) for mass in left.values()))
+            step, index = self._next(step, index)
+            for mass in left.values():
+                mass[0] = 0.0
+            parts = self._interrupted(left, step, index)
+        return done
+
+    def _next(self, step: int, index: int) -> tuple[int, int]:
+        last = index + 1 == len(self.timeline.segments(step))
+        return (step + 1, 0) if last else (step, index + 1)
+
+    def _interrupted(self, parts: Parts, step: int, index: int) -> Parts:
+        segment: Segment = self.timeline.segments(step)[index]
+        parts = self._with_tasks(parts, [task for task in segment.released if task.priority < self.priority])
+        if self.high is None or index or self.priority == HR:
+            return parts
+        after: Parts = {}
+        for key, mass in parts.items():
+            for branch in self.high.branches(step, key):
+                work = branch.probability * branch.cost.added_to(mass)
+                after[branch.key] = sum_of(after[branch.key], work) if branch.key in after else work
+        return after
