@@ -56,7 +56,7 @@ def probabilities(
     delays: CostDistribution | None = None,
     dropout: float = 0.0,
     bins: int | None = None,
-    debt: int = 8,
+    debt: int = 4,
 ) -> Probabilities:
     """Of the first `cycles` measurement cycles, and in the long run.
 
