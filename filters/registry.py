@@ -9,7 +9,8 @@ for method in ALL_METHODS.values():
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import partial
+from copy import deepcopy
+from functools import cache, partial
 from typing import Any, NamedTuple
 
 from filters import multirate_gain
@@ -63,8 +64,12 @@ def _jobs(form_named: Callable[..., Form], *kinds: JobKind[Form]) -> Callable[..
         form = form_named(update, checked_structure(system))
         system = system._replace(structure=None)
 
+        @cache
+        def drawn(index: int) -> Sample:
+            return sample(system, seed, index, x0)
+
         def arguments_of(make: Callable[[System, Form, Sample], tuple[Any, ...]]) -> Callable[[int], tuple[Any, ...]]:
-            return lambda index: make(system, form, sample(system, seed, index, x0))
+            return lambda index: make(system, form, deepcopy(drawn(index)))
 
         return {kind: Job(kind, function, arguments_of(make)) for kind, function, make in kinds}
 

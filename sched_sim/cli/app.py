@@ -5,9 +5,11 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import cache
 from typing import Annotated, Any
 
 import typer
+import typer.main
 from typer.core import TyperCommand, TyperGroup
 
 from sched_sim.cli import accuracy, code, design, gantt, live, measure, minimum, processors, report, simulate, sweep
@@ -124,3 +126,9 @@ app.command("measure", cls=Command)(measure.measure)
 app.command("code", cls=Command)(code.code)
 app.command("live", cls=Command)(live.live)
 app.command("report", cls=Command)(report.report)
+
+
+@cache
+def command() -> Any:
+    """The application as typer runs it, built once."""
+    return typer.main.get_command(app)

@@ -32,7 +32,7 @@ def least_row(method: str, timing: Timing, least: LeastSpeed | None) -> dict[str
 
 def fixed_by(binding: str | None) -> str | None:
     """What fixes the least speed, in words."""
-    from sched_sim.design.analysis import BINDING_WORDS
+    from sched_sim.design.binding import BINDING_WORDS
 
     return None if binding is None else BINDING_WORDS.get(binding, binding)
 

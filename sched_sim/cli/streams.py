@@ -61,10 +61,10 @@ def run() -> int:
 
 def _command() -> int:
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "1")  # it would search all that is installed for some
-    from sched_sim.cli.app import app
+    from sched_sim.cli.app import command
 
     try:
-        app(prog_name="sched-sim")
+        command()(prog_name="sched-sim")
     except SystemExit as stop:
         return int(stop.code or 0)
     return 0

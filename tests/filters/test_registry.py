@@ -152,7 +152,7 @@ def test_argument_sets_hold_no_memory_as_it_comes(key: tuple[str, str], monkeypa
     assert all(np.isfinite(array).all() for array in arrays_in(all_jobs()[key].arguments(0)))
 
 
-@pytest.mark.slow
+@pytest.mark.exhaust
 def test_repeating_in_compiled_code_gives_the_same_as_once() -> None:
     job = all_jobs()["larsen", "update"]
     arguments = job.arguments(0)

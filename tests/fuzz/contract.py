@@ -23,10 +23,7 @@ from types import FrameType
 from unittest.mock import patch
 from xml.etree import ElementTree
 
-from typer.main import get_command
-
 from sched_sim.cli import main
-from sched_sim.cli.app import app
 from tests.command_line import Result
 from tests.fuzz.cases import OUTPUT_OPTIONS, Case
 
@@ -36,10 +33,6 @@ MOST_CPU_S = 60
 NAMES = re.compile(
     r"-{1,2}[A-Za-z]|\.toml|\.py|cost table|processor|picture|file|scenario|command|argument|[NML]=|\[\w+"
 )
-
-
-COMMAND = get_command(app)
-"""Built once."""
 
 
 class Hang(BaseException):
@@ -116,7 +109,6 @@ def _run(folder: Path, case: Case) -> Result:
         os.chdir(folder)
         with (
             patch.object(sys, "argv", ["sched-sim", *case.arguments]),
-            patch("sched_sim.cli.app.app", COMMAND),
             patch("studies.sweep.workers._Team", side_effect=OSError),  # no processes
             redirect_stdout(out),
             redirect_stderr(err),

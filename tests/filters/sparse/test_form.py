@@ -40,7 +40,10 @@ def test_a_run_has_the_same_bits(method: str, form: CovarianceFormName, measurem
 
 
 @needs_compiler
-@methods
+@pytest.mark.parametrize(
+    "method",
+    [pytest.param(name, marks=() if name == "dual-rate" else pytest.mark.exhaust) for name in DELAYED_METHODS],
+)
 def test_in_c_too(method: str) -> None:
     dense, sparse = (drive(method, structure, update="short", backend="c") for structure in (None, VEHICLE))
     for found, expected in zip(sparse, dense, strict=True):

@@ -213,7 +213,7 @@ def test_demand_is_as_by_hand_and_what_a_long_simulation_is_busy_with(name: str)
     assert busy <= share * (1 + 1e-3)
 
 
-@pytest.mark.parametrize("priority", [5, 20])
+@pytest.mark.parametrize("priority", [5, pytest.param(20, marks=pytest.mark.exhaust)])
 @pytest.mark.parametrize("dropout", [0.3, pytest.param(0.0, marks=pytest.mark.exhaust)])
 @pytest.mark.parametrize("late", ["recalculate", "larsen", "carried-gain"])
 def test_random_delays_and_dropout_weigh_by_probability(priority: int, dropout: float, late: Late) -> None:
