@@ -158,9 +158,8 @@ def _of_sensor(scenario: Scenario, sensor: Sensor, outcome: Outcome) -> dict[str
 
 
 WITHHELD = (
-    "no P(miss): samples of `measure --filter` are for the most part those of the loop that took them, and a mean of "
-    "several executions hides the slow ones; for a probability state the costs: `cost` in the scenario, or counted "
-    "operations and a `processor`"
+    "no P(miss): these samples are of an earlier `measure --filter`, for the most part the loop that took them, and a "
+    "mean of several executions hides the slow ones; for a probability measure again: each sample is then one execution"
 )
 INTERVAL = "95 % interval: noise of this simulation only, for the costs as stated, as if each job missed on its own"
 

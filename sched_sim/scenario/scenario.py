@@ -168,7 +168,7 @@ class Scenario:
     costs: by part, one or several execution times, of all `needed_parts`. priority: of the predict jobs.
     cpus: with 2, corrections run on the second. context_switch: in cost units, as in `options.Options`.
     files: those that its own file names, from which costs were read.
-    harness: whether any of the costs are samples of `measure --filter`, from which no probability of a miss follows.
+    harness: whether any of the costs are samples from which no probability of a miss follows, see `SampledCosts`.
     accuracy: what its file asks to know of it. filter: the function that its file names as its filter.
     Raises InputError that lists all that is wrong.
     """

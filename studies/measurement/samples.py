@@ -35,7 +35,7 @@ BEFORE = {
     "and so does what predicts branches",
     "sequence": "parts run in the order in which the filter's loop runs them, a sensor's when its measurement is due",
 }
-MOST_TOGETHER = 10_000_000
+MOST_TOGETHER = 8_000_000
 """Samples in one file."""
 STEPS_IN_ORDER = 100_000
 """Of a loop, before it begins again with a measurement of each sensor."""
@@ -81,9 +81,9 @@ def _timed(user: UserFilter, name: str, caches: Caches, most: Wanted, seed: int,
     about_clock = described(clock)
     about = {
         "source": (
-            f"{BEFORE[caches]}; each sample is one execution, timed by itself in compiled code, in their order; two "
-            f"readings of the clock are in it, {about_clock['median_ns']} ns with nothing between them, and interrupts, "
-            f"and what a hypervisor took; blocks in which the operating system ran something else were timed again: "
+            f"{BEFORE[caches]}; each sample is one execution, timed by itself in compiled code, in their order; in it "
+            f"are two readings of the clock, {about_clock['median_ns']} ns with nothing between them, interrupts, and "
+            f"what a hypervisor took; blocks in which the operating system ran something else were timed again: "
             f"{found.again} of {found.blocks + found.again}"
             f"{f', {found.disturbed} never without' if found.disturbed else ''}"
         ),

@@ -157,14 +157,17 @@ def test_people_get_two_tables(sched_sim: Run) -> None:
 SAMPLED = 'name = "m"\nunit = "second"\n{}[samples]\npredict = [1e-6, 3e-6]\n[samples.correct]\ngps = [2e-6]\n'
 
 
+TIMED = 'backend = "compiled"\n'
+
+
 @pytest.mark.parametrize(
-    ("backend", "stated", "given"), [("", "", True), ("compiled", "", False), ("compiled", "cost_us = 1", True)]
+    ("about", "stated", "given"),
+    [("", "", True), (TIMED, "", False), (TIMED, "cost_us = 1", True), (f"{TIMED}executions = true\n", "", True)],
 )
-def test_no_probability_of_a_miss_from_samples_of_measure_filter(
-    backend: str, stated: str, given: bool, sched_sim: Run, tmp_path: Path
+def test_no_probability_of_a_miss_from_samples_of_several_executions(
+    about: str, stated: str, given: bool, sched_sim: Run, tmp_path: Path
 ) -> None:
     """Most of such a sample is the loop that took it. Misses are counted all the same."""
-    about = f'backend = "{backend}"\n' if backend else ""
     scenario = SHORT.replace("speed = 10", "hr_hz = 100").replace("[predictor]", f"[predictor]\n{stated}")
     write(tmp_path, scenario.replace('"gps"', f'"gps"\n{stated}'), SAMPLED.format(about))
     people = sched_sim("simulate --scenario s.toml").out
@@ -175,7 +178,7 @@ def test_no_probability_of_a_miss_from_samples_of_measure_filter(
         assert (row["miss_probability"] != "") == (row["miss_probability_most"] != "") == given
         assert job["misses"] >= 0
     assert ("95 % interval" in people) == given
-    assert ("no P(miss): samples of `measure --filter`" in " ".join(people.split())) != given
+    assert ("no P(miss): these samples are of an earlier `measure --filter`" in " ".join(people.split())) != given
     assert (document["note"] is None) == given
 
 

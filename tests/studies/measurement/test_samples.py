@@ -7,14 +7,19 @@ import io
 import json
 from fractions import Fraction
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
 from sched_sim.cli.measure_filter import noise
 from sched_sim.cli.own_note import parts_note
+from sched_sim.costs.autocorrelation import rank_autocorrelation
 from sched_sim.costs.sample_file import SampledCosts, read_sampled_costs
 from sched_sim.errors import InputError
+from studies.measurement import samples
+from studies.measurement.executions import Wanted
+from studies.measurement.samples import measure_filter
 from studies.measurement.user_filter import load_filter
 from tests.command_line import Run, is_refused
 
@@ -171,18 +176,31 @@ def test_each_set_of_arguments_is_of_its_own_and_the_same_again(part: str) -> No
 
 
 @pytest.mark.slow
-def test_a_thousand_samples_of_each_part_are_timed(sched_sim: Run, tmp_path: Path) -> None:
+def test_each_execution_of_a_part_is_timed(sched_sim: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Of a filter without sensors, which compiles in seconds."""
+    monkeypatch.setattr(samples, "QUICK", Wanted(2500, 5.0))
     (row,) = json.loads(sched_sim("measure --filter own_filter:blind --format json -o costs.toml").out)
     costs = read_sampled_costs(tmp_path / "costs.toml")
-    assert (costs.unit, list(costs.samples)) == ("second", ["predict"])
-    samples = costs.samples["predict"]
-    assert len(samples) == row["samples"] == 1000
-    assert float(min(samples)) == row["minimum"] <= row["median"] <= row["p95"] <= row["maximum"]
-    assert len(set(samples)) > 100
-    assert "a sample is the mean of 20 executions" in costs.provenance["source"]
-    assert {"machine", "date", "versions", "protocol"} <= set(costs.provenance)
-    assert costs.provenance["allocations"] == {"predict": 0}
+    assert (costs.unit, list(costs.samples), costs.harness) == ("ns", ["predict"], False)
+    times = costs.samples["predict"]
+    assert len(times) == row["samples"] == 2500
+    assert float(min(times)) == row["minimum"] <= row["median"] <= row["p95"] <= row["p99"] <= row["maximum"]
+    about = costs.provenance
+    assert float(about["autocorrelation"]["predict"]) == row["rank_autocorrelation"]
+    assert row["rank_autocorrelation"] == pytest.approx(rank_autocorrelation([*map(float, times)]), abs=1e-4)
+    assert (about["executions"], about["caches"]) == (True, "warm")
+    assert {"machine", "date", "versions", "protocol", "clock"} <= set(about)
+    assert about["allocations"] == {"predict": 0}
+
+
+@pytest.mark.exhaust
+@pytest.mark.parametrize("caches", ["warm", "cold", "sequence"])
+def test_all_parts_of_a_filter_are_timed_in_each_way(caches: samples.Caches, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(samples, "QUICK", Wanted(500, 5.0))
+    user = load_filter("own_filter:cart")
+    costs = measure_filter(user, name="cart", caches=caches)
+    assert {part: len(times) for part, times in costs.samples.items()} == dict.fromkeys(user.jobs, 500)
+    assert [*costs.provenance["autocorrelation"]] == [*user.jobs]
 
 
 def times(*nanoseconds: int) -> list[Fraction]:
@@ -196,17 +214,34 @@ def test_a_noisy_part_is_named_and_a_quiet_one_is_not() -> None:
     assert noise({"predict": quiet, "correct.gps": loud}) == [said]
 
 
-def test_below_the_times_it_is_said_what_a_sample_means_for_misses(
-    sched_sim: Run, monkeypatch: pytest.MonkeyPatch
+def sampled(correlation: float) -> SampledCosts:
+    about = {"source": "2 samples", "caches": "warm", "autocorrelation": {"predict": correlation}}
+    return SampledCosts("c", "ns", {"predict": (Fraction(100), Fraction(100))}, {}, about)
+
+
+@pytest.mark.parametrize(("correlation", "doubtful"), [(0.04, False), (-0.04, False), (0.06, True), (-0.06, True)])
+def test_below_the_times_it_is_said_what_they_leave_open(
+    correlation: float, doubtful: bool, sched_sim: Run, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    about = {"source": "2 samples", "protocol": {"repetitions": 7}}
-    costs = SampledCosts("c", "second", {"predict": times(100, 100)}, {}, about)
-    monkeypatch.setattr("studies.measurement.samples.measure_filter", lambda *_, **__: costs)
-    out = sched_sim("measure --filter own_filter:cart").out
-    assert "a mean of 7 executions hides single slow ones" in out
-    assert "no probability of a miss follows from these samples" in out
+    monkeypatch.setattr("studies.measurement.samples.measure_filter", lambda *_, **__: sampled(correlation))
+    out = " ".join(sched_sim("measure --filter own_filter:cart").out.split())
+    assert "a slower execution than the slowest may come with a probability of up to 7.8e-01 each" in out
+    assert ("above 0.05 of predict: independence doubtful" in out) == doubtful
     assert "noisy" not in out
     assert "new arrays" not in out
+
+
+@pytest.mark.parametrize(("flag", "caches"), [("", "warm"), ("--cold", "cold"), ("--sequence", "sequence")])
+def test_flags_say_how_caches_are(flag: str, caches: str, sched_sim: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    given: list[Any] = []
+
+    def noting(*_: Any, **options: Any) -> SampledCosts:
+        given.append(options["caches"])
+        return sampled(0.0)
+
+    monkeypatch.setattr("studies.measurement.samples.measure_filter", noting)
+    sched_sim(f"measure --filter own_filter:cart {flag}")
+    assert given == [caches]
 
 
 def test_parts_whose_functions_make_new_arrays_are_named() -> None:
@@ -263,6 +298,9 @@ def test_what_is_wrong_with_a_users_filter_is_named(name: str, said: str) -> Non
         ("--robust position --parallel 3", ["--robust, --parallel"]),
         ("--update short --method larsen", ["--method, --update"]),
         ("--backend numpy", ["--backend numpy", "compiled or counted"]),
+        ("--cold --sequence", ["--cold, --sequence", "one of them"]),
+        ("--cold --backend counted", ["--cold", "--backend counted"]),
+        ("--sequence --backend counted", ["--sequence", "--backend counted"]),
         ("-o nowhere/costs.toml", ["nowhere/costs.toml"]),
     ],
 )
@@ -270,3 +308,10 @@ def test_options_that_say_nothing_of_a_composed_filter_are_refused(
     sched_sim: Run, options: str, said: list[str]
 ) -> None:
     is_refused(sched_sim(f"measure --filter own_filter:cart {options}"), said)
+
+
+def test_how_caches_are_is_for_executions_of_a_filter_only(sched_sim: Run) -> None:
+    is_refused(sched_sim("measure --cold --sequence"), ["--cold, --sequence", "only with --filter"])
+    is_refused(sched_sim("measure --robust position --cold"), ["--cold", "only with --filter"])
+    with pytest.raises(InputError, match="caches=.hot. is unknown"):
+        measure_filter(load_filter("own_filter:cart"), name="c", caches="hot")  # type: ignore[arg-type]
