@@ -39,11 +39,13 @@ class DualRate(HrSource):
         correction_due = timing.L + 1 if self.same_step else timing.L
         self.update_due = correction_due * period
         self.propagate_due = self.update_due if by_l else timing.M * period
-        self.ordinary: Parts = (("HRP", costs.hr),)
-        self.restart: Parts = (("HRP", costs.hr_restart),)
+        self.ordinary: tuple[Parts, int] = (("HRP", costs.hr),), costs.hr
+        self.restart: tuple[Parts, int] = (("HRP", costs.hr_restart),), costs.hr_restart
         self.to_apply: deque[int] = deque()  # cycles whose LR update has finished, not yet in the state
         self.in_state = 0  # cycles whose corrections are
-        self.missing: deque[int] = deque()  # corrections not in the state at k, of the cycles not measured yet
+        self.next_k, self.cycle = 0, 0  # of the next measurement to be taken
+        self.sent = not self.taken.since(-1)  # Phi and Q, in the last step
+        self.on_the_way: deque[tuple[int, int]] = deque()  # step m, and how many corrections were not in the state at k
         self.lr_queue: deque[Job] = deque()
         self.lr_busy = False
         self.propagates: deque[Job] = deque()  # released, and not in the queue yet
@@ -53,17 +55,19 @@ class DualRate(HrSource):
     def release(self) -> tuple[Job, ...]:
         step, start = self.step, self.next_release
         self.step, self.next_release = step + 1, start + self.period
-        taken = not self.taken.since(step)
-        parts = self.ordinary if self.taken.since(step - 1) else self.restart
-        work = parts[0][1]
+        taken = step == self.next_k
+        parts, work = self.restart if self.sent else self.ordinary
+        self.sent = taken
         if self.to_apply:
             correction = self._apply(step) * self.costs.hr_update
             work += correction
             parts = (*parts, ("HRU", correction))
         job = Job("hr", step, HR, start, self.next_release, work, parts, self._propagate if taken else None)
         if taken:
-            self.missing.append(self.taken.before(step) - self.in_state)
-        if step >= self.M and not self.taken.since(step - self.M):
+            self.on_the_way.append((step + self.M, self.cycle - self.in_state))
+            self.cycle += 1
+            self.next_k = self.taken.step(self.cycle)
+        if self.on_the_way and self.on_the_way[0][0] == step:
             return (job, *self._measurement(step - self.M, start))
         return (job,)
 
@@ -73,13 +77,13 @@ class DualRate(HrSource):
         return (*self.lr_queue, *self.propagates, *self.updates)
 
     def state(self, now: int) -> Hashable:
-        this = self.taken.before(self.step)
+        this = self.cycle
         waiting = (self.lr_queue, self.propagates, self.updates)
         return (
             super().state(now),
             tuple(cycle - this for cycle in self.to_apply),
             self.in_state - this,
-            tuple(self.missing),
+            tuple((m - self.step, missing) for m, missing in self.on_the_way),
             tuple(tuple(job.state(now, job.remaining, 0) for job in jobs) for jobs in waiting),
             self.propagates_queued - this,
             self.updates_queued - this,
@@ -124,7 +128,8 @@ class DualRate(HrSource):
 
     def _measurement(self, k: int, now: int) -> tuple[Job, ...]:
         """The measurement of step k arrives at m: the LR update is released."""
-        cost = self.costs.lr_update + self.missing.popleft() * self.costs.hr_update
+        _m, missing = self.on_the_way.popleft()
+        cost = self.costs.lr_update + missing * self.costs.hr_update
         self.updates.append(self._lr_job("lr_update", "LRU", k, now, self.update_due, cost, self._update_done))
         return self._enqueue()
 

@@ -143,9 +143,9 @@ class Watch(Source):
     def release(self) -> tuple[Job, ...]:
         now, processor = self.next_release, self.processor
         missed = processor.overdue(now)
-        if now == self.boundary and not missed:
+        if now == self.boundary:
             self.boundary += self.hyperperiod
-            self.repeats = self._returned(now)
+            self.repeats = not missed and self._returned(now)
         if self.repeats or missed:
             processor.end(now)
         self.next_release = min(now + self.look, self.boundary)

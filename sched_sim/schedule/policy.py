@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from operator import attrgetter
 from typing import Literal, TypeAlias
 
 from sched_sim.schedule.jobs import Job
@@ -10,14 +11,6 @@ from sched_sim.schedule.jobs import Job
 Policy: TypeAlias = Literal["fixed", "edf"]
 
 
-def priority(job: Job) -> int:
-    return job.priority
-
-
-def deadline(job: Job) -> int:
-    return job.deadline
-
-
-RANKS: Mapping[Policy, Callable[[Job], int]] = {"fixed": priority, "edf": deadline}
+RANKS: Mapping[Policy, Callable[[Job], int]] = {"fixed": attrgetter("priority"), "edf": attrgetter("deadline")}
 """Fixed priorities; earliest deadline first (C. L. Liu and J. W. Layland, Scheduling algorithms for multiprogramming in
 a hard-real-time environment, 1973, section 7)."""

@@ -10,11 +10,12 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Callable, Generator, Hashable, Sequence
-from heapq import heapify, heappop, heappush, heapreplace
+from heapq import heapify, heappop, heappush, heappushpop, heapreplace
 from itertools import chain
 from typing import NamedTuple
 
 import simpy
+from simpy.events import NORMAL, EventCallbacks
 
 from sched_sim.schedule.jobs import Job, Source
 from sched_sim.schedule.outcome import Response, Schedule, Slice
@@ -91,7 +92,12 @@ class Processor:
     def run(self) -> None:
         environment = simpy.Environment()
         self._ended = environment.event()
-        environment.process(self._timeline(environment))
+        instant = environment.timeout(0)
+        callbacks: EventCallbacks = []
+        timeline = self._timeline(environment, instant, callbacks)
+        next(timeline)
+        callbacks.append(timeline.send)
+        instant.callbacks = callbacks
         environment.run(until=self._ended)
 
     def end(self, now: int) -> None:
@@ -117,32 +123,41 @@ class Processor:
         running = (cpu.running for cpu in self.cpus if cpu.running is not None)
         return self.first_miss is not None or any(job.deadline <= now for job in chain(waiting, running))
 
-    def _timeline(self, environment: simpy.Environment) -> Generator[simpy.Event, None, None]:
+    def _timeline(
+        self,
+        environment: simpy.Environment,
+        instant: simpy.Event,
+        callbacks: EventCallbacks,
+    ) -> Generator[None, simpy.Event | None, None]:
         """Waits from one instant at which something happens to the next.
 
-        One process with its state in local names and no small methods: this loop is what every simulated second costs.
+        One generator with its state in local names and no small methods: this loop is what every simulated second
+        costs. `instant` is scheduled anew each time, and resumes it itself: a `simpy.Process` that waits for new events
+        would take half as long again.
         """
-        timeout, horizon, cpus = environment.timeout, self.horizon, self.cpus
+        schedule = environment.schedule
+        horizon, cpus = self.horizon, self.cpus
         tallies, on_slice, on_finish = self.tallies, self.on_slice, self.on_finish
         context_switch, rank = self.context_switch, self.rank
         releases = [(source.next_release, order, source) for order, source in enumerate(self.sources)]
         heapify(releases)
+        release, order, source = heappop(releases)  # the next one; the heap has those of the other sources
         order_of_release = now = instants = 0
         next_finish = -1
+        yield
         while True:
             while now == next_finish:  # 1. finishes
                 for cpu in cpus:
-                    job = cpu.running
-                    if job is None or cpu.finish != now:
+                    if cpu.finish != now or cpu.running is None:
                         continue
-                    cpu.running = None
+                    job, cpu.running = cpu.running, None
                     cpu.busy += now - cpu.since
                     piece = None if on_slice is None else self._slice(job, cpu.since, now, finished=True)
                     following = () if job.then is None else job.then(job, now)
                     goes_on = job in following
                     if on_slice is not None and piece is not None:
                         on_slice(piece._replace(finished=not goes_on))
-                    for done in () if goes_on else (job, *job.companions):
+                    for done in () if goes_on else (job, *job.companions) if job.companions else (job,):
                         tally = tallies[done.kind]
                         tally.finished += 1
                         response = now - done.release
@@ -160,22 +175,20 @@ class Processor:
                         heappush(cpus[new.cpu].ready, (rank(new), order_of_release, new))
                 next_finish = -1
                 for cpu in cpus:  # jobs without work that are next
-                    if cpu.running is None and cpu.ready and not (context_switch or cpu.ready[0][2].remaining):
+                    if cpu.ready and cpu.running is None and not (context_switch or cpu.ready[0][2].remaining):
                         cpu.entry = heappop(cpu.ready)
                         cpu.running = cpu.entry[2]
                         cpu.since = cpu.finish = next_finish = now
             if now == horizon:
+                self.instants = instants
                 self._ended.succeed()
-                break
-            until, order, source = releases[0]
-            while until == now:  # 2. releases
+                yield
+            while release == now:  # 2. releases
                 for new in source.release():
                     order_of_release += 1
                     heappush(cpus[new.cpu].ready, (rank(new), order_of_release, new))
-                heapreplace(releases, (source.next_release, order, source))
-                until, order, source = releases[0]
-            if until > horizon:
-                until = horizon
+                release, order, source = heappushpop(releases, (source.next_release, order, source))
+            until = release if release < horizon else horizon
             for cpu in cpus:  # 3. dispatch
                 ready, running = cpu.ready, cpu.running
                 if ready and (running is None or (running.preemptive and ready[0][0] < cpu.entry[0])):
@@ -202,9 +215,10 @@ class Processor:
                 if running is not None and cpu.finish <= until:
                     next_finish = until = cpu.finish
             instants += 1
-            yield timeout(until - now)
+            instant.callbacks = callbacks
+            schedule(instant, NORMAL, until - now)
+            yield
             now = until
-        self.instants = instants
 
     def _missed(self, job: Job, now: int) -> None:
         tally = self.tallies[job.kind]
