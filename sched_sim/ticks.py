@@ -93,7 +93,7 @@ def ticks_per_unit(values: Iterable[Fraction]) -> int:
 
 def to_ticks(value: Fraction, resolution: int) -> int:
     """`value` units in ticks; it must come out whole (see `ticks_per_unit`)."""
-    ticks = value * resolution
-    if ticks.denominator != 1:
+    ticks, rest = divmod(value.numerator * resolution, value.denominator)
+    if rest:
         raise ValueError(f"{value} is no whole number of ticks at {resolution} ticks per unit")
-    return ticks.numerator
+    return ticks

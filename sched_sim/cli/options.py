@@ -171,6 +171,15 @@ Format = Annotated[
     Literal["table", "json", "csv"],
     typer.Option("--format", help="table for people, json or csv for scripts.", rich_help_panel=OUTPUT),
 ]
+WhichEngine = Annotated[
+    Literal["auto", "simpy", "compiled"],
+    typer.Option(
+        "--engine",
+        help="What runs the simulation: simpy, the reference, or machine code with the same outcome, compiled "
+        "once in some seconds; auto: for long ones. Traces and charts are of simpy.",
+        rich_help_panel=OUTPUT,
+    ),
+]
 Cycles = Annotated[
     int,
     typer.Option(

@@ -94,6 +94,7 @@ def simulate(
     unit: flags.ScenarioUnit = None,
     initial_std: flags.StartStd = None,
     times_slower: flags.TimesSlower = None,
+    engine: opt.WhichEngine = "auto",
     format: opt.Format = "table",
 ) -> None:
     """Run one filter's jobs on the simulated preemptive processor: achieved l, misses, response times.
@@ -174,6 +175,7 @@ def simulate(
             cycles,
             options,
             others,
+            engine=engine,
             on_slice=write if traces else None,
             on_landing=landed,
             on_progress=progress,

@@ -22,6 +22,7 @@ from sched_sim.cli.parts import HIGHEST_HR_HZ, TASKS_ON_PARTS, WORDS
 from sched_sim.costs.table import COUNTED, PAPERS
 from sched_sim.design.pieces import Statistic
 from sched_sim.errors import InputError
+from sched_sim.schedule.engine import Engine
 
 if TYPE_CHECKING:
     from sched_sim.costs.table import CostTable
@@ -105,6 +106,15 @@ Cycles = Annotated[
     int | None,
     typer.Option("--cycles", min=1, help="Measurement cycles to simulate; by default 3.", rich_help_panel=opt.OUTPUT),
 ]
+Engines = Annotated[
+    Engine | None,
+    typer.Option(
+        "--engine",
+        help="What simulates: simpy, the reference, or machine code with the same rows, compiled once in some seconds; "
+        "by default (auto) that where there is much to simulate.",
+        rich_help_panel=opt.OUTPUT,
+    ),
+]
 ResultsFile = Annotated[
     Path | None,
     typer.Option(
@@ -159,6 +169,7 @@ def sweep(
     output: Output = None,
     simulate: Simulate = None,
     cycles: Cycles = None,
+    engine: Engines = None,
     results: ResultsFile = None,
     export: Exports = None,
     workers: Workers = None,
@@ -193,6 +204,7 @@ def sweep(
         "output": output,
         "simulate": simulate,
         "cycles": cycles,
+        "engine": engine,
     }
     wanted = settings(flags, grid)
     asked = wanted.sweep()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import astuple, dataclass, field
+from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Generic, Literal, TypeAlias, TypeVar, cast
 
@@ -232,4 +232,4 @@ def converted(costs: JobCosts[Number], convert: Callable[[Number], Other]) -> Jo
 
 def works(costs: JobCosts[Number]) -> tuple[Number, ...]:
     """What each piece costs."""
-    return tuple(work for work in astuple(costs) if not isinstance(work, str))
+    return tuple(getattr(costs, piece) for piece in costs.__match_args__)

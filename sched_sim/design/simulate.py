@@ -65,8 +65,8 @@ def simulate(
     run = in_ticks(costs, timing, speed, options, tasks)
     steps = simulated_steps(costs, timing, cycles, options)
     jobs = check_simulation(steps, tasks, f"{short(cycles)} cycles of N={timing.N} with L={timing.L}")
-    plan = plan_of(run.costs, timing, options, run.period, run.platform, steps, cycles)
-    only_simpy = "slices" if keep_slices or on_slice is not None else ""
+    plan = run.plan(steps, cycles)
+    only_simpy = "slices, of which traces are made" if keep_slices or on_slice is not None else ""
     if is_compiled(engine, jobs, holds=holds(plan, run.tasks), only_simpy=only_simpy):
         if on_progress is not None:
             on_progress(0, steps, "HR steps")
@@ -166,12 +166,16 @@ class InTicks(NamedTuple):
         """Of the filter's jobs."""
         return method_of(self.costs).source(self.costs, self.timing, self.options, self.period, on_landing)
 
+    def plan(self, steps: int, cycles: int) -> Plan:
+        """To run it in machine code."""
+        return plan_of(self.costs, self.timing, self.options, self.period, self.platform, steps, cycles)
+
 
 def in_ticks(costs: Costs, timing: Timing, speed: Fraction, options: Options, tasks: Sequence[Task]) -> InTicks:
     """The fewest ticks per cost unit in which all is whole. Raises InputError as `simulate` does."""
     check_cpus(tasks, options.cpus)
     method_of(costs).check_design(costs, timing, options.feedback)
-    costs = converted(costs, Fraction)
+    costs = converted(costs, lambda work: work if type(work) is Fraction else Fraction(work))
     of_tasks = chain.from_iterable(work_and_times(task, speed) for task in tasks)
     resolution = ticks_per_unit([speed, options.context_switch, *works(costs), *of_tasks])
     return InTicks(

@@ -68,8 +68,8 @@ def run_sweep(
         run_sweep(N="10:90:10", M=[1, 2], speed="0.6:1.6:0.05", method="dual-rate")
 
     axes: by the names that a grid file has: N, M, L, speed, method, costs, statistic, processor, hr_hz, tasks,
-    simulate, cycles, and the fields of `sched_sim.Options`; each a value, several of them, or text such as "10:90:10",
-    whose end is included. By default M and L are all that are legal, and the speed is each design's least.
+    simulate, cycles, engine, and the fields of `sched_sim.Options`; each a value, several of them, or text such as
+    "10:90:10", whose end is included. By default M and L are all that are legal, and the speed is each design's least.
     results: an SQLite file that keeps the rows as they are done: the same sweep again goes on where it ended.
     workers: processes that simulate; with 0 this one does. on_progress: called with the number of designs done.
 

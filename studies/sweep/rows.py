@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
 from typing import Literal, NamedTuple, TypeAlias
 
 from sched_sim.design.timing import Timing
-from sched_sim.schedule.outcome import Schedule
+from sched_sim.schedule.engine import Engine
 from studies.sweep.grid import Chunk
 from studies.sweep.least import analyse
 
@@ -63,8 +62,9 @@ def columns(*, simulated: bool, accuracy: bool = False) -> tuple[Column, ...]:
     return ANALYSIS_COLUMNS + (ACCURACY_COLUMNS if accuracy else ()) + (SIMULATION_COLUMNS if simulated else ())
 
 
-def rows_of(chunk: Chunk, cycles: int | None) -> list[Row]:
-    """A row for each point, in order; `cycles` measurement cycles of each are simulated unless it is None."""
+def rows_of(chunk: Chunk, cycles: int | None, engine: Engine = "simpy") -> list[Row]:
+    """A row for each point, in order; `cycles` measurement cycles of each are simulated, by `engine`, unless it is
+    None."""
     block = chunk.block
     analysis = analyse(chunk)
     least = [(n / d, str(n) if d == 1 else f"{n}/{d}", binding) for n, d, binding in analysis.least]
@@ -85,32 +85,8 @@ def rows_of(chunk: Chunk, cycles: int | None) -> list[Row]:
         rows = [(*row, *figures) for row, figures in zip(rows, stds, strict=True)]
     if cycles is None:
         return rows
-    return [
-        row + _simulation(chunk, Timing(*designs[position // per_design]), analysis.speed(chunk, position), cycles)
-        for row, position in zip(rows, chunk.positions, strict=True)
-    ]
+    from studies.sweep.simulated import simulated
 
-
-def _simulation(chunk: Chunk, timing: Timing, speed: Fraction, cycles: int) -> Row:
-    """The figures of `SIMULATION_COLUMNS`."""
-    from sched_sim.design.simulate import simulate
-
-    block = chunk.block
-    schedule = simulate(block.costs, timing, speed, cycles, block.options, block.tasks)
-    achieved = schedule.achieved
-    return (
-        schedule.misses,
-        achieved.total(),
-        min(achieved, default=None),
-        max(achieved, default=None),
-        float(schedule.utilization),
-        schedule.preemptions,
-        _worst_response(schedule, "hr"),
-        _worst_response(schedule, "lr_update"),
-    )
-
-
-def _worst_response(schedule: Schedule, kind: str) -> float | None:
-    """In HR periods; None if no job of the kind finished."""
-    response = schedule.responses.get(kind)
-    return response.worst / schedule.period if response and response.finished else None
+    timings = [Timing(*design) for design in designs]
+    points = [(timings[position // per_design], analysis.speed(chunk, position)) for position in chunk.positions]
+    return [row + figures for row, figures in zip(rows, simulated(block, points, cycles, engine), strict=True)]

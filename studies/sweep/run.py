@@ -13,6 +13,7 @@ from sched_sim.design.pieces import works
 from sched_sim.design.steady import hyperperiod_steps
 from sched_sim.design.timing import Timing
 from sched_sim.errors import InputError, option
+from sched_sim.schedule.engine import MANY_JOBS, Engine
 from studies.sweep.dispatch import Compute, WorkerDeathError
 from studies.sweep.grid import Chunk, Grid
 from studies.sweep.rows import Column, Row, columns, rows_of
@@ -26,6 +27,9 @@ ANALYSED = 20_000
 SIMULATED_STEPS = 50_000
 """Simulated HR steps between two commits of one worker: some 0.2 s of work."""
 
+TIMES_FASTER = 20
+"""How much faster machine code simulates, at the least."""
+
 LARGEST_TASK = 1_000
 """Points sent to a worker at a time, at most."""
 
@@ -36,15 +40,23 @@ starting one of them."""
 
 @dataclass(frozen=True)
 class Sweep:
-    """A grid, and over how many measurement cycles each point is simulated (None: analysis alone)."""
+    """A grid, and over how many measurement cycles each point is simulated (None: analysis alone), by which engine: the
+    rows are the same."""
 
     grid: Grid
     cycles: int | None = None
+    engine: Engine = "auto"
 
     @property
     def columns(self) -> tuple[Column, ...]:
         """The rows' columns."""
         return columns(simulated=self.cycles is not None, accuracy=self.grid.accuracy is not None)
+
+    @property
+    def chosen_engine(self) -> Engine:
+        """SimPy for few points, for which machine code would not be loaded in time."""
+        jobs = self.grid.size * (self.cycles or 0) * sum(self.grid.N) // len(self.grid.N)
+        return "simpy" if self.engine == "auto" and jobs < MANY_JOBS else self.engine
 
     def description(self) -> Mapping[str, Any]:
         """All that the rows depend on, for the results file: equal for two sweeps only if all their rows are."""
@@ -105,7 +117,7 @@ def run(sweep: Sweep, store: Store, compute: Compute, on_progress: Callable[[int
 
 def _computed(sweep: Sweep, missing: list[range], compute: Compute, stopped: Callable[[], bool]) -> Iterator[list[Row]]:
     """The rows of the missing points in portions: first what has a closed form, here, then the rest, by `compute`."""
-    grid, cycles = sweep.grid, sweep.cycles
+    grid, cycles, engine = sweep.grid, sweep.cycles, sweep.chosen_engine
 
     def chunk_of(span: range) -> Chunk:
         return grid.chunk(span.start, span.stop)
@@ -124,14 +136,14 @@ def _computed(sweep: Sweep, missing: list[range], compute: Compute, stopped: Cal
 
     def size(first: Chunk) -> int:
         N = int(first.designs.N[0])
-        steps = N * (cycles or 0)
+        steps = N * (cycles or 0) // (1 if engine == "simpy" else TIMES_FASTER)
         if cycles is None or not first.has_closed_form:
             steps += SEARCH_RUNS * (STEPS_TO_START + hyperperiod_steps(Timing(N, 0, N), first.block.tasks))
-        return min(SIMULATED_STEPS // steps, LARGEST_TASK)
+        return min(SIMULATED_STEPS // max(steps, 1), LARGEST_TASK)
 
     smaller = chain.from_iterable(grid.spans(span, size) for span in simulated)
     try:
-        yield from compute(partial(rows_of, cycles=cycles), smaller, chunk_of, stopped)
+        yield from compute(partial(rows_of, cycles=cycles, engine=engine), smaller, chunk_of, stopped)
     except WorkerDeathError as error:
         point = grid.chunk(error.point, error.point + 1)
         (N,), (M,), (L,) = point.designs

@@ -32,6 +32,7 @@ from sched_sim.files.toml_problems import problem, problems
 from sched_sim.files.toml_reader import read_toml
 from sched_sim.processors.part import Part, on_part
 from sched_sim.processors.part_file import load_part, shipped_parts
+from sched_sim.schedule.engine import Engine
 from sched_sim.schedule.task_file import read_tasks
 from sched_sim.schedule.tasks import Task
 from studies.sweep.axes import numbers, whole_numbers, words
@@ -126,6 +127,7 @@ class _Settings(BaseModel):
     output: Annotated[str | None, PlainValidator(_name)] = None
     simulate: StrictBool = False
     cycles: Annotated[int, Bounds(strict=True, ge=1, le=MOST_STEPS)] = 3
+    engine: Engine = "auto"
 
     def sweep(self) -> Sweep:
         """Raises InputError without N, for speeds said twice, a file that cannot be read, a cost table that lacks an
@@ -154,7 +156,7 @@ class _Settings(BaseModel):
             tasks=self._tasks(tables),
             accuracy=self._accuracy(),
         )
-        return Sweep(grid, self.cycles if self.simulate else None)
+        return Sweep(grid, self.cycles if self.simulate else None, self.engine)
 
     def _accuracy(self) -> OutputAccuracy | None:
         if self.model is None and self.output is None:

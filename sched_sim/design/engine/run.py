@@ -47,20 +47,23 @@ class Outcome(NamedTuple):
 
 
 def run_plans(plans: Sequence[Plan], tasks: Sequence[Sequence[TaskSource]], log: int = 0) -> Outcome:
-    """tasks: of each plan, the same but for their times. log: how many jobs of it to keep."""
-    rows = np.array([_task_rows(of_plan) for of_plan in tasks], TASK).reshape(len(plans), -1)
+    """tasks: of each plan, the same but for their times. log: how many jobs of the last plan to keep."""
     in_numbers, cycles = np.array(plans, PLAN), max(plan.cycles for plan in plans)
-    room = ROOM
-    while True:
-        outcome = Outcome(
-            np.zeros(len(plans), STATE),
-            np.zeros((len(plans), FIRST_TASK + rows.shape[1]), FIGURES),
-            np.full((len(plans), cycles), -1),
-            np.zeros((log, 4), np.int64),
-        )
+    rows = np.array([_task_rows(of_plan) for of_plan in tasks], TASK).reshape(len(plans), -1)
+    outcome = Outcome(
+        np.empty(len(plans), STATE),
+        np.empty((len(plans), FIRST_TASK + rows.shape[1]), FIGURES),
+        np.empty((len(plans), cycles), np.int64),
+        np.empty((log, 4), np.int64),
+    )
+    left, room = np.arange(len(plans)), ROOM
+    while left.size:
+        states = np.zeros(left.size, STATE)
+        figures = np.zeros((left.size, outcome.figures.shape[1]), FIGURES)
+        landed = np.empty((left.size, cycles), np.int64)
         compiled(simulate_each)(
-            in_numbers,
-            outcome.states,
+            in_numbers[left],
+            states,
             np.zeros(2, CPU),
             np.zeros(room, JOB),
             np.zeros(room, np.int64),
@@ -68,14 +71,14 @@ def run_plans(plans: Sequence[Plan], tasks: Sequence[Sequence[TaskSource]], log:
             np.zeros((5, room), np.int64),
             np.zeros((5, 2), np.int64),
             np.zeros((3, 2 * ROOM + room + rows.shape[1], 3), np.int64),
-            rows.copy(),
-            outcome.figures,
-            outcome.landed,
+            rows[left],
+            figures,
+            landed,
             outcome.log,
         )
-        if not outcome.states["full"].any():
-            return outcome
-        room *= MORE
+        outcome.states[left], outcome.figures[left], outcome.landed[left] = states, figures, landed
+        left, room = left[states["full"] == 1], room * MORE
+    return outcome
 
 
 def _task_rows(tasks: Sequence[TaskSource]) -> list[tuple[int, ...]]:

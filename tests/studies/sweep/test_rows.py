@@ -13,8 +13,11 @@ from sched_sim.design.least_speed import achieved_l, least_speed
 from sched_sim.design.options import Options
 from sched_sim.design.simulate import simulate
 from sched_sim.design.timing import Timing
+from sched_sim.errors import InputError
+from sched_sim.schedule.tasks import Task
 from studies.sweep.grid import Grid
 from studies.sweep.rows import columns, rows_of
+from studies.sweep.simulated import simulated
 
 CYCLES = 4
 
@@ -113,6 +116,43 @@ def test_too_slow_a_processor_lands_nowhere():
     assert (row["feasible"], row["achieved_l"], row["landed"]) == (False, None, 0)
     assert row["misses"] > 0
     assert row["lr_update_response"] is None
+
+
+CONTROL = Task("control", Fraction(2), Fraction(1, 10), 5, Fraction(1, 2), jitter=Fraction(1, 4))
+TELEMETRY = Task("telemetry", Fraction(5), Fraction(1, 5), 30, preemptive=False)
+
+
+def plain(method):
+    """Costs in tenths of a unit."""
+    return {kind: Cost.of(Fraction(place + 3, 10)) for place, kind in enumerate(KINDS[method])}
+
+
+@pytest.mark.parametrize(
+    ("methods", "tasks", "options"),
+    [
+        (METHODS, (), Options()),
+        (("dual-rate", "delayed-horizon"), (CONTROL,), Options(cpus=2)),
+        (("dual-rate",), (CONTROL, TELEMETRY), Options(feedback="same-step")),
+        (("larsen",), (TELEMETRY,), Options(policy="edf", context_switch=Fraction(1, 100))),
+    ],
+)
+def test_simulated_figures_are_the_same_by_either_engine(methods, tasks, options):
+    table = CostTable("plain", "unit", {method: plain(method) for method in METHODS})
+    grid = Grid((1, 2, 5), None, None, (Fraction(1),), methods, (table,), (options,), tasks=tasks)
+    for block, timing, _ in points(grid):
+        at = [(timing, Fraction(*speed)) for speed in ((7, 10), (6, 5), (4, 1))]
+        assert repr(simulated(block, at, CYCLES, "compiled")) == repr(simulated(block, at, CYCLES, "simpy"))
+
+
+def test_simpy_takes_the_points_that_64_bits_do_not_hold():
+    (row,) = steffes(10, 4, 8)
+    fine = [Fraction(77, 100), Fraction(77 * 10**18 + 1, 10**20)]
+    grid = Grid((10,), (4,), (8,), tuple(fine), ("dual-rate",), (load_costs("steffes2014"),), (Options(),))
+    by_both, by_simpy = (rows_of(grid.chunk(0, 2), 3, engine) for engine in ("auto", "simpy"))
+    assert repr(by_both) == repr(by_simpy)
+    assert by_both[0][5:] == tuple(row.values())[5:]
+    with pytest.raises(InputError, match="do not fit into 64 bits; give engine simpy"):
+        rows_of(grid.chunk(0, 2), 3, "compiled")
 
 
 @pytest.mark.parametrize("method", ["dual-rate", "recalculate"])

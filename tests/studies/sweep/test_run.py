@@ -55,6 +55,28 @@ def test_a_resumed_sweep_equals_an_uninterrupted_one(tmp_path, flags):
         assert run(sweep, store, processes(1), no_progress) == (size, 0, None)
 
 
+@pytest.mark.parametrize(
+    ("cycles", "asked", "chosen"),
+    [
+        (9, {}, "simpy"),
+        (900_000, {}, "auto"),
+        (9, {"engine": "compiled"}, "compiled"),
+        (9, {"engine": "auto"}, "simpy"),
+    ],
+)
+def test_machine_code_is_for_much_to_simulate_unless_it_is_asked_for(cycles, asked, chosen):
+    assert settings({**SIMULATED, "cycles": cycles, **asked}).sweep().chosen_engine == chosen
+
+
+def test_the_engine_is_no_part_of_what_the_rows_depend_on(tmp_path):
+    for engine in ("compiled", "simpy"):
+        with opened({"N": 4, "simulate": True, "engine": engine}, tmp_path / "rows.sqlite") as (sweep, store):
+            before = 0 if engine == "compiled" else sweep.grid.size
+            assert run(sweep, store, 0, no_progress) == (before, sweep.grid.size - before, None)
+    with pytest.raises(InputError, match="engine"):
+        settings({**SIMULATED, "engine": "fast"})
+
+
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 @pytest.mark.parametrize("flags", [ANALYSED, SIMULATED], ids=["analysed", "simulated"])
 def test_a_signal_ends_it_with_what_is_done_kept(tmp_path, monkeypatch, flags, number):

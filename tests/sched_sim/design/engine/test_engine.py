@@ -9,7 +9,6 @@ from typing import Any
 
 import pytest
 
-from sched_sim.design.engine.plan import plan_of
 from sched_sim.design.engine.run import kinds_of, run_plans, schedule_of
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import DualRateCosts, RecalculateCosts, StandardCosts
@@ -45,7 +44,7 @@ def by_both(design: Simulated) -> Iterator[tuple[Any, ...]]:
     yield schedule, landings, finishes
 
     run = in_ticks(costs, timing, speed, options, tasks)
-    plan = plan_of(run.costs, timing, options, run.period, run.platform, steps, cycles)
+    plan = run.plan(steps, cycles)
     outcome, kinds = run_plans([plan], [run.tasks], log=len(finishes) + 1), kinds_of(run.tasks)
     landed = [(cycle, L) for cycle, L in enumerate(outcome.landed[0].tolist()) if L >= 0]
     finished = outcome.log[: outcome.states["logged"][0]].tolist()
@@ -127,8 +126,16 @@ def test_many_jobs_are_compiled_by_default_unless_only_simpy_can(monkeypatch: py
     ("design", "asked", "said"),
     [
         ((FIGURE_3, TIMING, 78, 3), {"engine": "fast"}, "engine is 'fast': choose from auto, simpy, compiled"),
-        ((FIGURE_3, TIMING, 78, 3), {"keep_slices": True}, "engine compiled has no slices: leave one of them out"),
-        ((FIGURE_3, TIMING, 78, 3), {"on_slice": print}, "engine compiled has no slices: leave one of them out"),
+        (
+            (FIGURE_3, TIMING, 78, 3),
+            {"keep_slices": True},
+            "engine compiled has no slices, of which traces are made: leave one of them out",
+        ),
+        (
+            (FIGURE_3, TIMING, 78, 3),
+            {"on_slice": print},
+            "engine compiled has no slices, of which traces are made: leave one of them out",
+        ),
         ((StandardCosts(1, Fraction(1, 10**18)), TIMING, 3, 3), {}, "do not fit into 64 bits; give engine simpy"),
         ((FIGURE_3, TIMING, Fraction(78 * 10**17 + 1, 10**17), 9), {}, "do not fit into 64 bits; give engine simpy"),
     ],
