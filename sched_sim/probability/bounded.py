@@ -2,31 +2,38 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from itertools import chain
 
 import numpy as np
 
-from sched_sim.probability.law import exceedance, sum_of
+from sched_sim.probability.law import exceedance
 from sched_sim.probability.outcome import Bounds, CycleProbabilities, Floats, Tail
 from sched_sim.probability.tally import Tally
 
 
-def bounded(lower: Tally, upper: Tally, arrive: float, *, exact: bool) -> CycleProbabilities:
-    """Of one cycle. arrive: the probability that its measurement does; exact: whether both are the same."""
-    behind = max(lower.behind, upper.behind)
-    crowded = 0.0 if exact else upper.crowded
+def bounded(lower: Tally, uppers: Mapping[int, Tally], arrive: float, *, exact: bool) -> CycleProbabilities:
+    """Of one cycle. uppers: by how many HR updates are charged to each HR job, each an upper bound; arrive: the
+    probability that its measurement does; exact: whether there is one, and it is the lower one too."""
+    first = next(iter(uppers.values()))
+    behind = max(lower.behind, *(upper.behind for upper in uppers.values()))
+    late = between(lower.late / lower.due, first.late / first.due + behind) if lower.due else Bounds(0.0, 0.0)
     misses, responses = {}, {}
     for kind, jobs in lower.jobs.items():
-        more = behind if kind.startswith("lr") else behind + crowded
-        misses[kind] = between(lower.missed[kind] / jobs, upper.missed[kind] / upper.jobs[kind] + more)
-    late = between(lower.late / lower.due, upper.late / upper.due + behind) if lower.due else Bounds(0.0, 0.0)
+        missed = min(up.missed[kind] / up.jobs[kind] + _not_in(kind, charged, up) for charged, up in uppers.items())
+        misses[kind] = between(lower.missed[kind] / jobs, missed + behind)
     if "lr_propagate" in misses:
         misses["lr_update"] = late
-    for kind, mass in lower.responses.items():
-        more = behind if kind.startswith("lr") else behind + crowded
-        responses[kind] = _tail(mass / _count(lower, kind), upper.responses[kind] / _count(upper, kind), more)
-    landing = _landing_exactly(lower, behind) if exact else _landing_between(lower, upper, arrive, behind)
+    for kind in lower.responses:
+        tails = [_tail(kind, upper) + _not_in(kind, charged, upper) for charged, upper in uppers.items()]
+        responses[kind] = _between_tails(_tail(kind, lower), tails, behind)
+    landing = _landing_exactly(lower, behind) if exact else _landing_between(lower, first, arrive, behind)
     return CycleProbabilities(misses, landing, late, responses, behind)
+
+
+def _not_in(kind: str, charged: int, upper: Tally) -> float:
+    """The mass of more HR updates than are charged to HR jobs, which delay these and tasks, but no LR jobs."""
+    return 0.0 if kind.startswith("lr") else upper.crowded[charged]
 
 
 def between(lower: float, upper: float) -> Bounds:
@@ -34,15 +41,16 @@ def between(lower: float, upper: float) -> Bounds:
     return Bounds(min(lower, upper, 1.0), min(max(lower, upper), 1.0))
 
 
-def _count(tally: Tally, kind: str) -> float:
-    """Jobs of this kind that have responded."""
-    return tally.jobs.get(kind, tally.due)
+def _tail(kind: str, tally: Tally) -> Floats:
+    """P(response > x); of LR updates there is one for each correction that is due."""
+    return exceedance(tally.responses[kind] / tally.jobs.get(kind, tally.due))
 
 
-def _tail(lower: Floats, upper: Floats, more: float) -> Tail:
-    length = max(len(lower), len(upper))
-    low, up = (np.minimum(exceedance(sum_of(mass, np.zeros(length))), 1.0) for mass in (lower, upper))
-    return Tail(low, np.minimum(np.maximum(up, low) + more, 1.0))
+def _between_tails(lower: Floats, uppers: Sequence[Floats], behind: float) -> Tail:
+    length = max(map(len, (lower, *uppers)))
+    low, *ups = (np.pad(tail, (0, length - len(tail)), "edge") for tail in (lower, *uppers))
+    low = np.minimum(low, 1.0)
+    return Tail(low, np.minimum(np.maximum(np.minimum.reduce(ups), low) + behind, 1.0))
 
 
 def _landing_exactly(tally: Tally, behind: float) -> dict[int, Bounds]:

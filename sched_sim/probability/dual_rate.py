@@ -259,8 +259,9 @@ class DualRate:
             tally.responded("lr_update", np.concatenate([np.zeros(waited), done]))
         in_state = step if self.design.same_step else step + 1
         updates = max(self.taken.before(in_state) - cycle, 1)
-        if updates > self.design.usual:
-            tally.crowded += float(done.sum())
+        for charged in self.design.charged:
+            if front.to_apply + updates > charged:
+                tally.crowded[charged] += float(done.sum())
         correction = self.design.pieces.together({"hr_update": updates})
         if self.design.same_step:
             return [(front._replace(stage=FEEDBACK), correction.added_to(done))]

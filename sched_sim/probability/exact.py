@@ -28,12 +28,11 @@ from sched_sim.errors import InputError, option
 from sched_sim.probability.bounded import bounded
 from sched_sim.probability.cost_distribution import CostDistribution
 from sched_sim.probability.delay import Delay
-from sched_sim.probability.first_cycles import first_cycles
+from sched_sim.probability.followed import follow
 from sched_sim.probability.had import check_had
 from sched_sim.probability.in_ticks import Given, Rounded, grid_of, pieces_of
-from sched_sim.probability.long_run import long_run
 from sched_sim.probability.model import Model
-from sched_sim.probability.outcome import Probabilities
+from sched_sim.probability.outcome import CycleProbabilities, Probabilities
 from sched_sim.probability.tally import Tally
 from sched_sim.schedule.tasks import Task
 from sched_sim.ticks import Number, positive
@@ -84,23 +83,23 @@ def probabilities(
     grid = grid_of(given, bins)
     rounded: tuple[Rounded, ...] = ("down",) if grid.exact else ("down", "up")
     models = [Model(costs, timing, options, given, grid, each, delay, debt) for each in rounded]
-    by_cycle, in_long_run, why = [], [], ""
-    for model in models:
-        by_cycle.append(_first(model, cycles))
-        reason = model.no_long_run()
-        tally = None if reason else _long(model)
-        why = why or reason or ("" if tally else NOT_SETTLED)
-        in_long_run.append(tally)
+    followed = [follow(model, cycles) for model in models]
+    (lower,), uppers = followed[0].values(), followed[-1]
     arrive = 1.0 if delay is None else 1 - delay.lost
-    ends = by_cycle[0], by_cycle[-1]
-    found = [bounded(lower, upper, arrive, exact=grid.exact) for lower, upper in zip(*ends, strict=True)]
-    last = None
-    if not why:
-        lower, upper = in_long_run[0], in_long_run[-1]
-        assert lower is not None
-        assert upper is not None
-        last = bounded(lower, upper, arrive, exact=grid.exact)
-    return Probabilities(found, last, why, grid.ticks, grid.exact, 1 - arrive)
+
+    def between(low: Tally, up: Mapping[int, Tally]) -> CycleProbabilities:
+        return bounded(low, up, arrive, exact=grid.exact)
+
+    found = [
+        between(low, {charged: each.cycles[number] for charged, each in uppers.items()})
+        for number, low in enumerate(lower.cycles)
+    ]
+    last = {charged: each.long_run for charged, each in uppers.items() if each.long_run is not None}
+    in_long_run = None
+    if lower.long_run is not None and len(last) == len(uppers):
+        in_long_run = between(lower.long_run, last)
+    why = next(filter(None, (model.no_long_run() for model in models)), NOT_SETTLED) if in_long_run is None else ""
+    return Probabilities(found, in_long_run, why, grid.ticks, grid.exact, 1 - arrive)
 
 
 NOT_SETTLED = "the distribution of what is left to do does not settle"
@@ -121,27 +120,6 @@ def _of_tasks(given: Mapping[str, CostDistribution] | None, tasks: Sequence[Task
     names = [task.name for task in tasks]
     for name in given:
         if name not in names:
-            raise InputError(
-                f"{option('task_costs')}: there is no task {name!r}, but {', '.join(names) or 'none at all'}"
-            )
+            known = ", ".join(names) or "none"
+            raise InputError(f"{option('task_costs')}: {name!r} is no task that delays anything: these are {known}")
     return dict(given)
-
-
-def _first(model: Model, cycles: int) -> list[Tally]:
-    tallies = [Tally() for _ in range(cycles)]
-    for process in model.processes():
-        own = first_cycles(process, cycles, model.taken, model.hyperperiod, model.begin, model.after)
-        for tally, more in zip(tallies, own, strict=True):
-            tally.add(more)
-    return tallies
-
-
-def _long(model: Model) -> Tally | None:
-    """Of a cycle; None if one of the processes does not settle."""
-    whole = Tally()
-    for process in model.processes():
-        tally = long_run(process, model.hyperperiod, model.begin)
-        if tally is None:
-            return None
-        whole.add(tally, 1 / model.cycles)
-    return whole

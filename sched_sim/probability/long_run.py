@@ -54,7 +54,7 @@ class Process(Protocol):
 
 def long_run(process: Process, hyperperiod: int, begin: int) -> Tally | None:
     """Of one hyperperiod, in steps, in the mean; from step `begin` on all is periodic. None if it does not settle."""
-    process.advance(begin + WARM_UP * hyperperiod, Tallies())
+    process.advance(max(process.step, begin) + WARM_UP * hyperperiod, Tallies())
     state = _most_frequent(process, hyperperiod)
     if state is None:
         return None

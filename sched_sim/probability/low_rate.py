@@ -58,3 +58,9 @@ class Design:
     def usual(self) -> int:
         """HR updates at once, of a correction that lands by L."""
         return max(-(-self.timing.L // self.timing.N), 1)
+
+    @property
+    def charged(self) -> tuple[int, ...]:
+        """So many HR updates in each step bound what HR jobs take, but where there are more: few, or more, up to as many
+        as one correction may have."""
+        return {"where it lands": (), "least": (0,), "most": tuple(range(self.usual, self.debt + 2))}[self.charge]

@@ -63,22 +63,23 @@ class Model:
         """In a hyperperiod."""
         return self.hyperperiod * self.taken.count // self.taken.steps
 
-    def processes(self) -> list[Process]:
-        """At the start of step 0."""
+    def processes(self) -> tuple[list[Process], dict[int, list[Process]]]:
+        """At the start of step 0: those of which all is known, and the HR jobs with so many HR updates in each step."""
         if not isinstance(self.costs, DualRateCosts):
-            high = self._serial()
-            return [self._level(priority, high) for priority in self.levels]
+            return self._apart(self._serial()), {0: []}
         design = self._design()
         if design.two_cpus:
-            return [DualRate(design, self.timeline, ())]
+            return [DualRate(design, self.timeline, ())], {0: []}
         if not self.grid.exact:
-            high = self._charged(design)
-            return [DualRate(design, self.timeline, ()), *(self._level(priority, high) for priority in self.levels)]
+            charged = {each: WithCorrections(self.pieces, self.taken, each) for each in design.charged}
+            return [DualRate(design, self.timeline, ())], {each: self._apart(charged[each]) for each in charged}
         high = WithCorrections(self.pieces, self.taken)
-        behind = [priority for priority in self.levels if priority >= HR]
-        levels = [Level(priority, high, self.timeline, self.most) for priority in behind]
-        urgent = [priority for priority in self.levels if priority < HR]
-        return [DualRate(design, self.timeline, levels), *(self._level(priority, None) for priority in urgent)]
+        levels = [Level(priority, high, self.timeline, self.most) for priority in self.levels if priority >= HR]
+        urgent = [self._level(priority, None) for priority in self.levels if priority < HR]
+        return [DualRate(design, self.timeline, levels), *urgent], {0: []}
+
+    def _apart(self, high: HighRate) -> list[Process]:
+        return [self._level(priority, high) for priority in self.levels]
 
     def _level(self, priority: int, high: HighRate | None) -> Serial:
         due = self.timing.M if self.delay is None else self.timing.L
@@ -90,9 +91,6 @@ class Model:
             return RandomDelay(self.pieces, work.at_random, self.timing.N, self.delay)
         M = 0 if method_of(self.costs).law(self.options.feedback).undelayed else self.timing.M
         return CertainDelay(self.pieces, work, self.taken, M)
-
-    def _charged(self, design: Design) -> WithCorrections:
-        return WithCorrections(self.pieces, self.taken, design.usual if self.rounded == "up" else 0)
 
     def _design(self) -> Design:
         timing, options = self.timing, self.options

@@ -1,0 +1,49 @@
+"""All that is counted of a design: of each of the first cycles, and in the long run."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from sched_sim.probability.first_cycles import first_cycles
+from sched_sim.probability.long_run import Process, long_run
+from sched_sim.probability.model import Model
+from sched_sim.probability.tally import Tally
+
+
+class Followed(NamedTuple):
+    """long_run: of a cycle in the mean; None if there is none."""
+
+    cycles: list[Tally]
+    long_run: Tally | None
+
+
+def follow(model: Model, cycles: int) -> dict[int, Followed]:
+    """By how many HR updates are charged to each HR job, 0 where they are charged where they are."""
+    known, charged = model.processes()
+    settles = not model.no_long_run()
+    common = [_follow(process, model, cycles, settles=settles) for process in known]
+    return {
+        updates: _together([*common, *(_follow(process, model, cycles, settles=settles) for process in processes)])
+        for updates, processes in charged.items()
+    }
+
+
+def _follow(process: Process, model: Model, cycles: int, *, settles: bool) -> Followed:
+    first = first_cycles(process, cycles, model.taken, model.hyperperiod, model.begin, model.after)
+    last = long_run(process, model.hyperperiod, model.begin) if settles else None
+    return Followed(first, None if last is None else last.scaled(1 / model.cycles))
+
+
+def _together(followed: Sequence[Followed]) -> Followed:
+    """Of processes that count different things."""
+    tallies = [Tally() for _ in followed[0].cycles]
+    last: Tally | None = Tally()
+    for cycles, long in followed:
+        for tally, more in zip(tallies, cycles, strict=True):
+            tally.add(more)
+        if last is not None and long is not None:
+            last.add(long)
+        else:
+            last = None
+    return Followed(tallies, last)
