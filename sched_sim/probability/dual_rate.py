@@ -52,15 +52,21 @@ class DualRate:
             left: dict[Front, Floats] = {}
             for parts in self._separate():
                 if self.design.two_cpus and self._overruns(self.step, parts):
-                    self.gone += sum(float(mass.sum()) for mass in parts.values())
+                    for front, mass in parts.items():
+                        self._leave(self.taken.before(self.step) + front.cycle, float(mass.sum()))
                     continue
                 for front, mass in self._one_step(self.step, parts).items():
                     _add(left, front, mass)
             self.parts = {}
             for front, mass in left.items():
                 self.parts[front], gone = cut(mass, self.most)
-                self.gone += gone
+                self._leave(self.taken.before(self.step + 1) + front.cycle, gone)
             self.step += 1
+
+    def _leave(self, cycle: int, gone: float) -> None:
+        """This mass is followed no more; of the corrections those before this cycle's have landed."""
+        self.gone += gone
+        self.tallies[cycle].behind += gone
 
     def _separate(self) -> list[dict[Front, Floats]]:
         """Those between which nothing is common in this step: on one processor all is, on two the HR job."""
@@ -161,7 +167,7 @@ class DualRate:
             if at_k:
                 now = now._replace(cycle=now.cycle - 1, missing=(*now.missing, -front.cycle))
             if -now.cycle > self.design.debt:
-                self.gone += float(mass.sum())
+                self._leave(self.taken.before(step + 1) + now.cycle, float(mass.sum()))
                 continue
             for ready, part in self._looked_up(step, now, mass, first=False):
                 _add(begun, ready, part)
@@ -170,10 +176,10 @@ class DualRate:
     def _fed_back(self, step: int, front: Front, mass: Floats) -> tuple[Front, Floats]:
         """The HR update that was under way goes on first, and lands in this step."""
         period = self.timeline.period
-        self.gone += float(mass[period + 1 :].sum())
+        cycle = self.taken.before(step) + front.cycle
+        self._leave(cycle, float(mass[period + 1 :].sum()))
         mass = mass[: period + 1]
-        k = self.taken.step(self.taken.before(step) + front.cycle)
-        self.tallies[self.taken.before(k)].landing[step - k] += float(mass.sum())
+        self.tallies[cycle].landing[step - self.taken.step(cycle)] += float(mass.sum())
         return self._next(front, 0), mass
 
     def _high_done(self, step: int, parts: dict[Front, Floats], tally: Tally) -> Floats:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 from sched_sim.design.taken import Taken
 from sched_sim.probability.long_run import Process, changed
 from sched_sim.probability.tally import Tallies, Tally
@@ -21,19 +23,9 @@ def first_cycles(process: Process, cycles: int, taken: Taken, hyperperiod: int, 
             if taken.step(cycle) >= begin + hyperperiod and changed(last, state) < SAME:
                 followed = min(cycle, cycles)
         process.advance(taken.step(cycle + 1), tallies)
-        if cycle >= after:
-            tallies[cycle - after].behind = process.behind
         cycle += 1
-    return [
-        tallies[number] if number < followed else _repeated(tallies, number, followed, every)
-        for number in range(cycles)
-    ]
-
-
-def _repeated(tallies: Tallies, number: int, followed: int, every: int) -> Tally:
-    """As the one that many hyperperiods before, but for what has fallen behind since, at the same rate."""
-    times = (number - followed) // every + 1
-    same = tallies[number - times * every]
-    tally = same.scaled(1.0)
-    tally.behind += times * (same.behind - tallies[max(number - (times + 1) * every, 0)].behind)
-    return tally
+    numbers = (n if n < followed else n - ((n - followed) // every + 1) * every for n in range(cycles))
+    found = [tallies[number].scaled(1.0) for number in numbers]
+    for before, tally in pairwise(found):
+        tally.behind += before.behind
+    return found

@@ -20,7 +20,7 @@ from sched_sim.schedule.tasks import Task
 
 MOST_TICKS = 2_048
 """Of an HR period, with which costs are exact unless bins are asked for."""
-FEWEST_BINS = 256
+FEWEST_BINS = 512
 MOST_BINS = 16_384
 LONGEST = 256
 """HR periods that one piece of work may take."""

@@ -65,6 +65,7 @@ class Level:
         for key, mass in parts.items():
             self.parts[key], gone = cut(served(mass, segment.length), self.most)
             self.gone += gone
+            tally.behind += gone
 
     def _with_tasks(self, parts: Parts, tasks: list[TaskInTicks]) -> Parts:
         for task in tasks:

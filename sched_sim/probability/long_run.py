@@ -67,7 +67,6 @@ def long_run(process: Process, hyperperiod: int, begin: int) -> Tally | None:
         process.advance(process.step + hyperperiod, tallies)
         fell, returned = process.behind - behind, process.take(state)
         tally = tallies.together()
-        tally.behind = fell
         whole.add(tally)
         length += weight
         left = process.total

@@ -61,6 +61,6 @@ class Design:
 
     @property
     def charged(self) -> tuple[int, ...]:
-        """So many HR updates in each step bound what HR jobs take, but where there are more: few, or more, up to as many
-        as one correction may have."""
+        """So many HR updates in each step bound what HR jobs take, but where there are more: any number up to what one
+        correction may have."""
         return {"where it lands": (), "least": (0,), "most": tuple(range(self.usual, self.debt + 2))}[self.charge]
