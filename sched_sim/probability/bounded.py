@@ -20,13 +20,13 @@ def bounded(lower: Tally, uppers: Mapping[int, Tally], arrive: float, *, exact: 
     late = between(lower.late / lower.due, first.late / first.due + behind) if lower.due else Bounds(0.0, 0.0)
     misses, responses = {}, {}
     for kind, jobs in lower.jobs.items():
-        missed = min(up.missed[kind] / up.jobs[kind] + _not_in(kind, charged, up) for charged, up in uppers.items())
-        misses[kind] = between(lower.missed[kind] / jobs, missed + behind)
+        found = [up.missed[kind] / up.jobs[kind] + _not_in(kind, n, up) for n, up in uppers.items() if kind in up.jobs]
+        misses[kind] = between(lower.missed[kind] / jobs, min(found, default=1.0) + behind)
     if "lr_propagate" in misses:
         misses["lr_update"] = late
     for kind in lower.responses:
-        tails = [_tail(kind, upper) + _not_in(kind, charged, upper) for charged, upper in uppers.items()]
-        responses[kind] = _between_tails(_tail(kind, lower), tails, behind)
+        tails = [_tail(kind, up) + _not_in(kind, n, up) for n, up in uppers.items() if kind in up.responses]
+        responses[kind] = _between_tails(_tail(kind, lower), tails or [np.ones(1)], behind)
     landing = _landing_exactly(lower, behind) if exact else _landing_between(lower, first, arrive, behind)
     return CycleProbabilities(misses, landing, late, responses, behind)
 

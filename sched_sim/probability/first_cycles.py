@@ -5,10 +5,10 @@ from __future__ import annotations
 from itertools import pairwise
 
 from sched_sim.design.taken import Taken
-from sched_sim.probability.long_run import Process, changed
+from sched_sim.probability.long_run import Process, changed, shape_of
 from sched_sim.probability.tally import Tallies, Tally
 
-SAME = 1e-14
+SAME = 1e-13
 """A relative change of every mass that is rounding."""
 
 
@@ -16,16 +16,19 @@ def first_cycles(process: Process, cycles: int, taken: Taken, hyperperiod: int, 
     """hyperperiod, begin: in steps, after which all repeats, and from which on; after: cycles until the correction of
     one has landed, or is no longer followed."""
     every = hyperperiod * taken.count // taken.steps
-    tallies, state, followed, cycle = Tallies(), process.state(), cycles, 0
+    tallies, shape, total, followed, cycle = Tallies(), shape_of(process), 1.0, cycles, 0
+    stays = 1.0
     while cycle < followed + after:
         if followed == cycles and not cycle % every:
-            last, state = state, process.state()
-            if taken.step(cycle) >= begin + hyperperiod and changed(last, state) < SAME:
-                followed = min(cycle, cycles)
+            (last, shape), (before, total) = (shape, shape_of(process)), (total, process.total)
+            if taken.step(cycle) >= begin + hyperperiod and changed(last, shape) < SAME:
+                followed, stays = min(cycle, cycles), total / before
         process.advance(taken.step(cycle + 1), tallies)
         cycle += 1
-    numbers = (n if n < followed else n - ((n - followed) // every + 1) * every for n in range(cycles))
-    found = [tallies[number].scaled(1.0) for number in numbers]
-    for before, tally in pairwise(found):
-        tally.behind += before.behind
+    found = []
+    for number in range(cycles):
+        times = max((number - followed) // every + 1, 0)
+        found.append(tallies[number - times * every].with_probability(stays**times))
+    for earlier, tally in pairwise(found):
+        tally.behind += earlier.behind
     return found

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from sched_sim.probability.first_cycles import first_cycles
 from sched_sim.probability.long_run import Process, long_run
-from sched_sim.probability.model import Model
+from sched_sim.probability.model import FULL, Model
 from sched_sim.probability.tally import Tally
 
 
@@ -19,14 +19,18 @@ class Followed(NamedTuple):
 
 
 def follow(model: Model, cycles: int) -> dict[int, Followed]:
-    """By how many HR updates are charged to each HR job, 0 where they are charged where they are."""
+    """By how many HR updates are charged to each HR job, 0 where they are charged where they land. In the long run
+    there may be too many, and then nothing is counted of HR jobs."""
     known, charged = model.processes()
     settles = not model.no_long_run()
-    common = [_follow(process, model, cycles, settles=settles) for process in known]
-    return {
-        updates: _together([*common, *(_follow(process, model, cycles, settles=settles) for process in processes)])
-        for updates, processes in charged.items()
-    }
+    common = _together([_follow(process, model, cycles, settles=settles) for process in known])
+    found = {}
+    for updates, processes in charged.items():
+        has_time = settles and model.high_load(updates) < FULL
+        apart = [_follow(process, model, cycles, settles=has_time) for process in processes]
+        both = _together([common, *apart])
+        found[updates] = both if both.long_run is not None else both._replace(long_run=common.long_run)
+    return found
 
 
 def _follow(process: Process, model: Model, cycles: int, *, settles: bool) -> Followed:

@@ -16,15 +16,16 @@ import numpy as np
 from sched_sim.probability.outcome import Floats
 from sched_sim.probability.tally import Tallies, Tally
 
-SETTLED = 1e-10
+SETTLED = 1e-8
 """A relative change of every mass from one hyperperiod to the next, at which it has settled."""
 NEGLIGIBLE = 1e-13
 """Relative to a figure, what may be missing of it."""
-RESOLVED = 1e-30
+RESOLVED = 1e-26
 """Of masses below, no change is waited for."""
-MOST = 2_000
 WARM_UP = 8
 """Hyperperiods."""
+MOST_LAWS = 1_000_000
+"""Laws that are followed for a step, before it is said that they do not settle."""
 
 State = Mapping[Hashable, Floats]
 
@@ -61,7 +62,8 @@ def long_run(process: Process, hyperperiod: int, begin: int) -> Tally | None:
     process.restart(state)
     whole, length = Tally(), 0.0
     shape: State | None = None
-    for _ in range(MOST):
+    followed = 0
+    while followed < MOST_LAWS:
         weight = process.weight = process.total
         tallies, behind = Tallies(), process.behind
         process.advance(process.step + hyperperiod, tallies)
@@ -72,7 +74,8 @@ def long_run(process: Process, hyperperiod: int, begin: int) -> Tally | None:
         left = process.total
         if not left or _adds_nothing(tally, whole):
             return whole.scaled(1 / length)
-        last, shape = shape, {key: mass / left for key, mass in process.state().items()}
+        last, shape = shape, shape_of(process)
+        followed += hyperperiod * len(shape)
         if last is not None and changed(last, shape) < SETTLED:
             leaves = (returned + fell) / weight
             if not leaves:
@@ -93,6 +96,12 @@ def _most_frequent(process: Process, hyperperiod: int) -> Hashable | None:
     _, back, state = max(found, key=lambda each: each[:2])
     process.advance(process.step - back, Tallies())
     return state
+
+
+def shape_of(process: Process) -> State:
+    """Its laws, but for what is no longer followed."""
+    total = process.total
+    return {key: mass / total for key, mass in process.state().items()}
 
 
 def _adds_nothing(tally: Tally, whole: Tally) -> bool:

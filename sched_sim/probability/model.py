@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
+from collections.abc import Hashable
 from math import ceil
 from typing import Any
 
@@ -113,30 +115,32 @@ class Model:
 
     def load(self) -> float:
         """The share of its time that the processor with the most to do is busy, in the long run."""
-        work, ticks = self._mean_high(), self.hyperperiod * self.grid.ticks
-        work += sum(task.cost.mean / task.period for task in self.timeline.tasks) * ticks
-        low = 0.0
+        work, low = self.high_load(0), 0.0
         if isinstance(self.costs, DualRateCosts):
             mean = {name: law.mean for name, law in self.pieces.laws.items()}
             arrive = 1.0 if self.delay is None else 1 - self.delay.lost
-            work += self.cycles * arrive * mean["hr_update"]
-            low = self.cycles * (mean["lr_propagate"] + mean["lr_gain"] + arrive * mean["lr_update"])
-        return (max(work, low) if self.options.cpus == 2 else work + low) / ticks
+            often = self.cycles / (self.hyperperiod * self.grid.ticks)
+            work += often * arrive * mean["hr_update"]
+            low = often * (mean["lr_propagate"] + mean["lr_gain"] + arrive * mean["lr_update"])
+        return max(work, low) if self.options.cpus == 2 else work + low
 
-    def _mean_high(self) -> float:
-        """Of the HR jobs of a hyperperiod, without HR updates of dual-rate."""
-        high = WithCorrections(self.pieces, self.taken) if isinstance(self.costs, DualRateCosts) else self._serial()
-        shares: dict[Any, float] = {0: 1.0}
-        total = 0.0
+    def high_load(self, updates: int) -> float:
+        """Of HR jobs and tasks alone; of dual-rate with so many HR updates in each step."""
+        high = self._serial()
+        if isinstance(self.costs, DualRateCosts):
+            high = WithCorrections(self.pieces, self.taken, updates)
+        shares: dict[Hashable, float] = {0: 1.0}
+        work = 0.0
         for step in range(self.begin, self.begin + 2 * self.hyperperiod):
-            after: dict[Any, float] = {}
+            after: defaultdict[Hashable, float] = defaultdict(float)
             for key, share in shares.items():
                 for branch in high.branches(step, key):
-                    after[branch.key] = after.get(branch.key, 0.0) + share * branch.probability
+                    after[branch.key] += share * branch.probability
                     if step >= self.begin + self.hyperperiod:
-                        total += share * branch.probability * branch.cost.mean
+                        work += share * branch.probability * branch.cost.mean
             shares = after
-        return total
+        tasks = sum(task.cost.mean / task.period for task in self.timeline.tasks)
+        return work / (self.hyperperiod * self.grid.ticks) + tasks
 
     def no_long_run(self) -> str:
         """Why there is none; empty if there may be one."""

@@ -53,6 +53,12 @@ class Tally:
         tally.add(self, scale)
         return tally
 
+    def with_probability(self, share: float) -> Tally:
+        """Of as many jobs and corrections, but seen only with this probability."""
+        tally = self.scaled(share)
+        tally.jobs, tally.due = self.jobs.copy(), self.due
+        return tally
+
     def figures(self) -> Iterator[tuple[object, Floats]]:
         """All that is counted, by name."""
         for kind, missed in self.missed.items():
