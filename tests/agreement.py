@@ -8,7 +8,8 @@ from math import lcm
 
 import numpy as np
 
-from sched_sim.design.analysis import NOT_LANDED, achieved_l, least_period
+from sched_sim.design.analysis import achieved_l, least_period
+from sched_sim.design.demand import NOT_LANDED
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import DelayedHorizonCosts, DualRateCosts, JobCosts, works
 from sched_sim.design.simulate import simulate

@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from sched_sim.design import analysis
+from sched_sim.design.demand import NOT_LANDED
 from sched_sim.design.least_speed import Stair
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import Costs, DualRateCosts, converted, works
@@ -42,7 +43,7 @@ def achieved_curve(
     in_ticks = converted(costs, lambda work: to_ticks(work, resolution))
     period = np.array([to_ticks(speed, resolution) for speed in speeds], dtype=object)
     landed = analysis.achieved_l(in_ticks, np.full_like(period, N), np.full_like(period, M), period, options)
-    return [None if L == analysis.NOT_LANDED else int(L) for L in landed]
+    return [None if L == NOT_LANDED else int(L) for L in landed]
 
 
 def speed_grid(slowest: float, fastest: float, points: int, exactly: Sequence[Fraction] = ()) -> list[Fraction]:

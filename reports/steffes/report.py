@@ -14,7 +14,7 @@ from reports.steffes.timelines import dual_rate_timeline, serial_costs, serial_t
 from sched_sim.costs.methods import PAPER_METHODS
 from sched_sim.costs.table import CostTable
 from sched_sim.costs.table_file import costs_text, load_costs
-from sched_sim.design.analysis import BINDING_WORDS
+from sched_sim.design.binding import BINDING_WORDS
 from sched_sim.design.least_speed import achieved_l, least_speed
 from sched_sim.design.load import utilization as busy
 from sched_sim.design.methods import select

@@ -5,15 +5,19 @@ deadline is a demand over a window, the least speed the largest of them (Steffes
 simulated here: `sched_sim.design.simulate` is the oracle of this module, and this module of that.
 
 Any integers will do: arrays are computed as int64 where nothing can overflow, else as Python's integers. One design, in
-plain integers, needs no numpy.
+plain integers, needs no numpy; many of the dual-rate filter are computed compiled.
 """
 
 from __future__ import annotations
 
-from enum import IntEnum
+from collections.abc import Callable
+from math import prod
 from operator import index
 
-from sched_sim.design.demand import DualRateDemand, Quotient, choose, largest, quotient, smaller
+from sched_sim.compiled import compiled
+from sched_sim.design import dual_rate_period
+from sched_sim.design.binding import Binding
+from sched_sim.design.demand import NOT_LANDED, Work, work_of
 from sched_sim.design.horizon_demand import HorizonDemand
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import (
@@ -38,41 +42,12 @@ from sched_sim.design.pieces import (
     product,
     works,
 )
-from sched_sim.design.whole import Flags, Ints, Whole, larger, lesser, where
+from sched_sim.design.quotient import Quotient, quotient
+from sched_sim.design.whole import Ints, Whole, larger, where
 
-
-class Binding(IntEnum):
-    """Which demand fixes the least speed.
-
-    hr: one HR job; lr_propagate: LR propagate by its deadline, of a delayed horizon all LR work of a cycle; lr_update:
-    the LR update between m and l; lr_total: all LR work between k and l; lr_gain: covariance and gain of a multirate
-    method by l; lr_step: the robust step by l.
-    """
-
-    hr = 0
-    lr_propagate = 1
-    lr_update = 2
-    lr_total = 3
-    lr_gain = 4
-    lr_step = 5
-
-
-BINDING_WORDS = {
-    "hr": "one HR job",
-    "lr_propagate": "LR propagate",
-    "lr_update": "LR update, m to l",
-    "lr_total": "all LR work, k to l",
-    "lr_gain": "covariance and gain",
-    "lr_step": "robust step",
-}
-"""The bindings as a person reads them."""
-
-NOT_LANDED = -1
-"""Instead of an achieved L where an HR job overruns its step, or nothing lands before the next measurement; of
-a delayed horizon also where its LR jobs pile up."""
-
-STEPS_ALONE = 32
-"""So many steps are looked at one by one, without numpy, before all the others at once."""
+COMPILED_FROM = 20_000
+"""So many designs of the dual-rate filter, as in a portion of a large sweep, are computed compiled. To load that takes
+a fraction of a second, to compile it, once on a machine, some."""
 
 
 def least_period(costs: JobCosts[int], N: Whole, M: Whole, L: Whole, options: Options) -> Quotient[Whole]:
@@ -86,48 +61,78 @@ def least_period(costs: JobCosts[int], N: Whole, M: Whole, L: Whole, options: Op
     costs = _counted(costs)
     if isinstance(N, int):
         return _least_period(costs, N, index(M), index(L), options)
-    flat = _least_period(costs, *_arrays(costs, N, M, L), options)
-    return Quotient(*(part.reshape(N.shape) for part in flat))
+    flat_N, flat_M, flat_L = _arrays(costs, N, M, L)
+    return Quotient(*(part.reshape(N.shape) for part in _least_period(costs, flat_N, flat_M, flat_L, options)))
 
 
 def _least_period(costs: JobCosts[int], N: Whole, M: Whole, L: Whole, options: Options) -> Quotient[Whole]:
     if isinstance(costs, MultirateCosts | RobustCosts):
-        least = _next_step(_two_rate_demand(costs, N, options), L, by_m=False)
+        least = _least_of_cycle(_two_rate_work(costs, options), N, 0 * N, L)
         low = Binding.lr_gain if isinstance(costs, MultirateCosts) else Binding.lr_step
         return least._replace(code=where(least.code == Binding.hr, least.code, low))
     if isinstance(costs, DualRateCosts):
-        demand = DualRateDemand(costs, N, M, separate=options.cpus == 2)
-        by_m = options.lr_propagate_by == "m"
-        return (_next_step if options.feedback == "next-step" else _same_step)(demand, L, by_m)
+        return _least_of_cycle(work_of(costs, options), N, M, L)
     if isinstance(costs, DelayedHorizonCosts):
         horizon = HorizonDemand(costs, N, M, separate=options.cpus == 2)
         return horizon.least_period(L, Binding.hr, Binding.lr_update, Binding.lr_propagate)
     return quotient(_longest_serial_job(costs, N, M), 1, Binding.hr)
 
 
-def achieved_l(costs: JobCosts[int], N: Whole, M: Whole, period: Whole, options: Options) -> Whole:
-    """The L at which corrections land (or gains are in use) at an HR period of `period` ticks, or NOT_LANDED.
+def _least_of_cycle(work: Work, N: Whole, M: Whole, L: Whole) -> Quotient[Whole]:
+    if isinstance(N, int):
+        return Quotient(*dual_rate_period.least_period(work, N, M, L))
+    return Quotient(*_of_each(dual_rate_period.least_periods, work, (N, M, L), results=3))
 
-    As `least_period`; `period` is an integer too, or an array of the same shape.
+
+def achieved_l(
+    costs: JobCosts[int], N: Whole, M: Whole, period: Whole, options: Options, scale: Whole | int = 1
+) -> Whole:
+    """The L at which corrections land (or gains are in use) at an HR period of `period / scale` ticks, or NOT_LANDED.
+
+    As `least_period`; `period` and `scale`, which is positive, are integers too, or arrays of the same shape.
     """
     costs = _counted(costs)
     if isinstance(N, int):
-        return _achieved_l(costs, N, index(M), index(period), options)
-    return _achieved_l(costs, *_arrays(costs, N, M, period), options).reshape(N.shape)
+        return _achieved_l(costs, N, index(M), index(period), index(scale), options)
+    flat_N, flat_M, periods, scales = _arrays(costs, N, M, period, scale)
+    return _achieved_l(costs, flat_N, flat_M, periods, scales, options).reshape(N.shape)
 
 
-def _achieved_l(costs: JobCosts[int], N: Whole, M: Whole, period: Whole, options: Options) -> Whole:
+def _achieved_l(costs: JobCosts[int], N: Whole, M: Whole, period: Whole, scale: Whole, options: Options) -> Whole:
     if isinstance(costs, MultirateCosts | RobustCosts):
-        demand = _two_rate_demand(costs, N, options)
-        return where(period >= demand.longest_hr_job(), _landing_next_step(demand, period), NOT_LANDED)
+        return _landing_of_cycle(_two_rate_work(costs, options), N, 0 * N, period, scale)
+    if isinstance(costs, DualRateCosts):
+        return _landing_of_cycle(work_of(costs, options), N, M, period, scale)
     if isinstance(costs, DelayedHorizonCosts):
-        return HorizonDemand(costs, N, M, separate=options.cpus == 2).landed(period, NOT_LANDED)
-    if not isinstance(costs, DualRateCosts):
-        landed = 0 * M if isinstance(costs, StandardCosts) else M
-        return where(period >= _longest_serial_job(costs, N, M), landed, NOT_LANDED)
-    demand = DualRateDemand(costs, N, M, separate=options.cpus == 2)
-    landing = _landing_next_step if options.feedback == "next-step" else _landing_same_step
-    return where(period >= demand.longest_hr_job(), landing(demand, period), NOT_LANDED)
+        return HorizonDemand(costs, N, M, separate=options.cpus == 2).landed(period, scale, NOT_LANDED)
+    landed = 0 * M if isinstance(costs, StandardCosts) else M
+    return where(period >= _longest_serial_job(costs, N, M) * scale, landed, NOT_LANDED)
+
+
+def _landing_of_cycle(work: Work, N: Whole, M: Whole, period: Whole, scale: Whole) -> Whole:
+    if isinstance(N, int):
+        return dual_rate_period.landing(work, N, M, period, scale)
+    (landed,) = _of_each(dual_rate_period.landings, work, (N, M, period, scale), results=1)
+    return landed
+
+
+def _of_each(
+    loop: Callable[[Work, dual_rate_period.Columns, dual_rate_period.Found], None],
+    work: Work,
+    designs: tuple[Ints, ...],
+    results: int,
+) -> list[Ints]:
+    """What the loop finds of each design: `results` arrays."""
+    import numpy as np
+
+    size, kind = designs[0].size, designs[0].dtype
+    if kind.kind == "i" and size >= COMPILED_FROM:
+        table = np.empty((results, size), kind)
+        compiled(loop)(work, designs, table)
+        return [*table]
+    columns = [[0] * size for _ in range(results)]
+    loop(work, tuple(part.tolist() for part in designs), columns)
+    return [np.array(column, kind) for column in columns]
 
 
 def _counted(costs: JobCosts[int]) -> JobCosts[int]:
@@ -135,17 +140,16 @@ def _counted(costs: JobCosts[int]) -> JobCosts[int]:
     return converted(costs, index)
 
 
-def _arrays(costs: JobCosts[int], N: Ints, M: Ints, other: Ints) -> tuple[Ints, Ints, Ints]:
-    """Flat, and of a type in which nothing overflows: the analysis multiplies the work of a cycle, or a period, by at
-    most two numbers of steps."""
+def _arrays(costs: JobCosts[int], N: Ints, *others: Ints | int) -> list[Ints]:
+    """Flat, of the shape of N, and of a type in which nothing overflows: the analysis multiplies the work of a cycle,
+    or a period, by at most two numbers of steps and a scale. others: M; L or a period; a scale."""
     import numpy as np
 
-    arrays = [_whole_numbers(array).ravel() for array in (N, M, other)]
-    steps = max(int(array.max(initial=0)) for array in arrays[:2]) + 3
-    largest = max(int(array.max(initial=0)) for array in arrays)
-    fits = 8 * steps * max(steps * sum(works(costs)), largest) <= np.iinfo(np.int64).max
-    N, M, other = (array.astype(np.int64 if fits else object) for array in arrays)
-    return N, M, other
+    flat = [_whole_numbers(np.full(N.shape, part) if isinstance(part, int) else part).ravel() for part in (N, *others)]
+    largest = [int(array.max(initial=0)) for array in flat]
+    steps, scale = max(largest[:2]) + 3, prod(largest[3:])
+    fits = 8 * steps * max(steps * scale * sum(works(costs)), *largest) <= np.iinfo(np.int64).max
+    return [array.astype(np.int64 if fits else object, copy=False) for array in flat]
 
 
 def _whole_numbers(values: Ints) -> Ints:
@@ -203,147 +207,8 @@ def _longest_of_several(costs: LarsenInFlightCosts[int], N: Whole, M: Whole) -> 
     return longest
 
 
-def _two_rate_demand(costs: TwoRateCosts[int], N: Whole, options: Options) -> DualRateDemand[Whole]:
+def _two_rate_work(costs: TwoRateCosts[int], options: Options) -> Work:
     """That of a dual-rate filter whose measurement comes at once, whose HR jobs are all alike and whose LR update is
     the LR job."""
     high, low = works(costs)
-    alike = DualRateCosts(hr=high, hr_restart=high, hr_update=0, lr_propagate=0, lr_gain=0, lr_update=low)
-    return DualRateDemand(alike, N, 0 * N, separate=options.cpus == 2)
-
-
-def _next_step(demand: DualRateDemand[Whole], L: Whole, by_m: bool) -> Quotient[Whole]:
-    """The HR job of step l also runs the HR update. Which step that is depends on the speed, and there are three
-    cases: l = k+N, where it delays the LR jobs of the next cycle; l = k+1, whose HR job is another; all others.
-    A slower processor lands later, so the first case that is consistent with itself is the least speed.
-    """
-    N, M, hr_update = demand.N, demand.M, demand.costs.hr_update
-    idle = quotient(0 * N, 1, Binding.hr)
-    longest = demand.longest_hr_job()
-
-    def least(end: Whole, landing_job: Whole, delay: Whole | int) -> Quotient[Whole]:
-        hr = quotient(larger(longest, landing_job + hr_update), 1, Binding.hr)
-        propagate = demand.propagate_window(Binding.lr_propagate, delay) if by_m else idle
-        update = demand.update_window(end, Binding.lr_update, where(M == 0, 0 * N + delay, 0))
-        return largest(hr, propagate, update, demand.total_window(end, Binding.lr_total, delay))
-
-    at_next_k = least(N, demand.hr_job(0), hr_update)
-    lands_there = (M >= N - 1) | (demand.first_end(at_next_k.numerator, at_next_k.denominator) >= N)
-
-    ordinary_end = larger(lesser(L, N - 1), M + 1)
-    ordinary = least(ordinary_end, demand.hr_job(2), 0)
-    lands_at_once = (M == 0) & ((L == 1) | (demand.first_end(ordinary.numerator, ordinary.denominator) == 1))
-
-    at_restart = least(M + 1, demand.hr_job(1), 0)
-    before_next_k = choose(lands_at_once, at_restart, ordinary)
-    return choose((L == N) & lands_there, at_next_k, before_next_k)
-
-
-def _landing_next_step(demand: DualRateDemand[Whole], period: Whole) -> Whole:
-    N, M, hr_update = demand.N, demand.M, demand.costs.hr_update
-    end = demand.first_end(period)
-    before_next_k = (end < N) & (period >= demand.hr_job(end) + hr_update)
-    update = demand.update_window(N, Binding.lr_update, where(M == 0, 0 * N + hr_update, 0))
-    total = demand.total_window(N, Binding.lr_total, hr_update)
-    fits = (period >= demand.hr_job(0) + hr_update) & _meets(period, update) & _meets(period, total)
-    return where(before_next_k | ((end == N) & fits), end, NOT_LANDED)
-
-
-def _meets(period: Whole, demand: Quotient[Whole]) -> bool | Flags:
-    return demand.denominator * period >= demand.numerator
-
-
-def _feedback_in(demand: DualRateDemand[Whole], step: Whole) -> Quotient[Whole]:
-    """HR update done within `step`, in which the LR update finishes."""
-    hr_update = demand.costs.hr_update
-    end = step + 1
-    windows = [
-        demand.update_window(end, Binding.lr_update, hr_update),
-        demand.total_window(end, Binding.lr_total, hr_update),
-    ]
-    if demand.separate:
-        windows.append(quotient(demand.hr_job(step) + hr_update, 1, Binding.hr))
-    return largest(*windows)
-
-
-def _feedback_after(demand: DualRateDemand[Whole], step: Whole) -> Quotient[Whole]:
-    """HR update begun in `step`, in which the LR update finishes, and done in the next, with the next HR job."""
-    hr_update = demand.costs.hr_update
-    following = demand.hr_job(step + 1)
-    if not demand.separate:
-        return largest(
-            demand.update_window(step + 2, Binding.lr_update, hr_update),
-            demand.total_window(step + 2, Binding.lr_total, hr_update),
-        )
-    return largest(
-        demand.update_window(step + 2, Binding.lr_update, hr_update + following),
-        demand.total_window(step + 2, Binding.lr_total, hr_update + following),
-        quotient(demand.hr_job(step) + hr_update + following, 2, Binding.hr),
-    )
-
-
-def _same_step(demand: DualRateDemand[Whole], L: Whole, by_m: bool) -> Quotient[Whole]:
-    """The HR update runs as soon as the LR update finishes, in step j or, if it does not fit, into step j+1, where
-    it delays the HR job. Walks j down from L: a slower processor finishes later, so the first j that is consistent
-    with itself gives the least speed.
-    """
-    loop = quotient(demand.longest_hr_job(), 1, Binding.hr)
-    if by_m:
-        loop = largest(loop, demand.propagate_window(Binding.lr_propagate))
-    step = larger(lesser(demand.first_end(loop.numerator, loop.denominator) - 1, L), demand.M)
-    if isinstance(step, int):
-        for near in range(step, max(step - STEPS_ALONE, demand.M - 1), -1):
-            least = _finished_in(demand, near, L, loop)
-            if _consistent(demand, near, least):
-                return least
-        return _first_consistent(demand, step - STEPS_ALONE, L, loop)
-    import numpy as np
-
-    result = Quotient(*(part.copy() for part in loop))
-    open_points = np.arange(step.size)
-    while open_points.size:
-        at = step[open_points]
-        here = DualRateDemand(demand.costs, demand.N[open_points], demand.M[open_points], demand.separate)
-        least = _finished_in(here, at, L[open_points], Quotient(*(part[open_points] for part in loop)))
-        consistent = _consistent(here, at, least)
-        settled = open_points[consistent]
-        for whole, part in zip(result, least, strict=True):
-            whole[settled] = part[consistent]
-        open_points = open_points[~consistent]
-        step[open_points] -= 1
-    return result
-
-
-def _first_consistent(demand: DualRateDemand[int], step: int, L: int, loop: Quotient[int]) -> Quotient[int]:
-    """`_same_step` of one design, the steps from `step` down to M at once."""
-    import numpy as np
-
-    at = np.arange(step, demand.M - 1, -1)
-    same = np.ones_like(at)
-    N, M, at = _arrays(demand.costs, demand.N * same, demand.M * same, at)
-    every = DualRateDemand(demand.costs, N, M, demand.separate)
-    least = _finished_in(every, at, L + 0 * at, Quotient(*(part + 0 * at for part in loop)))
-    first = int(np.argmax(_consistent(every, at, least)))
-    return Quotient(*(part[first].item() if hasattr(part[first], "item") else part[first] for part in least))
-
-
-def _finished_in(demand: DualRateDemand[Whole], step: Whole, L: Whole, loop: Quotient[Whole]) -> Quotient[Whole]:
-    """The least period where the LR update finishes in `step`; loop: what is needed besides."""
-    inside = _feedback_in(demand, step)
-    feedback = choose(step < L, smaller(inside, _feedback_after(demand, step)), inside)
-    update, total = demand.update_window(step + 1, Binding.lr_update), demand.total_window(step + 1, Binding.lr_total)
-    return largest(loop, update, total, feedback)
-
-
-def _consistent(demand: DualRateDemand[Whole], step: Whole, least: Quotient[Whole]) -> bool | Flags:
-    """Whether at this period the LR update finishes in `step`."""
-    end = demand.first_end(least.numerator, least.denominator)
-    consistent: bool | Flags = (step == demand.M) | (end == step + 1)
-    return consistent
-
-
-def _landing_same_step(demand: DualRateDemand[Whole], period: Whole) -> Whole:
-    N = demand.N
-    step = lesser(demand.first_end(period) - 1, N)
-    inside = (step < N) & _meets(period, _feedback_in(demand, step))
-    after = (step + 1 < N) & _meets(period, _feedback_after(demand, step))
-    return where(inside, step, where(after, step + 1, NOT_LANDED))
+    return Work(high, high, 0, 0, low, options.cpus == 2)

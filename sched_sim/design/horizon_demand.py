@@ -10,8 +10,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Generic
 
-from sched_sim.design.demand import Quotient, exceeds, largest, quotient, smaller
 from sched_sim.design.pieces import DelayedHorizonCosts
+from sched_sim.design.quotient import Quotient, exceeds, largest, quotient, smaller
 from sched_sim.design.whole import Flags, Whole, larger, where
 
 
@@ -76,14 +76,14 @@ class HorizonDemand(Generic[Whole]):
         least = least._replace(numerator=least.numerator + self.beside * least.denominator)
         return largest(quotient(self.costs.predict + 0 * self.N, 1, hr), least)
 
-    def landed(self, period: Whole, nowhere: int) -> Whole:
-        """The step, from k, in which corrections land at this HR period; `nowhere` if an HR job is late, LR jobs pile
-        up, or none lands by N."""
-        spare = period - self.beside
-        slack = spare - self.costs.replay
-        behind = self._to_land + spare * self.M
+    def landed(self, period: Whole, scale: Whole | int, nowhere: int) -> Whole:
+        """The step, from k, in which corrections land at an HR period of `period / scale` ticks; `nowhere` if an HR job
+        is late, LR jobs pile up, or none lands by N."""
+        spare = period - self.beside * scale
+        slack = spare - self.costs.replay * scale
+        behind = self._to_land * scale + spare * self.M
         c = larger(-(-behind // larger(slack, 1)), self.M + 1)
-        keeps_up = (period >= self.costs.predict) & (self.low_work(c) <= spare * self.N)
+        keeps_up = (period >= self.costs.predict * scale) & (self.low_work(c) * scale <= spare * self.N)
         return where(keeps_up & (c * slack >= behind) & (c <= self.N), c, nowhere)
 
 

@@ -8,6 +8,8 @@ from typing import NamedTuple
 
 from sched_sim.design import analysis
 from sched_sim.design.arguments import checked
+from sched_sim.design.binding import Binding
+from sched_sim.design.demand import NOT_LANDED
 from sched_sim.design.load import loads
 from sched_sim.design.long_pattern import of_bound
 from sched_sim.design.methods import method_of
@@ -23,7 +25,7 @@ from sched_sim.ticks import Number, positive, ticks_per_unit, to_ticks
 class LeastSpeed(NamedTuple):
     """The least speed of one design, and what fixes it.
 
-    speed: in cost units per HR period; binding: as in the column of a sweep, the name of an `analysis.Binding`,
+    speed: in cost units per HR period; binding: as in the column of a sweep, the name of an `Binding`,
     "task:NAME" or "load", where nothing is missed soon and work piles up.
     """
 
@@ -81,11 +83,11 @@ def least_speed(
         found = LeastSpeed(*least_speed_by_simulation(costs, timing, options, tasks, on_progress))
         return found if enough is None or found.speed < enough.speed else enough
     if comes_unevenly(costs, timing):
-        return LeastSpeed(longest_job(costs, timing), analysis.Binding.hr.name)
+        return LeastSpeed(longest_job(costs, timing), Binding.hr.name)
     resolution, in_ticks = _in_ticks(costs)
     least = analysis.least_period(in_ticks, timing.N, timing.M, timing.L, options)
     speed = Fraction(least.numerator, least.denominator * resolution)
-    return LeastSpeed(speed, analysis.Binding(least.code).name)
+    return LeastSpeed(speed, Binding(least.code).name)
 
 
 def achieved_l(costs: Costs, timing: Timing, speed: Number, options: Options = Options()) -> int | None:
@@ -113,7 +115,7 @@ def achieved_l(costs: Costs, timing: Timing, speed: Number, options: Options = O
         return timing.M if longest_job(costs, timing) <= speed else None
     resolution, in_ticks = _in_ticks(costs, speed)
     landed = analysis.achieved_l(in_ticks, timing.N, timing.M, to_ticks(speed, resolution), options)
-    return None if landed == analysis.NOT_LANDED else landed
+    return None if landed == NOT_LANDED else landed
 
 
 def staircase(costs: Costs, N: int, M: int, options: Options = Options()) -> list[Stair]:
@@ -128,16 +130,37 @@ def staircase(costs: Costs, N: int, M: int, options: Options = Options()) -> lis
     M = 0 if law.undelayed else M
     longest = Timing(N, M, max(N, M))
     checked(longest, options)
-    if not law.legal(N, M):
+    legal = law.legal(N, M)
+    if not legal:
         method.check_design(costs, longest, options.feedback)
+    timings = [Timing(N, M, L) for L in legal]
+    if all(has_closed_form(options, (), costs, timing) for timing in timings):
+        return _in_closed_form(costs, timings, options)
     stairs = []
-    for L in law.legal(N, M):
-        timing = Timing(N, M, L)
+    for timing in timings:
         least = least_speed(costs, timing, options)
         landed = achieved_l(costs, timing, least.speed, options)
         assert landed is not None
-        stairs.append(Stair(L, least.speed, least.binding, landed))
+        stairs.append(Stair(timing.L, least.speed, least.binding, landed))
     return stairs
+
+
+def _in_closed_form(costs: Costs, timings: Sequence[Timing], options: Options) -> list[Stair]:
+    """The stairs of one N and M, all at once."""
+    import numpy as np
+
+    for timing in timings[:1]:
+        method_of(costs).check_design(costs, timing, options.feedback)
+    resolution, in_ticks = _in_ticks(costs)
+    N, M, L = (np.array([getattr(timing, step) for timing in timings], dtype=np.int64) for step in "NML")
+    least = analysis.least_period(in_ticks, N, M, L, options)
+    landed = analysis.achieved_l(in_ticks, N, M, least.numerator, options, least.denominator)
+    return [
+        Stair(timing.L, Fraction(period, steps * resolution), Binding(code).name, achieved)
+        for timing, period, steps, code, achieved in zip(
+            timings, *(column.tolist() for column in (*least, landed)), strict=True
+        )
+    ]
 
 
 def has_closed_form(

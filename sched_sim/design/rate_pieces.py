@@ -15,7 +15,7 @@ from itertools import pairwise
 from typing import NamedTuple
 
 from sched_sim.bounds import MOST_STEPS
-from sched_sim.design.demand import DualRateDemand
+from sched_sim.design.demand import Demand, total_window, update_window, work_of
 from sched_sim.design.landing import landing
 from sched_sim.design.least_speed import least_speed
 from sched_sim.design.method import Law
@@ -245,18 +245,19 @@ def _paces(costs: JobCosts[int], per_cost: int, timing: Timing, options: Options
         yield Fraction(job + costs.hr_update, per_cost)
     if options.feedback == "next-step":
         return
-    import numpy as np
-
-    separate = options.cpus == 2
-    end = np.arange(timing.M + 1, min(timing.L + 2, timing.N) + 1, dtype=object)
-    demand = DualRateDemand(costs, 0 * end + timing.N, 0 * end + timing.M, separate)
-    for following in (0, *(jobs if separate else ())):
+    work = work_of(costs, options)
+    for following in (0, *(jobs if work.separate else ())):
+        more = costs.hr_update + following
         for job in jobs:
-            yield Fraction(job + costs.hr_update + following, 2 * per_cost)
-        for more in (0, costs.hr_update + following):
-            for window in (demand.update_window(end, 0, more), demand.total_window(end, 0, more)):
-                for work, periods in zip(window.numerator, window.denominator, strict=True):
-                    yield Fraction(work, periods * per_cost)
+            yield Fraction(job + more, 2 * per_cost)
+        for end in range(timing.M + 1, min(timing.L + 2, timing.N) + 1):
+            for later in (0, more):
+                yield _pace(update_window(work, timing.N, timing.M, end, later), per_cost)
+                yield _pace(total_window(work, timing.N, end, later), per_cost)
+
+
+def _pace(demand: Demand, per_cost: int) -> Fraction:
+    return Fraction(demand[0], demand[1] * per_cost)
 
 
 def rounded_down(rate: Fraction, fits: Callable[[Fraction], bool]) -> Fraction | None:

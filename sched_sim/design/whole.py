@@ -37,14 +37,6 @@ def larger(first: Whole, second: Whole | int) -> Whole:
     return np.maximum(first, second)
 
 
-def lesser(first: Whole, second: Whole | int) -> Whole:
-    if isinstance(first, int):
-        return first if first <= second else second
-    import numpy as np
-
-    return np.minimum(first, second)
-
-
 def filled(like: Whole, number: int) -> Whole:
     """The number, in the shape of `like`."""
     if isinstance(like, int):

@@ -10,10 +10,12 @@ from typing import NamedTuple
 import numpy as np
 
 from sched_sim.design import analysis, whole
-from sched_sim.design.demand import Quotient
+from sched_sim.design.binding import Binding
+from sched_sim.design.demand import NOT_LANDED
 from sched_sim.design.least_speed import achieved_l, has_closed_form, least_speed
 from sched_sim.design.options import Options
-from sched_sim.design.pieces import Costs, JobCosts, converted, works
+from sched_sim.design.pieces import Costs, converted, works
+from sched_sim.design.quotient import Quotient
 from sched_sim.design.timing import Timing
 from sched_sim.schedule.tasks import Task, phases_matter
 from sched_sim.ticks import ticks_per_unit, to_ticks
@@ -67,13 +69,13 @@ def _in_closed_form(chunk: Chunk) -> Analysis:
     N, M, L = (axis[design] for axis in chunk.designs)
     at_least = Fractions(least.numerator[design], least.denominator[design])
     at = Fractions(np.array(periods, dtype=object)[positions % len(speeds)], np.ones_like(N)) if speeds else at_least
-    landed = _landing(costs, N, M, at, options)
+    landed = analysis.achieved_l(costs, N, M, at.numerator, options, at.denominator)
     enough = at.reaches(at_least)
-    feasible = enough & (landed != analysis.NOT_LANDED) & (landed <= L)
+    feasible = enough & (landed != NOT_LANDED) & (landed <= L)
     return Analysis(
         least=list(_lowest_terms(least, resolution)),
         outcomes=[
-            Outcome(bool(holds), None if step == analysis.NOT_LANDED else step)
+            Outcome(bool(holds), None if step == NOT_LANDED else step)
             for holds, step in zip(feasible.tolist(), landed.tolist(), strict=True)
         ],
     )
@@ -90,20 +92,9 @@ class Fractions(NamedTuple):
         return self.numerator.astype(object) * other.denominator >= other.numerator.astype(object) * self.denominator
 
 
-def _landing(costs: JobCosts[int], N: Ints, M: Ints, period: Fractions, options: Options) -> Ints:
-    """`analysis.achieved_l` at periods that need not be whole ticks: those of one denominator at a time, in finer
-    ticks."""
-    landed = np.empty_like(N)
-    for denominator in set(period.denominator.tolist()):
-        some = period.denominator == denominator
-        finer = type(costs)(*(value * denominator for value in works(costs)))
-        landed[some] = analysis.achieved_l(finer, N[some], M[some], period.numerator[some], options)
-    return landed
-
-
 def _lowest_terms(periods: Quotient[whole.Ints], resolution: int) -> Iterator[Least]:
     """The speeds of HR periods in ticks, `resolution` ticks being one cost unit."""
-    names = {code.value: code.name for code in analysis.Binding}
+    names = {code.value: code.name for code in Binding}
     for numerator, denominator, code in zip(*(part.tolist() for part in periods), strict=True):
         denominator *= resolution
         common = gcd(numerator, denominator)

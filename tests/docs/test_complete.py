@@ -6,7 +6,7 @@ import re
 
 import pytest
 
-from sched_sim.design.analysis import Binding
+from sched_sim.design.binding import Binding
 from studies import run_sweep
 from tests.docs.test_examples import ROOT
 

@@ -5,17 +5,21 @@ from __future__ import annotations
 
 from fractions import Fraction
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from sched_sim.design.analysis import NOT_LANDED, Binding, achieved_l, least_period
+from sched_sim.design import analysis
+from sched_sim.design.analysis import achieved_l, least_period
+from sched_sim.design.binding import Binding
+from sched_sim.design.demand import NOT_LANDED
 from sched_sim.design.methods import METHODS
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import DualRateCosts, JobCosts, LarsenCosts, RecalculateCosts, StandardCosts, works
+from sched_sim.design.timing import Feedback
 from sched_sim.errors import InputError
 from studies.sweep.legal import Legal
 from tests.command_line import Run
@@ -59,6 +63,43 @@ def test_one_design_in_plain_integers_is_what_it_is_in_arrays(
         landed = achieved_l(costs, N, M, period, options)
         assert type(landed) is int
         assert {landed} == {*achieved_l(costs, *map(arrays, (N, M, period)), options).tolist()}
+
+
+@pytest.mark.parametrize("feedback", ["next-step", "same-step"])
+@pytest.mark.parametrize("cpus", [1, 2])
+def test_compiled_it_is_what_it_is_in_pythons_integers(
+    monkeypatch: pytest.MonkeyPatch, feedback: Feedback, cpus: Literal[1, 2]
+) -> None:
+    """Up to numbers that just do not overflow."""
+    random = np.random.default_rng(cpus)
+    N = random.integers(1, 60, 2000)
+    M = random.integers(0, N)
+    L, scale = random.integers(M, N) + (feedback == "next-step"), random.integers(1, 60, 2000)
+    for largest in (3, 100, 10**8, 10**11):
+        costs = DualRateCosts(*random.integers(0, largest, 6).tolist())
+        for options in (Options(feedback=feedback, cpus=cpus, lr_propagate_by=by) for by in ("m", "l")):
+            monkeypatch.setattr(analysis, "COMPILED_FROM", 1)
+            least = least_period(costs, N, M, L, options)
+            periods = least.numerator * scale // least.denominator + random.integers(-1, 2, 2000)
+            landed = achieved_l(costs, N, M, periods, options, scale)
+            assert {part.dtype for part in (*least, landed)} == {np.dtype(np.int64)}
+            monkeypatch.setattr(analysis, "COMPILED_FROM", 10**6)
+            for found, expected in zip(least, least_period(costs, N, M, L, options), strict=True):
+                np.testing.assert_array_equal(found, expected)
+            np.testing.assert_array_equal(landed, achieved_l(costs, N, M, periods, options, scale))
+
+
+@given(designs, st.fractions(0, 3), st.integers(1, 50))
+def test_a_period_may_be_so_much_over_a_scale(design: Design, share: Fraction, scale: int) -> None:
+    """As where all costs are so many times as large."""
+    N, M, L = design.timing.N, design.timing.M, design.timing.L
+    least = least_period(design.costs, N, M, L, design.options)
+    period = int(share * scale * least.numerator / least.denominator) + 1
+    landed = achieved_l(design.costs, N, M, period, design.options, scale)
+    assert landed == achieved_l(times(design.costs, scale), N, M, period, design.options)
+    assert [landed] == achieved_l(
+        design.costs, *(np.array([number]) for number in (N, M, period)), design.options, scale
+    ).tolist()
 
 
 def arrays(number: int) -> Any:

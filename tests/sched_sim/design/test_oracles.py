@@ -8,7 +8,7 @@ from itertools import pairwise
 from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
-from sched_sim.design.analysis import NOT_LANDED
+from sched_sim.design.demand import NOT_LANDED
 from sched_sim.design.least_speed import achieved_l, least_speed, staircase
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import DelayedHorizonCosts, DualRateCosts
