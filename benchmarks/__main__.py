@@ -7,6 +7,7 @@ import sys
 from benchmarks import (
     accuracy,
     analysis,
+    cluster,
     factored,
     filter_step,
     in_c,
@@ -30,6 +31,7 @@ for part in (
     factored,
     robust,
     processor,
+    cluster,
     start_up,
 ):
     for result in part.results():
