@@ -313,5 +313,5 @@ def test_options_that_say_nothing_of_a_composed_filter_are_refused(
 def test_how_caches_are_is_for_executions_of_a_filter_only(sched_sim: Run) -> None:
     is_refused(sched_sim("measure --cold --sequence"), ["--cold, --sequence", "only with --filter"])
     is_refused(sched_sim("measure --robust position --cold"), ["--cold", "only with --filter"])
-    with pytest.raises(InputError, match="caches=.hot. is unknown"):
+    with pytest.raises(InputError, match=r"caches=.hot. is unknown"):
         measure_filter(load_filter("own_filter:cart"), name="c", caches="hot")  # type: ignore[arg-type]

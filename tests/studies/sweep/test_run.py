@@ -72,7 +72,7 @@ def test_the_engine_is_no_part_of_what_the_rows_depend_on(tmp_path):
     for engine in ("compiled", "simpy"):
         with opened({"N": 4, "simulate": True, "engine": engine}, tmp_path / "rows.sqlite") as (sweep, store):
             before = 0 if engine == "compiled" else sweep.grid.size
-            assert run(sweep, store, 0, no_progress) == (before, sweep.grid.size - before, None)
+            assert run(sweep, store, processes(0), no_progress) == (before, sweep.grid.size - before, None)
     with pytest.raises(InputError, match="engine"):
         settings({**SIMULATED, "engine": "fast"})
 
