@@ -29,9 +29,11 @@ from studies.measurement.job_times import ARGUMENT_SETS, Progress, no_garbage_co
 Caches: TypeAlias = Literal["warm", "cold"]
 
 BLOCK_SECONDS = 1e-3
-MOST_IN_BLOCK = 1000
+MOST_IN_BLOCK = 4000
 MOST_IN_ORDER = 20_000_000
 WARM_UP = 20
+FEW, MANY = 1, 50
+"""Executions that tell how long one takes, and how long the call."""
 TRIES = 10
 FLUSHED = 8 << 20
 LINE = 64
@@ -99,7 +101,7 @@ def in_order(names: Sequence[str], jobs: Sequence[Job], order: IntArray, wanted:
     loop = function_for("compiled", timed_in_order)
 
     interval = len(order) // int(np.bincount(order, minlength=len(jobs)).min())  # of the rarest, in executions
-    warm_up = WARM_UP + min(interval, MOST_IN_BLOCK)
+    warm_up = WARM_UP + min(interval, MOST_IN_BLOCK // 2)
 
     def spans(number: int, first: int, count: int) -> IntArray:
         places = np.arange(first - warm_up, first + count)
@@ -162,12 +164,8 @@ def _seconds_of_each(name: str, spans: Callable[[int], IntArray]) -> float:
         if is_numbas(error):
             raise InputError(f"{name} cannot be compiled by numba: {gist(error)}") from error
         raise
-    took = 0.0
-    for count in (10, MOST_IN_BLOCK):
-        took = min(_took(spans, count) for _ in range(3)) / count
-        if took > BLOCK_SECONDS:
-            break
-    return took
+    few, many = (min(_took(spans, count) for _ in range(3)) for count in (FEW, MANY))
+    return max(many - few, 1e-9) / (MANY - FEW)  # without the call
 
 
 def _took(spans: Callable[[int], IntArray], count: int) -> float:
