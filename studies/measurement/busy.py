@@ -43,14 +43,15 @@ def load() -> Load:
 
 
 def signs_of_others(before: Load, start: Clocks, end: Clocks, rounds: Iterable[Sequence[int]]) -> str:
-    """What says that the machine was busy, in words; empty if nothing does. rounds: the times of each job, in ns."""
+    """What says that the machine was busy, in words; empty if nothing does. rounds: the times of each job, in
+    ns, where they would be alike on an idle one."""
     signs = []
     share = (end.thread_ns - start.thread_ns) / max(end.wall_ns - start.wall_ns, 1)
     if share < LEAST_SHARE:
         signs.append(f"the timing had {100 * share:.0f} % of its processor")
     if before.average is not None and before.average >= max(1.0, before.processors / 2):
         signs.append(f"load average {before.average:.1f} on {before.processors} processors before it")
-    spread = median(quantiles(each, n=20)[-1] / max(median(each), 1) for each in rounds)
-    if spread > WIDEST:
-        signs.append(f"p95 is {spread:.1f} times the median, in half of the jobs or more")
+    spreads = [quantiles(each, n=20)[-1] / max(median(each), 1) for each in rounds]
+    if spreads and median(spreads) > WIDEST:
+        signs.append(f"p95 is {median(spreads):.1f} times the median, in half of the jobs or more")
     return ", ".join(signs)

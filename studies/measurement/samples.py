@@ -77,7 +77,8 @@ def _timed(user: UserFilter, name: str, caches: Caches, most: Wanted, seed: int,
     before, clock = load(), monotonic()
     found = run(_courses(user, caches, wanted, clock, progress), wanted, seed, progress)
     spans = {part: np.maximum(found.ns[part], 1) for part in user.jobs}  # 0: less than the clock's resolution
-    busy = signs_of_others(before, found.began, clocks(), [_some(each) for each in spans.values()])
+    alike = [_some(each) for each in spans.values()] if caches == "warm" else []
+    busy = signs_of_others(before, found.began, clocks(), alike)
     about_clock = described(clock)
     about = {
         "source": (

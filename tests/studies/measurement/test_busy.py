@@ -36,6 +36,7 @@ def test_an_idle_machine_shows_no_sign() -> None:
     assert signs_of_others(Load(None, 2), START, ALONE, [EVEN]) == ""
     assert signs_of_others(Load(3.9, 8), START, ALONE, [EVEN]) == ""
     assert signs_of_others(Load(0.9, 1), START, ALONE, [EVEN]) == ""
+    assert signs_of_others(IDLE, START, ALONE, []) == ""
 
 
 def test_each_sign_is_said_with_its_figure() -> None:
