@@ -14,14 +14,16 @@ from sched_sim.schedule.engine import MANY_JOBS, Engine, is_compiled
 from sched_sim.schedule.length import check_simulation
 from sched_sim.schedule.outcome import Schedule
 from studies.sweep.grid import Block
-from studies.sweep.rows import Row
 
 Point: TypeAlias = tuple[Timing, Fraction]
 """A design, and its speed."""
 
+Figures: TypeAlias = tuple[int | float | None, ...]
+"""Those of `rows.SIMULATION_COLUMNS`."""
 
-def simulated(block: Block, points: Sequence[Point], cycles: int, engine: Engine) -> list[Row]:
-    """The figures of `rows.SIMULATION_COLUMNS` of each point. engine: "auto" is machine code, wherever that can.
+
+def simulated(block: Block, points: Sequence[Point], cycles: int, engine: Engine) -> list[Figures]:
+    """Of each point. engine: "auto" is machine code, wherever that can.
 
     Raises InputError as `simulate` does.
     """
@@ -45,12 +47,12 @@ def _plan(block: Block, point: Point, cycles: int, engine: Engine) -> tuple[InTi
     return (run, plan) if is_compiled(engine, MANY_JOBS, holds=holds(plan, run.tasks)) else None
 
 
-def _in_machine_code(plans: Sequence[tuple[InTicks, Plan]]) -> Iterator[Row]:
+def _in_machine_code(plans: Sequence[tuple[InTicks, Plan]]) -> Iterator[Figures]:
     if not plans:
         return
     import numpy as np
 
-    from sched_sim.design.engine.rules import HR_JOB, LR_UPDATE
+    from sched_sim.design.engine.codes import HR_JOB, LR_UPDATE
     from sched_sim.design.engine.run import run_plans
 
     outcome = run_plans([plan for _, plan in plans], [run.tasks for run, _ in plans])
@@ -83,7 +85,7 @@ def _in_machine_code(plans: Sequence[tuple[InTicks, Plan]]) -> Iterator[Row]:
         )
 
 
-def _by_simpy(block: Block, point: Point, cycles: int) -> Row:
+def _by_simpy(block: Block, point: Point, cycles: int) -> Figures:
     timing, speed = point
     schedule = simulate(block.costs, timing, speed, cycles, block.options, block.tasks, engine="simpy")
     achieved = schedule.achieved

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from sched_sim.design.engine.codes import NOTHING
 from sched_sim.design.engine.records import Run
 from sched_sim.design.engine.rules import (
     CARRIED_FROM,
     CARRIED_UNTIL,
-    NOTHING,
     OF_K,
     OF_M,
     applied,

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
-from sched_sim.design.engine.rules import LANDS, LR_GAIN, LR_STEP, MEASURED, NOTHING, RELEASES_LOW, SENDS
+from sched_sim.design.engine.codes import LANDS, LR_GAIN, LR_STEP, MEASURED, NOTHING, RELEASES_LOW, SENDS
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import (
     CarriedGainCosts,
@@ -42,7 +42,7 @@ class Plan(NamedTuple):
     An HR job takes `each`; and `carry` for each measurement that was taken carried_from .. carried_until - 1 steps ago,
     from step `earliest` on; `at_k`, and `couple` for each of those, where a measurement is taken; `at_m`, and
     `compensate` for each that was taken since, where one arrives. after_k, after_m: what it means that it has finished
-    there, as in `rules`.
+    there, as in `codes`.
 
     propagate, gain, update, replay: work of LR jobs, and of one replayed step; propagate_due, update_due: after the
     start of step k; hr_update: work of one. low_kind: of the LR job, where it

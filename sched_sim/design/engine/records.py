@@ -67,7 +67,7 @@ class Cpu:
 
 
 class Job:
-    """As `schedule.jobs.Job`; kind: -1 where the row is unused; follows: see `rules`; freed: how often the chain had
+    """As `schedule.jobs.Job`; kind: -1 where the row is unused; follows: see `codes`; freed: how often the chain had
     been freed at its release, -1 for a job of no chain."""
 
     kind: int

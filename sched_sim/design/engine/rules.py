@@ -8,18 +8,30 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from sched_sim.design.engine.codes import (
+    FED_BACK,
+    FREES,
+    HR_JOB,
+    HR_UPDATE,
+    LANDS,
+    LOW_DONE,
+    LR_GAIN,
+    LR_PROPAGATE,
+    LR_UPDATE,
+    MEASURED,
+    NOTHING,
+    PROPAGATED,
+    RELEASES_LOW,
+    REPLAYED,
+    SENDS,
+    UPDATED,
+)
 from sched_sim.heap import push
 from sched_sim.schedule.jobs import HR, LR
 
 if TYPE_CHECKING:
     from sched_sim.design.engine.plan import Plan
     from sched_sim.design.engine.records import Run
-
-HR_JOB, HR_UPDATE, LR_GAIN, LR_PROPAGATE, LR_STEP, LR_UPDATE, FIRST_TASK = range(7)
-"""Kinds of job, in the order of their names; then the tasks, in that of theirs."""
-
-(NOTHING, LANDS, SENDS, MEASURED, RELEASES_LOW, LOW_DONE, PROPAGATED, FREES, UPDATED, FED_BACK, REPLAYED) = range(11)
-"""What it means that a job has finished."""
 
 OF_K, OF_M, CARRIED_FROM, CARRIED_UNTIL = range(4)
 """How long ago the measurements were taken that a step has to do with."""

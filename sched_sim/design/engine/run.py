@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sched_sim.compiled import compiled
+from sched_sim.design.engine.codes import FIRST_TASK
 from sched_sim.design.engine.event_loop import CARRY, simulate_each
 from sched_sim.design.engine.plan import Plan
 from sched_sim.design.engine.records import Cpu, Figures, Job, State, TaskRow
-from sched_sim.design.engine.rules import FIRST_TASK
 from sched_sim.schedule.outcome import Response, Schedule
 from sched_sim.schedule.tasks import TaskSource
 
