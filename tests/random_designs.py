@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 from random import Random
 from typing import NamedTuple
@@ -24,6 +25,7 @@ from sched_sim.design.pieces import (
     RecalculateCosts,
     RobustCosts,
     StandardCosts,
+    converted,
 )
 from sched_sim.design.times import Instants
 from sched_sim.design.timing import Timing
@@ -58,10 +60,12 @@ class Simulated(NamedTuple):
 
 
 def random_design(random: Random) -> Simulated:
-    """Costs and times in whole ticks of a cost unit, many of them equal, so that much happens at one instant."""
+    """Costs and times in whole ticks of a cost unit, many of them equal or none, so that much happens at one instant; at
+    times so many ticks that a horizon has 50 bits or more."""
     kind = random.choice([*PIECES, DualRateCosts, DualRateCosts, DualRateCosts, DelayedHorizonCosts])
     most = random.choice([2, 6, 40])
-    works = [random.randint(random.random() > 0.1, most) for _ in range(PIECES[kind])]
+    some = random.choice([1, 0.9, 0.9, 0.3])
+    works = [random.randint(1, most) if random.random() < some else 0 for _ in range(PIECES[kind])]
     if kind is DualRateCosts and random.random() < 0.5:
         works[4] = 0
     costs = kind(*works)
@@ -79,7 +83,18 @@ def random_design(random: Random) -> Simulated:
     load = random.choice([0.4, 0.8, 0.95, 1.0, 1.1, 2.0])
     speed = Fraction(max(1, round(sum(works) / random.choice([1, 2, 3]) / load)))
     tasks = tuple(_task(random, name, options.cpus, most) for name in random.choice(["", "", "a", "ba", "cab"]))
-    return Simulated(costs, timing, speed, random.randint(1, 12), options, tasks)
+    design = Simulated(costs, timing, speed, random.randint(1, 12), options, tasks)
+    return _times(design, 2**40) if random.random() < 0.1 else design
+
+
+def _times(design: Simulated, factor: int) -> Simulated:
+    """With so many times as many ticks."""
+    return design._replace(
+        costs=converted(design.costs, lambda work: factor * work),
+        speed=factor * design.speed,
+        options=replace(design.options, context_switch=factor * design.options.context_switch),
+        tasks=tuple(replace(task, cost=factor * task.cost) for task in design.tasks),
+    )
 
 
 def _timing(random: Random, method: Method, kind: type, feedback: str) -> Timing:
