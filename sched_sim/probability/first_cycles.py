@@ -22,7 +22,7 @@ def first_cycles(process: Process, cycles: int, taken: Taken, hyperperiod: int, 
         if followed == cycles and not cycle % every:
             (last, shape), (before, total) = (shape, shape_of(process)), (total, process.total)
             if taken.step(cycle) >= begin + hyperperiod and changed(last, shape) < SAME:
-                followed, stays = min(cycle, cycles), total / before
+                followed, stays = min(cycle, cycles), total / before if before else 1.0
         process.advance(taken.step(cycle + 1), tallies)
         cycle += 1
     found = []

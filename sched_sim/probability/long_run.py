@@ -100,7 +100,7 @@ def _most_frequent(process: Process, hyperperiod: int) -> Hashable | None:
 
 def shape_of(process: Process) -> State:
     """Its laws, but for what is no longer followed."""
-    total = process.total
+    total = process.total or 1.0
     return {key: mass / total for key, mass in process.state().items()}
 
 
