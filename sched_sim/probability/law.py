@@ -15,7 +15,7 @@ from sched_sim.probability.outcome import Floats
 FEW = 24
 """A law of so few values is added value by value, which is faster than to convolve."""
 
-NOTHING = 1e-40
+NOTHING = 1e-32
 """A mass that is not followed; what is left out is counted."""
 
 
