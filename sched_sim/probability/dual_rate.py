@@ -67,6 +67,7 @@ class DualRate:
         """This mass is followed no more; of the corrections those before this cycle's have landed."""
         self.gone += gone
         self.tallies[cycle].behind += gone
+        self.tallies[cycle].unknown += gone * max(self.taken.before(self.step + 1) - cycle, 1)
 
     def _separate(self) -> list[dict[Front, Floats]]:
         """Those between which nothing is common in this step: on one processor all is, on two the HR job."""

@@ -36,7 +36,10 @@ def follow(model: Model, cycles: int) -> dict[int, Followed]:
 def _follow(process: Process, model: Model, cycles: int, *, settles: bool) -> Followed:
     first = first_cycles(process, cycles, model.taken, model.hyperperiod, model.begin, model.after)
     last = long_run(process, model.hyperperiod, model.begin) if settles else None
-    return Followed(first, None if last is None else last.scaled(1 / model.cycles))
+    if last is None:
+        return Followed(first, None)
+    last.behind = last.unknown
+    return Followed(first, last.scaled(1 / model.cycles))
 
 
 def _together(followed: Sequence[Followed]) -> Followed:

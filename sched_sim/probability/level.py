@@ -66,6 +66,7 @@ class Level:
             self.parts[key], gone = cut(served(mass, segment.length), self.most)
             self.gone += gone
             tally.behind += gone
+            tally.unknown += gone
 
     def _with_tasks(self, parts: Parts, tasks: list[TaskInTicks]) -> Parts:
         for task in tasks:

@@ -34,12 +34,13 @@ class CycleProbabilities:
     misses: by job kind ("hr"; of dual-rate "lr_propagate", also with the gain, and "lr_update"; "task:NAME" of each
         task that is more urgent than LR jobs) the probability that a job misses its deadline, the mean of those that
         are released in the cycle, or due in it; no entry where none is.
-    landing: P(L = l) of the cycle's measurement, for each l that is possible; they do not sum to 1 where measurements
-        are lost, `Probabilities.lost`, or where some mass is further behind than is followed.
+    landing: P(L = l) of the cycle's measurement, for each l that was seen, at most `behind` for others; they do not sum
+        to 1 where measurements are lost, `Probabilities.lost`, or where some mass is further behind than is followed.
     late: P(the correction lands later than the design's L) of those that arrive (serial methods: than in step m).
     responses: by job kind, "hr", "lr_update" (from its arrival), "task:NAME": how long a job takes from its release.
-    behind: the mass that was further behind than is followed, in some cycle up to this one; in the long run, that which
-        falls so far behind in a cycle. It is in every upper bound, and in no lower one.
+    behind: the mass that was further behind than is followed, in some cycle up to this one; in the long run, where what
+        falls so far behind starts anew, the mean number of corrections of a cycle that are lost so. It is in every
+        upper bound, and in no lower one.
     """
 
     misses: Mapping[str, Bounds]

@@ -15,8 +15,8 @@ class Tally:
     """Of one cycle, or of many together.
 
     jobs, missed: by kind; landing: mass by L; due, late: corrections whose time had come, and those that had not
-    landed; behind: see `CycleProbabilities`; crowded: more HR updates in a step than so
-    many.
+    landed; behind: see `CycleProbabilities`; unknown: the same, for each cycle whose correction had not landed then;
+    crowded: more HR updates in a step than so many.
     """
 
     def __init__(self) -> None:
@@ -24,7 +24,7 @@ class Tally:
         self.missed: defaultdict[str, float] = defaultdict(float)
         self.responses: dict[str, Floats] = {}
         self.landing: defaultdict[int, float] = defaultdict(float)
-        self.due = self.late = self.behind = 0.0
+        self.due = self.late = self.behind = self.unknown = 0.0
         self.crowded: defaultdict[int, float] = defaultdict(float)
 
     def job(self, kind: str, weight: float, missed: float) -> None:
@@ -45,6 +45,7 @@ class Tally:
         self.due += scale * other.due
         self.late += scale * other.late
         self.behind += scale * other.behind
+        self.unknown += scale * other.unknown
         for charged, share in other.crowded.items():
             self.crowded[charged] += scale * share
 

@@ -21,7 +21,6 @@ from tests.exhaust import share_of
 
 T, BINS = 60, 12
 ROUNDING = 1e-12
-NONE = Bounds(0, 0)
 
 
 class Design:
@@ -79,7 +78,7 @@ def bins_bound_the_exact(design: Design) -> None:
         for kind in inner.misses:
             holds(outer.misses[kind], inner.misses[kind])
         for landed in inner.landing.keys() | outer.landing.keys():
-            holds(outer.landing.get(landed, NONE), inner.landing.get(landed, NONE))
+            holds(*(each.landing.get(landed, Bounds(0, each.behind)) for each in (outer, inner)))
         for kind in inner.responses:
             for number in range(4 * BINS):
                 exactly = Bounds(*(at(tail, number * exact.ticks // BINS) for tail in inner.responses[kind]))
