@@ -10,64 +10,63 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Hashable, Mapping, Sequence
+from typing import Any
 
 import numpy as np
 
-from sched_sim.design.taken import Taken
 from sched_sim.probability.high_rate import WithCorrections
-from sched_sim.probability.law import Law, cut, later_of, served, sum_of
+from sched_sim.probability.law import later_of, sum_of
 from sched_sim.probability.level import Level
 from sched_sim.probability.low_rate import EARLY, FEEDBACK, GAIN, UPDATE, Design, Front
 from sched_sim.probability.outcome import Floats
-from sched_sim.probability.tally import Tallies, Tally
+from sched_sim.probability.queue import LowRate, add
+from sched_sim.probability.tally import Tally
 from sched_sim.probability.timeline import Segment, Timeline
 
 
-class DualRate:
-    """From step 0 on. levels: of HR jobs, and of tasks between them and LR jobs, where they are exact."""
+class DualRate(LowRate[Front]):
+    """levels: of HR jobs, and of tasks between them and LR jobs, where they are exact."""
 
     def __init__(self, design: Design, timeline: Timeline, levels: Sequence[Level]) -> None:
-        self.design, self.timeline, self.levels = design, timeline, levels
-        self.taken: Taken = design.timing.taken
-        self.most = (design.debt + 1) * design.timing.N * timeline.period
+        most = (design.debt + 1) * design.timing.N * timeline.period
+        super().__init__(Front(0, EARLY, drawn=False), timeline, design.timing.taken, most)
+        self.design, self.levels = design, levels
         self.high = WithCorrections(design.pieces, self.taken)
-        self.parts: dict[Front, Floats] = {Front(0, EARLY, drawn=False): np.ones(1)}
-        self.step, self.weight, self.gone = 0, 1.0, 0.0
         self.high_done: Floats | None = None
-        self.tallies = Tallies()
-
-    @property
-    def total(self) -> float:
-        return sum(float(mass.sum()) for mass in self.parts.values())
 
     @property
     def behind(self) -> float:
         return self.gone + sum(level.gone for level in self.levels)
 
-    def advance(self, end: int, tallies: Tallies) -> None:
-        """Up to the start of this step."""
-        self.tallies = tallies
-        while self.step < end:
-            self._judge(self.step)
-            left: dict[Front, Floats] = {}
-            for parts in self._separate():
-                if self.design.two_cpus and self._overruns(self.step, parts):
-                    for front, mass in parts.items():
-                        self._leave(self.taken.before(self.step) + front.cycle, float(mass.sum()))
-                    continue
-                for front, mass in self._one_step(self.step, parts).items():
-                    _add(left, front, mass)
-            self.parts = {}
-            for front, mass in left.items():
-                self.parts[front], gone = cut(mass, self.most)
-                self._leave(self.taken.before(self.step + 1) + front.cycle, gone)
-            self.step += 1
+    def restart(self, key: Any) -> None:
+        super().restart(key)
+        for level in self.levels:
+            level.parts, level.gone = {key.to_apply: np.ones(1)}, 0.0
 
-    def _leave(self, cycle: int, gone: float) -> None:
-        """This mass is followed no more; of the corrections those before this cycle's have landed."""
-        self.gone += gone
-        self.tallies[cycle].behind += gone
-        self.tallies[cycle].unknown += gone * max(self.taken.before(self.step + 1) - cycle, 1)
+    def take(self, key: Any) -> float:
+        taken = super().take(key)
+        self._settle(self.parts)
+        return taken
+
+    def state(self) -> Mapping[Hashable, Floats]:
+        of_levels: dict[Hashable, Floats] = {
+            (number, key): mass for number, level in enumerate(self.levels) for key, mass in level.parts.items()
+        }
+        return {**super().state(), **of_levels}
+
+    def _one_step(self, step: int) -> dict[Front, Floats]:
+        self._judge(step)
+        left: dict[Front, Floats] = {}
+        for parts in self._separate():
+            if self.design.two_cpus and self._overruns(step, parts):
+                for front, mass in parts.items():
+                    self._leave(self.taken.before(step) + front.cycle, float(mass.sum()))
+            else:
+                add(left, self._together(step, parts).items())
+        return left
+
+    def _oldest(self, front: Front, step: int) -> int:
+        return self.taken.before(step + 1) + front.cycle
 
     def _separate(self) -> list[dict[Front, Floats]]:
         """Those between which nothing is common in this step: on one processor all is, on two the HR job."""
@@ -81,13 +80,9 @@ class DualRate:
     def _overruns(self, step: int, parts: dict[Front, Floats]) -> bool:
         """Whether the HR job may not be done when the next one comes: no backlog of HR jobs is followed here."""
         (applied,) = {front.to_apply for front in parts}
-        return self._high_rate(step, applied).worst > self.timeline.period
+        return self.high.cost(step, applied).worst > self.timeline.period
 
-    def _high_rate(self, step: int, applied: int) -> Law:
-        """The HR job on a processor of its own, with so many HR updates, or as charged."""
-        return self.high.cost(step, {"most": self.design.usual, "least": 0}.get(self.design.charge, applied))
-
-    def _one_step(self, step: int, parts: dict[Front, Floats]) -> dict[Front, Floats]:
+    def _together(self, step: int, parts: dict[Front, Floats]) -> dict[Front, Floats]:
         tally = self.tallies[self.taken.before(step + 1) - 1]
         self.high_done = self._high_done(step, parts, tally) if self.design.two_cpus else None
         parts = self._begin(step, parts)
@@ -97,34 +92,12 @@ class DualRate:
             for task in segment.released:
                 parts = {front: task.cost.added_to(mass) for front, mass in parts.items()}
             parts = self._run(step, segment, parts)
+            for level in self.levels:
+                for front, mass in parts.items():
+                    if front.stage == FEEDBACK:
+                        level.parts[0] = sum_of(level.parts[0], mass)
             self._settle(parts)
         return parts
-
-    def clear(self) -> dict[Hashable, float]:
-        """As `Serial.clear`."""
-        return {front: float(mass[0]) for front, mass in self.parts.items() if not front.drawn}
-
-    def restart(self, key: Hashable) -> None:
-        assert isinstance(key, Front)
-        self.parts, self.gone = {key: np.ones(1)}, 0.0
-        for level in self.levels:
-            level.parts, level.gone = {key.to_apply: np.ones(1)}, 0.0
-
-    def take(self, key: Hashable) -> float:
-        assert isinstance(key, Front)
-        mass = self.parts.get(key)
-        if mass is None:
-            return 0.0
-        taken, mass[0] = float(mass[0]), 0.0
-        self._settle(self.parts)
-        return taken
-
-    def state(self) -> Mapping[Hashable, Floats]:
-        of_parts: dict[Hashable, Floats] = dict(self.parts.items())
-        of_levels: dict[Hashable, Floats] = {
-            (number, key): mass for number, level in enumerate(self.levels) for key, mass in level.parts.items()
-        }
-        return of_parts | of_levels
 
     def _settle(self, parts: Mapping[Front, Floats]) -> None:
         totals: defaultdict[Hashable, float] = defaultdict(float)
@@ -168,10 +141,9 @@ class DualRate:
             if at_k:
                 now = now._replace(cycle=now.cycle - 1, missing=(*now.missing, -front.cycle))
             if -now.cycle > self.design.debt:
-                self._leave(self.taken.before(step + 1) + now.cycle, float(mass.sum()))
+                self._leave(self._oldest(now, step), float(mass.sum()))
                 continue
-            for ready, part in self._looked_up(step, now, mass, first=False):
-                _add(begun, ready, part)
+            add(begun, self._looked_up(step, now, mass, first=False))
         return begun
 
     def _fed_back(self, step: int, front: Front, mass: Floats) -> tuple[Front, Floats]:
@@ -186,7 +158,7 @@ class DualRate:
     def _high_done(self, step: int, parts: dict[Front, Floats], tally: Tally) -> Floats:
         """When the HR job of this step has finished, on a processor of its own, in all these parts."""
         (applied,) = {front.to_apply for front in parts}
-        law = self._high_rate(step, applied).mass
+        law = self.high.cost(step, applied).mass
         share = sum(float(mass.sum()) for mass in parts.values())
         tally.responded("hr", share * law)
         tally.job("hr", share, share * float(law[self.timeline.period + 1 :].sum()))
@@ -227,28 +199,6 @@ class DualRate:
         """That of the next cycle, with so many HR updates to do for this one."""
         return Front(front.cycle + 1, EARLY, False, front.to_apply + updates, front.missing[1:])
 
-    def _run(self, step: int, segment: Segment, begun: dict[Front, Floats]) -> dict[Front, Floats]:
-        """What is left at the end of the segment."""
-        left: dict[Front, Floats] = {}
-        at_start = dict(begun)
-        while at_start:
-            front = min(at_start)
-            mass = at_start.pop(front)
-            if not front.drawn:
-                _add(left, front, served(mass, segment.length))
-                continue
-            done, rest = mass[: segment.length + 1], mass[segment.length :].copy()
-            if len(rest) > 1:
-                rest[0] = 0.0
-                _add(left, front, rest)
-                if front.stage == FEEDBACK:
-                    for level in self.levels:
-                        level.parts[0] = sum_of(level.parts[0], rest)
-            if done.any():
-                for following, part in self._finished(step, segment, front, done):
-                    _add(at_start, following, part)
-        return left
-
     def _finished(self, step: int, segment: Segment, front: Front, done: Floats) -> list[tuple[Front, Floats]]:
         """The job at the front has finished at these instants of the segment."""
         if front.stage == EARLY and self.design.precomputed:
@@ -273,10 +223,6 @@ class DualRate:
         if self.design.same_step:
             return [(front._replace(stage=FEEDBACK), correction.added_to(done))]
         tally.landing[in_state - k] += float(done.sum())
-        if self.design.charge == "most" and not self.design.two_cpus:
+        if self.design.charge == "most":
             done = correction.added_to(done)
         return self._looked_up(step, self._next(front, updates), done, first=True)
-
-
-def _add(parts: dict[Front, Floats], front: Front, mass: Floats) -> None:
-    parts[front] = sum_of(parts[front], mass) if front in parts else mass

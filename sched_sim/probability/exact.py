@@ -30,7 +30,7 @@ from sched_sim.probability.cost_distribution import CostDistribution
 from sched_sim.probability.delay import Delay
 from sched_sim.probability.followed import follow
 from sched_sim.probability.had import check_had
-from sched_sim.probability.in_ticks import Given, Rounded, grid_of, pieces_of
+from sched_sim.probability.in_ticks import MOST_TICKS, Given, Rounded, grid_of, pieces_of
 from sched_sim.probability.model import Model
 from sched_sim.probability.outcome import CycleProbabilities, Probabilities
 from sched_sim.probability.tally import Tally
@@ -81,6 +81,11 @@ def probabilities(
     of_tasks = {task.name: CostDistribution.certain(task.cost) for task in tasks} | _of_tasks(task_costs, tasks)
     given = Given(pieces, tasks, of_tasks, speed)
     grid = grid_of(given, bins)
+    if options.cpus == 2 and not grid.exact:
+        raise InputError(
+            f"{option('cpus')} 2: had where all costs are whole ticks of which an HR period has at most {MOST_TICKS}, "
+            f"or whole {option('bins')}; round them yourself, up for a cautious estimate"
+        )
     rounded: tuple[Rounded, ...] = ("down",) if grid.exact else ("down", "up")
     models = [Model(costs, timing, options, given, grid, each, delay, debt) for each in rounded]
     followed = [follow(model, cycles) for model in models]
@@ -95,14 +100,28 @@ def probabilities(
         for number, low in enumerate(lower.cycles)
     ]
     last = {charged: each.long_run for charged, each in uppers.items() if each.long_run is not None}
-    in_long_run = None
+    in_long_run, why = None, next(filter(None, (model.no_long_run() for model in models)), NOT_SETTLED)
     if lower.long_run is not None and len(last) == len(uppers):
         in_long_run = between(lower.long_run, last)
-    why = next(filter(None, (model.no_long_run() for model in models)), NOT_SETTLED) if in_long_run is None else ""
-    return Probabilities(found, in_long_run, why, grid.ticks, grid.exact, 1 - arrive)
+        why = _not_followed(in_long_run, models[0].debt)
+    return Probabilities(found, None if why else in_long_run, why, grid.ticks, grid.exact, 1 - arrive)
 
+
+RARE, NEVER = 1e-3, 1e-20
+"""What is not followed must be so rare among what is late, or so rare anyway: then it does not matter how long it takes
+until it is as before."""
 
 NOT_SETTLED = "the distribution of what is left to do does not settle"
+
+
+def _not_followed(long_run: CycleProbabilities, debt: int) -> str:
+    """Why it does not say what happens in the long run; empty if it does."""
+    if long_run.behind <= max(RARE * long_run.late.upper, NEVER):
+        return ""
+    return (
+        f"it falls more than {debt} cycles behind with a probability of {long_run.behind:.2g} a cycle, and from there "
+        f"it is not followed: give a larger {option('debt')}, or more {option('bins')}"
+    )
 
 
 def _delay(delays: CostDistribution | None, dropout: float, timing: Timing) -> Delay | None:

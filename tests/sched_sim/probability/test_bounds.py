@@ -54,7 +54,7 @@ def designs(draw: st.DrawFn) -> Design:
     costs = DualRateCosts(draw(high), draw(high), draw(costs_up_to(20)), draw(low), nothing, draw(low))
     M = draw(st.integers(0, 4))
     if of_task is None and draw(st.booleans()):
-        options = draw(st.sampled_from([Options(feedback="same-step"), Options(cpus=2)]))
+        options = Options(feedback="same-step")
         return Design(costs, Timing(N, M, M + 1), options, None)
     return Design(costs, Timing(N, M, M + draw(st.integers(1, 3))), Options(), of_task)
 
