@@ -58,6 +58,7 @@ def minimum(
     """
     from sched_sim.cli.caveats import caveat_note, with_caveats
     from sched_sim.cli.design_times import make_design
+    from sched_sim.cli.less_work import least_note, speed_words
     from sched_sim.cli.measured_note import measured_row, range_note, say_of_statistic
     from sched_sim.cli.parts import MEANING, fit_row, fit_words, fixed_by, highest_note, least_row, no_less
     from sched_sim.cli.uneven_note import uneven_note
@@ -66,6 +67,7 @@ def minimum(
     from sched_sim.design.fit import fit
     from sched_sim.design.landing import landing
     from sched_sim.design.least_speed import least_speed
+    from sched_sim.design.less_work import enough_for_less, holds_for_less
     from sched_sim.design.methods import select
     from sched_sim.design.pieces import converted
 
@@ -82,6 +84,8 @@ def minimum(
 
     names = opt.wanted_methods(method, table)
     refused = Refused(names)
+
+    enough: dict[str, Fraction | None] = {}  # for less work too, of the methods whose least speed is not
 
     def found(name: str) -> tuple[dict[str, Any], dict[str, Any]]:
         """For scripts, and for people."""
@@ -122,6 +126,9 @@ def minimum(
                         f"{units(table.unit)} per s": f"{row['work_per_second']:.4g}",
                     }
         scale = second if timed else Fraction(1)
+        speed = Fraction(row["min_speed_exact"]) / scale
+        if not holds_for_less(work, timing, speed, options, others):
+            enough[name] = enough_for_less(work, timing, options, others, speed)
         row = in_time_and_ram(row | board_row(table, name, ram_kb))
         return row | measured_row(table, name, timing, options, others, scale), person | ram_words(row)
 
@@ -138,11 +145,17 @@ def minimum(
         design.words,
         uneven_note({name: (select(table, name, options, statistic), of) for name, of in timings.items()}, others),
         caveat_note(timings),
+        *(
+            least_note(name, speed_words(of, second * of * rate if timed and of and rate else None, table.unit))
+            for name, of in enough.items()
+        ),
         update_note(table, [*timings]),
         range_note(table, timings, options, others),
         instructions_note(table, rows, part),
     )
     rows = with_caveats(rows)
+    if enough:
+        rows = [row | {"less_work_speed": float(of) if (of := enough.get(row["method"])) else None} for row in rows]
     if format == "json":
         print_json(rows)
     elif format == "csv":

@@ -60,6 +60,15 @@ HistogramFile = Annotated[
         rich_help_panel=opt.OUTPUT,
     ),
 ]
+LessWorkToo = Annotated[
+    bool,
+    typer.Option(
+        "--less-work",
+        help="Say too whether a deadline is missed where executions take less than their costs: then a correction may "
+        "land in another step.",
+        rich_help_panel=opt.OUTPUT,
+    ),
+]
 ABOUT_ACCURACY = flags.Asked._fields
 WITH_SCENARIO = ("scenario", "gantt", "first", "until", "trace", "histogram", "format", *ABOUT_ACCURACY)
 """The parameters that go together with --scenario; what the others say, the scenario says itself."""
@@ -87,6 +96,7 @@ def simulate(
     first: From = None,
     until: Until = None,
     trace: TraceFiles = None,
+    less_work: LessWorkToo = False,
     scenario: ScenarioFile = None,
     histogram: HistogramFile = None,
     model: flags.ScenarioModel = None,
@@ -201,6 +211,14 @@ def simulate(
     (about,) = with_caveats(
         [about_run | update_form(table, method) | board_row(table, method) | busy_row(table.provenance)]
     )
+    less_note = ""
+    if less_work:
+        from sched_sim.cli.less_work import row_of, said
+        from sched_sim.design.less_work import less_work as look
+
+        found = look(work, timing, pace, options, others)
+        about |= row_of(found)
+        less_note = said(found, work, others)
     if format == "json":
         print_json(about | outcome(schedule, achieved, rate, wait))
     elif format == "csv":
@@ -211,7 +229,7 @@ def simulate(
         if part is not None and rate is None:
             where += f", as fast as it can: HR period {1e6 * float(pace):.6g} us"
         title = f"{method}, N={design.N}{delay} L={timing.L}, {where}"
-        note = lines(design.words, caveat_note([method]), update_note(table, [method]))
+        note = lines(less_note, design.words, caveat_note([method]), update_note(table, [method]))
         show(title, schedule, achieved, rate, wait, method in MULTIRATE_METHODS, note)
 
 

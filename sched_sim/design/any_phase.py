@@ -76,6 +76,17 @@ def worst_landing(costs: Costs, timing: Timing, speed: Fraction, options: Option
     return _landed(costs, timing, settled.design) if settled.late is None else None
 
 
+def late_for_less(costs: Costs, timing: Timing, speed: Fraction, options: Options, tasks: Sequence[Task]) -> str | None:
+    """What may be late at some phase where executions take their costs or less, as `late_job` says it: a correction of
+    the dual-rate filter may then come in any step from its earliest to its latest. Else more work is never better."""
+    settled = _settled(costs, timing, speed, options, tasks)
+    if settled.late is not None or not isinstance(costs, DualRateCosts):
+        return settled.late
+    if not method_of(costs).law(options.feedback).one_in_flight(timing.N, timing.L):
+        return None
+    return _late_of_all(costs, timing, speed, options, tasks, phased(costs, timing, speed, options, tasks))
+
+
 class Settled(NamedTuple):
     """A design whose work is that of where it lands; late: as `late_job` says it."""
 

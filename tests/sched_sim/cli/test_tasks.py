@@ -118,3 +118,51 @@ def test_a_job_that_is_not_due_yet_is_not_said_to_be_missed(sched_sim: Run, tmp_
     slow = next(line for line in result.out.splitlines() if "task:slow" in line)
     assert slow.split()[:5] == ["task:slow", "1", "-", "-", "0"]
     assert "past their deadline they are missed" in result.out
+
+
+NARROW = """name = "narrow"
+unit = "operation"
+source = "an example"
+[costs.dual-rate]
+hr_propagate = 50
+hr_restart = 50
+hr_update = 20
+lr_propagate = 10
+lr_update = 54
+"""
+BESIDE = """[[task]]
+name = "control"
+period = 4
+offset = 2
+cost = 25
+priority = 5
+"""
+
+
+@pytest.fixture
+def narrow(tmp_path: Path) -> str:
+    """A correction that takes less lands beside the task."""
+    (tmp_path / "narrow.toml").write_text(NARROW)
+    (tmp_path / "beside.toml").write_text(BESIDE)
+    return "-N 4 -M 0 --costs narrow.toml --tasks beside.toml"
+
+
+def test_minimum_says_where_less_work_needs_more(sched_sim: Run, narrow: str) -> None:
+    said = "dual-rate: at its least speed work that takes less may land in another step and miss a deadline; "
+    assert f"{said}at 95 none does" in sched_sim(f"minimum {narrow}").out
+    assert f"{said}`sched-sim simulate --less-work`" in sched_sim(f"minimum {narrow} --feedback same-step").out
+    (row,) = json.loads(sched_sim(f"minimum {narrow} --format json").out)
+    assert (row["min_speed"], row["less_work_speed"]) == (77.25, 95)
+    assert "less" not in sched_sim(f"minimum {narrow.partition(' --tasks')[0]}").out
+
+
+def test_simulate_looks_for_less_work(sched_sim: Run, narrow: str) -> None:
+    asked = f"simulate {narrow} --less-work --speed"
+    assert "Less work misses a deadline: lr_update 48.9375 instead of 54 in every cycle" in sched_sim(f"{asked} 80").out
+    assert "No work up to these costs misses a deadline" in sched_sim(f"{asked} 95").out
+    assert "A deadline may be missed at these costs already" in sched_sim(f"{asked} 90").out
+    unknown = sched_sim(f"{asked} 200 --feedback same-step").out
+    assert "Whether less work misses a deadline is not known: none of 64 tried does" in unknown
+    found = json.loads(sched_sim(f"{asked} 80 --format json").out)
+    assert (found["less_work"], found["less_work_costs"]["lr_update"]) == ("fails", 48.9375)
+    assert "less_work" not in json.loads(sched_sim(f"simulate {narrow} --speed 80 --format json").out)
