@@ -56,6 +56,7 @@ class _Team(Generic[Task, Result]):
         self.under_way: dict[Future[bytes | None], Trial] = {}
         self._client = client
         self._where = where
+        self._has_failed = False
         self._threads = 1
         self._counted = -COUNT_S
         self._last_seen = monotonic()
@@ -63,8 +64,7 @@ class _Team(Generic[Task, Result]):
     @property
     def room(self) -> int:
         """None any more once something has failed."""
-        failed = any(future.done() and future.exception() for future in self.under_way)
-        return 0 if failed else PER_WORKER * self._threads
+        return 0 if self._has_failed else PER_WORKER * self._threads
 
     def submit(self, trial: Trial, task: Task) -> None:
         future: Future[bytes | None]
@@ -74,7 +74,7 @@ class _Team(Generic[Task, Result]):
             future = asyncio.run_coroutine_threadsafe(_outcome(promise, self._where), loop)
         else:
             future = Future()
-            future.set_exception(_lost(self._where))
+            future.set_exception(lost(self._where))
         self.under_way[future] = trial
 
     def collect(self) -> tuple[list[Result], list[Trial]]:
@@ -84,10 +84,11 @@ class _Team(Generic[Task, Result]):
         """
         self._count()
         done, _ = wait(self.under_way, CHECK_S, FIRST_COMPLETED)
-        well = {future: future.result() for future in done if not future.exception()}
-        for future in done if not well else ():
+        failed = {future for future in done if future.exception()}
+        for future in failed if failed == done else ():
             future.result()
-        trials = [(found, self.under_way.pop(future)) for future, found in well.items()]
+        self._has_failed = bool(failed)
+        trials = [(future.result(), self.under_way.pop(future)) for future in done - failed]
         return (
             [pickle.loads(found) for found, _ in trials if found is not None],
             [trial for found, trial in trials if found is None],
@@ -103,11 +104,11 @@ class _Team(Generic[Task, Result]):
         now = monotonic()
         if now - self._counted < COUNT_S or self._client.status != "running":
             return
+        self._counted = now
         try:
             threads = sum(self._client.nthreads(callback_timeout=ANSWER_S).values())
         except OSError:  # if the scheduler is lost, what is under way tells
             return
-        self._counted = now
         if threads:
             self._threads, self._last_seen = threads, now
         elif now - self._last_seen > WORKERLESS_S:
@@ -117,7 +118,8 @@ class _Team(Generic[Task, Result]):
             )
 
 
-def _lost(where: str) -> InputError:
+def lost(where: str) -> InputError:
+    """What to say when the connection to the scheduler has ended."""
     return InputError(
         f"{where}: the scheduler is gone: start it again; all finished points are kept, and the same command goes on"
     )
@@ -135,7 +137,7 @@ async def _outcome(promise: distributed.Future[bytes], where: str) -> bytes | No
     except Exception:
         if promise.status == "error":
             raise
-        raise _lost(where) from None
+        raise lost(where) from None
 
 
 def _computed(task: bytes, ours: Mapping[str, str]) -> bytes:

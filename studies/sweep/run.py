@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 from sched_sim.design.pieces import works
 from sched_sim.design.steady import hyperperiod_steps
 from sched_sim.design.timing import Timing
-from sched_sim.errors import InputError, option
+from sched_sim.errors import InputError
 from sched_sim.schedule.engine import MANY_JOBS, Engine
 from studies.sweep.dispatch import Compute, WorkerDeathError
 from studies.sweep.grid import Chunk, Grid
@@ -149,6 +149,6 @@ def _computed(sweep: Sweep, missing: list[range], compute: Compute, stopped: Cal
         (N,), (M,), (L,) = point.designs
         raise InputError(
             f"the simulation of point {point.start} (costs {point.block.table}, method {point.block.method}, N={N}, "
-            f"M={M}, L={L}) ends its process each time, as when memory runs out: leave it out of the grid, or give "
-            f"fewer {option('workers')}; all finished points are kept"
+            f"M={M}, L={L}) ends its process each time, as when memory runs out: leave it out of the grid, or have "
+            f"fewer workers share the memory; all finished points are kept"
         ) from None

@@ -10,10 +10,10 @@ import warnings
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from importlib.util import find_spec
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from sched_sim.errors import InputError, option
-from studies.sweep.cluster import workers_of
+from studies.sweep.cluster import lost, workers_of
 from studies.sweep.dispatch import Compute
 from studies.sweep.versions import REMEDY, refusal, versions
 
@@ -94,15 +94,11 @@ def _compare(client: distributed.Client, sweep: Sweep, where: str) -> None:
     """Raises InputError where the scheduler or a worker is not as this process is."""
     try:
         client.wait_for_workers(1, ANSWER_S)
+        answers = _answers(client, pickle.dumps(sweep), versions())
     except TimeoutError:
         raise InputError(f"{where}: the scheduler has no worker: start some with `dask worker`") from None
-    asked = pickle.dumps(sweep), versions()
-    try:
-        answers = {"its scheduler": client.run_on_scheduler(_greeting, *asked)}
-    except (ImportError, AttributeError) as error:
-        answers = {"its scheduler": error}
-    workers = client.run(_greeting, *asked, on_error="return")
-    answers |= {f"worker {name}": answer for name, answer in workers.items()}
+    except OSError:
+        raise lost(where) from None
     for name, answer in answers.items():
         if isinstance(answer, OSError):  # it has just gone
             continue
@@ -111,6 +107,16 @@ def _compare(client: distributed.Client, sweep: Sweep, where: str) -> None:
             raise InputError(f"{where}: {name} {found}")
         if digest != sweep.digest:
             raise InputError(f"{where}: {name} makes another grid of the same sweep: {REMEDY}")
+
+
+def _answers(client: distributed.Client, *asked: object) -> dict[str, Any]:
+    """What the scheduler and each worker answer to `_greeting`, or the exception that it raised."""
+    try:
+        answers = {"its scheduler": client.run_on_scheduler(_greeting, *asked)}
+    except (ImportError, AttributeError) as error:
+        answers = {"its scheduler": error}
+    workers = client.run(_greeting, *asked, on_error="return")
+    return answers | {f"worker {name}": answer for name, answer in workers.items()}
 
 
 def _greeting(sweep: bytes, expected: Mapping[str, str]) -> tuple[Mapping[str, str], str]:

@@ -1,0 +1,77 @@
+"""What is said of a scheduler that is not as a sweep needs it: one message, exit code 2, and no file is made."""
+
+import os
+import socket
+import subprocess
+import sys
+from importlib.util import find_spec
+
+import pytest
+
+from studies.sweep import scheduler
+from studies.sweep.versions import refusal, versions
+
+needs_dask = pytest.mark.skipif(find_spec("distributed") is None, reason="the extra cluster is not installed")
+
+
+def refused(sched_sim, *more):
+    result = sched_sim(f"sweep -N 4 -M 1 --simulate {' '.join(more)}")
+    assert (result.code, result.out, result.err.count("\n")) == (2, "", 1)
+    assert os.listdir() == []
+    return result.err
+
+
+@pytest.mark.parametrize(
+    "address", ["here", "127.0.0.1", "tcp://here", "here:0", "here:65536", "http://here:80", "inproc://here:1", "a b:1"]
+)
+def test_an_address_that_is_none(sched_sim, address):
+    said = refused(sched_sim, "--dask", repr(address))
+    assert said.startswith(f"Error: --dask {address!r} is no address of a scheduler: give tcp://HOST:PORT")
+
+
+@pytest.mark.parametrize("address", ["here:1", "tcp://here.there:8786", "tls://10.0.0.1:8786", "tcp://[::1]:8786"])
+def test_addresses(monkeypatch, sched_sim, address):
+    monkeypatch.setattr(scheduler, "find_spec", lambda _: None)
+    assert refused(sched_sim, "--dask", address) == (
+        'Error: --dask needs the package distributed: pip install "sched-sim[cluster]"\n'
+    )
+
+
+def test_workers_of_both_kinds(sched_sim):
+    assert "leave one out" in refused(sched_sim, "--dask 127.0.0.1:1 --workers 2")
+
+
+@needs_dask
+def test_no_scheduler_answers(monkeypatch, sched_sim):
+    """Neither where nothing listens, nor where what does says nothing."""
+    monkeypatch.setattr(scheduler, "ANSWER_S", 0.2)
+    with socket.create_server(("127.0.0.1", 0)) as silent:
+        busy = silent.getsockname()[1]
+        assert f"--dask tcp://127.0.0.1:{busy}: no scheduler answers" in refused(sched_sim, f"--dask 127.0.0.1:{busy}")
+    assert f"--dask tcp://127.0.0.1:{busy}: no scheduler answers" in refused(sched_sim, f"--dask 127.0.0.1:{busy}")
+
+
+@needs_dask
+def test_no_keys_for_tls(sched_sim):
+    assert "--dask tls://127.0.0.1:1: there are no keys for TLS" in refused(sched_sim, "--dask tls://127.0.0.1:1")
+
+
+def test_versions_that_differ_are_named():
+    here = versions()
+    assert refusal(here, here) == ""
+    assert refusal({**here, "numpy": "1"}, here).startswith(
+        f"differs: numpy is 1 there and {here['numpy']} here: install"
+    )
+    assert refusal({}, here).startswith(f"differs: Python is unknown there and {here['Python']} here; numpy is unknown")
+    assert refusal(ImportError("no studies"), here).startswith("cannot run this sched-sim (no studies): install")
+
+
+def test_help_does_not_wait_for_dask():
+    code = (
+        "import sys; from sched_sim.cli import main; sys.argv = ['sched-sim', 'sweep', '--help']\n"
+        "try: main()\n"
+        "finally: print({'distributed', 'dask'} & set(sys.modules), file=sys.stderr)"
+    )
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert "--dask" in run.stdout
+    assert run.stderr == "set()\n"
