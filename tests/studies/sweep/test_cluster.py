@@ -1,7 +1,10 @@
 """A sweep on a real Dask cluster: the rows of a local one, whatever is killed."""
 
 import os
+import shutil
 import signal
+import subprocess
+import sys
 
 import pytest
 
@@ -12,7 +15,7 @@ from studies.sweep.run import run
 from studies.sweep.scheduler import cluster
 from studies.sweep.settings import settings
 from studies.sweep.workers import processes
-from tests.studies.sweep.dask_processes import dask_processes
+from tests.studies.sweep.dask_processes import ROOT, dask_processes
 
 pytest.importorskip("distributed", reason="the extra cluster is not installed")
 
@@ -40,8 +43,9 @@ def local(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def dask(tmp_path_factory):
-    """A scheduler that takes what is on a killed worker for its cause, which Dask does after four of them."""
+    """With a worker. The scheduler takes what is on a killed one for its cause, which Dask does after four of them."""
     with dask_processes(tmp_path_factory.mktemp("dask"), DASK_DISTRIBUTED__SCHEDULER__ALLOWED_FAILURES="0") as dask:
+        dask.worker()
         yield dask
 
 
@@ -57,17 +61,15 @@ def once(action):
 
 
 def test_a_worker_that_is_killed_loses_no_row(dask, tmp_path, local):
-    dask.worker()
-    guilty = dask.worker()
+    mortal = dask.worker()
     with cluster(dask.address, SWEEP) as compute, SWEEP.open(tmp_path / "r.sqlite") as store:
-        outcome = run(SWEEP, store, compute, once(guilty.kill))
+        outcome = run(SWEEP, store, compute, once(mortal.kill))
         assert outcome == (0, SWEEP.grid.size, None)
         assert exported(store, tmp_path) == local
-    assert guilty.wait() == -signal.SIGKILL
+    assert mortal.wait() == -signal.SIGKILL
 
 
 def test_ctrl_c_keeps_what_is_done_and_the_same_sweep_goes_on(dask, tmp_path, local):
-    dask.worker()
     with cluster(dask.address, SWEEP) as compute, SWEEP.open(tmp_path / "r.sqlite") as store:
         outcome = run(SWEEP, store, compute, once(lambda: os.kill(os.getpid(), signal.SIGINT)))
         assert outcome.stopped == signal.SIGINT
@@ -93,6 +95,65 @@ def test_a_lost_scheduler_loses_no_row_and_the_same_sweep_goes_on(tmp_path, loca
 
 def test_a_worker_without_this_project_is_refused(dask):
     stranger = dask.worker(stranger=True)
-    with pytest.raises(InputError, match=r"worker tcp://127\.0\.0\.1:\d+ cannot run .*install the same"):
-        cluster(dask.address, SWEEP).__enter__()
+    refused = r"worker tcp://127\.0\.0\.1:\d+ cannot run .*install the same"
+    with pytest.raises(InputError, match=refused), cluster(dask.address, SWEEP):
+        pass
     stranger.kill()
+
+
+def test_the_command_prints_what_it_does_without_a_cluster(dask, sched_sim):
+    line = "sweep -N 4 -M 1:2 --simulate --format json --results"
+    by_dask = sched_sim(f"{line} dask.sqlite --dask {dask.address}")
+    here = sched_sim(f"{line} here.sqlite")
+    assert (by_dask.code, by_dask.err) == (0, "")
+    assert by_dask.out.replace("dask.sqlite", "here.sqlite") == here.out
+
+
+def test_nothing_listens_here(dask):
+    import psutil
+
+    def listening():
+        return {at.laddr for at in psutil.Process().net_connections() if at.status == psutil.CONN_LISTEN}
+
+    before = listening()
+    with cluster(dask.address, SWEEP):
+        assert listening() <= before
+
+
+TLS = """
+distributed:
+  comm:
+    default-scheme: tls
+    require-encryption: true
+    tls:
+      ca-file: {folder}/cluster.pem
+      scheduler: {{cert: {folder}/cluster.pem, key: {folder}/key.pem}}
+      worker: {{cert: {folder}/cluster.pem, key: {folder}/key.pem}}
+      client: {{cert: {folder}/cluster.pem, key: {folder}/key.pem}}
+"""
+MAKE_KEY = "openssl req -x509 -newkey rsa:2048 -nodes -days 365 -subj /CN=cluster -keyout key.pem -out cluster.pem"
+
+
+@pytest.mark.exhaust
+@pytest.mark.skipif(shutil.which("openssl") is None, reason="there is no openssl to make a key with")
+def test_tls_as_the_how_to_has_it(tmp_path):
+    """Who has the key gets in, who has not is told."""
+    page = (ROOT / "docs/howto/cluster.md").read_text(encoding="utf-8")
+    assert MAKE_KEY in page
+    assert TLS.strip().format(folder="/home/me/.config/dask") in page
+    subprocess.run(MAKE_KEY.split(), cwd=tmp_path, check=True, capture_output=True)
+    (tmp_path / "tls.yaml").write_text(TLS.format(folder=tmp_path))
+    with dask_processes(tmp_path, DASK_CONFIG=str(tmp_path)) as dask:
+        dask.worker()
+        assert dask.address.startswith("tls://127.0.0.1:")
+
+        def swept(address, **settings):
+            line = f"-m sched_sim sweep -N 4 -M 1 --simulate --dask {address} --format csv".split()
+            environment = os.environ | {"PYTHONPATH": str(ROOT), **settings}
+            return subprocess.run(
+                [sys.executable, *line], cwd=tmp_path, env=environment, capture_output=True, text=True, check=False
+            )
+
+        assert "no scheduler answers" in swept(dask.address.replace("tls", "tcp")).stderr
+        assert "there are no keys for TLS" in swept(dask.address).stderr
+        assert swept(dask.address, DASK_CONFIG=str(tmp_path)).returncode == 0
