@@ -7,7 +7,6 @@ import os
 import signal
 import subprocess
 import sys
-import sysconfig
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
@@ -20,35 +19,33 @@ PATIENCE_S = 300
 
 
 class Processes:
-    """Those of one scheduler. folder: for their files; options: of all of them, settings: of Dask, by environment."""
+    """Those of one scheduler. folder: for their files; settings: of Dask, in their environment."""
 
-    def __init__(self, folder: Path, options: tuple[str, ...], settings: dict[str, str]) -> None:
+    def __init__(self, folder: Path, settings: dict[str, str]) -> None:
         self._folder = folder
-        self._options = options
-        self._environment = os.environ | {"PYTHONDONTWRITEBYTECODE": "1", **settings}
+        self._environment = os.environ | {"PYTHONPATH": str(ROOT), "PYTHONDONTWRITEBYTECODE": "1", **settings}
         self._started: list[subprocess.Popen[bytes]] = []
         file = folder / "scheduler.json"
         self.scheduler = self._start("scheduler", "--port", "0", "--scheduler-file", str(file))
         wait_for(lambda: file.exists() and file.read_bytes().endswith(b"}"))
         self.address: str = json.loads(file.read_text())["address"]
 
-    def worker(self, *, nanny: bool = False, stranger: bool = False) -> subprocess.Popen[bytes]:
-        """One more, which has registered. With a nanny another one takes its place when it is killed; a stranger has
-        Dask and not this project."""
+    def worker(self, *, nanny: bool = False, before: str = "pass") -> subprocess.Popen[bytes]:
+        """One more, which has registered. With a nanny another one takes its place when it is killed. before: what its
+        interpreter does first."""
         own = [self.address, "--nthreads", "1", "--nanny" if nanny else "--no-nanny"]
-        started = self._start("worker", *own, "--local-directory", str(self._folder), stranger=stranger)
+        started = self._start("worker", *own, "--local-directory", str(self._folder), before=before)
         log = self._folder / f"{len(self._started)}.log"
         wait_for(lambda: b"Registered to" in log.read_bytes())
         return started
 
-    def _start(self, which: str, *options: str, stranger: bool = False) -> subprocess.Popen[bytes]:
-        path = sysconfig.get_path("purelib") if stranger else str(ROOT)
-        line = [sys.executable, *(["-S"] if stranger else []), "-m", f"distributed.cli.dask_{which}", *options]
-        line += ["--host", "127.0.0.1", "--dashboard-address", "127.0.0.1:0", *self._options]
+    def _start(self, which: str, *options: str, before: str = "pass") -> subprocess.Popen[bytes]:
+        code = f"{before}\nfrom distributed.cli.dask_{which} import main\nmain()"
+        line = [sys.executable, "-c", code, "--host", "127.0.0.1", "--dashboard-address", "127.0.0.1:0", *options]
         with (self._folder / f"{len(self._started) + 1}.log").open("wb") as log:
             started = subprocess.Popen(
                 line,
-                env=self._environment | {"PYTHONPATH": path},
+                env=self._environment,
                 cwd=self._folder,
                 stdout=log,
                 stderr=log,
@@ -65,9 +62,9 @@ class Processes:
 
 
 @contextmanager
-def dask_processes(folder: Path, *options: str, **settings: str) -> Iterator[Processes]:
+def dask_processes(folder: Path, **settings: str) -> Iterator[Processes]:
     """A scheduler; none of its processes is left at the end."""
-    processes = Processes(folder, options, settings)
+    processes = Processes(folder, settings)
     try:
         yield processes
     finally:

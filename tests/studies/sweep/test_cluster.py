@@ -94,7 +94,7 @@ def test_a_lost_scheduler_loses_no_row_and_the_same_sweep_goes_on(tmp_path, loca
 
 
 def test_a_worker_without_this_project_is_refused(dask):
-    stranger = dask.worker(stranger=True)
+    stranger = dask.worker(before="import sys; sys.modules['studies'] = None")
     refused = r"worker tcp://127\.0\.0\.1:\d+ cannot run .*install the same"
     with pytest.raises(InputError, match=refused), cluster(dask.address, SWEEP):
         pass
@@ -118,6 +118,15 @@ def test_nothing_listens_here(dask):
     before = listening()
     with cluster(dask.address, SWEEP):
         assert listening() <= before
+
+
+@pytest.mark.exhaust
+def test_a_worker_that_comes_later_is_compared_too(tmp_path):
+    other = "from studies.sweep import versions\nversions.versions = lambda: {'numpy': '1'}"
+    with dask_processes(tmp_path) as dask, SWEEP.open(tmp_path / "r.sqlite") as store:
+        dask.worker()
+        with cluster(dask.address, SWEEP) as compute, pytest.raises(InputError, match=r"worker tcp:.*numpy is 1 there"):
+            run(SWEEP, store, compute, once(lambda: dask.worker(before=other)))
 
 
 TLS = """

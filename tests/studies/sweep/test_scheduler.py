@@ -8,8 +8,12 @@ from importlib.util import find_spec
 
 import pytest
 
+from sched_sim.errors import InputError
 from studies.sweep import scheduler
+from studies.sweep.settings import settings
 from studies.sweep.versions import refusal, versions
+
+SWEEP = settings({"N": "4", "M": "1", "simulate": True}).sweep()
 
 needs_dask = pytest.mark.skipif(find_spec("distributed") is None, reason="the extra cluster is not installed")
 
@@ -64,6 +68,40 @@ def test_versions_that_differ_are_named():
     )
     assert refusal({}, here).startswith(f"differs: Python is unknown there and {here['Python']} here; numpy is unknown")
     assert refusal(ImportError("no studies"), here).startswith("cannot run this sched-sim (no studies): install")
+
+
+class Told:
+    """A client whose scheduler is as this process is, with a worker that gives that answer."""
+
+    def __init__(self, answer):
+        self.answer = answer
+
+    def wait_for_workers(self, _number, _timeout):
+        pass
+
+    def run_on_scheduler(self, function, *asked):
+        return function(*asked)
+
+    def run(self, _function, *_asked, **_on_error):
+        return {"tcp://here:1": self.answer}
+
+
+@pytest.mark.parametrize(
+    ("answer", "said"),
+    [
+        (({**versions(), "numpy": "1"}, ""), "DASK: worker tcp://here:1 differs: numpy is 1 there"),
+        (Exception("ModuleNotFoundError"), "DASK: worker tcp://here:1 cannot run this sched-sim"),
+        ((versions(), "0" * 64), "DASK: worker tcp://here:1 makes another grid of the same sweep"),
+    ],
+)
+def test_a_worker_that_is_not_as_this_process_is(answer, said):
+    with pytest.raises(InputError, match=f"^{said}"):
+        scheduler._compare(Told(answer), SWEEP, "DASK")
+
+
+@pytest.mark.parametrize("answer", [(versions(), SWEEP.digest), OSError("it has just gone")])
+def test_a_worker_that_is_or_that_is_gone(answer):
+    scheduler._compare(Told(answer), SWEEP, "DASK")
 
 
 def test_help_does_not_wait_for_dask():
