@@ -31,7 +31,7 @@ from dataclasses import dataclass, field
 from functools import partial
 from itertools import islice
 
-from sched_sim.scenario.draws import stream, total
+from sched_sim.scenario.draws import total, words
 from sched_sim.scenario.scenario import Scenario, Sensor
 from sched_sim.scenario.source import Measurement, correct_kind
 from sched_sim.schedule.jobs import Job, Parts, Source, Then
@@ -76,8 +76,8 @@ class DualRateFilter(Source):
         self.lr_cpu = scenario.cpus - 1
         self.measurements = [sensor.measurements(scenario.steps, scenario.seed) for sensor in self.sensors]
         self.following = [next(measurements, None) for measurements in self.measurements]
-        self.hr_stream = stream(scenario.seed, "predictor cost")
-        self.streams = [stream(scenario.seed, f"{sensor.name} cost") for sensor in self.sensors]
+        self.hr_stream = words(scenario.seed, "predictor cost")
+        self.streams = [words(scenario.seed, f"{sensor.name} cost") for sensor in self.sensors]
         self.arrivals: defaultdict[int, list[Knot]] = defaultdict(list)  # by step
         self.losses: defaultdict[int, list[Knot]] = defaultdict(list)  # by the step in which they are known
         self.knots: deque[Knot] = deque()

@@ -59,7 +59,7 @@ from itertools import chain, groupby
 from operator import itemgetter
 from typing import NamedTuple
 
-from sched_sim.scenario.draws import stream, total
+from sched_sim.scenario.draws import total, words
 from sched_sim.scenario.scenario import Scenario, Sensor
 from sched_sim.schedule.jobs import Job, Parts, Source, Then, step_at
 
@@ -132,8 +132,8 @@ class ComposedFilter(Source):
         self.flying: dict[Taken, int | None] = {}
         self.measurements = [sensor.measurements(scenario.steps, scenario.seed) for sensor in self.sensors]
         self.following = [next(measurements, None) for measurements in self.measurements]
-        self.predict_stream = stream(scenario.seed, "predictor cost")
-        self.streams = [stream(scenario.seed, f"{sensor.name} cost") for sensor in self.sensors]
+        self.predict_stream = words(scenario.seed, "predictor cost")
+        self.streams = [words(scenario.seed, f"{sensor.name} cost") for sensor in self.sensors]
         self.arrivals: defaultdict[int, list[Measurement]] = defaultdict(list)  # by step
         self.waiting: dict[int, list[Measurement]] = {}  # by priority, while one of that priority is under way
         self.landed: list[Applied] = []  # the step of the state it was applied to, in order of landing
