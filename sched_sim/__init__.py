@@ -25,7 +25,8 @@ if TYPE_CHECKING:
     from sched_sim.errors import InputError
     from sched_sim.processors.part import Part, on_part
     from sched_sim.processors.part_file import load_part
-    from sched_sim.scenario.run import Outcome, run_scenario
+    from sched_sim.scenario.outcome import Outcome
+    from sched_sim.scenario.run import run_scenario
     from sched_sim.scenario.scenario import Scenario, Sensor
     from sched_sim.scenario.scenario_file import read_scenario
     from sched_sim.schedule.outcome import Schedule, Slice
@@ -79,7 +80,8 @@ __getattr__, __dir__ = lazily(
         "sched_sim.errors": "InputError",
         "sched_sim.processors.part": "Part on_part",
         "sched_sim.processors.part_file": "load_part",
-        "sched_sim.scenario.run": "Outcome run_scenario",
+        "sched_sim.scenario.outcome": "Outcome",
+        "sched_sim.scenario.run": "run_scenario",
         "sched_sim.scenario.scenario": "Scenario Sensor",
         "sched_sim.scenario.scenario_file": "read_scenario",
         "sched_sim.schedule.outcome": "Schedule Slice",

@@ -30,7 +30,7 @@ from reports.drawing.style import (
 )
 from reports.scenario.cells import BINS, Cell, Note, share_axis
 from sched_sim.scenario.distribution import finished_or_not
-from sched_sim.scenario.run import JobFigures, Outcome, SensorFigures
+from sched_sim.scenario.outcome import JobFigures, Outcome, SensorFigures
 from sched_sim.scenario.scenario import Scenario, Sensor
 from sched_sim.scenario.source import correct_kind
 

@@ -9,7 +9,7 @@ from sched_sim.scenario.source import correct_kind
 from sched_sim.shares import percent
 
 if TYPE_CHECKING:
-    from sched_sim.scenario.run import Outcome
+    from sched_sim.scenario.outcome import Outcome
     from sched_sim.scenario.scenario import Scenario, Sensor
 
 

@@ -17,7 +17,7 @@ from sched_sim.errors import InputError
 from sched_sim.shares import percent
 
 if TYPE_CHECKING:
-    from sched_sim.scenario.run import Outcome
+    from sched_sim.scenario.outcome import Outcome
     from sched_sim.scenario.scenario import Scenario, Sensor
     from studies.selection.in_scenario import ScenarioAccuracy
 

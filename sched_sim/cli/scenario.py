@@ -3,7 +3,6 @@ missed."""
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterable, Sequence
 from contextlib import ExitStack
 from pathlib import Path
@@ -29,8 +28,9 @@ from sched_sim.cli.scenario_flags import Asked
 
 if TYPE_CHECKING:
     from sched_sim.scenario.composition import Composition
-    from sched_sim.scenario.run import JobFigures, Outcome, SensorFigures
+    from sched_sim.scenario.outcome import JobFigures, Outcome, SensorFigures
     from sched_sim.scenario.scenario import Scenario, Sensor
+    from sched_sim.schedule.engine import Engine
     from sched_sim.schedule.outcome import Slice
     from studies.selection.in_scenario import ScenarioAccuracy
 
@@ -51,6 +51,7 @@ def simulate_scenario(
     asked: Asked,
     outputs: Named,
     format: Format,
+    engine: Engine,
 ) -> None:
     """outputs: the three, by their options. Raises InputError for a scenario that cannot be run, and for a file that
     cannot be written or is one that is read."""
@@ -77,15 +78,13 @@ def simulate_scenario(
     with ExitStack() as files:
         writers = [files.enter_context(open_trace(trace, scenario.hr_hz)) for trace in traces]
 
-        busy: Counter[int] = Counter()  # ticks, by processor
-
         def write(piece: Slice) -> None:
-            busy[piece.cpu] += piece.end - piece.start
             for writer in writers:
                 writer(piece)
 
         progress = files.enter_context(progress_bar("Simulating"))
-        outcome = run_scenario(scenario, on_slice=write if writers or scenario.cpus > 1 else None, on_progress=progress)
+        on_slice = write if writers else None
+        outcome = run_scenario(scenario, engine=engine, on_slice=on_slice, on_progress=progress)
     accuracy = None if about is None else accuracy_of(about, scenario, outcome)
     if histogram is not None:
         from reports.drawing.picture import save
@@ -98,13 +97,10 @@ def simulate_scenario(
         from reports.scenario.panel import scenario_panel
 
         save(draw([scenario_panel(scenario, outcome, steps)], hr_hz=scenario.hr_hz), gantt, "--gantt")
-    schedule = outcome.schedule
-    busy_shares = [float(schedule.utilization)]
-    if scenario.cpus > 1:
-        busy_shares = [busy[cpu] / schedule.horizon for cpu in range(scenario.cpus)]
+    busy_shares = [busy / outcome.schedule.horizon for busy in outcome.busy]
     runs: list[Run] = []
     if about is not None and accuracy is not None and slower:
-        runs = slower_runs(about, scenario, outcome, accuracy, slower)
+        runs = slower_runs(about, scenario, outcome, accuracy, slower, engine)
     if format == "json":
         accurate = {} if accuracy is None else {"accuracy": document(accuracy, runs)}
         print_json(_document(scenario, outcome, busy_shares) | accurate)
@@ -200,7 +196,7 @@ def _rows(scenario: Scenario, outcome: Outcome, accuracy: ScenarioAccuracy | Non
 
 def _flat(scenario: Scenario, kind: str, figures: JobFigures) -> dict[str, Any]:
     """One row of CSV."""
-    from sched_sim.scenario.run import QUANTILES
+    from sched_sim.scenario.outcome import QUANTILES
 
     ms = None if scenario.hr_hz is None else float(1000 / scenario.hr_hz)
     job = _job(figures, ms, scenario.harness)

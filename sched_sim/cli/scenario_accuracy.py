@@ -15,8 +15,9 @@ from sched_sim.shares import percent
 from sched_sim.ticks import exact
 
 if TYPE_CHECKING:
-    from sched_sim.scenario.run import Outcome
+    from sched_sim.scenario.outcome import Outcome
     from sched_sim.scenario.scenario import Scenario
+    from sched_sim.schedule.engine import Engine
     from studies.selection.in_scenario import Question, ScenarioAccuracy
 
 NAMES = ("median", "p95", "worst")
@@ -60,6 +61,7 @@ def slower_runs(
     outcome: Outcome,
     accuracy: ScenarioAccuracy,
     slower: Sequence[tuple[str, float]],
+    engine: Engine,
 ) -> list[Run]:
     """The scenario as it is, then on each processor; with the same draws of delays, dropout and execution times, and
     over the same steps, those that all have figures of."""
@@ -69,7 +71,7 @@ def slower_runs(
     for text, times in slower:
         other = replace(scenario, speed=scenario.speed / exact(text, "--times-slower"))
         with progress_bar(f"{text} times as slow") as progress:
-            found = run_scenario(other, on_progress=progress)
+            found = run_scenario(other, engine=engine, on_progress=progress)
         runs.append(Run(text, times, found, accuracy_of(asked, other, found)))
     together = over_the_same_steps([run.accuracy for run in runs])
     return [run._replace(accuracy=accuracy) for run, accuracy in zip(runs, together, strict=True)]

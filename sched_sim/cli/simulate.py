@@ -70,7 +70,7 @@ LessWorkToo = Annotated[
     ),
 ]
 ABOUT_ACCURACY = flags.Asked._fields
-WITH_SCENARIO = ("scenario", "gantt", "first", "until", "trace", "histogram", "format", *ABOUT_ACCURACY)
+WITH_SCENARIO = ("scenario", "gantt", "first", "until", "trace", "histogram", "engine", "format", *ABOUT_ACCURACY)
 """The parameters that go together with --scenario; what the others say, the scenario says itself."""
 
 
@@ -125,7 +125,8 @@ def simulate(
 
         _refuse_beside_scenario(context, scenario)
         asked = flags.Asked(model, output, unit, initial_std, times_slower)
-        simulate_scenario(scenario, Picture(gantt, first, until), trace or (), histogram, asked, outputs, format)
+        picture = Picture(gantt, first, until)
+        simulate_scenario(scenario, picture, trace or (), histogram, asked, outputs, format, engine)
         return
     if given := opt.given_options(context, lambda name: name in ABOUT_ACCURACY):
         raise InputError(

@@ -42,7 +42,8 @@ from sched_sim.costs.sample_file import SampledCosts
 from sched_sim.processors.part import seconds_for
 from sched_sim.processors.part_file import load_part
 from sched_sim.scenario.distribution import wilson
-from sched_sim.scenario.run import Outcome, run_scenario
+from sched_sim.scenario.outcome import Outcome
+from sched_sim.scenario.run import run_scenario
 from sched_sim.scenario.scenario import Late, Scenario, Sensor
 from sched_sim.schedule.jobs import HR, LR
 from sched_sim.schedule.outcome import Slice

@@ -20,7 +20,7 @@ from filters.arrays import FloatArray
 from sched_sim.bounds import short
 from sched_sim.errors import SPELLING, InputError, option
 from sched_sim.scenario.accuracy_asked import AccuracyAsked
-from sched_sim.scenario.run import Outcome
+from sched_sim.scenario.outcome import Outcome
 from sched_sim.scenario.scenario import Scenario, Sensor
 from sched_sim.schedule.clock import REPORTS, OnProgress
 from studies.selection.outputs import Outputs, rows_of

@@ -10,7 +10,8 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
 from reports.scenario.distributions import distributions_figure
-from sched_sim.scenario.run import Outcome, run_scenario
+from sched_sim.scenario.outcome import Outcome
+from sched_sim.scenario.run import run_scenario
 from sched_sim.scenario.scenario import Scenario
 from studies.selection.in_scenario import ScenarioAccuracy, accuracy_along, question_of
 from tests.reports.layout import flaws, texts

@@ -15,7 +15,8 @@ from matplotlib.patches import Rectangle
 from reports.charts.chart import gantt
 from reports.scenario.distributions import distributions_figure
 from reports.scenario.panel import scenario_panel
-from sched_sim.scenario.run import JobFigures, Outcome, SensorFigures, run_scenario
+from sched_sim.scenario.outcome import JobFigures, Outcome, SensorFigures
+from sched_sim.scenario.run import run_scenario
 from sched_sim.scenario.scenario import Scenario, Sensor
 from sched_sim.scenario.scenario_file import read_scenario
 from sched_sim.schedule.tasks import Task
@@ -89,6 +90,7 @@ def test_long_names_and_large_numbers_stay_in_their_plots(land_by: int) -> None:
         {LONG: sensor},
         run_scenario(scenario).schedule,
         None,
+        [0],
     )
     figure = distributions_figure(scenario, outcome)
     said = {text.get_text() for axes in figure.axes for text in axes.texts}

@@ -16,7 +16,8 @@ from hypothesis import strategies as st
 from sched_sim.design.pieces import JobCosts, LarsenCosts, RecalculateCosts, StandardCosts
 from sched_sim.design.simulate import simulate
 from sched_sim.design.timing import Timing
-from sched_sim.scenario.run import Outcome, run_scenario
+from sched_sim.scenario.outcome import Outcome
+from sched_sim.scenario.run import run_scenario
 from sched_sim.scenario.scenario import Late, Scenario
 from sched_sim.schedule.tasks import Task
 from tests.scenarios import BY_HAND, HR, LR, scenario, sensor

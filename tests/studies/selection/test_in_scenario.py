@@ -14,7 +14,8 @@ from filters.arrays import FloatArray
 from filters.modular import Measurement, ModularFilter, Sensor, linear_corrector, linear_predictor, run
 from sched_sim.errors import InputError
 from sched_sim.scenario.accuracy_asked import AccuracyAsked, Seen
-from sched_sim.scenario.run import Outcome, run_scenario
+from sched_sim.scenario.outcome import Outcome
+from sched_sim.scenario.run import run_scenario
 from sched_sim.scenario.scenario import Scenario
 from studies.selection import in_scenario
 from studies.selection.in_scenario import Question, ScenarioAccuracy, accuracy_along, question_of

@@ -1,0 +1,76 @@
+"""A scenario simulated by SimPy, job by job: the reference for what compiled code does."""
+
+from __future__ import annotations
+
+from collections import Counter, defaultdict
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from sched_sim.scenario.dual_rate import DualRateFilter
+from sched_sim.scenario.outcome import JobFigures, Outcome, SensorFigures, longest_wait
+from sched_sim.scenario.source import ComposedFilter, correct_kind
+from sched_sim.scenario.workload import Workload
+from sched_sim.schedule.clock import Clock, OnProgress
+from sched_sim.schedule.jobs import Job, Source
+from sched_sim.schedule.outcome import Response
+from sched_sim.schedule.processor import OnSlice, Platform, Processor
+
+
+def simulated(work: Workload, on_slice: OnSlice | None = None, on_progress: OnProgress | None = None) -> Outcome:
+    scenario, period = work.scenario, work.period
+    source = DualRateFilter if scenario.late == "dual-rate" else ComposedFilter
+    composed = source(scenario, work.costs, period)
+    clock = [] if on_progress is None else [Clock(period, scenario.steps, on_progress)]
+    sources: list[Source] = [composed, *work.tasks(), *clock]
+    finishes: defaultdict[str, list[Finish]] = defaultdict(list)
+
+    def on_finish(job: Job, now: int) -> None:
+        finishes[job.kind].append(Finish(job.step, job.release, job.deadline, now))
+
+    platform = Platform(scenario.cpus, work.context_switch)
+    processor = Processor(sources, period, work.horizon, platform, on_slice, on_finish)
+    processor.run()
+    schedule = processor.schedule()
+    sensors = {}
+    for number, sensor in enumerate(scenario.sensors):
+        done = finishes[correct_kind(sensor)]
+        landings = [(job.step, scenario.lands(job.end, period)) for job in done]
+        achieved = Counter(l - k for k, l in landings)
+        arrived = achieved.total() + sum(waiting.sensor == number for waiting in composed.pending)
+        sensors[sensor.name] = SensorFigures(
+            composed.taken[number],
+            composed.dropped[number],
+            arrived,
+            achieved,
+            longest_wait(sensor, landings),
+            landings,
+        )
+    jobs = {kind: _figures(finishes[kind], schedule.responses.get(kind), period) for kind in work.kinds}
+    first_miss = processor.first_miss[0] / period if processor.first_miss else None
+    return Outcome(jobs, sensors, schedule, first_miss, [cpu.busy for cpu in processor.cpus])
+
+
+class Finish(NamedTuple):
+    """A job's end: the step it belongs to; when it was released, was due and ended, in ticks."""
+
+    step: int
+    release: int
+    deadline: int
+    end: int
+
+    @property
+    def has_time(self) -> bool:
+        """Whether its deadline was not yet there when it was released."""
+        return self.deadline > self.release
+
+
+def _figures(finishes: Sequence[Finish], response: Response | None, period: int) -> JobFigures:
+    """response: None if no such job was released."""
+    if response is None:
+        return JobFigures(0, [], 0, 0)
+    unfinished_misses = response.misses - sum(done.end > done.deadline for done in finishes)
+    responses = [(done.end - done.release) / period for done in finishes]
+    margins = ((done.deadline - done.end) / (done.deadline - done.release) for done in finishes if done.has_time)
+    return JobFigures(
+        response.releases, responses, response.misses, len(finishes) + unfinished_misses, min(margins, default=None)
+    )
