@@ -18,6 +18,11 @@ def interval(least: float, most: float) -> str:
     return f"{_text(low)} to {_text(high)}"
 
 
+def at_most(value: float) -> str:
+    """Rounded up."""
+    return _text(_rounded(value, INTERVAL_DIGITS, ROUND_CEILING))
+
+
 def percent(share: float) -> str:
     """One decimal; more where that would be 0.0% or 100.0% and the share is neither."""
     value = Decimal(repr(share))

@@ -157,6 +157,9 @@ WITHHELD = (
     "no P(miss): these samples are of an earlier `measure --filter`, for the most part the loop that took them, and a "
     "mean of several executions hides the slow ones; for a probability measure again: each sample is then one execution"
 )
+NOT_RESOLVED = "not resolved"
+"""Instead of a probability of 0, which no simulation shows."""
+WHY_NOT_RESOLVED = "not resolved: none of n missed; with a P(miss) of 3/n or more one would have, with 95 %"
 INTERVAL = "95 % interval: noise of this simulation only, for the costs as stated, as if each job missed on its own"
 
 
@@ -264,7 +267,10 @@ def _note(scenario: Scenario, outcome: Outcome, busy: Sequence[float]) -> str:
         )
     if note := phases_note(scenario):
         lines.append(note)
-    return "\n".join([*lines, WITHHELD if scenario.harness else INTERVAL, *causes(scenario, outcome, busy)])
+    lines.append(WITHHELD if scenario.harness else INTERVAL)
+    if not scenario.harness and any(jobs.decided and not jobs.misses for jobs in outcome.jobs.values()):
+        lines.append(WHY_NOT_RESOLVED)
+    return "\n".join([*lines, *causes(scenario, outcome, busy)])
 
 
 def phases_note(scenario: Scenario) -> str:
@@ -275,7 +281,7 @@ def phases_note(scenario: Scenario) -> str:
 
 def _job_words(kind: str, figures: JobFigures, unit: float, harness: bool) -> dict[str, Any]:
     job = _job(figures, None, harness)
-    response, probability, interval = job["response_periods"], job["miss_probability"], job["miss_interval"]
+    response = job["response_periods"]
     shown = {"minimum": "min", "mean": "mean", "median": "median", "p95": "p95", "p99": "p99", "maximum": "max"}
     words = {
         "job": kind,
@@ -289,10 +295,16 @@ def _job_words(kind: str, figures: JobFigures, unit: float, harness: bool) -> di
     }
     if harness:
         return words
-    return words | {
-        "P(miss)": None if probability is None else shares.probability(probability),
-        "95 % interval": None if interval is None else shares.interval(*interval),
-    }
+    return words | _probability_words(figures)
+
+
+def _probability_words(figures: JobFigures) -> dict[str, str | None]:
+    probability, interval = figures.miss_probability, figures.miss_interval
+    if interval is None:
+        return {"P(miss)": None, "95 % interval": None}
+    if probability is None:
+        return {"P(miss)": NOT_RESOLVED, "95 % interval": f"below {shares.at_most(interval[1])}"}
+    return {"P(miss)": shares.probability(probability), "95 % interval": shares.interval(*interval)}
 
 
 def _four_digits(value: float | None) -> str | None:

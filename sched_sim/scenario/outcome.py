@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 
 from sched_sim.html_table import html_table
-from sched_sim.scenario.distribution import finished_or_not, wilson
+from sched_sim.scenario.distribution import below_which_unresolved, finished_or_not, wilson
 from sched_sim.scenario.scenario import Sensor
 from sched_sim.schedule.outcome import Schedule
 
@@ -32,13 +32,16 @@ class JobFigures:
 
     @property
     def miss_probability(self) -> float | None:
-        """The share of those decided that missed their deadline; None if no job was decided."""
-        return self.misses / self.decided if self.decided else None
+        """The share of those decided that missed their deadline; None if none did: see `miss_interval`."""
+        return self.misses / self.decided if self.misses else None
 
     @property
     def miss_interval(self) -> tuple[float, float] | None:
-        """The 95 % interval of the probability, see `wilson`."""
-        return wilson(self.misses, self.decided) if self.decided else None
+        """The 95 % interval of the probability, see `wilson`; from 0 to what is not resolved, 3/n, if no job of n that
+        were decided missed its deadline; None if none was decided."""
+        if not self.misses:
+            return (0.0, below_which_unresolved(self.decided)) if self.decided else None
+        return wilson(self.misses, self.decided)
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@ from dataclasses import asdict
 
 import pytest
 
-from sched_sim.scenario.distribution import Distribution, finished_or_not, wilson
+from sched_sim.scenario.distribution import Distribution, below_which_unresolved, finished_or_not, wilson
 
 
 def test_quantiles_are_values_of_the_sample() -> None:
@@ -33,3 +33,13 @@ def test_a_quantile_that_unknown_values_decide_is_unknown() -> None:
 )
 def test_wilsons_interval(events: int, trials: int, least: float, most: float) -> None:
     assert wilson(events, trials) == pytest.approx((least, most), abs=1e-7)
+
+
+@pytest.mark.parametrize("trials", [10, 1000, 10**9])
+def test_what_would_have_been_seen_is_resolved(trials: int) -> None:
+    """With 95 %, and not with much more."""
+    assert (1 - below_which_unresolved(trials)) ** trials < 0.05 < (1 - 0.8 * below_which_unresolved(trials)) ** trials
+
+
+def test_a_trial_resolves_nothing() -> None:
+    assert below_which_unresolved(1) == 1

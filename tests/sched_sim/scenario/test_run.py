@@ -124,7 +124,8 @@ def test_dropout_of_all_or_nothing(dropout: float, arrived: int) -> None:
     assert (figures.taken, figures.dropped, figures.arrived) == (100, 100 - arrived, arrived)
     assert figures.on_the_way == 0
     assert found.jobs["correct gps"].released == arrived
-    assert (found.jobs["correct gps"].miss_probability is None) == (arrived == 0)
+    assert found.jobs["correct gps"].miss_probability is None  # none missed, or none was there to
+    assert found.jobs["correct gps"].miss_interval == ((0.0, 3 / 100) if arrived else None)
 
 
 def test_dropout_is_a_probability() -> None:
