@@ -13,6 +13,7 @@ from sched_sim.cli.chart_options import stretch
 from sched_sim.cli.output import Format, print_csv, print_json, print_table
 from sched_sim.cli.outputs import Named, module_files, refuse_one_file_for_two
 from sched_sim.cli.progress import progress_bar
+from sched_sim.cli.rare import NOT_RESOLVED, check_rare, document_of, find_rare, rare_columns, show_rare
 from sched_sim.cli.scenario_accuracy import (
     Run,
     accuracy_of,
@@ -52,6 +53,7 @@ def simulate_scenario(
     outputs: Named,
     format: Format,
     engine: Engine,
+    rare: bool,
 ) -> None:
     """outputs: the three, by their options. Raises InputError for a scenario that cannot be run, and for a file that
     cannot be written or is one that is read."""
@@ -69,6 +71,8 @@ def simulate_scenario(
     for trace in traces:
         check_trace(trace)
     scenario, slower = read_scenario(path, describe), asked.slower
+    if rare:
+        check_rare(scenario)
     about = question(scenario, path, asked)
     steps = None
     if picture.first is not None or picture.until is not None:
@@ -101,13 +105,20 @@ def simulate_scenario(
     runs: list[Run] = []
     if about is not None and accuracy is not None and slower:
         runs = slower_runs(about, scenario, outcome, accuracy, slower, engine)
+    seldom = find_rare(scenario, outcome) if rare else None
     if format == "json":
-        accurate = {} if accuracy is None else {"accuracy": document(accuracy, runs)}
-        print_json(_document(scenario, outcome, busy_shares) | accurate)
+        more = {} if accuracy is None else {"accuracy": document(accuracy, runs)}
+        more |= {} if seldom is None else {"rare": document_of(seldom)}
+        print_json(_document(scenario, outcome, busy_shares) | more)
     elif format == "csv":
-        print_csv(slower_rows(runs) or _rows(scenario, outcome, accuracy))
+        rows = _rows(scenario, outcome, accuracy)
+        if seldom is not None:
+            rows = [row | rare_columns(seldom.get(row["job"])) for row in rows]
+        print_csv(slower_rows(runs) or rows)
     else:
         _show(scenario, outcome, busy_shares)
+        if seldom is not None:
+            show_rare(seldom)
         if accuracy is not None:
             show(accuracy)
         if runs:
@@ -157,9 +168,9 @@ WITHHELD = (
     "no P(miss): these samples are of an earlier `measure --filter`, for the most part the loop that took them, and a "
     "mean of several executions hides the slow ones; for a probability measure again: each sample is then one execution"
 )
-NOT_RESOLVED = "not resolved"
-"""Instead of a probability of 0, which no simulation shows."""
-WHY_NOT_RESOLVED = "not resolved: none of n missed; with a P(miss) of 3/n or more one would have, with 95 %"
+WHY_NOT_RESOLVED = (
+    "not resolved: none of n missed; with a P(miss) of 3/n or more one would have, with 95 % (for less: --rare)"
+)
 INTERVAL = "95 % interval: noise of this simulation only, for the costs as stated, as if each job missed on its own"
 
 

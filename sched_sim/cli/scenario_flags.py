@@ -6,6 +6,7 @@ from typing import Annotated, NamedTuple
 
 import typer
 
+from sched_sim.cli import options as opt
 from sched_sim.cli.accuracy_flags import ACCURACY
 from sched_sim.errors import InputError
 from sched_sim.ticks import exact, positive
@@ -52,6 +53,17 @@ TimesSlower = Annotated[
         help="Also on a processor so many times as slow, its tasks too: what that costs of the accuracy. Repeatable.",
         metavar="NUMBER",
         rich_help_panel=ACCURACY,
+    ),
+]
+
+
+Rare = Annotated[
+    bool,
+    typer.Option(
+        "--rare",
+        help="With --scenario: also the probability of misses too rare for a simulation, of each kind of job of which "
+        "none missed, by 200 runs that are split near the deadlines.",
+        rich_help_panel=opt.OUTPUT,
     ),
 ]
 

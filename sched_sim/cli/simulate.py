@@ -70,7 +70,8 @@ LessWorkToo = Annotated[
     ),
 ]
 ABOUT_ACCURACY = flags.Asked._fields
-WITH_SCENARIO = ("scenario", "gantt", "first", "until", "trace", "histogram", "engine", "format", *ABOUT_ACCURACY)
+PICTURES = ("gantt", "first", "until", "histogram")
+WITH_SCENARIO = ("scenario", *PICTURES, "trace", "rare", "engine", "format", *ABOUT_ACCURACY)
 """The parameters that go together with --scenario; what the others say, the scenario says itself."""
 
 
@@ -104,6 +105,7 @@ def simulate(
     unit: flags.ScenarioUnit = None,
     initial_std: flags.StartStd = None,
     times_slower: flags.TimesSlower = None,
+    rare: flags.Rare = False,
     engine: opt.WhichEngine = "auto",
     format: opt.Format = "table",
 ) -> None:
@@ -126,7 +128,7 @@ def simulate(
         _refuse_beside_scenario(context, scenario)
         asked = flags.Asked(model, output, unit, initial_std, times_slower)
         picture = Picture(gantt, first, until)
-        simulate_scenario(scenario, picture, trace or (), histogram, asked, outputs, format, engine)
+        simulate_scenario(scenario, picture, trace or (), histogram, asked, outputs, format, engine, rare)
         return
     if given := opt.given_options(context, lambda name: name in ABOUT_ACCURACY):
         raise InputError(
@@ -135,6 +137,8 @@ def simulate(
         )
     if histogram is not None:
         raise InputError(f"--histogram {histogram} is for random times: give --scenario FILE.toml too")
+    if rare:
+        raise InputError("--rare is of a scenario: give --scenario FILE.toml too")
     if N is None and measurement_hz is None:
         raise InputError(
             "-N is missing: give the HR steps between measurements, such as -N 10, or --scenario FILE.toml"

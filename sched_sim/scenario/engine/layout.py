@@ -10,6 +10,7 @@ from sched_sim.scenario.draws import stream
 from sched_sim.scenario.dual_rate import gain_kind, loss_kind
 from sched_sim.scenario.engine import memory as at
 from sched_sim.scenario.engine.measured import Ints, Measured
+from sched_sim.scenario.engine.nearness import BINS
 from sched_sim.scenario.engine.words import stream_of
 from sched_sim.scenario.source import correct_kind
 from sched_sim.scenario.workload import Workload
@@ -59,6 +60,7 @@ def memory_of(workload: Workload, measured: Measured) -> Ints:
     sensors = _place_sensors(layout, header, workload, lanes)
     most_at_once = _place_measurements(layout, header, workload, measured, sensors)
     header[at.ROOM] = most_at_once + 2 * len(workload.scenario.sensors) + len(workload.scenario.tasks) + 2
+    header[at.WATCHED], header[at.HISTOGRAM] = at.NO_KIND, layout.place(np.zeros(BINS, np.int64))
     header[at.FIRST_JOB] = layout.end
     return with_jobs(layout.memory(), FIRST_JOBS + int(header[at.ROOM]))
 
@@ -159,8 +161,8 @@ def _place_sensors(
                 **{field: first_of(several) for field, several in own.items()},
             }
         )
-    first, end = layout.table(at.SENSOR, rows)
-    return range(first, end, at.SENSOR)
+    header[at.SENSORS], end = layout.table(at.SENSOR, rows)
+    return range(int(header[at.SENSORS]), end, at.SENSOR)
 
 
 HIGH_RATE_PARTS = {

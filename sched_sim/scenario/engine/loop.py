@@ -36,6 +36,7 @@ from sched_sim.scenario.engine.memory import (
     NEXT,
     NEXT_FINISH,
     NEXT_TASK,
+    NO_KIND,
     NOTHING,
     NOW,
     OF,
@@ -66,17 +67,24 @@ from sched_sim.scenario.engine.memory import (
     TICKS_BUSY,
     UNDER_WAY,
     WAITING,
+    WATCHED,
     Memory,
 )
+from sched_sim.scenario.engine.nearness import is_elsewhere
 
 
 def advance(memory: Memory, log: Any, until: int) -> bool:
-    """Goes on up to the instant `until`, of which nothing is done yet, or to the end of the horizon; whether there was
-    room for all jobs. log: an array with a row for each job that finishes."""
+    """Goes on up to the instant `until`, of which nothing is done yet, to the end of the horizon, or to a step at whose
+    start the jobs that are watched are elsewhere (`nearness`); whether there was room for all jobs.
+
+    log: an array with a row for each job that finishes.
+    """
     while memory[NOW] < until:
         if memory[FREE_JOBS] < memory[ROOM]:
             return False
         now = memory[NOW]
+        if memory[WATCHED] != NO_KIND and is_elsewhere(memory, now):
+            return True
         if now == memory[NEXT_FINISH]:
             for cpu in range(memory[CPUS], memory[CPUS_END], CPU):
                 if memory[cpu + RUNNING] and memory[cpu + FINISH] == now:

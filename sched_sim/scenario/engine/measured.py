@@ -28,9 +28,9 @@ class Measured(NamedTuple):
     arrives: Ints
 
 
-def measured(scenario: Scenario) -> Measured:
+def measured(scenario: Scenario, seed: int) -> Measured:
     """The same as the sensors' `measurements`."""
-    found = [_of_sensor(sensor, scenario.steps, scenario.seed) for sensor in scenario.sensors]
+    found = [_of_sensor(sensor, scenario.steps, seed) for sensor in scenario.sensors]
     step = np.concatenate([taken for taken, _ in found])
     arrives = np.concatenate([arriving for _, arriving in found])
     sensor = np.repeat(np.arange(len(found)), [taken.size for taken, _ in found])

@@ -16,7 +16,7 @@ Memory: TypeAlias = Any
 (
     # the plan, which stays: times in ticks; RULE: see below; ROOM: for so many more jobs there must be, at any instant
     PERIOD, HORIZON, SWITCH, RULE, ROOM, CPUS, CPUS_END, TASKS, TASKS_END, HR_LANE, HR_STREAM,
-    MEASUREMENTS, FIRST_JOB, PREEMPTED_JOBS,  # first rows; how often jobs were preempted, by kind
+    SENSORS, MEASUREMENTS, FIRST_JOB, PREEMPTED_JOBS,  # first rows; how often jobs were preempted, by kind
     # parts of the high-rate task, and of the covariance between the steps of the low-rate one
     PREDICT, PREDICT_ACCUMULATE, HR_RESTART, HR_UPDATE, LR_PROPAGATE,
     # the state: the instant, and the next at which a job finishes, or a task is released; the next step
@@ -27,12 +27,14 @@ Memory: TypeAlias = Any
     AWAITED, AWAITED_STEP, AWAITED_ARRIVES,
     # of the dual-rate filter: see `dual_rate`
     RESTARTS, BUSY, QUEUE, QUEUE_TAIL,
+    # of `nearness`: the kind that is watched, how near it is, how often it was, and the bounds within which to go on
+    WATCHED, WATCHED_STEP, NEAR, HISTOGRAM, NEAREST, FARTHEST,
     # rings, two numbers each: measurements that have arrived and not landed; those of them that are carried
     PENDING, PENDING_NEXT, CARRIED, CARRIED_NEXT,
     # late ones in flight whose covariance was corrected, and how many; what has been applied to the state
     FLYING, FLYING_NEXT, FLYING_COUNT, APPLIED, APPLIED_NEXT, APPLIED_AT,
     HEADER,
-) = range(1, 51)  # fmt: skip
+) = range(1, 58)  # fmt: skip
 
 BACK, ONE, SEVERAL, DUAL_RATE = range(4)
 """RULE: late measurements go back; one is in flight by Larsen's method; several are; all are the low-rate task's."""

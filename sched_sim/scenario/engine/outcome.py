@@ -49,7 +49,7 @@ class Jobs(NamedTuple):
 
 def run_compiled(work: Workload, on_progress: OnProgress | None = None) -> Outcome:
     """Of a workload that is not `too_large`."""
-    found = measured(work.scenario)
+    found = measured(work.scenario, work.scenario.seed)
     memory, log = run(work, found, on_progress)
     jobs = _jobs(work, found, memory, log)
     priorities = _priorities(work)
@@ -65,8 +65,7 @@ def run_compiled(work: Workload, on_progress: OnProgress | None = None) -> Outco
 
 def _jobs(work: Workload, found: Measured, memory: Ints, log: Ints) -> dict[str, Jobs]:
     """By kind."""
-    unfinished = _unfinished(work, found, memory)
-    finished, waiting = (_split(rows, len(work.kinds)) for rows in (log, unfinished))
+    finished, waiting = (_split(rows, len(work.kinds)) for rows in (log, unfinished(work, found, memory)))
     return {kind: Jobs(*finished[number].T[1:], *waiting[number].T[1:]) for number, kind in enumerate(work.kinds)}
 
 
@@ -77,14 +76,14 @@ def _split(rows: Ints, kinds: int) -> list[Ints]:
     return np.split(rows[order], ends[:-1])
 
 
-def _unfinished(work: Workload, found: Measured, memory: Ints) -> Ints:
+def unfinished(work: Workload, found: Measured, memory: Ints) -> Ints:
     """Kind, release and deadline of each. Of corrections that go together, or wait, only the measurements tell."""
     jobs = memory[memory[at.FIRST_JOB] :].reshape(-1, at.JOB)
     jobs = jobs[jobs[:, at.KIND] != at.NO_KIND]
     columns = (at.KIND, at.RELEASE, at.DEADLINE)
     if work.scenario.late == "dual-rate":
-        unfinished: Ints = jobs[:, columns]
-        return unfinished
+        low_rate: Ints = jobs[:, columns]
+        return low_rate
     jobs = jobs[jobs[:, at.THEN] == at.NOTHING]
     table = memory[memory[at.MEASUREMENTS] : memory[at.TAKEN]].reshape(-1, at.MEASUREMENT)
     there = (found.arrives >= 0) & (found.arrives < work.scenario.steps)

@@ -15,10 +15,7 @@ from sched_sim.schedule.clock import REPORTS, OnProgress
 
 def run(work: Workload, found: Measured, on_progress: OnProgress | None = None) -> tuple[Ints, Ints]:
     """The memory at the end, and the log: a row for each job that finished."""
-    steps = work.scenario.steps
-    of_tasks = sum(work.horizon // source.period + 2 for source in work.tasks())
-    log = np.empty((steps + 2 * found.step.size + of_tasks, at.LOG), np.int64)
-    memory = memory_of(work, found)
+    steps, memory, log = work.scenario.steps, memory_of(work, found), empty_log(work, found)
     stride = steps if on_progress is None else max(steps // REPORTS, 1)
     for step in range(0, steps, stride):
         if on_progress is not None:
@@ -28,8 +25,14 @@ def run(work: Workload, found: Measured, on_progress: OnProgress | None = None) 
     return memory, log[: memory[at.LOGGED]]
 
 
+def empty_log(work: Workload, found: Measured) -> Ints:
+    """With a row for each job that may finish."""
+    of_tasks = sum(work.horizon // source.period + 2 for source in work.tasks())
+    return np.empty((work.scenario.steps + 2 * found.step.size + of_tasks, at.LOG), np.int64)
+
+
 def advanced(memory: Ints, log: Ints, until: int) -> Ints:
-    """The memory at the instant `until`, of which nothing is done yet, or at the end of the horizon."""
+    """The memory where `advance` has gone to."""
     go_on = compiled(advance)
     while not go_on(memory, log, until):
         memory = with_jobs(memory, (memory.size - memory[at.FIRST_JOB]) // at.JOB)

@@ -34,4 +34,4 @@ def test_they_are_taken_and_arrive_as_the_sensors_have_them(several, steps):
             for number, each in enumerate(sensors)
         )
     )
-    assert [*zip(*(column.tolist() for column in measured(of)), strict=True)] == expected
+    assert [*zip(*(column.tolist() for column in measured(of, of.seed)), strict=True)] == expected
