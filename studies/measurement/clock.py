@@ -11,6 +11,7 @@ from __future__ import annotations
 import ctypes
 import resource
 import time
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -18,8 +19,10 @@ import numpy as np
 from filters.arrays import FloatArray
 from filters.backends.choose import arguments_for, function_for
 from filters.backends.timed import Clock, timed
+from filters.jobs import Job
 from filters.kernels.place import IntArray
 from sched_sim.errors import InputError
+from studies.measurement.inputs import inputs_of
 
 READINGS = 10_000
 LONGEST, AT_EACH = 150, 60
@@ -70,12 +73,12 @@ def _resolution(clock: Clock) -> int:
     return int(np.median(apart)) if len(apart) else 1
 
 
-def _spans(job: Any, arguments: tuple[Any, ...], clock: Clock, count: int) -> IntArray:
-    spans = np.zeros(count, dtype=np.int64)
-    loop, compiled = function_for("compiled", timed), arguments_for("compiled", job)
-    loop(compiled, arguments, clock, spans[:10])
-    loop(compiled, arguments, clock, spans)
-    return spans
+def _spans(job: Callable[..., None], arguments: tuple[Any, ...], clock: Clock, count: int) -> IntArray:
+    inputs = inputs_of([Job("", job, lambda _index: arguments)])
+    varied = inputs.varied(10 + count, np.random.default_rng(0))
+    spans = np.zeros(10 + count, dtype=np.int64)
+    function_for("compiled", timed)(arguments_for("compiled", job), arguments, varied, clock, spans)
+    return spans[10:]
 
 
 def _nothing() -> None:

@@ -1,9 +1,9 @@
 """How long single executions take: each timed by itself, in the order in which they ran.
 
-They run in blocks of about a millisecond, each one compiled call, so that blocks of all jobs come by turns, and what
-slows the machine for a while slows all. The first executions of a block bring back what the call has driven out of the
-caches, in a loop until its rarest job has run, and are not kept. A block in which the system ran something else in
-place of this thread is timed again.
+Each has inputs drawn among several. They run in blocks of about a millisecond, each one compiled call, so that blocks
+of all jobs come by turns, and what slows the machine for a while slows all. The first executions of a block bring back
+what Python has driven out of the caches, in a loop until its rarest job has run, and are not kept. A block in which the
+system ran something else in place of this thread is timed again.
 """
 
 from __future__ import annotations
@@ -15,8 +15,10 @@ from time import perf_counter
 from typing import Any, Literal, NamedTuple, TypeAlias
 
 import numpy as np
+from numpy.random import Generator
 
-from filters.backends.choose import arguments_for, function_for
+from filters.backends.choose import arguments_for
+from filters.backends.compiled import machine_code
 from filters.backends.numba_error import gist, is_numbas
 from filters.backends.timed import Clock, one_of, timed, timed_cold, timed_in_order
 from filters.jobs import Job
@@ -24,7 +26,8 @@ from filters.kernels.place import IntArray
 from sched_sim.errors import InputError
 from studies.measurement.busy import Clocks, clocks
 from studies.measurement.clock import switches
-from studies.measurement.job_times import ARGUMENT_SETS, Progress, no_garbage_collection
+from studies.measurement.inputs import Inputs, inputs_of
+from studies.measurement.job_times import Progress, no_garbage_collection
 
 Caches: TypeAlias = Literal["warm", "cold"]
 
@@ -32,7 +35,7 @@ BLOCK_SECONDS = 1e-3
 MOST_IN_BLOCK = 4000
 MOST_IN_ORDER = 20_000_000
 WARM_UP = 20
-FEW, MANY = 1, 50
+FEW, MANY = 1, 200
 """Executions that tell how long one takes, and how long the call."""
 TRIES = 10
 FLUSHED = 8 << 20
@@ -73,47 +76,48 @@ class Executions(NamedTuple):
     disturbed: int
 
 
-def alone(name: str, job: Job, caches: Caches, wanted: Wanted, clock: Clock) -> Course:
+def alone(name: str, job: Job, caches: Caches, wanted: Wanted, clock: Clock, random: Generator) -> Course:
     """A job by itself. Raises InputError if numba cannot compile it."""
-    function, *sets = arguments_for("compiled", (job.function, *(job.arguments(i) for i in range(ARGUMENT_SETS))))
+    inputs = inputs_of([job])
+    function, arguments = arguments_for("compiled", (job.function, inputs.arguments[0]))
     others, warm_up = [], WARM_UP
     if caches == "cold":
         others, warm_up = [np.zeros((FLUSHED // LINE, LINE // 8), dtype=np.int64)], 1
-    loop = function_for("compiled", timed_cold if others else timed)
+    loop = _loop(name, timed_cold if others else timed, function, arguments, inputs, clock, *others)
 
-    def spans(number: int, count: int) -> IntArray:
+    def spans(count: int) -> IntArray:
         found = np.zeros(warm_up + count, dtype=np.int64)
-        loop(function, sets[number % ARGUMENT_SETS], clock, found, *others)
+        loop(function, arguments, inputs.varied(len(found), random), clock, found, *others)
         return found[warm_up:]
 
-    each = _seconds_of_each(name, partial(spans, 0))
-    count, block = max(LEAST, min(wanted.executions, int(wanted.seconds / each))), _block(each)
-    return Course([name], np.zeros(count, dtype=np.int64), lambda first, size: spans(first // block, size), block)
+    each = _seconds_of_each(spans)
+    count = max(LEAST, min(wanted.executions, int(wanted.seconds / each)))
+    return Course([name], np.zeros(count, dtype=np.int64), lambda _first, size: spans(size), _block(each))
 
 
-def in_order(names: Sequence[str], jobs: Sequence[Job], order: IntArray, wanted: Wanted, clock: Clock) -> Course:
+def in_order(
+    names: Sequence[str], jobs: Sequence[Job], order: IntArray, wanted: Wanted, clock: Clock, random: Generator
+) -> Course:
     """Jobs that run in an order of their numbers, again and again, until there are as many of the rarest as wanted.
 
     Raises InputError if numba cannot compile one of them.
     """
-    use = arguments_for("compiled", one_of(tuple(job.function for job in jobs)))
-    sets = [arguments_for("compiled", _nested([job.arguments(i) for job in jobs])) for i in range(ARGUMENT_SETS)]
-    loop = function_for("compiled", timed_in_order)
-
+    inputs = inputs_of(jobs)
+    use, arguments = arguments_for("compiled", (one_of(tuple(job.function for job in jobs)), _nested(inputs.arguments)))
+    loop = _loop(" ".join(names), timed_in_order, use, arguments, inputs, clock, order)
     interval = len(order) // int(np.bincount(order, minlength=len(jobs)).min())  # of the rarest, in executions
     warm_up = WARM_UP + min(interval, MOST_IN_BLOCK // 2)
 
-    def spans(number: int, first: int, count: int) -> IntArray:
-        places = np.arange(first - warm_up, first + count)
-        found = np.zeros(len(places), dtype=np.int64)
-        loop(use, sets[number % ARGUMENT_SETS], np.take(order, places, mode="wrap"), clock, found)
+    def spans(first: int, count: int) -> IntArray:
+        found = np.zeros(warm_up + count, dtype=np.int64)
+        runs = np.take(order, np.arange(first - warm_up, first + count), mode="wrap")
+        loop(use, arguments, inputs.varied(len(found), random), clock, found, runs)
         return found[warm_up:]
 
-    each = _seconds_of_each(" ".join(names), partial(spans, 0, 0))
+    each = _seconds_of_each(partial(spans, 0))
     count = min(wanted.executions * interval, int(len(jobs) * wanted.seconds / each), MOST_IN_ORDER)
-    block = max(_block(each), 2 * warm_up)
     ran = np.take(order, np.arange(max(LEAST, 2 * interval, count)), mode="wrap")
-    return Course(names, ran, lambda first, size: spans(first // block, first, size), block)
+    return Course(names, ran, spans, max(_block(each), 2 * warm_up))
 
 
 def run(courses: Sequence[Course], wanted: Wanted, seed: int, progress: Progress) -> Executions:
@@ -156,16 +160,20 @@ def _nested(arguments: Sequence[tuple[Any, ...]]) -> Any:
     return nested
 
 
-def _seconds_of_each(name: str, spans: Callable[[int], IntArray]) -> float:
-    """With the work between; compiles it first."""
+def _loop(name: str, loop: Any, job: Any, arguments: Any, inputs: Inputs, clock: Clock, *rest: Any) -> Any:
+    one = np.zeros(1, dtype=np.int64)
     try:
-        spans(1)
+        return machine_code(loop, job, arguments, inputs.varied(1, np.random.default_rng(0)), clock, one, *rest)
     except Exception as error:
         if is_numbas(error):
             raise InputError(f"{name} cannot be compiled by numba: {gist(error)}") from error
         raise
+
+
+def _seconds_of_each(spans: Callable[[int], IntArray]) -> float:
+    """With the work between, and without the call."""
     few, many = (min(_took(spans, count) for _ in range(3)) for count in (FEW, MANY))
-    return max(many - few, 1e-9) / (MANY - FEW)  # without the call
+    return max(many - few, 1e-9) / (MANY - FEW)
 
 
 def _took(spans: Callable[[int], IntArray], count: int) -> float:

@@ -75,7 +75,7 @@ def measure_filter(
 def _timed(user: UserFilter, name: str, caches: Caches, most: Wanted, seed: int, progress: Progress) -> SampledCosts:
     wanted = Wanted(min(most.executions, MOST_TOGETHER // len(user.jobs)), most.seconds)
     before, clock = load(), monotonic()
-    found = run(_courses(user, caches, wanted, clock, progress), wanted, seed, progress)
+    found = run(_courses(user, caches, wanted, clock, seed, progress), wanted, seed, progress)
     spans = {part: np.maximum(found.ns[part], 1) for part in user.jobs}  # 0: less than the clock's resolution
     alike = [_some(each) for each in spans.values()] if caches == "warm" else []
     busy = signs_of_others(before, found.began, clocks(), alike)
@@ -99,16 +99,18 @@ def _timed(user: UserFilter, name: str, caches: Caches, most: Wanted, seed: int,
     return SampledCosts(name, "ns", samples, {}, _about(user, "compiled") | about)
 
 
-def _courses(user: UserFilter, caches: Caches, wanted: Wanted, clock: Clock, progress: Progress) -> list[Course]:
-    courses = []
+def _courses(
+    user: UserFilter, caches: Caches, wanted: Wanted, clock: Clock, seed: int, progress: Progress
+) -> list[Course]:
+    courses, random = [], np.random.default_rng(seed)
     loops = loops_of(user.jobs) if caches == "sequence" else [[part] for part in user.jobs]
     for number, loop in enumerate(loops):
         progress(number, len(loops), f"preparing {' '.join(loop)}")
         if caches == "sequence":
             order = order_of(loop, user.composed, STEPS_IN_ORDER)
-            courses.append(in_order(loop, [user.jobs[part] for part in loop], order, wanted, clock))
+            courses.append(in_order(loop, [user.jobs[part] for part in loop], order, wanted, clock, random))
         else:
-            courses += [alone(part, user.jobs[part], caches, wanted, clock) for part in loop]
+            courses += [alone(part, user.jobs[part], caches, wanted, clock, random) for part in loop]
     return courses
 
 

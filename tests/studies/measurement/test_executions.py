@@ -85,19 +85,29 @@ def job(count: int) -> Job:
 
 def test_a_job_runs_as_often_as_wanted() -> None:
     for caches in ("warm", "cold"):
-        found = run([alone("sum", job(50), caches, Wanted(250, 5.0), monotonic())], Wanted(250, 5.0), 0, silent)
+        found = run(
+            [alone("sum", job(50), caches, Wanted(250, 5.0), monotonic(), np.random.default_rng(0))],
+            Wanted(250, 5.0),
+            0,
+            silent,
+        )
         assert len(found.ns["sum"]) == 250
         assert (found.ns["sum"] >= 0).all()
 
 
 def test_of_a_long_job_there_are_fewer() -> None:
-    long = alone("sum", job(1000), "warm", Wanted(100_000, 1e-9), monotonic())
+    long = alone("sum", job(1000), "warm", Wanted(100_000, 1e-9), monotonic(), np.random.default_rng(0))
     assert len(long.jobs) == executions.LEAST
 
 
 def test_jobs_in_order_run_until_there_are_enough_of_the_rarest() -> None:
     order = np.array([0, 0, 0, 1])
-    found = run([in_order(["short", "long"], [job(2), job(3000)], order, WANTED, monotonic())], WANTED, 0, silent)
+    found = run(
+        [in_order(["short", "long"], [job(2), job(3000)], order, WANTED, monotonic(), np.random.default_rng(0))],
+        WANTED,
+        0,
+        silent,
+    )
     assert {name: len(ns) for name, ns in found.ns.items()} == {"short": 400, "long": 400}
     assert np.median(found.ns["long"]) > np.median(found.ns["short"])
 
