@@ -95,7 +95,7 @@ def simulate_one(run: Run) -> None:
     plan, state, horizon = run.plan, run.state, run.plan.horizon
     now, next_finish = 0, -1
     while not state.full:
-        while now == next_finish:
+        while now == next_finish and not state.full:
             next_finish = finish_jobs(run, now)
         if now == horizon:
             break
