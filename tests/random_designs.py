@@ -60,8 +60,8 @@ class Simulated(NamedTuple):
 
 
 def random_design(random: Random) -> Simulated:
-    """Costs and times in whole ticks of a cost unit, many equal or none, so that much happens at one instant; in a tenth
-    of the designs so many ticks that a horizon has 50 bits or more."""
+    """Costs and times in whole ticks of a cost unit, many equal or none, so that much happens at one instant; in a
+    tenth of the designs so many ticks that a horizon has 50 bits or more."""
     kind = random.choice([*PIECES, DualRateCosts, DualRateCosts, DualRateCosts, DelayedHorizonCosts])
     most = random.choice([2, 6, 40])
     some = random.choice([1, 0.9, 0.9, 0.3])
