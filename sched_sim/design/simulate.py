@@ -46,7 +46,8 @@ def simulate(
     takes until the correction of the last must be in the state (with M = N that is one step for recalculate).
 
     costs: from `select`; speed: cost units the processor does per HR period.
-    keep_slices: return every `Slice`; without it memory does not grow with `cycles`.
+    keep_slices: return every `Slice`; without it memory does not grow with `cycles`, but for some 20 bytes each if
+    compiled.
     Tasks whose offset may be any are released together, the first time as late as their jitter allows, where that
     delays the job with the least slack most (`worst_phase.critical_start`); those without jitter before too, from the
     start on.

@@ -47,9 +47,11 @@ def simulate_each(
     figures: Rows[Rows[Figures]],
     landed: Numbers,
     log: Numbers,
+    numbers: Numbers,
 ) -> None:
-    """One run for each plan. tasks, figures, landed: a row for each; arrays beside them and states are used anew."""
-    for number in range(plans.shape[0]):
+    """A run for each of these numbers of a plan. states, tasks, figures, landed: a row for each plan; other arrays are
+    used anew by each run."""
+    for number in numbers:
         run = Run(
             plans[number],
             states[number],
@@ -175,22 +177,20 @@ def dispatch(run: Run, number: int, now: int) -> bool:
     row = cpu.running
     if cpu.ready and (row < 0 or (jobs[row].preemptive and run.heaps[number, 0, 0] < cpu.rank)):
         if row >= 0:
-            job, ran, rank, order = jobs[row], now - cpu.since, cpu.rank, cpu.order
-            switched = min(ran, job.overhead)
-            job.overhead -= switched
-            job.left -= ran - switched
+            ran, rank, order = now - cpu.since, cpu.rank, cpu.order
+            jobs[row].left -= ran
             cpu.busy += ran
-            run.figures[job.kind].preemptions += 1
+            run.figures[jobs[row].kind].preemptions += 1
             run_next(run, number)
             cpu.ready = push(run.heaps, number, cpu.ready, rank, order, row)
         else:
             run_next(run, number)
         row = cpu.running
         if plan.switch and row != cpu.last:
-            jobs[row].overhead += plan.switch
+            jobs[row].left += plan.switch
             cpu.last = row
         cpu.since = now
-        cpu.finish = now + jobs[row].left + jobs[row].overhead
+        cpu.finish = now + jobs[row].left
     return bool(row >= 0)
 
 

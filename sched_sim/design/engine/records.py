@@ -67,8 +67,8 @@ class Cpu:
 
 
 class Job:
-    """As `schedule.jobs.Job`; kind: -1 where the row is unused; follows: see `codes`; freed: how often the chain had
-    been freed at its release, -1 for a job of no chain."""
+    """As `schedule.jobs.Job`; kind: -1 where the row is unused; left: work, with that of context switches; follows: see
+    `codes`; freed: how often the chain had been freed at its release, -1 for a job of no chain."""
 
     kind: int
     follows: int
@@ -78,7 +78,6 @@ class Job:
     release: int
     deadline: int
     left: int
-    overhead: int
     freed: int
     preemptive: int
 

@@ -136,7 +136,7 @@ def goes_on(run: Run, job: int, now: int) -> bool:
     if more <= 0:
         return False
     run.state.replayed = lands
-    run.jobs[job].left, run.jobs[job].overhead = more * run.plan.replay, 0
+    run.jobs[job].left = more * run.plan.replay
     ready(run, job)
     return True
 
@@ -206,7 +206,7 @@ def new_job(
     row = run.unused[state.unused]
     job = run.jobs[row]
     job.kind, job.follows, job.step, job.priority, job.cpu = kind, follows, step, priority, cpu
-    job.release, job.deadline, job.left, job.overhead, job.freed, job.preemptive = now, deadline, work, 0, -1, 1
+    job.release, job.deadline, job.left, job.freed, job.preemptive = now, deadline, work, -1, 1
     for each in range(run.cpus.shape[0]):
         if run.cpus[each].last == row:
             run.cpus[each].last = -1

@@ -58,12 +58,10 @@ def run_plans(plans: Sequence[Plan], tasks: Sequence[Sequence[TaskSource]], log:
     )
     left, room = np.arange(len(plans)), ROOM
     while left.size:
-        states = np.zeros(left.size, STATE)
-        figures = np.zeros((left.size, outcome.figures.shape[1]), FIGURES)
-        landed = np.empty((left.size, cycles), np.int64)
+        outcome.states[left] = outcome.figures[left] = 0
         compiled(simulate_each)(
-            in_numbers[left],
-            states,
+            in_numbers,
+            outcome.states,
             np.zeros(2, CPU),
             np.zeros(room, JOB),
             np.zeros(room, np.int64),
@@ -71,13 +69,13 @@ def run_plans(plans: Sequence[Plan], tasks: Sequence[Sequence[TaskSource]], log:
             np.zeros((5, room), np.int64),
             np.zeros((5, 2), np.int64),
             np.zeros((3, 2 * ROOM + room + rows.shape[1], 3), np.int64),
-            rows[left],
-            figures,
-            landed,
+            rows.copy(),
+            outcome.figures,
+            outcome.landed,
             outcome.log,
+            left,
         )
-        outcome.states[left], outcome.figures[left], outcome.landed[left] = states, figures, landed
-        left, room = left[states["full"] == 1], room * MORE
+        left, room = left[outcome.states["full"][left] == 1], room * MORE
     return outcome
 
 
@@ -106,7 +104,7 @@ def kinds_of(tasks: Sequence[TaskSource]) -> list[str]:
 
 def schedule_of(plan: Plan, kinds: Sequence[str], outcome: Outcome, number: int = 0) -> Schedule:
     """That of the plan of this number."""
-    state, landed = outcome.states[number], outcome.landed[number]
+    state = outcome.states[number]
     responses = {}
     for kind, of_kind in zip(kinds, outcome.figures[number].tolist(), strict=True):
         releases, finished, worst, total, misses, lateness, preemptions, carries = of_kind
@@ -114,7 +112,7 @@ def schedule_of(plan: Plan, kinds: Sequence[str], outcome: Outcome, number: int 
             total += carries * CARRY
             responses[kind] = Response(releases, finished, worst, total, misses, lateness, preemptions)
     first = int(state["first_kind"])
-    lands, times = np.unique(landed[landed >= 0], return_counts=True)
+    at, cycles = (each.tolist() for each in np.unique(outcome.landed[number], return_counts=True))
     return Schedule(
         period=plan.period,
         horizon=plan.horizon,
@@ -123,5 +121,5 @@ def schedule_of(plan: Plan, kinds: Sequence[str], outcome: Outcome, number: int 
         responses=responses,
         first_miss=None if first < 0 else (kinds[first], bool(state["first_held"])),
         instants=int(state["instants"]),
-        achieved=Counter(dict(zip(lands.tolist(), times.tolist(), strict=True))),
+        achieved=Counter({L: count for L, count in zip(at, cycles, strict=True) if L >= 0}),
     )
