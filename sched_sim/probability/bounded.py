@@ -22,7 +22,7 @@ def bounded(lower: Tally, uppers: Mapping[int, Tally], arrive: float, *, exact: 
     for kind, jobs in lower.jobs.items():
         found = [up.missed[kind] / up.jobs[kind] + _not_in(kind, n, up) for n, up in uppers.items() if kind in up.jobs]
         misses[kind] = between(lower.missed[kind] / jobs, min(found, default=1.0) + behind)
-    if "lr_propagate" in misses:
+    if "lr_propagate" in misses or "lr_update" in lower.responses:
         misses["lr_update"] = late
     for kind in lower.responses:
         tails = [_tail(kind, up) + _not_in(kind, n, up) for n, up in uppers.items() if kind in up.responses]
@@ -59,10 +59,10 @@ def _landing_exactly(tally: Tally, behind: float) -> dict[int, Bounds]:
 
 def _landing_between(lower: Tally, upper: Tally, arrive: float, behind: float) -> dict[int, Bounds]:
     """A correction lands later with costs rounded up: P(L > l) is bounded, and P(L = l) is P(L > l - 1) - P(L > l)."""
-    steps = sorted({landed for landed, share in chain(lower.landing.items(), upper.landing.items()) if share})
+    seen = [landed for landed, share in chain(lower.landing.items(), upper.landing.items()) if share]
     landing = {}
     low = up = arrive
-    for step in steps:
+    for step in range(min(seen), max(seen) + 1) if seen else ():
         low_after = sum(share for landed, share in lower.landing.items() if landed > step)
         up_after = min(sum(share for landed, share in upper.landing.items() if landed > step) + behind, arrive)
         landing[step] = between(max(low - up_after, 0.0), max(up - low_after, 0.0))

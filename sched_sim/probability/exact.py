@@ -54,6 +54,7 @@ def probabilities(
     task_costs: Mapping[str, CostDistribution] | None = None,
     delays: CostDistribution | None = None,
     dropout: float = 0.0,
+    preempted: bool = False,
     bins: int | None = None,
     debt: int = 4,
 ) -> Probabilities:
@@ -64,6 +65,8 @@ def probabilities(
     cost is not certain.
     delays: of a measurement, whole HR steps, in place of M; dropout: the probability that it never arrives. A lost one
     is awaited by serial methods as long as the longest delay; the dual-rate filter's LR jobs go on without it.
+    preempted: recalculate corrects in a job of its own, with the priority of LR jobs, which catches up with the steps
+    that pass meanwhile; else the HR job of m does it.
     bins: of an HR period, to which costs are rounded, up and down; None: none where costs are whole ticks of which a
     period has few. debt: so many cycles behind is followed, more if the design has more on their way.
     Raises InputError for what is not had: its message names it.
@@ -77,17 +80,18 @@ def probabilities(
     debt = at_least_one(debt, "debt")
     pieces = pieces_of(costs)
     delay = _delay(delays, dropout, timing)
-    tasks = check_had(costs, timing, options, tasks, delay)
+    tasks = check_had(costs, timing, options, tasks, delay, preempted=preempted)
     of_tasks = {task.name: CostDistribution.certain(task.cost) for task in tasks} | _of_tasks(task_costs, tasks)
     given = Given(pieces, tasks, of_tasks, speed)
     grid = grid_of(given, bins)
-    if options.cpus == 2 and not grid.exact:
+    if (options.cpus == 2 or preempted) and not grid.exact:
+        what = option("preempted") if preempted else f"{option('cpus')} 2"
         raise InputError(
-            f"{option('cpus')} 2: had where all costs are whole ticks of which an HR period has at most {MOST_TICKS}, "
+            f"{what}: had where all costs are whole ticks of which an HR period has at most {MOST_TICKS}, "
             f"or whole {option('bins')}; round them yourself, up for a cautious estimate"
         )
     rounded: tuple[Rounded, ...] = ("down",) if grid.exact else ("down", "up")
-    models = [Model(costs, timing, options, given, grid, each, delay, debt) for each in rounded]
+    models = [Model(costs, timing, options, given, grid, each, delay, debt, preempted=preempted) for each in rounded]
     followed = [follow(model, cycles) for model in models]
     (lower,), uppers = followed[0].values(), followed[-1]
     arrive = 1.0 if delay is None else 1 - delay.lost

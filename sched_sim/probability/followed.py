@@ -38,7 +38,7 @@ def _follow(process: Process, model: Model, cycles: int, *, settles: bool) -> Fo
     last = long_run(process, model.hyperperiod, model.begin) if settles else None
     if last is None:
         return Followed(first, None)
-    last.behind = last.unknown
+    last.behind = last.unknown + last.behind * model.recovery
     return Followed(first, last.scaled(1 / model.cycles))
 
 

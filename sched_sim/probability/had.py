@@ -28,7 +28,13 @@ SAMPLED = "or sample it with `sched-sim simulate --scenario FILE.toml`"
 
 
 def check_had(
-    costs: JobCosts[Any], timing: Timing, options: Options, tasks: Sequence[Task], delay: Delay | None
+    costs: JobCosts[Any],
+    timing: Timing,
+    options: Options,
+    tasks: Sequence[Task],
+    delay: Delay | None,
+    *,
+    preempted: bool,
 ) -> tuple[Task, ...]:
     """The tasks that may delay a job of the filter, or one another. Raises InputError for what is not had."""
     method_of(costs).check_design(costs, timing, options.feedback)
@@ -43,7 +49,9 @@ def check_had(
             f"context switches; add two of them to the cost of each job, which is an upper bound"
         )
     for task in tasks:
-        _check_task(task, isinstance(costs, DualRateCosts))
+        _check_task(task, low_rate=preempted or isinstance(costs, DualRateCosts))
+    if preempted:
+        return _check_preempted(costs, options, tasks, delay)
     if isinstance(costs, DualRateCosts):
         return _check_dual_rate(costs, timing, options, tasks)
     if delay is not None:
@@ -64,7 +72,7 @@ def _check_method(costs: JobCosts[Any], timing: Timing) -> None:
         )
 
 
-def _check_task(task: Task, low_rate: bool) -> None:
+def _check_task(task: Task, *, low_rate: bool) -> None:
     name = f"task {task.name!r}"
     if task.offset == "any":
         raise InputError(f"{name}: its offset may be any, and then it has no probability: give it an offset")
@@ -101,6 +109,17 @@ def _check_dual_rate(
             raise InputError(f"{option('feedback')} same-step with {option('cpus')} 2: not had; choose next-step")
         return ()
     return urgent
+
+
+def _check_preempted(
+    costs: JobCosts[Any], options: Options, tasks: Sequence[Task], delay: Delay | None
+) -> tuple[Task, ...]:
+    if not isinstance(costs, RecalculateCosts):
+        raise InputError(f"{option('preempted')}: only recalculate has a correction that HR jobs may preempt")
+    if delay is not None or options.cpus == 2:
+        what = f"{option('cpus')} 2" if delay is None else f"{option('delays')}, {option('dropout')}"
+        raise InputError(f"{option('preempted')} with {what}: both at once are not had, {SAMPLED}")
+    return tuple(task for task in tasks if task.priority < LR)
 
 
 def _check_random(costs: JobCosts[Any], timing: Timing, delay: Delay) -> None:

@@ -101,6 +101,16 @@ class RandomDelay:
         ]
 
 
+class Always:
+    """The same in each step."""
+
+    def __init__(self, cost: Law) -> None:
+        self.cost = cost
+
+    def branches(self, _step: int, key: Hashable) -> list[Branch]:
+        return [Branch(1.0, key, self.cost)]
+
+
 class WithCorrections:
     """The dual-rate filter's; the key is how many HR updates the job has to do."""
 

@@ -14,11 +14,12 @@ from sched_sim.design.pieces import DualRateCosts, JobCosts
 from sched_sim.design.timing import Timing
 from sched_sim.probability.delay import Delay
 from sched_sim.probability.dual_rate import DualRate
-from sched_sim.probability.high_rate import CertainDelay, HighRate, Pieces, RandomDelay, WithCorrections
+from sched_sim.probability.high_rate import Always, CertainDelay, HighRate, Pieces, RandomDelay, WithCorrections
 from sched_sim.probability.in_ticks import Given, Grid, Rounded, laws_of, tasks_in_ticks
 from sched_sim.probability.level import Level
 from sched_sim.probability.long_run import Process
 from sched_sim.probability.low_rate import Charge, Design
+from sched_sim.probability.preempted import Preempted
 from sched_sim.probability.serial import Serial, WorkOf
 from sched_sim.probability.timeline import Timeline
 from sched_sim.schedule.jobs import HR
@@ -45,8 +46,11 @@ class Model:
         rounded: Rounded,
         delay: Delay | None,
         debt: int,
+        *,
+        preempted: bool = False,
     ) -> None:
         self.costs, self.timing, self.options, self.delay, self.grid = costs, timing, options, delay, grid
+        self.preempted = preempted
         self.rounded, self.taken = rounded, timing.taken
         latest = max(timing.M, timing.L, 0 if delay is None else delay.longest)
         self.debt = debt + latest // timing.N
@@ -67,6 +71,9 @@ class Model:
 
     def processes(self) -> tuple[list[Process], dict[int, list[Process]]]:
         """At the start of step 0: those of which all is known, and the HR jobs with so many HR updates in each step."""
+        if self.preempted:
+            correction = Preempted(self.pieces, self.timing, self.timeline, self.debt)
+            return [correction, *self._apart(self._serial())], {0: []}
         if not isinstance(self.costs, DualRateCosts):
             return self._apart(self._serial()), {0: []}
         design = self._design()
@@ -88,6 +95,8 @@ class Model:
         return Serial(priority, high, self.timeline, self.most, self.taken, due)
 
     def _serial(self) -> HighRate:
+        if self.preempted:
+            return Always(self.pieces.laws["propagate"])
         work = WorkOf(self.costs, self.timing)
         if self.delay is not None:
             return RandomDelay(self.pieces, work.at_random, self.timing.N, self.delay)
@@ -122,7 +131,19 @@ class Model:
             often = self.cycles / (self.hyperperiod * self.grid.ticks)
             work += often * arrive * mean["hr_update"]
             low = often * (mean["lr_propagate"] + mean["lr_gain"] + arrive * mean["lr_update"])
+        elif self.preempted:
+            low = self._mean_correction() / (self.timing.N * self.grid.ticks)
         return max(work, low) if self.options.cpus == 2 else work + low
+
+    def _mean_correction(self) -> float:
+        """At the least: without catching up, and without waiting."""
+        return self.pieces.together({"update": 1, "replay": self.timing.M}).mean
+
+    @property
+    def recovery(self) -> float:
+        """Cycles until what is not followed has caught up again, in the mean, if more HR updates do not keep it busy: in
+        each what is left to do falls by the time that is not used (A. Wald's identity)."""
+        return (self.debt + 1) / (1 - self.load())
 
     def high_load(self, updates: int) -> float:
         """Of HR jobs and tasks alone; of dual-rate with so many HR updates in each step."""

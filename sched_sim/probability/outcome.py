@@ -39,8 +39,8 @@ class CycleProbabilities:
     late: P(the correction lands later than the design's L) of those that arrive (serial methods: than in step m).
     responses: by job kind, "hr", "lr_update" (from its arrival), "task:NAME": how long a job takes from its release.
     behind: the mass that was further behind than is followed, in some cycle up to this one; in the long run, where what
-        falls so far behind starts anew, the mean number of corrections of a cycle that are lost so. It is in every
-        upper bound, and in no lower one.
+        falls so far behind starts anew, the share of cycles until it has caught up, on average. It is in every upper
+        bound, and in no lower one.
     """
 
     misses: Mapping[str, Bounds]
