@@ -10,7 +10,6 @@ from itertools import pairwise
 from math import fsum, isfinite
 from sys import float_info
 
-from sched_sim.bounds import short
 from sched_sim.errors import InputError
 from sched_sim.ticks import Number, exact
 
@@ -38,7 +37,7 @@ class CostDistribution:
                 f"and at least one"
             )
         if values[0] < 0:
-            raise InputError(f"value {short(float(values[0]))} must be 0 or more")
+            raise InputError(f"value {float(values[0]):g} must be 0 or more")
         for before, after in pairwise(values):
             if before >= after:
                 raise InputError(

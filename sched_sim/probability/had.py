@@ -48,15 +48,17 @@ def check_had(
             f"{option('context_switch')} {float(options.context_switch):g}: the exact probability is had without "
             f"context switches; add two of them to the cost of each job, which is an upper bound"
         )
+    low_rate = preempted or isinstance(costs, DualRateCosts)
+    tasks = tuple(task for task in tasks if not low_rate or task.priority <= LR)
     for task in tasks:
-        _check_task(task, low_rate=preempted or isinstance(costs, DualRateCosts))
+        _check_task(task, low_rate=low_rate)
     if preempted:
         return _check_preempted(costs, options, tasks, delay)
     if isinstance(costs, DualRateCosts):
         return _check_dual_rate(costs, timing, options, tasks)
     if delay is not None:
         _check_random(costs, timing, delay)
-    return tuple(tasks)
+    return tasks
 
 
 def _check_method(costs: JobCosts[Any], timing: Timing) -> None:
@@ -90,36 +92,35 @@ def _check_task(task: Task, *, low_rate: bool) -> None:
 
 
 def _check_dual_rate(
-    costs: DualRateCosts[Any], timing: Timing, options: Options, tasks: Sequence[Task]
+    costs: DualRateCosts[Any], timing: Timing, options: Options, tasks: tuple[Task, ...]
 ) -> tuple[Task, ...]:
     if costs.lr_gain.worst and timing.M > timing.N:
         raise InputError(
             f"{option('gain')} precomputed with M={timing.M} and N={timing.N}: had for M <= N, "
             f"else which LR job comes first hangs on the HR jobs; choose {option('gain')} at-update"
         )
-    urgent = tuple(task for task in tasks if task.priority < LR)
     same_step = options.feedback == "same-step"
-    if urgent and (same_step or options.cpus == 2):
+    if tasks and (same_step or options.cpus == 2):
         what = f"{option('feedback')} same-step" if same_step else f"{option('cpus')} 2"
         raise InputError(
-            f"task {urgent[0].name!r} with {what}: the exact probability is not had for both; leave one out"
+            f"task {tasks[0].name!r} with {what}: the exact probability is not had for both; leave one out"
         )
     if options.cpus == 2:
         if same_step:
             raise InputError(f"{option('feedback')} same-step with {option('cpus')} 2: not had; choose next-step")
         return ()
-    return urgent
+    return tasks
 
 
 def _check_preempted(
-    costs: JobCosts[Any], options: Options, tasks: Sequence[Task], delay: Delay | None
+    costs: JobCosts[Any], options: Options, tasks: tuple[Task, ...], delay: Delay | None
 ) -> tuple[Task, ...]:
     if not isinstance(costs, RecalculateCosts):
         raise InputError(f"{option('preempted')}: only recalculate has a correction that HR jobs may preempt")
     if delay is not None or options.cpus == 2:
         what = f"{option('cpus')} 2" if delay is None else f"{option('delays')}, {option('dropout')}"
         raise InputError(f"{option('preempted')} with {what}: both at once are not had, {SAMPLED}")
-    return tuple(task for task in tasks if task.priority < LR)
+    return tasks
 
 
 def _check_random(costs: JobCosts[Any], timing: Timing, delay: Delay) -> None:

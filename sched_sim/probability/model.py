@@ -141,8 +141,8 @@ class Model:
 
     @property
     def recovery(self) -> float:
-        """Cycles until what is not followed has caught up again, in the mean, if more HR updates do not keep it busy: in
-        each what is left to do falls by the time that is not used (A. Wald's identity)."""
+        """Cycles until what is not followed has caught up again, in the mean, if more HR updates do not keep it busy:
+        in each what is left to do falls by the time that is not used (A. Wald's identity)."""
         return (self.debt + 1) / (1 - self.load())
 
     def high_load(self, updates: int) -> float:
