@@ -46,7 +46,7 @@ def check_had(
     if options.context_switch:
         raise InputError(
             f"{option('context_switch')} {float(options.context_switch):g}: the exact probability is had without "
-            f"context switches; add two of them to the cost of each job, which is an upper bound"
+            f"context switches; add two of them to the cost of each job"
         )
     low_rate = preempted or isinstance(costs, DualRateCosts)
     tasks = tuple(task for task in tasks if not low_rate or task.priority <= LR)

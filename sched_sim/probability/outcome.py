@@ -27,7 +27,7 @@ class Tail(NamedTuple):
     upper: Floats
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class CycleProbabilities:
     """Of the jobs and the correction of one measurement cycle: the steps from one k to the next.
 
@@ -55,7 +55,7 @@ class CycleProbabilities:
         return self.misses["hr"]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Probabilities:
     """cycles: the first n; long_run: the mean of a cycle after infinitely many, None where there is none:
     why_no_long_run says why.
