@@ -20,6 +20,7 @@ from sched_sim.design.pieces import (
     RecalculateCosts,
     StandardCosts,
 )
+from sched_sim.design.times import Instants
 from sched_sim.design.timing import Timing
 from sched_sim.probability.cost_distribution import CostDistribution
 from sched_sim.probability.exact import probabilities
@@ -64,6 +65,11 @@ CASES: Mapping[str, tuple[Any, ...]] = {
     "several on their way": (
         DualRateCosts(c(9), often(10, 20, 0.25), c(2), c(14), c(0), often(26, 37)),
         Timing(2, 3, 5),
+        4,
+    ),
+    "at uneven intervals": (
+        DualRateCosts(c(9), often(10, 20, 0.25), c(2), c(14), c(0), often(26, 37)),
+        Timing(2, 3, 5, Instants(Fraction(5, 2), Fraction(5, 2))),
         4,
     ),
     "two processors": (
@@ -139,7 +145,7 @@ def compare(
     task_costs = {task.name: law for task, law in of_tasks.items()}
     found = probabilities(costs, timing, T, cycles, options, tasks, task_costs=task_costs, debt=3)
     assert found.exact
-    steps = timing.N * cycles
+    steps = timing.taken.step(cycles)
     laws = pieces(costs) | task_costs
     runs = [
         (float(share), seen)
@@ -171,16 +177,17 @@ def landings_are_as_seen(found: Probabilities, runs: Runs, timing: Timing, steps
         is_exact(found.cycles[cycle].landing[lands], share, found.cycles[cycle].behind)
     for cycle, figures in enumerate(found.cycles):
         for lands in figures.landing:
-            assert (cycle, lands) in landed or cycle * timing.N + lands >= steps
+            assert (cycle, lands) in landed or timing.taken.step(cycle) + lands >= steps
 
 
 def misses_are_as_seen(found: Probabilities, runs: Runs, timing: Timing, steps: int, tasks: Sequence[Task]) -> None:
     missed: defaultdict[tuple[str, int], float] = defaultdict(float)
     released: Counter[tuple[str, int]] = Counter()
     for step in range(steps):
-        released["hr", step // timing.N] += 1
+        cycle = timing.taken.before(step + 1) - 1
+        released["hr", cycle] += 1
         for share, seen in runs:
-            missed["hr", step // timing.N] += share * seen.missed("hr", step)
+            missed["hr", cycle] += share * seen.missed("hr", step)
     for task in tasks:
         kind, number = f"task:{task.name}", 0
         while (start := task.start + number * task.period) + task.due <= steps:
@@ -203,8 +210,9 @@ def low_rate_is_as_seen(found: Probabilities, runs: Runs, timing: Timing, steps:
     early = "lr_gain" if options.gain == "precomputed" else "lr_propagate"
     for kind, job, due in ("lr_propagate", early, update_due if by_l else timing.M), ("lr_update", update, update_due):
         for cycle, figures in enumerate(found.cycles):
-            if (cycle * timing.N + due) <= steps:
-                share = sum(share for share, seen in runs if seen.missed(job, cycle * timing.N))
+            k = timing.taken.step(cycle)
+            if k + due <= steps:
+                share = sum(share for share, seen in runs if seen.missed(job, k))
                 is_exact(figures.misses[kind], share, figures.behind)
     response, all_ended = np.zeros(steps * T), True
     for share, seen in runs:
