@@ -38,7 +38,8 @@ class Law:
     def added_to(self, mass: Floats) -> Floats:
         """The law of a sum, of a work and one execution."""
         if len(self.values) > FEW:
-            return np.convolve(mass, self.mass)
+            nothing = int(np.argmax(mass > 0))
+            return np.concatenate([np.zeros(nothing), np.convolve(mass[nothing:], self.mass)])
         total = np.zeros(len(mass) + self.worst)
         for value in self.values:
             total[value : value + len(mass)] += self.mass[value] * mass
