@@ -80,8 +80,10 @@ def holds_for_less(costs: Costs, timing: Timing, speed: Fraction, options: Optio
         return False
     if not tasks and options.policy == "fixed" and speed >= _longest_landing(costs, timing, options):
         return True
-    bound = _in_every_step(costs, options)
-    return bound is not None and landing(bound, timing, speed, options, tasks) is not None
+    if options.feedback == "same-step":  # the HR update is a job of its own, that comes when the LR update finishes
+        return False
+    earliest = landing(costs, timing, speed, options, tasks) == timing.M + 1
+    return earliest or landing(_in_every_step(costs), timing, speed, options, tasks) is not None
 
 
 def enough_for_less(
@@ -97,8 +99,9 @@ def enough_for_less(
         return None
     if not tasks and options.policy == "fixed":
         return max(least, _longest_landing(costs, timing, options))
-    bound = _in_every_step(costs, options)
-    return None if bound is None else max(least, least_speed(bound, timing, options, tasks).speed)
+    if options.feedback == "same-step":
+        return None
+    return max(least, least_speed(_in_every_step(costs), timing, options, tasks).speed)
 
 
 def _hangs_on_finishes(costs: Costs, options: Options, tasks: Sequence[Task]) -> bool:
@@ -130,11 +133,8 @@ def _longest_landing(costs: DualRateCosts[Fraction], timing: Timing, options: Op
     )
 
 
-def _in_every_step(costs: DualRateCosts[Fraction], options: Options) -> DualRateCosts[Fraction] | None:
-    """More than is ever done: the HR update in every step. None with same-step feedback, where it is a job of its own
-    that comes when the LR update finishes."""
-    if options.feedback == "same-step":
-        return None
+def _in_every_step(costs: DualRateCosts[Fraction]) -> DualRateCosts[Fraction]:
+    """More than is ever done: the HR update in every step, whenever corrections land."""
     update = costs.hr_update
     return replace(costs, hr=costs.hr + update, hr_restart=costs.hr_restart + update, hr_update=Fraction(0))
 
