@@ -176,6 +176,7 @@ def _draw(path: Path, question: Question, found: Choice, every: Sequence[int]) -
 
 def _show(found: Choice, ways: Sequence[Candidate], question: Question, words: str) -> None:
     from sched_sim.cli.instructions import cycles_note, target_note
+    from sched_sim.cli.less_work import offsets_note
     from sched_sim.cli.update_form import calibration_texts, ground_note
     from studies.selection.methods import by_reason
 
@@ -205,6 +206,7 @@ def _show(found: Choice, ways: Sequence[Candidate], question: Question, words: s
             else "",
             *by_reason((of.variant.method, of.reason) for of in ways if of.parts and of.parts[0].needed is None),
             "" if question.parts or machine else _why_no_parts(question),
+            offsets_note([of.variant.method for of in ways], question.tasks),
             words,
             f"costs: {_names(question)}",
             *(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import fields
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
@@ -46,6 +46,17 @@ def least_note(method: str, enough: str | None) -> str:
     """What is to be said of a least speed at which less work may miss a deadline. enough: at which none does."""
     return f"{method}: at its least speed work that takes less may land in another step and miss a deadline; " + (
         "`sched-sim simulate --less-work` looks for such" if enough is None else f"at {enough} none does"
+    )
+
+
+def offsets_note(methods: Iterable[str], tasks: Sequence[Task]) -> str:
+    """What is to be said of verdicts beside tasks with given offsets; empty where less work cannot change them."""
+    named = [task.name for task in tasks if task.offset != "any"]
+    if not named or "dual-rate" not in methods:
+        return ""
+    return (
+        f"dual-rate: beside the offset of {', '.join(named)} a verdict is that of executions that take all of their "
+        f"costs; less work may land in another step and miss a deadline: see `sched-sim simulate --less-work`"
     )
 
 

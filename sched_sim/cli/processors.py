@@ -20,6 +20,7 @@ from sched_sim.cli.instructions import (
     ram_words,
     suited,
 )
+from sched_sim.cli.less_work import offsets_note
 from sched_sim.cli.output import lines, print_csv, print_json, print_table
 from sched_sim.cli.parts import MEANING, TASKS_ON_PARTS, highest_note
 from sched_sim.cli.refused import Refused
@@ -147,7 +148,8 @@ def processors(
         what = "operations" if counts.target is None else "instructions"
         title = f"{named}, HR loop at {hr_hz} Hz, {design.shown} ({what}: {costs or COUNTED})"
         same = TASKS_ON_PARTS if others and len(parts) > 1 else ""
-        note = lines(MEANING, highest_note(others), same, design.words, *remarks)
+        less = offsets_note(timings, others)
+        note = lines(MEANING, highest_note(others), less, same, design.words, *remarks)
     if format == "json":
         print_json(rows)
     elif format == "csv":

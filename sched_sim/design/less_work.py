@@ -124,13 +124,12 @@ def _one_in_flight(costs: Costs, timing: Timing, options: Options) -> bool:
 
 
 def _longest_landing(costs: DualRateCosts[Fraction], timing: Timing, options: Options) -> Fraction:
-    """The most work of a step in which a correction may land, or, with same-step feedback, that it may delay."""
-    alone = options.feedback == "next-step" and timing.M > 0
-    return (
-        options.context_switch
-        + costs.hr_update
-        + (costs.hr if alone and timing.N > 1 else max(costs.hr, costs.hr_restart))
-    )
+    """The most work of a step in which a correction may land, or, with same-step feedback, where it is a job of its
+    own, that it may delay."""
+    update = costs.hr_update + options.context_switch
+    if options.feedback == "same-step":
+        return update + max(costs.hr, costs.hr_restart) + options.context_switch
+    return update + (costs.hr if timing.M > 0 and timing.N > 1 else max(costs.hr, costs.hr_restart))
 
 
 def _in_every_step(costs: DualRateCosts[Fraction]) -> DualRateCosts[Fraction]:

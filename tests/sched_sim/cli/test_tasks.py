@@ -166,3 +166,12 @@ def test_simulate_looks_for_less_work(sched_sim: Run, narrow: str) -> None:
     found = json.loads(sched_sim(f"{asked} 80 --format json").out)
     assert (found["less_work"], found["less_work_costs"]["lr_update"]) == ("fails", 48.9375)
     assert "less_work" not in json.loads(sched_sim(f"simulate {narrow} --speed 80 --format json").out)
+
+
+@pytest.mark.parametrize("command", ["processors -N 10 -M 4 --hr-hz 400", "design --within 10 --model ins-gps"])
+def test_other_verdicts_beside_an_offset_say_what_they_are_of(sched_sim: Run, tmp_path: Path, command: str) -> None:
+    (tmp_path / "tasks.toml").write_text('[[task]]\nname = "gyro"\nperiod = 2\noffset = 0\ncost_us = 1\npriority = 5\n')
+    line = f"{command} --processor cortex-m7 --tasks tasks.toml"
+    said = "dual-rate: beside the offset of gyro a verdict is that of executions that take all of their costs"
+    assert said in sched_sim(f"{line} --method dual-rate").out
+    assert "less work" not in sched_sim(f"{line} --method larsen").out
