@@ -78,13 +78,14 @@ def worst_landing(costs: Costs, timing: Timing, speed: Fraction, options: Option
 
 def late_for_less(costs: Costs, timing: Timing, speed: Fraction, options: Options, tasks: Sequence[Task]) -> str | None:
     """What may be late at some phase where executions take their costs or less, as `late_job` says it: a correction of
-    the dual-rate filter may then come in any step from its earliest to its latest. Else more work is never better."""
+    the dual-rate filter may then come in any step from its earliest on. Else more work is never better."""
     settled = _settled(costs, timing, speed, options, tasks)
-    if settled.late is not None or not isinstance(costs, DualRateCosts):
+    one = method_of(costs).law(options.feedback).one_in_flight(timing.N, timing.L)
+    if settled.late is not None or not isinstance(costs, DualRateCosts) or not one or options.policy == "edf":
         return settled.late
-    if not method_of(costs).law(options.feedback).one_in_flight(timing.N, timing.L):
-        return None
-    return _late_of_all(costs, timing, speed, options, tasks, phased(costs, timing, speed, options, tasks))
+    return _corrected(
+        costs, timing, speed, options, tasks, phased(costs, timing, speed, options, tasks).cycle.first
+    ).late
 
 
 class Settled(NamedTuple):
@@ -107,7 +108,7 @@ def _settled(costs: Costs, timing: Timing, speed: Fraction, options: Options, ta
     if not method_of(costs).law(options.feedback).one_in_flight(timing.N, timing.L):
         return _in_flight(costs, timing, speed, options, tasks)
     if isinstance(costs, DualRateCosts) and options.policy == "fixed":
-        return _corrected(costs, timing, speed, options, tasks)
+        return _corrected(costs, timing, speed, options, tasks, _first_correction(costs, timing, speed, options))
     design = phased(costs, timing, speed, options, tasks)
     return Settled(design, _late_of_all(costs, timing, speed, options, tasks, design))
 
@@ -128,13 +129,13 @@ def _replayed(
 
 
 def _corrected(
-    costs: DualRateCosts[Fraction], timing: Timing, speed: Fraction, options: Options, tasks: Sequence[Task]
+    costs: DualRateCosts[Fraction], timing: Timing, speed: Fraction, options: Options, tasks: Sequence[Task], first: int
 ) -> Settled:
-    """Of the dual-rate filter with fixed priorities: corrections come in no step before that in which they do with
-    nothing beside the filter, and in none after the first in which none comes later if they come no later (K. Tindell
-    and J. Clark, Holistic schedulability analysis for distributed hard real-time systems, 1994)."""
+    """Of the dual-rate filter with fixed priorities, whose corrections come in no step before `first`: and in none
+    after the first in which none comes later if they come no later (K. Tindell and J. Clark, Holistic schedulability
+    analysis for distributed hard real-time systems, 1994)."""
     design = phased(costs, timing, speed, options, tasks)
-    first = last = _first_correction(costs, timing, speed, options)
+    last = first
     while True:
         between = design._replace(cycle=design.cycle._replace(first=first, last=last))
         late = _late_of_all(costs, timing, speed, options, tasks, between)
