@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from sched_sim.costs.table_file import load_costs, read_costs, write_costs
     from sched_sim.design.fit import Fit, fit
     from sched_sim.design.least_speed import achieved_l, least_speed, staircase
+    from sched_sim.design.less_work import less_work
     from sched_sim.design.methods import select
     from sched_sim.design.options import Options
     from sched_sim.design.simulate import simulate
@@ -51,6 +52,7 @@ __all__ = [
     "achieved_l",
     "fit",
     "least_speed",
+    "less_work",
     "load_costs",
     "load_part",
     "on_part",
@@ -72,6 +74,7 @@ __getattr__, __dir__ = lazily(
         "sched_sim.costs.table_file": "load_costs read_costs write_costs",
         "sched_sim.design.fit": "Fit fit",
         "sched_sim.design.least_speed": "achieved_l least_speed staircase",
+        "sched_sim.design.less_work": "less_work",
         "sched_sim.design.methods": "select",
         "sched_sim.design.options": "Options",
         "sched_sim.design.simulate": "simulate",

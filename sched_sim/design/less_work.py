@@ -15,6 +15,7 @@ from fractions import Fraction
 from random import Random
 from typing import NamedTuple
 
+from sched_sim.bounds import at_least_one
 from sched_sim.design.arguments import checked
 from sched_sim.design.landing import landing
 from sched_sim.design.least_speed import least_speed
@@ -55,7 +56,7 @@ def less_work(
 
     costs, speed: as for `simulate`. Raises InputError as `least_speed` does.
     """
-    tasks, pace = checked(timing, options, tasks), positive(speed, "speed")
+    tasks, pace, tries = checked(timing, options, tasks), positive(speed, "speed"), at_least_one(tries, "tries")
     if landing(costs, timing, pace, options, tasks) is None:
         return LessWork(False, costs, tasks)
     if holds_for_less(costs, timing, pace, options, tasks):

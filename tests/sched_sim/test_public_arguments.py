@@ -12,7 +12,19 @@ import numpy as np
 import pytest
 
 import sched_sim
-from sched_sim import InputError, Options, Task, Timing, achieved_l, fit, least_speed, load_costs, select, simulate
+from sched_sim import (
+    InputError,
+    Options,
+    Task,
+    Timing,
+    achieved_l,
+    fit,
+    least_speed,
+    less_work,
+    load_costs,
+    select,
+    simulate,
+)
 
 TABLE = load_costs("steffes2014")
 COSTS = select(TABLE, "dual-rate")
@@ -65,6 +77,9 @@ BAD: dict[str, tuple[Callable[[], Any], str]] = {
     "cycles as text": (lambda: simulate(COSTS, TIMING, 1, "3"), "cycles is '3': give a whole number"),
     "a table": (lambda: simulate(TABLE, TIMING, 1), "costs is a CostTable: give those of one method"),
     "a table too": (lambda: least_speed(TABLE, TIMING), "costs is a CostTable"),
+    "a table four": (lambda: less_work(TABLE, TIMING, 1), "costs is a CostTable"),
+    "speed of less work": (lambda: less_work(COSTS, TIMING, 0), "speed is 0"),
+    "tries": (lambda: less_work(COSTS, TIMING, 1, tries="64"), "tries is '64': give a whole number"),
     "a table three": (lambda: achieved_l(TABLE, TIMING, 1), "costs is a CostTable"),
     "N": (lambda: Timing(10.5, 4, 8), "N is 10.5: give a whole number"),
     "M": (lambda: Timing(10, "4", 8), "M is '4': give a whole number"),
