@@ -3,6 +3,7 @@ of them short, half of them too slow for their processor."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from fractions import Fraction
 from random import Random
 from typing import get_args
@@ -31,10 +32,10 @@ OF_SENSORS = [9, HR, HR, 11, 20, 20, 20, 30]
 LOW_RATE = [11, 20]
 
 
-def random_scenario(seed: int) -> Scenario:
+def random_scenario(seed: int, lengths: Sequence[int] = (1, 2, 3, 20, 60)) -> Scenario:
     random = Random(seed)
     late: Late = random.choice(get_args(Late))
-    steps, cpus = random.choice([1, 2, 3, 20, 60]), random.choice([1, 1, 2])
+    steps, cpus = random.choice(lengths), random.choice([1, 1, 2])
     low_rate = [random.choice(LOW_RATE)] if late == "dual-rate" else OF_SENSORS
     sensors = [_sensor(random, f"s{number}", late, low_rate) for number in range(random.choice([1, 1, 2, 2, 3, 4]))]
     parts = needed_parts(sensors, late, carried(sensors, late, steps, seed))

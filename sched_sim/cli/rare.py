@@ -37,14 +37,23 @@ def find_rare(scenario: Scenario, outcome: Outcome) -> dict[str, RareMisses]:
     return found
 
 
+def probability_words(probability: float | None, interval: tuple[float, float] | None) -> dict[str, str | None]:
+    """Of a table. probability: None where no job missed."""
+    if probability is not None and interval is not None:
+        return {"P(miss)": shares.probability(probability), "95 % interval": shares.interval(*interval)}
+    return {
+        "P(miss)": NOT_RESOLVED,
+        "95 % interval": None if interval is None else f"below {shares.at_most(interval[1])}",
+    }
+
+
 def show_rare(found: Mapping[str, RareMisses]) -> None:
     rows = [
         {
             "job": kind,
             "runs": rare.runs,
             "with a miss": rare.missed,
-            "P(miss)": NOT_RESOLVED if rare.probability is None else shares.probability(rare.probability),
-            "95 % interval": None if rare.interval is None else shares.interval(*rare.interval),
+            **probability_words(rare.probability, rare.interval),
         }
         for kind, rare in found.items()
     ]

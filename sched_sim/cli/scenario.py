@@ -13,7 +13,7 @@ from sched_sim.cli.chart_options import stretch
 from sched_sim.cli.output import Format, print_csv, print_json, print_table
 from sched_sim.cli.outputs import Named, module_files, refuse_one_file_for_two
 from sched_sim.cli.progress import progress_bar
-from sched_sim.cli.rare import NOT_RESOLVED, check_rare, document_of, find_rare, rare_columns, show_rare
+from sched_sim.cli.rare import check_rare, document_of, find_rare, probability_words, rare_columns, show_rare
 from sched_sim.cli.scenario_accuracy import (
     Run,
     accuracy_of,
@@ -306,16 +306,9 @@ def _job_words(kind: str, figures: JobFigures, unit: float, harness: bool) -> di
     }
     if harness:
         return words
-    return words | _probability_words(figures)
-
-
-def _probability_words(figures: JobFigures) -> dict[str, str | None]:
-    probability, interval = figures.miss_probability, figures.miss_interval
-    if interval is None:
-        return {"P(miss)": None, "95 % interval": None}
-    if probability is None:
-        return {"P(miss)": NOT_RESOLVED, "95 % interval": f"below {shares.at_most(interval[1])}"}
-    return {"P(miss)": shares.probability(probability), "95 % interval": shares.interval(*interval)}
+    if not figures.decided:
+        return words | {"P(miss)": None, "95 % interval": None}
+    return words | probability_words(figures.miss_probability, figures.miss_interval)
 
 
 def _four_digits(value: float | None) -> str | None:

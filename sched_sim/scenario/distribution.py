@@ -45,7 +45,7 @@ def finished_or_not(values: Sequence[float], unfinished: int) -> dict[str, float
     return {"minimum": known.minimum, "mean": known.mean, **quantiles, "maximum": known.maximum}
 
 
-def below_which_unresolved(trials: int) -> float:
+def below_which_unresolved(trials: float) -> float:
     """A probability, at most 1, which so many independent trials without the event do not tell from less: from 3/n on,
     the event would have been seen with 95 %, for (1 - 3/n)^n < 5 %."""
     return min(3 / trials, 1.0)

@@ -8,7 +8,7 @@ from math import sqrt
 import numpy as np
 
 from sched_sim.errors import InputError
-from sched_sim.scenario.distribution import Z95
+from sched_sim.scenario.distribution import Z95, below_which_unresolved
 from sched_sim.scenario.draws import stream
 from sched_sim.scenario.engine.limits import holds
 from sched_sim.scenario.scenario import Scenario
@@ -26,7 +26,8 @@ class RareMisses:
 
     runs: how many; missed: in how many of them one did, however small its weight. probability: of those decided, the
     share that misses; interval: its 95 % interval, from the spread between the runs. Both None where fewer than
-    LEAST_RUNS saw a miss.
+    LEAST_RUNS saw a miss; but where nothing ever was so near a deadline that a run was split, and none missed, the
+    interval goes from 0 to 3/n, n decided in all runs together.
     """
 
     runs: int
@@ -65,6 +66,8 @@ def rare_misses(
         counted = count(work, number, bands, random)
         misses[run], decided[run] = counted.misses, counted.decided
     missed = int(np.count_nonzero(misses))
+    if not missed and len(bands) == 1:
+        return RareMisses(runs, 0, None, (0.0, below_which_unresolved(decided.sum())))
     if missed < LEAST_RUNS:
         return RareMisses(runs, missed, None, None)
     probability = float(misses.sum() / decided.sum())

@@ -31,9 +31,9 @@ Floats: TypeAlias = npt.NDArray[np.float64]
 
 MOST_VISITS = 1_000
 """A simulation is split into so many, in the mean, by each band; and into one for four of its steps at the most."""
-PILOTS, ROUNDS = 40, 12
-"""So many simulations look for the bands, so often, each time from the bands that were found before."""
-LEAST_SEEN = 20
+FIRST_STEPS, PILOTS, ROUNDS = 200_000, 40, 12
+"""Simulations of so many steps look for the first bands; then so many, so often, from the bands found before."""
+LEAST_SEEN = 10
 """A band begins where so many steps were seen in it, and where the probability has fallen to FALL of the one before."""
 FALL = 1 / 4
 
@@ -60,14 +60,14 @@ class Count(NamedTuple):
 
 def bands_of(work: Workload, kind: int, random: np.random.Generator) -> list[Band]:
     """Bands that lead to misses, found by trial: the better they are, the more exact is what comes out of `count`."""
-    bands = [Band(0, 1.0)]
+    bands, pilots = [Band(0, 1.0)], max(PILOTS, FIRST_STEPS // work.scenario.steps)
     for _ in range(ROUNDS):
-        counts = [count(work, kind, bands, random) for _ in range(PILOTS)]
+        counts = [count(work, kind, bands, random) for _ in range(pilots)]
         steps, seen = (np.sum([getattr(one, name) for one in counts], axis=0) for name in ("steps", "seen"))
         found = _bands(steps, seen, work.scenario.steps)
         if found[-1].nearness <= bands[-1].nearness:
             break
-        bands = found
+        bands, pilots = found, PILOTS
     return bands
 
 
@@ -76,7 +76,7 @@ def _bands(steps: Floats, seen: Ints, of_one: int) -> list[Band]:
     probability, times = (values[::-1].cumsum()[::-1] for values in (steps / steps.sum(), seen))
     bands, before = [Band(0, 1.0)], 1.0
     for nearness in range(1, TO_DEADLINE + 1):
-        weight = probability[nearness] * of_one / min(MOST_VISITS, of_one / 4)
+        weight = float(probability[nearness]) * of_one / min(MOST_VISITS, of_one / 4)
         if times[nearness] >= LEAST_SEEN and probability[nearness] <= FALL * before and weight < 1:
             bands.append(Band(nearness, weight))
             before = probability[nearness]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from dataclasses import replace
 from fractions import Fraction
 from math import sqrt
 
@@ -10,9 +11,8 @@ import numpy as np
 import pytest
 
 from sched_sim.errors import InputError
-from sched_sim.scenario import rare
 from sched_sim.scenario.engine.splitting import Band, count
-from sched_sim.scenario.rare import rare_misses
+from sched_sim.scenario.rare import RareMisses, rare_misses
 from sched_sim.scenario.run import run_scenario
 from sched_sim.scenario.scenario import Scenario
 from sched_sim.scenario.workload import workload
@@ -73,18 +73,23 @@ def test_what_a_simulation_of_as_many_steps_would_not_show() -> None:
     found = rare_misses(of, "task:log", runs=60)
     assert found.interval is not None
     least, most = found.interval
-    assert most < 2 * least
+    assert most < 3 * least
     assert least - (most - least) / 2 < exact(100) < most + (most - least) / 2
 
 
 @pytest.mark.exhaust
-@pytest.mark.parametrize("seed", range(20))
-def test_one_in_a_million(seed: int, record_property) -> None:
-    found = rare_misses(two_long_ones(1000, seed), "task:log", runs=share_of(1000))
-    assert found.interval is not None
-    least, most = found.interval
-    record_property("within", int(least < exact(1000) < most))
-    assert least - (most - least) < exact(1000) < most + (most - least)
+@pytest.mark.parametrize("part", range(10))
+def test_one_in_a_million(part: int, record_property) -> None:
+    """How many of the 95 % intervals hold the exact probability is for the figures."""
+    count, within = share_of(8), 0
+    for seed in range(part * count, (part + 1) * count):
+        found = rare_misses(two_long_ones(1000, seed), "task:log", runs=1000)
+        assert found.interval is not None
+        least, most = found.interval
+        within += least < exact(1000) < most
+        assert least - (most - least) < exact(1000) < most + (most - least)
+    record_property("intervals", count)
+    record_property("within", within)
 
 
 def late_corrections(seed: int) -> Scenario:
@@ -108,10 +113,17 @@ def test_of_corrections_it_is_that_of_long_simulations(kind: str) -> None:
     assert abs(found.probability - share) < 4 * sqrt(error**2 + ((most - least) / 4) ** 2)
 
 
-def test_what_never_misses_is_not_resolved() -> None:
-    of = scenario(30, {"predict": 1, "correct.gps": 1}, sensor("gps", 5), steps=50)
-    found = rare_misses(of, "predict", runs=rare.LEAST_RUNS)
-    assert found == rare.RareMisses(runs=rare.LEAST_RUNS, missed=0, probability=None, interval=None)
+def test_what_is_never_near_a_deadline_is_not_resolved_by_all_runs_together() -> None:
+    of = scenario(30, {"predict": 1, "correct.gps": 1}, sensor("gps", 5), steps=STEPS)
+    found = rare_misses(of, "predict", runs=30)
+    assert found == RareMisses(runs=30, missed=0, probability=None, interval=(0, 3 / (30 * STEPS)))
+
+
+def test_what_comes_near_and_never_misses_is_not_resolved() -> None:
+    """Two long ones leave it 18 now, and the next predict job is not in between."""
+    light = replace(two_long_ones(10), tasks=[replace(LOG, cost=Fraction(2))])
+    found = rare_misses(light, "task:log", runs=30)
+    assert found == RareMisses(runs=30, missed=0, probability=None, interval=None)
 
 
 def test_a_kind_that_is_not_there() -> None:

@@ -39,6 +39,15 @@ def test_compiled_code_does_what_simpy_does_in_many_scenarios(part, record_prope
     record_property("scenarios", count)
 
 
+@pytest.mark.exhaust
+@pytest.mark.parametrize("part", range(20))
+def test_compiled_code_does_what_simpy_does_in_long_scenarios(part, record_property):
+    count, steps = share_of(50), 2_000
+    seeds = range(part * count, (part + 1) * count)
+    record_property("jobs", sum(assert_the_same(random_scenario(seed, [steps])) for seed in seeds))
+    record_property("steps", count * steps)
+
+
 def test_the_rules_are_plain_python_too(monkeypatch):
     monkeypatch.setattr(of_engine, "compiled", lambda function: function)
     with np.errstate(over="ignore"):  # products of two halves of a random word fill 64 bits
