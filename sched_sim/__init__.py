@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from sched_sim.processors.part import Part, on_part
     from sched_sim.processors.part_file import load_part
     from sched_sim.scenario.outcome import Outcome
+    from sched_sim.scenario.rare import RareMisses, rare_misses
     from sched_sim.scenario.run import run_scenario
     from sched_sim.scenario.scenario import Scenario, Sensor
     from sched_sim.scenario.scenario_file import read_scenario
@@ -42,6 +43,7 @@ __all__ = [
     "Options",
     "Outcome",
     "Part",
+    "RareMisses",
     "Scenario",
     "Schedule",
     "Sensor",
@@ -57,6 +59,7 @@ __all__ = [
     "load_part",
     "on_part",
     "open_trace",
+    "rare_misses",
     "read_costs",
     "read_scenario",
     "read_tasks",
@@ -84,6 +87,7 @@ __getattr__, __dir__ = lazily(
         "sched_sim.processors.part": "Part on_part",
         "sched_sim.processors.part_file": "load_part",
         "sched_sim.scenario.outcome": "Outcome",
+        "sched_sim.scenario.rare": "RareMisses rare_misses",
         "sched_sim.scenario.run": "run_scenario",
         "sched_sim.scenario.scenario": "Scenario Sensor",
         "sched_sim.scenario.scenario_file": "read_scenario",

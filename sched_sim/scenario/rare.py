@@ -7,6 +7,7 @@ from math import sqrt
 
 import numpy as np
 
+from sched_sim.bounds import check_kind, whole
 from sched_sim.errors import InputError
 from sched_sim.scenario.distribution import Z95, below_which_unresolved
 from sched_sim.scenario.draws import stream
@@ -45,10 +46,14 @@ def rare_misses(
     quotient, with an error from that of the order of 1 / runs. Delays and losses are drawn once for a run, execution
     times for each of the parts into which it is split.
     on_progress: called before each run.
-    Raises InputError for a kind that is not there, and for times that compiled code does not hold.
+    Raises InputError for a kind that is not there, for fewer than LEAST_RUNS runs, and for times that machine code does
+    not hold.
     """
     from sched_sim.scenario.engine.splitting import bands_of, count
 
+    check_kind(scenario, Scenario, "scenario", "read_scenario(...), or a Scenario")
+    if whole(runs, "runs") < LEAST_RUNS:
+        raise InputError(f"runs is {runs}: give at least {LEAST_RUNS}, for an interval from their spread")
     work = workload(scenario)
     if kind not in work.kinds:
         raise InputError(f"kind {kind!r} is not there: choose from {', '.join(map(repr, work.kinds))}")
@@ -67,7 +72,7 @@ def rare_misses(
         misses[run], decided[run] = counted.misses, counted.decided
     missed = int(np.count_nonzero(misses))
     if not missed and len(bands) == 1:
-        return RareMisses(runs, 0, None, (0.0, below_which_unresolved(decided.sum())))
+        return RareMisses(runs, 0, None, (0.0, below_which_unresolved(float(decided.sum()))))
     if missed < LEAST_RUNS:
         return RareMisses(runs, missed, None, None)
     probability = float(misses.sum() / decided.sum())

@@ -31,8 +31,8 @@ Floats: TypeAlias = npt.NDArray[np.float64]
 
 MOST_VISITS = 1_000
 """A simulation is split into so many, in the mean, by each band; and into one for four of its steps at the most."""
-FIRST_STEPS, PILOTS, ROUNDS = 200_000, 40, 12
-"""Simulations of so many steps look for the first bands; then so many, so often, from the bands found before."""
+FIRST_STEPS, MOST_PILOTS, PILOTS, ROUNDS = 200_000, 500, 40, 12
+"""Simulations of so many steps, or so many, look for the first bands, then so many, so often, for more."""
 LEAST_SEEN = 10
 """A band begins where so many steps were seen in it, and where the probability has fallen to FALL of the one before."""
 FALL = 1 / 4
@@ -60,7 +60,7 @@ class Count(NamedTuple):
 
 def bands_of(work: Workload, kind: int, random: np.random.Generator) -> list[Band]:
     """Bands that lead to misses, found by trial: the better they are, the more exact is what comes out of `count`."""
-    bands, pilots = [Band(0, 1.0)], max(PILOTS, FIRST_STEPS // work.scenario.steps)
+    bands, pilots = [Band(0, 1.0)], max(PILOTS, min(FIRST_STEPS // work.scenario.steps, MOST_PILOTS))
     for _ in range(ROUNDS):
         counts = [count(work, kind, bands, random) for _ in range(pilots)]
         steps, seen = (np.sum([getattr(one, name) for one in counts], axis=0) for name in ("steps", "seen"))

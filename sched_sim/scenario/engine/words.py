@@ -32,12 +32,12 @@ def total(memory: Memory, part: int, stream: int, executions: int) -> int:
     count = memory[part]
     if count == 1:
         return int(executions * memory[part + 1])
-    work, rare = 0, (PART + 1) % count
-    for _ in range(executions):
+    work, rare, done = 0, (PART + 1) % count, 0
+    while done < executions:
         scaled = word(memory, stream) * count
-        while scaled & PART < rare:
-            scaled = word(memory, stream) * count
-        work += memory[part + 1 + (scaled >> 32 & PART)]
+        if scaled & PART >= rare:
+            work += memory[part + 1 + (scaled >> 32 & PART)]
+            done += 1
     return work
 
 

@@ -139,5 +139,10 @@ def test_times_that_64_bits_do_not_hold() -> None:
 
 def test_it_tells_how_far_it_is() -> None:
     told: list[tuple[int, int, str]] = []
-    rare_misses(two_long_ones(10), "task:log", runs=3, on_progress=lambda *call: told.append(call))
-    assert told == [(0, 3, "runs"), (1, 3, "runs"), (2, 3, "runs")]
+    rare_misses(two_long_ones(10), "task:log", runs=20, on_progress=lambda *call: told.append(call))
+    assert told == [(run, 20, "runs") for run in range(20)]
+
+
+def test_too_few_runs() -> None:
+    with pytest.raises(InputError, match="runs is 19: give at least 20"):
+        rare_misses(two_long_ones(10), "task:log", runs=19)
