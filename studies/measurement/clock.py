@@ -9,7 +9,6 @@ it found them. So interrupts are in what is timed, as they would be on a board, 
 from __future__ import annotations
 
 import ctypes
-import resource
 import time
 from collections.abc import Callable
 from typing import Any
@@ -57,6 +56,8 @@ def described(clock: Clock) -> dict[str, Any]:
 
 def switches() -> int:
     """How often the system has run something else in place of this thread so far; 0 where it does not tell."""
+    import resource  # Windows has none
+
     of_thread = getattr(resource, "RUSAGE_THREAD", None)
     if of_thread is None:
         return 0

@@ -8,7 +8,6 @@ system ran something else in place of this thread is timed again.
 
 from __future__ import annotations
 
-import random
 from collections.abc import Callable, Sequence
 from functools import partial
 from time import perf_counter
@@ -123,11 +122,12 @@ def in_order(
 def run(courses: Sequence[Course], wanted: Wanted, seed: int, progress: Progress) -> Executions:
     """All of them, their blocks by turns. Of a job that is in several the first counts, and no more than are wanted."""
     began = clocks()
-    by_turns = random.Random(seed)
+    random = np.random.default_rng(seed)
     turns = []
     for number, course in enumerate(courses):
         firsts = range(0, len(course.jobs), course.block)
-        turns += [((place + by_turns.random()) / len(firsts), number, first) for place, first in enumerate(firsts)]
+        when = (np.arange(len(firsts)) + random.random(len(firsts))) / len(firsts)
+        turns += [(at, number, first) for at, first in zip(when.tolist(), firsts, strict=True)]
     spans = [np.zeros(len(course.jobs), dtype=np.int64) for course in courses]
     again = disturbed = 0
     with no_garbage_collection():
