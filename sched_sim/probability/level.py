@@ -8,7 +8,7 @@ urgent is released until both are done. Each is a sum of independent executions.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Mapping
+from collections.abc import Callable, Hashable, Iterator, Mapping
 
 import numpy as np
 
@@ -16,7 +16,7 @@ from sched_sim.probability.high_rate import Branch, HighRate
 from sched_sim.probability.law import cut, served, sum_of
 from sched_sim.probability.outcome import Floats
 from sched_sim.probability.tally import Tally
-from sched_sim.probability.timeline import Segment, TaskInTicks, Timeline
+from sched_sim.probability.timeline import TaskInTicks, Timeline
 from sched_sim.schedule.jobs import HR
 
 Parts = dict[Hashable, Floats]
@@ -55,7 +55,7 @@ class Level:
         own = [task for task in segment.released if task.priority == self.priority]
         parts = self._with_tasks(self.parts, urgent)
         if self.high is not None and not index:
-            parts = self._with_high_rate(parts, step, self.high, tally, weight)
+            parts = self._with_high_rate(parts, step, tally, weight)
         for task in own:
             parts = self._with_tasks(parts, [task])
             response = self._response(parts, step, index)
@@ -73,22 +73,27 @@ class Level:
             parts = {key: task.cost.added_to(mass) for key, mass in parts.items()}
         return parts
 
-    def _with_high_rate(self, parts: Parts, step: int, high: HighRate, tally: Tally, weight: float) -> Parts:
+    def _with_high_rate(self, parts: Parts, step: int, tally: Tally, weight: float) -> Parts:
         after: Parts = {}
         own = self.priority == HR
-        for key, mass in parts.items():
-            for branch in high.branches(step, key):
-                work = branch.probability * branch.cost.added_to(mass)
-                after[branch.key] = sum_of(after[branch.key], work) if branch.key in after else work
-                if own:
-                    response = self._response({branch.key: work}, step, 0)
-                    tally.responded("hr", response)
-                    tally.job("hr", 0.0, float(response[self.timeline.period + 1 :].sum()))
-                    if self.landed is not None and branch.arrived:
-                        self.landed(step, branch, response)
+        for branch, work in self._branched(parts, step):
+            _add(after, branch.key, work)
+            if own:
+                response = self._response({branch.key: work}, step, 0)
+                tally.responded("hr", response)
+                tally.job("hr", 0.0, float(response[self.timeline.period + 1 :].sum()))
+                if self.landed is not None and branch.arrived:
+                    self.landed(step, branch, response)
         if own:
             tally.job("hr", weight, 0.0)
         return after
+
+    def _branched(self, parts: Parts, step: int) -> Iterator[tuple[Branch, Floats]]:
+        """With the work of the HR job of this step, however it may be."""
+        if self.high is not None:
+            for key, mass in parts.items():
+                for branch in self.high.branches(step, key):
+                    yield branch, branch.probability * branch.cost.added_to(mass)
 
     def _response(self, parts: Parts, step: int, index: int) -> Floats:
         """From a release at the start of this segment, with all that is ahead of it or as urgent and there."""
@@ -115,13 +120,16 @@ class Level:
         return (step + 1, 0) if last else (step, index + 1)
 
     def _interrupted(self, parts: Parts, step: int, index: int) -> Parts:
-        segment: Segment = self.timeline.segments(step)[index]
+        """With what is more urgent and released at the start of this segment."""
+        segment = self.timeline.segments(step)[index]
         parts = self._with_tasks(parts, [task for task in segment.released if task.priority < self.priority])
         if self.high is None or index or self.priority == HR:
             return parts
         after: Parts = {}
-        for key, mass in parts.items():
-            for branch in self.high.branches(step, key):
-                work = branch.probability * branch.cost.added_to(mass)
-                after[branch.key] = sum_of(after[branch.key], work) if branch.key in after else work
+        for branch, work in self._branched(parts, step):
+            _add(after, branch.key, work)
         return after
+
+
+def _add(parts: Parts, key: Hashable, mass: Floats) -> None:
+    parts[key] = sum_of(parts[key], mass) if key in parts else mass

@@ -24,7 +24,7 @@ RESOLVED = 1e-26
 """Of masses below, no change is waited for."""
 WARM_UP = 8
 """Hyperperiods."""
-MOST_LAWS = 1_000_000
+MOST_LAWS = 300_000
 """Laws that are followed for a step, before it is said that they do not settle."""
 
 State = Mapping[Hashable, Floats]
