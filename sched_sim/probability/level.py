@@ -13,11 +13,14 @@ from collections.abc import Callable, Hashable, Iterator, Mapping
 import numpy as np
 
 from sched_sim.probability.high_rate import Branch, HighRate
-from sched_sim.probability.law import cut, served, sum_of
+from sched_sim.probability.law import NOTHING, cut, served, sum_of
 from sched_sim.probability.outcome import Floats
 from sched_sim.probability.tally import Tally
 from sched_sim.probability.timeline import TaskInTicks, Timeline
 from sched_sim.schedule.jobs import HR
+
+LONGEST = 16
+"""Times the backlog that is followed, a response."""
 
 Parts = dict[Hashable, Floats]
 """Laws that exclude one another, by what the next HR job must know."""
@@ -58,15 +61,13 @@ class Level:
             parts = self._with_high_rate(parts, step, tally, weight)
         for task in own:
             parts = self._with_tasks(parts, [task])
-            response = self._response(parts, step, index)
+            response = self._response(parts, step, index, tally)
             tally.responded(task.kind, response)
             tally.job(task.kind, weight, float(response[task.deadline + 1 :].sum()))
         self.parts = {}
         for key, mass in parts.items():
             self.parts[key], gone = cut(served(mass, segment.length), self.most)
-            self.gone += gone
-            tally.behind += gone
-            tally.unknown += gone
+            self._leave(gone, tally)
 
     def _with_tasks(self, parts: Parts, tasks: list[TaskInTicks]) -> Parts:
         for task in tasks:
@@ -79,7 +80,7 @@ class Level:
         for branch, work in self._branched(parts, step):
             _add(after, branch.key, work)
             if own:
-                response = self._response({branch.key: work}, step, 0)
+                response = self._response({branch.key: work}, step, 0, tally)
                 tally.responded("hr", response)
                 tally.job("hr", 0.0, float(response[self.timeline.period + 1 :].sum()))
                 if self.landed is not None and branch.arrived:
@@ -95,25 +96,32 @@ class Level:
                 for branch in self.high.branches(step, key):
                     yield branch, branch.probability * branch.cost.added_to(mass)
 
-    def _response(self, parts: Parts, step: int, index: int) -> Floats:
+    def _response(self, parts: Parts, step: int, index: int, tally: Tally) -> Floats:
         """From a release at the start of this segment, with all that is ahead of it or as urgent and there."""
         if not self.preempted:
             return sum_of(*parts.values())
         done, at = np.zeros(1), 0
         while parts:
             segment = self.timeline.segments(step)[index]
-            parts = {key: mass for key, mass in parts.items() if mass.any()}
-            for mass in parts.values():
+            left: Parts = {}
+            for key, mass in parts.items():
                 done = sum_of(done, np.concatenate([np.zeros(at), mass[: segment.length + 1]]))
-            left = {key: mass[segment.length :].copy() for key, mass in parts.items() if len(mass) > segment.length + 1}
+                rest = mass[segment.length :].copy()
+                rest[:1] = 0.0
+                if at > LONGEST * self.most or rest.sum() <= NOTHING:
+                    self._leave(float(rest.sum()), tally)
+                else:
+                    left[key] = rest
             at += segment.length
-            if at > self.most:
-                return sum_of(done, *(np.concatenate([np.zeros(at), mass]) for mass in left.values()))
             step, index = self._next(step, index)
-            for mass in left.values():
-                mass[0] = 0.0
             parts = self._interrupted(left, step, index)
         return done
+
+    def _leave(self, gone: float, tally: Tally) -> None:
+        """This mass is followed no more."""
+        self.gone += gone
+        tally.behind += gone
+        tally.unknown += gone
 
     def _next(self, step: int, index: int) -> tuple[int, int]:
         last = index + 1 == len(self.timeline.segments(step))

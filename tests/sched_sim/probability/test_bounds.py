@@ -114,3 +114,14 @@ def test_bins_bound_the_exact_of_many(part: int, record_property: Callable[[str,
 
     law()
     record_property("designs", count)
+
+
+def test_a_response_is_followed_beyond_the_backlog_that_is() -> None:
+    costs = CloneCosts(*(CostDistribution.of_samples(each) for each in ([0, 4, 30], [5, 8, 31], [17], [0, 4, 30])))
+    task = Task("t", period=Fraction(3, 2), cost=Fraction(17), priority=5, offset=Fraction(1, 2))
+    few, many = (
+        probabilities(costs, Timing(1, 0, 0), T, 4, tasks=[task], debt=debt).cycles[3].responses["hr"]
+        for debt in (2, 6)
+    )
+    beyond = 205
+    assert 0 < few.lower[beyond] <= many.lower[beyond] <= few.upper[beyond]
