@@ -123,5 +123,5 @@ def test_a_response_is_followed_beyond_the_backlog_that_is() -> None:
         probabilities(costs, Timing(1, 0, 0), T, 4, tasks=[task], debt=debt).cycles[3].responses["hr"]
         for debt in (2, 6)
     )
-    beyond = 205
+    beyond = 235
     assert 0 < few.lower[beyond] <= many.lower[beyond] <= few.upper[beyond]
