@@ -22,7 +22,7 @@ from typing import Any, TypeAlias
 from sched_sim.bounds import at_least_one
 from sched_sim.design.arguments import checked
 from sched_sim.design.options import Options
-from sched_sim.design.pieces import JobCosts
+from sched_sim.design.pieces import DualRateCosts, JobCosts
 from sched_sim.design.timing import Timing
 from sched_sim.errors import InputError, option
 from sched_sim.probability.bounded import bounded
@@ -84,7 +84,7 @@ def probabilities(
     of_tasks = {task.name: CostDistribution.certain(task.cost) for task in tasks} | _of_tasks(task_costs, tasks)
     given = Given(pieces, tasks, of_tasks, speed)
     grid = grid_of(given, bins)
-    if (options.cpus == 2 or preempted) and not grid.exact:
+    if (preempted or (options.cpus == 2 and isinstance(costs, DualRateCosts))) and not grid.exact:
         what = option("preempted") if preempted else f"{option('cpus')} 2"
         raise InputError(
             f"{what}: had where all costs are whole ticks of which an HR period has at most {MOST_TICKS}, "
