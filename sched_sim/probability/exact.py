@@ -80,9 +80,9 @@ def probabilities(
     debt = at_least_one(debt, "debt")
     pieces = pieces_of(costs)
     delay = _delay(delays, dropout, timing)
+    of_tasks = _of_tasks(task_costs or {}, tasks)
     tasks = check_had(costs, timing, options, tasks, delay, preempted=preempted)
-    of_tasks = {task.name: CostDistribution.certain(task.cost) for task in tasks} | _of_tasks(task_costs, tasks)
-    given = Given(pieces, tasks, of_tasks, speed)
+    given = Given(pieces, tasks, {task.name: of_tasks[task.name] for task in tasks}, speed)
     grid = grid_of(given, bins)
     if (preempted or (options.cpus == 2 and isinstance(costs, DualRateCosts))) and not grid.exact:
         what = option("preempted") if preempted else f"{option('cpus')} 2"
@@ -123,8 +123,8 @@ def _not_followed(long_run: CycleProbabilities, debt: int) -> str:
     if long_run.behind <= max(RARE * long_run.late.upper, NEVER):
         return ""
     return (
-        f"it falls more than {debt} cycles behind with a probability of {long_run.behind:.2g} a cycle, and from there "
-        f"it is not followed: give a larger {option('debt')}, or more {option('bins')}"
+        f"in {long_run.behind:.2g} of the cycles it is more than {debt} cycles behind or has not caught up since, which "
+        f"is not followed: give a larger {option('debt')}, or more {option('bins')}"
     )
 
 
@@ -137,12 +137,10 @@ def _delay(delays: CostDistribution | None, dropout: float, timing: Timing) -> D
     return Delay.of(CostDistribution.certain(timing.M) if delays is None else delays, dropout)
 
 
-def _of_tasks(given: Mapping[str, CostDistribution] | None, tasks: Sequence[Task]) -> dict[str, CostDistribution]:
-    """Raises InputError for a name that no task has."""
-    given = given or {}
-    names = [task.name for task in tasks]
+def _of_tasks(given: Mapping[str, CostDistribution], tasks: Sequence[Task]) -> dict[str, CostDistribution]:
+    """By name. Raises InputError for a name that no task has."""
+    known = {task.name: CostDistribution.certain(task.cost) for task in tasks}
     for name in given:
-        if name not in names:
-            known = ", ".join(names) or "none"
-            raise InputError(f"{option('task_costs')}: {name!r} is no task that delays anything: these are {known}")
-    return dict(given)
+        if name not in known:
+            raise InputError(f"{option('task_costs')}: there is no task {name!r}, but {', '.join(known) or 'none'}")
+    return {**known, **given}
