@@ -14,7 +14,6 @@ import pytest
 from hypothesis import HealthCheck, settings
 
 from sched_sim.cli import main
-from tests.c_compiler import has_c
 from tests.command_line import Result, Run
 from tests.exhaust import figures
 
@@ -53,6 +52,8 @@ def pytest_collection_finish() -> None:
 
 def pytest_runtest_setup(item: pytest.Item) -> None:
     """Leaves out the backend c where there is no C compiler."""
+    from tests.c_compiler import has_c  # it loads BLAS
+
     callspec = getattr(item, "callspec", None)
     if callspec is not None and callspec.params.get("backend") == "c" and not has_c():
         pytest.skip("there is no C compiler")

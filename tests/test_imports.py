@@ -1,4 +1,4 @@
-"""Each module of the four packages can be imported first, before any other of them."""
+"""Each module of the four packages can be imported first, before any other of them; and what the tests import first."""
 
 import subprocess
 import sys
@@ -33,3 +33,10 @@ def test_each_module_alone(package: str) -> None:
         [sys.executable, "-W", "ignore", "-c", IMPORT_EACH, *names], capture_output=True, text=True, check=True
     )
     assert run.stdout.splitlines() == []
+
+
+def test_blas_is_not_loaded_before_it_is_told_how_many_threads_to_take() -> None:
+    """As many as the machine has cores in each process of xdist, they would wait for one another."""
+    asked = "import tests.conftest, sys; print('numpy' in sys.modules)"
+    run = subprocess.run([sys.executable, "-c", asked], cwd=ROOT, capture_output=True, text=True, check=True)
+    assert run.stdout == "False\n"
