@@ -66,7 +66,9 @@ def _connected(address: str, where: str) -> distributed.Client:
     from distributed import Client
 
     try:
-        asyncio.run(asyncio.wait_for(_try(address), ANSWER_S))
+        kind = asyncio.run(asyncio.wait_for(_kind(address), ANSWER_S))
+        if kind in ("Worker", "Nanny"):
+            raise InputError(f"{where}: that is a {kind.lower()}: give the address of its scheduler")
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of versions, which are compared here
             return Client(address, timeout=ANSWER_S, set_as_default=False)
@@ -74,20 +76,24 @@ def _connected(address: str, where: str) -> distributed.Client:
         raise InputError(
             f"{where}: there are no keys for TLS: name their files in Dask's configuration, under distributed.comm.tls"
         ) from None
-    except (OSError, TimeoutError) as error:
+    except OSError as error:
         raise InputError(
             f"{where}: no scheduler answers ({str(error) or f'nothing for {ANSWER_S:g} s'}): correct the address, or "
             f"start one with `dask scheduler`"
         ) from None
 
 
-async def _try(address: str) -> None:
-    """Whether something of Dask listens there: a client that finds nothing would be long in ending."""
+async def _kind(address: str) -> str:
+    """What of Dask listens there. A client that finds nothing there, or not a scheduler, would be long in ending."""
     from distributed.comm import connect
     from distributed.security import Security
 
     comm = await connect(address, ANSWER_S, **Security().get_connection_args("client"))
-    await comm.close()
+    try:
+        await comm.write({"op": "identity", "reply": True})
+        return str((await comm.read())["type"])
+    finally:
+        await comm.close()
 
 
 def _compare(client: distributed.Client, sweep: Sweep, where: str) -> None:

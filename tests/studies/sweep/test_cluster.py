@@ -114,6 +114,15 @@ def test_a_worker_without_this_project_is_refused(dask):
     stranger.kill()
 
 
+def test_a_worker_is_no_scheduler(dask):
+    import distributed
+
+    with distributed.Client(dask.address, set_as_default=False) as client:
+        worker = next(iter(client.nthreads()))
+    with pytest.raises(InputError, match="that is a worker: give the address of its scheduler"), cluster(worker, SWEEP):
+        pass
+
+
 def test_the_command_prints_what_it_does_without_a_cluster(dask, sched_sim):
     line = "sweep -N 4 -M 1:2 --simulate --format json --results"
     by_dask = sched_sim(f"{line} dask.sqlite --dask {dask.address}")
