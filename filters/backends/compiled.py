@@ -17,7 +17,6 @@ passed as arguments (those of a system model) are part of a signature, and known
 
 from __future__ import annotations
 
-import sys
 from importlib import import_module
 from types import FunctionType
 from typing import Any
@@ -26,6 +25,7 @@ from uuid import NAMESPACE_URL, uuid5
 from filters.backends.dependencies import Dependencies
 from filters.backends.disk_cache import DiskCache
 from filters.backends.rebind import Versions
+from filters.backends.said import says
 
 
 def compiled(function: FunctionType) -> Any:
@@ -61,35 +61,20 @@ def _kept_on_disk(clone: FunctionType, _original: FunctionType, known: Dependenc
 
 
 def _inlined(clone: FunctionType, _original: FunctionType, known: Dependencies) -> Any:
-    alone = _says(clone.__module__, "OPTIMISED_ALONE")
+    alone = says(clone.__module__, "OPTIMISED_ALONE")
     options = {} if alone else {"pipeline_class": _compiler_without_optimiser}
     version = _jit(
         clone,
         forceinline=True,
         no_cpython_wrapper=True,
         no_cfunc_wrapper=True,
-        _nrt=not _says(clone.__module__, "ALLOCATION_FREE"),
+        _nrt=not says(clone.__module__, "ALLOCATION_FREE"),
         **options,
     )
     if not (known.opaque or isinstance(version, FunctionType)):  # with NUMBA_DISABLE_JIT, numba gives a plain function
         version.digest = known.digest
         version._set_uuid(str(uuid5(NAMESPACE_URL, f"sched_sim:{known.digest}")))
     return version
-
-
-def _says(module: str, name: str) -> bool:
-    """What a module says of its functions, or else the package that it is in.
-
-    ALLOCATION_FREE: they neither allocate nor return arrays. numba need not count references in them, which it would do
-    for every array taken out of a record, and LLVM would not remove all of it: half the time of a short update.
-    OPTIMISED_ALONE: their loops are vectorised before they become part of others.
-    """
-    while module:
-        said = getattr(sys.modules.get(module), name, None)
-        if said is not None:
-            return bool(said)
-        module = module.rpartition(".")[0]
-    return False
 
 
 _INLINED = Versions(_inlined)

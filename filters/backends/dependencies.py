@@ -1,4 +1,5 @@
-"""What the machine code of a function depends on: its byte code, all values that it names, and those of its callees.
+"""What the machine code of a function depends on: its byte code, all values that it names, what its module says of how
+it is compiled, and the same of its callees.
 
 numba writes every constant that a function can name into the machine code: globals, closures, default arguments, and
 attributes of modules at any depth. All are taken by value. What cannot be (an object of an unknown class) is taken by
@@ -20,6 +21,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from filters.backends.installed import is_foreign
+from filters.backends.said import NAMES, says
 
 # What comes from these is known by its name and the library's version; numba has its own code for it.
 _LIBRARIES = frozenset({*sys.stdlib_module_names, "numba", "numpy"})
@@ -119,6 +121,7 @@ class _Walk:
         before = self._function, self._modules
         self._function, self._modules = function, []
         self._put("function", function.__module__, function.__qualname__)
+        self._put(*(says(function.__module__, name) for name in NAMES))
         self._put(_code_digest(function.__code__))
         self._value(function.__defaults__)
         self._items(function.__kwdefaults__ or {})

@@ -96,11 +96,7 @@ def _settings() -> str:
     settings = {name: repr(value) for name, value in vars(numba.config).items() if name.isupper()}
     passing = {"CACHE_DIR", "NUMBA_NUM_THREADS", "NUMBA_DEFAULT_NUM_THREADS"}
     here = Path(__file__).parent
-    files = [
-        *(here / f"{name}.py" for name in ("compiled", "disk_cache", "rebind")),
-        *here.parent.glob("*/__init__.py"),
-    ]
-    sources = [file.read_bytes() for file in sorted(files)]
+    sources = [(here / f"{name}.py").read_bytes() for name in ("compiled", "disk_cache", "rebind")]
     return repr(
         (
             sys.version,

@@ -166,6 +166,13 @@ def test_attributes_of_a_module_that_the_function_does_not_name_do_not_count() -
     assert dependencies(function) == before
 
 
+def test_what_a_module_says_of_how_its_functions_are_compiled_counts(monkeypatch: pytest.MonkeyPatch) -> None:
+    kernel = sys.modules[filter_all.__module__]
+    before = dependencies(filter_all).digest
+    monkeypatch.setattr(kernel, "ALLOCATION_FREE", True, raising=False)
+    assert dependencies(filter_all).digest != before
+
+
 def test_modules_and_functions_that_name_each_other_are_walked_once() -> None:
     package = ModuleType("package")
     package.itself = package  # type: ignore[attr-defined]
