@@ -11,6 +11,7 @@ from functools import partial
 import pytest
 
 from sched_sim.errors import InputError
+from studies.sweep import cluster as team
 from studies.sweep import run as sweeping
 from studies.sweep.dispatch import WorkerDeathError
 from studies.sweep.export import export
@@ -108,6 +109,15 @@ def test_killed_schedulers_lose_no_row(tmp_path, local, part, record_property):
         run(SWEEP, store, processes(0), lambda _: None)
         assert exported(store, tmp_path) == local
     record_property("kills", kills)
+
+
+def test_without_workers_for_long_it_ends_and_keeps_what_is_done(tmp_path, monkeypatch):
+    monkeypatch.setattr(team, "WORKERLESS_S", 2)
+    with dask_processes(tmp_path) as dask, SWEEP.open(tmp_path / "r.sqlite") as store:
+        worker = dask.worker()
+        with cluster(dask.address, SWEEP) as compute, pytest.raises(InputError, match="has had no worker for 2 s"):
+            run(SWEEP, store, compute, lambda done: worker.kill() if done else None)
+        assert 0 < store.count() < SWEEP.grid.size
 
 
 def test_a_point_that_kills_its_worker_each_time_is_named(tmp_path):
