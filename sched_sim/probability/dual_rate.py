@@ -56,6 +56,8 @@ class DualRate(LowRate[Front]):
 
     def _one_step(self, step: int) -> dict[Front, Floats]:
         self._judge(step)
+        if self.design.two_cpus:
+            self._tally(step).job("hr", self.weight, 0.0)
         left: dict[Front, Floats] = {}
         for parts in self._separate():
             if self.design.two_cpus and self._overruns(step, parts):
@@ -64,6 +66,10 @@ class DualRate(LowRate[Front]):
             else:
                 add(left, self._together(step, parts).items())
         return left
+
+    def _tally(self, step: int) -> Tally:
+        """Of the HR jobs and tasks of the cycle that this step is in."""
+        return self.tallies[self.taken.before(step + 1) - 1]
 
     def _oldest(self, front: Front, step: int) -> int:
         return self.taken.before(step + 1) + front.cycle
@@ -83,7 +89,7 @@ class DualRate(LowRate[Front]):
         return self.high.cost(step, applied).worst > self.timeline.period
 
     def _together(self, step: int, parts: dict[Front, Floats]) -> dict[Front, Floats]:
-        tally = self.tallies[self.taken.before(step + 1) - 1]
+        tally = self._tally(step)
         self.high_done = self._high_done(step, parts, tally) if self.design.two_cpus else None
         parts = self._begin(step, parts)
         for index, segment in enumerate(self.timeline.segments(step)):
@@ -161,7 +167,7 @@ class DualRate(LowRate[Front]):
         law = self.high.cost(step, applied).mass
         share = sum(float(mass.sum()) for mass in parts.values())
         tally.responded("hr", share * law)
-        tally.job("hr", share, share * float(law[self.timeline.period + 1 :].sum()))
+        tally.job("hr", 0.0, share * float(law[self.timeline.period + 1 :].sum()))
         return law
 
     def _looked_up(self, step: int, front: Front, mass: Floats, *, first: bool) -> list[tuple[Front, Floats]]:

@@ -123,8 +123,8 @@ def _not_followed(long_run: CycleProbabilities, debt: int) -> str:
     if long_run.behind <= max(RARE * long_run.late.upper, NEVER):
         return ""
     return (
-        f"in {long_run.behind:.2g} of the cycles it is more than {debt} cycles behind or has not caught up since, "
-        f"which is not followed: give a larger {option('debt')}, or more {option('bins')}"
+        f"in {long_run.behind:.2g} of the cycles it is more than {debt} cycles behind or has not caught up since, and "
+        f"that is not followed: give a larger {option('debt')}, or more {option('bins')}"
     )
 
 
