@@ -153,7 +153,7 @@ class DualRate(LowRate[Front]):
         return begun
 
     def _fed_back(self, step: int, front: Front, mass: Floats) -> tuple[Front, Floats]:
-        """The HR update that was under way goes on first, and lands in this step."""
+        """The HR update that was under way goes on first, and lands in this step; one that does not is not followed."""
         period = self.timeline.period
         cycle = self.taken.before(step) + front.cycle
         self._leave(cycle, float(mass[period + 1 :].sum()))

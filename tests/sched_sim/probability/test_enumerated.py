@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import fields
 from fractions import Fraction
 from typing import Any
 
 import numpy as np
 import pytest
+from hypothesis import HealthCheck, Phase, assume, given, seed, settings
+from hypothesis import strategies as st
 
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import (
@@ -27,6 +30,7 @@ from sched_sim.probability.exact import probabilities
 from sched_sim.probability.outcome import Bounds, Probabilities
 from sched_sim.schedule.tasks import Task
 from tests.drawn_costs import Seen, all_runs, pieces, simulated
+from tests.exhaust import share_of
 
 T = 30
 c = CostDistribution.certain
@@ -172,7 +176,6 @@ def landings_are_as_seen(found: Probabilities, runs: Runs, timing: Timing, steps
     for share, seen in runs:
         for cycle, lands in seen.landed.items():
             landed[cycle, lands] += share  # type: ignore[assignment]  # a probability
-    assert landed
     for (cycle, lands), share in landed.items():
         is_exact(found.cycles[cycle].landing[lands], share, found.cycles[cycle].behind)
     for cycle, figures in enumerate(found.cycles):
@@ -222,5 +225,70 @@ def low_rate_is_as_seen(found: Probabilities, runs: Runs, timing: Timing, steps:
             response[first[1] - first[0]] += share
     if all_ended:
         tail = found.cycles[0].responses["lr_update"].lower
-        above = [response[ticks + 1 :].sum() for ticks in range(len(tail))]
+        above = [response[number * T // found.ticks + 1 :].sum() for number in range(len(tail))]
         assert tail == pytest.approx(above, abs=1e-12)
+
+
+MOST_RUNS = 1024
+
+
+@st.composite
+def small_designs(draw: st.DrawFn) -> tuple[Any, ...]:
+    """Of which few executions vary."""
+    kind = draw(st.sampled_from([DualRateCosts, DualRateCosts, RecalculateCosts, LarsenCosts, CloneInFlightCosts]))
+    names = [one.name for one in fields(kind) if one.name != "lacks"]
+    varies = draw(st.sets(st.sampled_from(names), max_size=2))
+    values = {name: draw(st.integers(0, 30)) for name in names} | {"lr_gain": draw(st.sampled_from([0, 0, 7]))}
+    laws = {name: often(values[name], values[name] + 17, 0.25) if name in varies else c(values[name]) for name in names}
+    N, M = draw(st.integers(1, 3)), draw(st.integers(0, 4))
+    of_tasks = {URGENT: often(3, 9) if draw(st.booleans()) else c(5)} if draw(st.booleans()) else {}
+    if kind is not DualRateCosts:
+        M = min(M, N) if kind is LarsenCosts else M
+        return kind(**laws), Timing(N, M, M), draw(st.integers(1, 2)), Options(), of_tasks
+    precomputed = laws["lr_gain"] != c(0)
+    M = min(M, N) if precomputed else M
+    feedback, cpus = draw(st.sampled_from([("next-step", 1), ("next-step", 1), ("next-step", 2), ("same-step", 1)]))
+    options = Options(
+        feedback=feedback,
+        cpus=cpus,
+        lr_propagate_by=draw(st.sampled_from(["m", "l"])),
+        gain="precomputed" if precomputed else "at-update",
+    )
+    if (feedback, cpus) != ("next-step", 1):  # else it is not followed
+        high = max(laws["hr"].worst, laws["hr_restart"].worst) if cpus == 2 else 0
+        assume(high + 5 * laws["hr_update"].worst <= T)
+    if (feedback, cpus) != ("next-step", 1):
+        of_tasks = {}
+    return kind(**laws), Timing(N, M, M + draw(st.integers(1, 3))), draw(st.integers(1, 3)), options, of_tasks
+
+
+@pytest.mark.exhaust
+@pytest.mark.parametrize("part", range(10))
+def test_every_outcome_of_many_designs(part: int, record_property: Callable[[str, object], None]) -> None:
+    count, seen = share_of(200), Counter[str]()
+
+    @seed(part)
+    @settings(max_examples=count, phases=[Phase.generate], suppress_health_check=[*HealthCheck])
+    @given(small_designs())
+    def law(design: tuple[Any, ...]) -> None:
+        costs, timing, cycles, options, of_tasks = design
+        drawn = simulated(
+            costs, timing, T, timing.taken.step(cycles), first_of(costs, of_tasks, seen), options, of_tasks
+        )
+        assume(drawn is not None and 2 ** seen.total() <= MOST_RUNS)
+        compare(costs, timing, cycles, options, of_tasks)
+
+    law()
+    record_property("designs", count)
+
+
+def first_of(costs: Any, of_tasks: Mapping[Task, CostDistribution], seen: Counter[str]) -> Callable[[str], int]:
+    """Draws the first value, and counts what might have been another."""
+    laws = pieces(costs) | {task.name: law for task, law in of_tasks.items()}
+    seen.clear()
+
+    def draw(name: str) -> int:
+        seen[name] += len(laws[name].values) > 1
+        return int(laws[name].values[0])
+
+    return draw
