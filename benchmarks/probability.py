@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from fractions import Fraction
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
@@ -53,13 +53,13 @@ def _costs(ticks: int | None) -> DualRateCosts[Any]:
         pieces[name] = CostDistribution.of_samples(
             [Fraction(round(value * ticks), ticks) if ticks else value for value in drawn.tolist()]
         )
-    return DualRateCosts[Any](**pieces)
+    return DualRateCosts(**cast("dict[str, Any]", pieces))
 
 
 def _cycle(ticks: int) -> float:
     """Once the law of what is left to do has settled."""
     costs = _costs(ticks)
     given = Given(pieces_of(costs), (), {}, Fraction(1))
-    (process,), _ = Model(costs, TIMING, Options(), given, grid_of(given, None), "down", None, 4).processes()
+    (process,), _ = Model(costs, TIMING, Options(), given, grid_of(given, TIMING.N, None), "down", None, 4).processes()
     process.advance(SETTLED_AFTER * TIMING.N, Tallies())
     return seconds(lambda: process.advance(process.step + TIMING.N, Tallies()))

@@ -83,7 +83,7 @@ def probabilities(
     of_tasks = _of_tasks(task_costs or {}, tasks)
     tasks = check_had(costs, timing, options, tasks, delay, preempted=preempted)
     given = Given(pieces, tasks, {task.name: of_tasks[task.name] for task in tasks}, speed)
-    grid = grid_of(given, bins)
+    grid = grid_of(given, timing.N, bins)
     if (preempted or (options.cpus == 2 and isinstance(costs, DualRateCosts))) and not grid.exact:
         what = option("preempted") if preempted else f"{option('cpus')} 2"
         raise InputError(

@@ -20,9 +20,10 @@ from sched_sim.schedule.tasks import Task
 
 MOST_TICKS = 2_048
 """Of an HR period, with which costs are exact unless bins are asked for."""
-FEWEST_BINS = 512
+BINS, BINS_OF_A_CYCLE = 512, 102_400
+"""Where none are asked for: fewer where a measurement cycle has very many HR periods, for it takes their square."""
 MOST_BINS = 16_384
-LONGEST = 256
+LONGEST = 2_000
 """HR periods that one piece of work may take."""
 
 Rounded = Literal["down", "up"]
@@ -65,7 +66,7 @@ def pieces_of(costs: JobCosts[Any]) -> dict[str, CostDistribution]:
     return pieces
 
 
-def grid_of(given: Given, bins: int | None) -> Grid:
+def grid_of(given: Given, N: int, bins: int | None) -> Grid:
     """Raises InputError where releases are no whole bins, or there are too many."""
     times = [time for task in given.tasks for time in (task.period, task.start, task.due)]
     least = lcm(*(time.denominator for time in times))
@@ -77,7 +78,7 @@ def grid_of(given: Given, bins: int | None) -> Grid:
         ticks = given.speed / unit
         if ticks <= MOST_TICKS:
             return Grid(int(ticks), unit, exact=True)
-        bins = ceil(FEWEST_BINS / least) * least
+        bins = ceil(min(BINS, BINS_OF_A_CYCLE // N + 1) / least) * least
     if bins % least or not 0 < bins <= MOST_BINS:
         raise InputError(
             f"{option('bins')} {bins} must be a multiple of {least}, at most {MOST_BINS}: tasks are released {least} "

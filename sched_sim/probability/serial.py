@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Mapping
+from collections.abc import Hashable
 from typing import Any
 
 import numpy as np
@@ -23,13 +23,11 @@ from sched_sim.design.pieces import (
 )
 from sched_sim.design.taken import Taken
 from sched_sim.design.timing import Timing
-from sched_sim.probability.high_rate import Branch, HighRate
+from sched_sim.probability.high_rate import Branch, Counts, HighRate
 from sched_sim.probability.level import Level
 from sched_sim.probability.outcome import Floats
 from sched_sim.probability.tally import Tallies
 from sched_sim.probability.timeline import Timeline
-
-Counts = Mapping[str, int]
 
 
 class Serial:
