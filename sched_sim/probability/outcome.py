@@ -38,8 +38,8 @@ class CycleProbabilities:
         to 1 where measurements are lost, `Probabilities.lost`, or where some mass is further behind than is followed.
     late: P(the correction lands later than the design's L) of those that arrive; where the HR job of m corrects, and m
         is certain, later than in step m.
-    responses: by job kind, "hr", "task:NAME", and where m is certain "lr_update": how long a job takes from its release;
-        of preempted recalculate the correction, from its arrival until it has landed.
+    responses: by job kind, "hr", "task:NAME", and where m is certain "lr_update": how long a job takes from its
+        release; of preempted recalculate the correction, from its arrival until it has landed.
     behind: the mass that was further behind than is followed, in some cycle up to this one; in the long run, where what
         falls so far behind starts anew, the share of cycles until it has caught up, on average. It is in every upper
         bound, and in no lower one.
