@@ -217,7 +217,7 @@ def low_rate_is_as_seen(found: Probabilities, runs: Runs, timing: Timing, steps:
             if k + due <= steps:
                 share = sum(share for share, seen in runs if seen.missed(job, k))
                 is_exact(figures.misses[kind], share, figures.behind)
-    response, all_ended = np.zeros(steps * T), True
+    response, all_ended = np.zeros(steps * T + 1), True
     for share, seen in runs:
         first = seen.ended["lr_update"].get(0)
         all_ended = all_ended and first is not None
