@@ -153,11 +153,17 @@ class Processor:
                     job, cpu.running = cpu.running, None
                     cpu.busy += now - cpu.since
                     piece = None if on_slice is None else self._slice(job, cpu.since, now, finished=True)
-                    following = () if job.then is None else job.then(job, now)
-                    goes_on = job in following
+                    finished = (job, *job.companions) if job.companions else (job,)
+                    if job.then is not None:
+                        following = job.then(job, now)
+                        if job in following:
+                            finished = ()
+                        for new in following:
+                            order_of_release += 1
+                            heappush(cpus[new.cpu].ready, (rank(new), order_of_release, new))
                     if on_slice is not None and piece is not None:
-                        on_slice(piece._replace(finished=not goes_on))
-                    for done in () if goes_on else (job, *job.companions) if job.companions else (job,):
+                        on_slice(piece._replace(finished=bool(finished)))
+                    for done in finished:
                         tally = tallies[done.kind]
                         tally.finished += 1
                         response = now - done.release
@@ -170,9 +176,6 @@ class Processor:
                             on_slice(self._slice(done, now, now, finished=True))
                         if on_finish is not None:
                             on_finish(done, now)
-                    for new in following:
-                        order_of_release += 1
-                        heappush(cpus[new.cpu].ready, (rank(new), order_of_release, new))
                 next_finish = -1
                 for cpu in cpus:  # jobs without work that are next
                     if cpu.ready and cpu.running is None and not (context_switch or cpu.ready[0][2].remaining):
