@@ -37,7 +37,8 @@ def compiled(function: F, *, makes_arrays: bool = False) -> F:
     reached = _reached(function)
     version = _version(function, makes_arrays, {})
     if hasattr(version, "_cache"):  # with NUMBA_DISABLE_JIT numba gives a plain function
-        version._cache = _Kept(function.__name__, _hash(reached, makes_arrays))
+        with suppress(OSError, RuntimeError):  # of a source that cannot be read, and of a user without a home
+            version._cache = _Kept(function.__name__, _hash(reached, makes_arrays))
     return version  # type: ignore[no-any-return]
 
 
@@ -94,7 +95,7 @@ class _Kept:
 
     def __init__(self, name: str, digest: str) -> None:
         home = os.environ.get("XDG_CACHE_HOME", "")
-        root = Path(home) if os.path.isabs(home) else Path(os.path.expanduser("~"), ".cache")
+        root = Path(home) if os.path.isabs(home) else Path.home() / ".cache"
         self.name, self.cache_path = name, root / "sched_sim" / "compiled" / digest[:32]
 
     def _file(self, signature: Any, codegen: Any) -> Path:
