@@ -30,9 +30,9 @@ from reports.drawing.style import (
 )
 from reports.scenario.cells import BINS, Cell, Note, share_axis
 from sched_sim.scenario.distribution import finished_or_not
+from sched_sim.scenario.kinds import correct_kind
 from sched_sim.scenario.outcome import JobFigures, Outcome, SensorFigures
 from sched_sim.scenario.scenario import Scenario, Sensor
-from sched_sim.scenario.source import correct_kind
 
 if TYPE_CHECKING:
     from studies.selection.in_scenario import ScenarioAccuracy

@@ -11,10 +11,10 @@ from reports.charts.intervals import jobs
 from reports.charts.lanes import shortened
 from reports.charts.panels import Mark, Panel, steps_shown
 from sched_sim.errors import InputError
+from sched_sim.scenario.kinds import correct_kind
 from sched_sim.scenario.outcome import Outcome
 from sched_sim.scenario.run import run_scenario
 from sched_sim.scenario.scenario import Scenario
-from sched_sim.scenario.source import correct_kind
 from sched_sim.schedule.outcome import Schedule, Slice
 
 FEWEST_STEPS, MOST_STEPS = 12, 24

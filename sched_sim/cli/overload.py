@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from sched_sim.scenario.source import correct_kind
+from sched_sim.scenario.kinds import correct_kind
 from sched_sim.shares import percent
 
 if TYPE_CHECKING:

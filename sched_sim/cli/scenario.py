@@ -199,7 +199,7 @@ def _times(unit: float, value: float | None) -> float | None:
 
 def _rows(scenario: Scenario, outcome: Outcome, accuracy: ScenarioAccuracy | None) -> list[dict[str, Any]]:
     """Of CSV, one for each kind of job."""
-    from sched_sim.scenario.source import correct_kind
+    from sched_sim.scenario.kinds import correct_kind
 
     rows = [_flat(scenario, kind, figures) for kind, figures in outcome.jobs.items()]
     if accuracy is None:

@@ -32,8 +32,9 @@ from functools import partial
 from itertools import islice
 
 from sched_sim.scenario.draws import total, words
-from sched_sim.scenario.scenario import Scenario, Sensor
-from sched_sim.scenario.source import Measurement, correct_kind
+from sched_sim.scenario.kinds import correct_kind, gain_kind, loss_kind
+from sched_sim.scenario.scenario import Scenario
+from sched_sim.scenario.source import Measurement
 from sched_sim.schedule.jobs import Job, Parts, Source, Then
 
 
@@ -231,13 +232,3 @@ class DualRateFilter(Source):
 def _order(knot: Knot) -> tuple[int, int]:
     """That in which they are taken."""
     return knot.step, knot.sensor
-
-
-def gain_kind(sensor: Sensor) -> str:
-    """What the jobs of a sensor's gains are filed under."""
-    return f"gain {sensor.name}"
-
-
-def loss_kind(sensor: Sensor) -> str:
-    """What the jobs after a loss are filed under."""
-    return f"loss {sensor.name}"

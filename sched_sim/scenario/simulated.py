@@ -7,8 +7,9 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from sched_sim.scenario.dual_rate import DualRateFilter
+from sched_sim.scenario.kinds import correct_kind
 from sched_sim.scenario.outcome import JobFigures, Outcome, SensorFigures, longest_wait
-from sched_sim.scenario.source import ComposedFilter, correct_kind
+from sched_sim.scenario.source import ComposedFilter
 from sched_sim.scenario.workload import Workload
 from sched_sim.schedule.clock import Clock, OnProgress
 from sched_sim.schedule.jobs import Job, Source

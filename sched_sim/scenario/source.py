@@ -60,7 +60,8 @@ from operator import itemgetter
 from typing import NamedTuple
 
 from sched_sim.scenario.draws import total, words
-from sched_sim.scenario.scenario import Scenario, Sensor
+from sched_sim.scenario.kinds import correct_kind
+from sched_sim.scenario.scenario import Scenario
 from sched_sim.schedule.jobs import Job, Parts, Source, Then, step_at
 
 
@@ -386,8 +387,3 @@ class ComposedFilter(Source):
         job = Job(correct_kind(sensor), first.step, sensor.priority, first.arrival, first.due, work, parts, then, cpu)
         job.companions = tuple(self._job((companion,), (), None) for companion in others)
         return job
-
-
-def correct_kind(sensor: Sensor) -> str:
-    """What the jobs of a sensor's corrections are filed under."""
-    return f"correct {sensor.name}"

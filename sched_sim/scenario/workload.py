@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from sched_sim.scenario.dual_rate import gain_kind, loss_kind
+from sched_sim.scenario.kinds import correct_kind, gain_kind, loss_kind
 from sched_sim.scenario.scenario import Scenario, needed_parts
-from sched_sim.scenario.source import correct_kind
 from sched_sim.schedule.tasks import TaskSource, work_and_times
 from sched_sim.ticks import ticks_per_unit, to_ticks
 

@@ -7,12 +7,11 @@ from collections.abc import Iterable, Mapping, Sequence
 import numpy as np
 
 from sched_sim.scenario.draws import stream
-from sched_sim.scenario.dual_rate import gain_kind, loss_kind
 from sched_sim.scenario.engine import memory as at
 from sched_sim.scenario.engine.measured import Ints, Measured
 from sched_sim.scenario.engine.nearness import BINS
 from sched_sim.scenario.engine.words import stream_of
-from sched_sim.scenario.source import correct_kind
+from sched_sim.scenario.kinds import correct_kind, gain_kind, loss_kind
 from sched_sim.scenario.workload import Workload
 
 FIRST_JOBS = 64

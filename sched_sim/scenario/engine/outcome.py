@@ -8,12 +8,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from sched_sim.scenario.dual_rate import gain_kind, loss_kind
 from sched_sim.scenario.engine import memory as at
 from sched_sim.scenario.engine.measured import Ints, Measured, measured
 from sched_sim.scenario.engine.run import run
+from sched_sim.scenario.kinds import correct_kind, gain_kind, loss_kind
 from sched_sim.scenario.outcome import JobFigures, Outcome, SensorFigures, longest_wait
-from sched_sim.scenario.source import correct_kind
 from sched_sim.scenario.workload import Workload
 from sched_sim.schedule.clock import OnProgress
 from sched_sim.schedule.outcome import Response, Schedule
