@@ -321,6 +321,7 @@ def _say_of_no_accuracy(accuracy: OutputAccuracy, methods: Sequence[str]) -> Non
 
 def _report(asked: Sweep, store: Store, outcome: Outcome, exports: Sequence[Path], format: opt.Format) -> None:
     from sched_sim.cli.caveats import caveat_note
+    from sched_sim.cli.less_work import offsets_note
     from sched_sim.cli.measured_note import busy_note, busy_row
     from sched_sim.cli.update_form import form_note
     from studies.sweep.summary import best, by_method
@@ -367,6 +368,7 @@ def _report(asked: Sweep, store: Store, outcome: Outcome, exports: Sequence[Path
             "worst_std and rms_std of each design are in these rows; --export FILE.csv writes them" if accuracy else "",
             TASKS_ON_PARTS if asked.grid.tasks and len({table.processor for table in tables}) > 1 else "",
             caveat_note(left),
+            offsets_note(left, asked.grid.tasks),
             *forms,
         ),
     )

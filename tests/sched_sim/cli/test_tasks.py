@@ -156,6 +156,14 @@ def test_minimum_says_where_less_work_needs_more(sched_sim: Run, narrow: str) ->
     assert "less" not in sched_sim(f"minimum {narrow.partition(' --tasks')[0]}").out
 
 
+def test_a_sweep_says_that_its_verdicts_are_of_executions_that_take_all_of_their_costs(
+    sched_sim: Run, narrow: str
+) -> None:
+    said = "a verdict is that of executions that take all of their costs; less work may land in another step"
+    assert said in sched_sim(f"sweep {narrow}").out
+    assert said not in sched_sim(f"sweep {narrow.partition(' --tasks')[0]}").out
+
+
 def test_simulate_looks_for_less_work(sched_sim: Run, narrow: str) -> None:
     asked = f"simulate {narrow} --less-work --speed"
     assert "Less work misses a deadline: lr_update 48.9375 instead of 54 in every cycle" in sched_sim(f"{asked} 80").out
