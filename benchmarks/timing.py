@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from math import inf
-from time import perf_counter
+from time import perf_counter, process_time
 from typing import Any, NamedTuple
 
 from filters.backends.choose import arguments_for, function_for
@@ -34,6 +34,13 @@ def seconds(run: Callable[[], Any], repeats: int = 5) -> float:
         run()
         times.append(perf_counter() - start)
     return min(times)
+
+
+def core_seconds(run: Callable[[], Any]) -> float:
+    """Of the processor, once: what other processes take on a busy machine is not counted."""
+    start = process_time()
+    run()
+    return process_time() - start
 
 
 def times_faster(ours: Callable[[], Any], theirs: Callable[[], Any], rounds: int = 7) -> float:

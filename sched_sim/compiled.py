@@ -5,7 +5,7 @@ code is kept in the user's cache folder, under the hash of the sources it rests 
 file of the outermost function, and goes stale where one that it calls is changed.
 
 What is called becomes part of its caller, once for all types of literal numbers; and where no array is made, references
-to arrays are not counted: 40 million jobs a second, and not 0.6, go through the event loop of a simulation.
+to arrays are not counted: the event loop of a simulation is sixty times as fast for it.
 """
 
 from __future__ import annotations
