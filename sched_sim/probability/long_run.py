@@ -2,8 +2,8 @@
 
 Followed from that state on, without what has returned to it; what is left is less and less. Where it is long the same
 but for its mass, the rest is a geometric series, or if nothing returns, what is left is all that there is in the long
-run: one late execution may make every later cycle late. Nothing is subtracted, so that the smallest figure is as
-accurate as the largest.
+run: one late execution may make every later cycle late. It is so too where some work is always left, for then there is
+no such state. Nothing is subtracted, so that the smallest figure is as accurate as the largest.
 """
 
 from __future__ import annotations
@@ -57,9 +57,8 @@ def long_run(process: Process, hyperperiod: int, begin: int) -> Tally | None:
     """Of one hyperperiod, in steps, in the mean; from step `begin` on all is periodic. None if it does not settle."""
     process.advance(max(process.step, begin) + WARM_UP * hyperperiod, Tallies())
     state = _most_frequent(process, hyperperiod)
-    if state is None:
-        return None
-    process.restart(state)
+    if state is not None:
+        process.restart(state)
     whole, length = Tally(), 0.0
     shape: State | None = None
     followed = 0
@@ -67,7 +66,7 @@ def long_run(process: Process, hyperperiod: int, begin: int) -> Tally | None:
         weight = process.weight = process.total
         tallies, behind = Tallies(), process.behind
         process.advance(process.step + hyperperiod, tallies)
-        fell, returned = process.behind - behind, process.take(state)
+        fell, returned = process.behind - behind, 0.0 if state is None else process.take(state)
         tally = tallies.together()
         whole.add(tally)
         length += weight

@@ -64,18 +64,24 @@ def test_it_is_late_as_often_as_it_becomes_so_and_is_not_any_more() -> None:
     assert found.long_run.late == pytest.approx((a / (a + b), a / (a + b)), rel=1e-9)
 
 
+ACROSS = Task("across", period=Fraction(1), cost=Fraction(4), priority=5, offset=Fraction(9, 10))
+"""Under way at the start of each step: there is always work left."""
+
+
 @pytest.mark.parametrize(
-    ("costs", "timing"),
+    ("costs", "timing", "tasks"),
     [
-        (RecalculateCosts(rarely(20, 41, 0.1), certain(5), rarely(3, 9, 0.3)), Timing(N=3, M=2, L=2)),
+        (RecalculateCosts(rarely(20, 41, 0.1), certain(5), rarely(3, 9, 0.3)), Timing(N=3, M=2, L=2), ()),
         (
             DualRateCosts(rarely(10, 31, 0.05), *map(certain, (10, 1, 4, 0)), rarely(16, 21, 0.05)),
             Timing(N=4, M=1, L=2),
+            (),
         ),
+        (RecalculateCosts(rarely(15, 26, 0.1), certain(5), certain(3)), Timing(N=3, M=2, L=2), (ACROSS,)),
     ],
 )
-def test_the_long_run_is_the_cycle_after_very_many(costs: Any, timing: Timing) -> None:
-    found = probabilities(costs, timing, 30, cycles=300, debt=8)
+def test_the_long_run_is_the_cycle_after_very_many(costs: Any, timing: Timing, tasks: tuple[Task, ...]) -> None:
+    found = probabilities(costs, timing, 30, cycles=300, tasks=tasks, debt=8)
     last, settled = found.cycles[-1], found.long_run
     assert settled is not None
     assert settled.late == pytest.approx(last.late, rel=1e-9)
