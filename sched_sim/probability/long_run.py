@@ -59,6 +59,8 @@ def long_run(process: Process, hyperperiod: int, begin: int) -> Tally | None:
     state = _most_frequent(process, hyperperiod)
     if state is not None:
         process.restart(state)
+    if not process.total:
+        return None
     whole, length = Tally(), 0.0
     shape: State | None = None
     followed = 0

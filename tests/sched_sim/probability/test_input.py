@@ -120,3 +120,11 @@ def test_too_much_work_has_no_long_run(costs: Any) -> None:
     assert found.long_run is None
     assert found.why_no_long_run.startswith("the load is 1.")
     assert found.cycles[2].late.upper == 1
+
+
+def test_where_nothing_can_be_followed_there_is_no_long_run() -> None:
+    """The work is less than the time, but each HR update that comes late makes the next one later."""
+    costs = DualRateCosts(*map(certain, (27, 20, 20, 27, 0, 20)))
+    found = probabilities(costs, Timing(2, 3, 4), 60, 3, debt=2)
+    assert found.long_run is None
+    assert found.why_no_long_run == "the distribution of what is left to do does not settle"
