@@ -130,9 +130,9 @@ def _quantiles(finished: Sequence[float], count: int) -> tuple[float | None, ...
     return tuple(figures[name] for name in QUANTILES)
 
 
-def longest_wait(sensor: Sensor, landings: Sequence[tuple[int, int]]) -> Fraction | None:
+def longest_wait(sensor: Sensor, achieved: Counter[int], landings: Sequence[tuple[int, int]]) -> Fraction | None:
     """Of `SensorFigures`; of those that land latest, for a measurement waits for less than a step to be taken."""
-    latest = max((l - k for k, l in landings), default=None)
+    latest = max(achieved, default=None)
     if latest is None or not sensor.between_steps:
         return None if latest is None else Fraction(latest)
     return latest + max(k - sensor.instant(k) for k, l in landings if l - k == latest)

@@ -43,7 +43,7 @@ def simulated(work: Workload, on_slice: OnSlice | None = None, on_progress: OnPr
             composed.dropped[number],
             arrived,
             achieved,
-            longest_wait(sensor, landings),
+            longest_wait(sensor, achieved, landings),
             landings,
         )
     jobs = {kind: _figures(finishes[kind], schedule.responses.get(kind), period) for kind in work.kinds}

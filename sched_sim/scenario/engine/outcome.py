@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping
-from typing import NamedTuple
+from itertools import pairwise
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
+import numpy.typing as npt
 
 from sched_sim.scenario.engine import memory as at
 from sched_sim.scenario.engine.measured import Ints, Measured, measured
@@ -16,6 +18,8 @@ from sched_sim.scenario.outcome import JobFigures, Outcome, SensorFigures, longe
 from sched_sim.scenario.workload import Workload
 from sched_sim.schedule.clock import OnProgress
 from sched_sim.schedule.outcome import Response, Schedule
+
+Floats: TypeAlias = npt.NDArray[np.float64]
 
 EXACT = 1 << 53
 """Whole numbers up to here are floats too."""
@@ -65,14 +69,16 @@ def run_compiled(work: Workload, on_progress: OnProgress | None = None) -> Outco
 def _jobs(work: Workload, found: Measured, memory: Ints, log: Ints) -> dict[str, Jobs]:
     """By kind."""
     finished, waiting = (_split(rows, len(work.kinds)) for rows in (log, unfinished(work, found, memory)))
-    return {kind: Jobs(*finished[number].T[1:], *waiting[number].T[1:]) for number, kind in enumerate(work.kinds)}
+    return {kind: Jobs(*finished[number], *waiting[number]) for number, kind in enumerate(work.kinds)}
 
 
-def _split(rows: Ints, kinds: int) -> list[Ints]:
-    """By kind, which stands first in each; their order stays."""
-    order = np.argsort(rows[:, 0].astype(np.uint16), kind="stable")
-    ends = np.cumsum(np.bincount(rows[:, 0], minlength=kinds))
-    return np.split(rows[order], ends[:-1])
+def _split(rows: Ints, kinds: int) -> list[list[Ints]]:
+    """The columns behind the first, which is the kind, by kind; their order stays."""
+    own = rows[:, 0]
+    order = np.argsort(own.astype(np.uint16), kind="stable")
+    ends = np.cumsum(np.bincount(own, minlength=kinds))
+    columns = [column[order] for column in rows.T[1:]]
+    return [[column[begin:end] for column in columns] for begin, end in pairwise([0, *ends.tolist()])]
 
 
 def unfinished(work: Workload, found: Measured, memory: Ints) -> Ints:
@@ -160,20 +166,19 @@ def _figures(jobs: Jobs, work: Workload) -> JobFigures:
     left, given = (times[has_time] for times in (jobs.deadline - jobs.end, jobs.deadline - jobs.release))
     return JobFigures(
         released=jobs.end.size + jobs.due.size,
-        responses=_quotients(jobs.end - jobs.release, np.array(work.period)),
+        responses=_quotients(jobs.end - jobs.release, np.array(work.period)).tolist(),
         misses=lateness.size,
         decided=jobs.end.size + int(np.count_nonzero(jobs.due <= work.horizon)),
-        least_margin=min(_quotients(left, given), default=None),
+        least_margin=float(_quotients(left, given).min()) if left.size else None,
     )
 
 
-def _quotients(times: Ints, others: Ints) -> list[float]:
+def _quotients(times: Ints, others: Ints) -> Floats:
     """Each rounded once, as Python does."""
     if max(abs(times).max(initial=0), others.max(initial=0)) <= EXACT:
-        quotients: list[float] = (times / others).tolist()
-        return quotients
+        return times / others
     pairs = zip(times.tolist(), np.broadcast_to(others, times.shape).tolist(), strict=True)
-    return [time / other for time, other in pairs]
+    return np.array([time / other for time, other in pairs])
 
 
 def _sensors(work: Workload, found: Measured, jobs: Mapping[str, Jobs]) -> dict[str, SensorFigures]:
@@ -183,12 +188,13 @@ def _sensors(work: Workload, found: Measured, jobs: Mapping[str, Jobs]) -> dict[
         arrives = found.arrives[own]
         landed = (done.end - 1) // work.period + (scenario.late == "dual-rate")
         landings = list(zip(done.step.tolist(), landed.tolist(), strict=True))
+        achieved = Counter((landed - done.step).tolist())
         figures[sensor.name] = SensorFigures(
             taken=arrives.size,
             dropped=int(np.count_nonzero(arrives == at.NEVER)),
             arrived=int(np.count_nonzero((arrives >= 0) & (arrives < scenario.steps))),
-            achieved=Counter((landed - done.step).tolist()),
-            longest=longest_wait(sensor, landings),
+            achieved=achieved,
+            longest=longest_wait(sensor, achieved, landings),
             landings=landings,
         )
     return figures
