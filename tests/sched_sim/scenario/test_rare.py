@@ -81,7 +81,7 @@ def test_what_a_simulation_of_as_many_steps_would_not_show() -> None:
 @pytest.mark.parametrize("part", range(10))
 def test_one_in_a_million(part: int, record_property) -> None:
     """How many of the 95 % intervals hold the exact probability is for the figures."""
-    count, within = share_of(8), 0
+    count, within = share_of(4), 0
     for seed in range(part * count, (part + 1) * count):
         found = rare_misses(two_long_ones(1000, seed), "task:log", runs=1000)
         assert found.interval is not None
