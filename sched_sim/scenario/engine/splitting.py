@@ -31,8 +31,10 @@ Floats: TypeAlias = npt.NDArray[np.float64]
 
 MOST_VISITS = 1_000
 """A simulation is split into so many, in the mean, by each band; and into one for four of its steps at the most."""
-FIRST_STEPS, MOST_PILOTS, PILOTS, ROUNDS = 200_000, 500, 40, 12
-"""Simulations of so many steps, or so many, look for the first bands, then so many, so often, for more."""
+PILOT_STEPS, LEAST_PILOTS, MOST_PILOTS = 200_000, 5, 500
+"""Simulations of so many steps in all, or at least or at most so many, look for the first bands."""
+NEXT_PILOTS, ROUNDS = 40, 12
+"""No more than so many look for further ones, so often."""
 LEAST_SEEN = 10
 """A band begins where so many steps were seen in it, and where the probability has fallen to FALL of the one before."""
 FALL = 1 / 4
@@ -60,14 +62,14 @@ class Count(NamedTuple):
 
 def bands_of(work: Workload, kind: int, random: np.random.Generator) -> list[Band]:
     """Bands that lead to misses, found by trial: the better they are, the more exact is what comes out of `count`."""
-    bands, pilots = [Band(0, 1.0)], max(PILOTS, min(FIRST_STEPS // work.scenario.steps, MOST_PILOTS))
+    bands, pilots = [Band(0, 1.0)], min(max(PILOT_STEPS // work.scenario.steps, LEAST_PILOTS), MOST_PILOTS)
     for _ in range(ROUNDS):
         counts = [count(work, kind, bands, random) for _ in range(pilots)]
         steps, seen = (np.sum([getattr(one, name) for one in counts], axis=0) for name in ("steps", "seen"))
         found = _bands(steps, seen, work.scenario.steps)
         if found[-1].nearness <= bands[-1].nearness:
             break
-        bands, pilots = found, PILOTS
+        bands, pilots = found, min(pilots, NEXT_PILOTS)
     return bands
 
 

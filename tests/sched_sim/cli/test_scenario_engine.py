@@ -59,7 +59,7 @@ def test_traces_are_simpys(sched_sim: Run, tmp_path: Path) -> None:
 
 def test_rare_misses_of_what_never_missed(sched_sim: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """From seed 0 no job misses; the predict jobs never do."""
-    monkeypatch.setattr(splitting, "MOST_PILOTS", splitting.PILOTS)
+    monkeypatch.setattr(splitting, "MOST_PILOTS", splitting.NEXT_PILOTS)
     (tmp_path / "s.toml").write_text(TWO_LONG_ONES)
     line = "simulate --scenario s.toml --rare --format"
     document = json.loads(sched_sim(f"{line} json").out)
