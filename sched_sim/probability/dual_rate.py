@@ -223,7 +223,7 @@ class DualRate(LowRate[Front]):
         in_state = step if self.design.same_step else step + 1
         updates = max(self.taken.before(in_state) - cycle, 1)
         for charged in self.design.charged:
-            if front.to_apply + updates > charged:
+            if self._with_those_behind(step, cycle, updates) > charged:
                 tally.crowded[charged] += float(done.sum())
         correction = self.design.pieces.together({"hr_update": updates})
         if self.design.same_step:
@@ -232,3 +232,10 @@ class DualRate(LowRate[Front]):
         if self.design.charge == "most":
             done = correction.added_to(done)
         return self._looked_up(step, self._next(front, updates), done, first=True)
+
+    def _with_those_behind(self, step: int, cycle: int, updates: int) -> int:
+        """HR updates of a correction that finishes in this step, and of all that may finish in the same one behind it,
+        at the most: no fewer where it finishes later."""
+        M = self.design.timing.M if self.design.delay is None else 0
+        arrived = self.taken.before(step - M + 1) - cycle
+        return sum(range(updates, updates - min(max(arrived, 1), updates), -1))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from itertools import pairwise
 
 from sched_sim.design.taken import Taken
@@ -31,4 +32,16 @@ def first_cycles(process: Process, cycles: int, taken: Taken, hyperperiod: int, 
         found.append(tallies[number - times * every].with_probability(stays**times))
     for earlier, tally in pairwise(found):
         tally.behind += earlier.behind
+    crowded = [tally.crowded for tally in found]
+    for number, tally in enumerate(found):
+        tally.crowded = defaultdict(float)
+        for of_cycle in crowded[max(number - crowded_for(after), 0) : number + 1]:
+            for charged, share in of_cycle.items():
+                tally.crowded[charged] += share
     return found
+
+
+def crowded_for(after: int) -> int:
+    """Cycles in which HR jobs and tasks may still be delayed by the HR updates of a correction: until it has landed,
+    and from then on until LR jobs run again, or it is not followed any more."""
+    return 2 * after

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from sched_sim.probability.first_cycles import first_cycles
+from sched_sim.probability.first_cycles import crowded_for, first_cycles
 from sched_sim.probability.long_run import Process, long_run
 from sched_sim.probability.model import FULL, Model
 from sched_sim.probability.tally import Tally
@@ -39,6 +39,8 @@ def _follow(process: Process, model: Model, cycles: int, *, settles: bool) -> Fo
     if last is None:
         return Followed(first, None)
     last.behind = last.unknown + last.behind * model.recovery
+    for charged in last.crowded:
+        last.crowded[charged] *= crowded_for(model.after) + 1
     return Followed(first, last.scaled(1 / model.cycles))
 
 

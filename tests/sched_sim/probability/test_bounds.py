@@ -125,3 +125,10 @@ def test_a_response_is_followed_beyond_the_backlog_that_is() -> None:
     )
     beyond = 235
     assert 0 < few.lower[beyond] <= many.lower[beyond] <= few.upper[beyond]
+
+
+def test_corrections_that_land_together_may_do_so_where_longer_costs_part_them() -> None:
+    high = CostDistribution.of_samples([0, 0, 19])
+    nothing = CostDistribution.certain(0)
+    low = CostDistribution.of_samples([10, 42]), nothing, CostDistribution.of_samples([41, 42])
+    bins_bound_the_exact(Design(DualRateCosts(high, high, high, *low), Timing(2, 0, 1), Options(), None))
