@@ -1,0 +1,67 @@
+"""Probabilities as people read them, so that nobody is misled: never a bare 0, never more than is known."""
+
+from __future__ import annotations
+
+from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_HALF_EVEN, Decimal
+
+from sched_sim.costs.autocorrelation import DOUBTFUL
+from sched_sim.probability.outcome import Bounds
+from sched_sim.probability.samples import by_chance
+
+DIGITS, FEWER = 3, 2
+"""Of what is left to 0 or 1, whichever is nearer; of bounds that differ, rounded outwards, fewer."""
+NOISE = Decimal("1e-14")
+"""So near to 1 is 1: what sums of floating-point numbers tell."""
+NOT_RESOLVED = "not resolved"
+PLAIN = Decimal("0.001")
+"""What is less has an exponent."""
+
+
+def chance(bounds: Bounds, floor: float = 0.0) -> str:
+    """floor: below it nothing is known (`studies.probability.unseen.Resolution`)."""
+    lower, upper = bounds
+    if upper < floor:
+        return f"{NOT_RESOLVED} below {at_most(floor)}"
+    if not upper:
+        return "impossible"
+    if floor and lower > 1 - floor:
+        return f"at least {_text(_rounded(max(lower - floor, 0.0), FEWER, ROUND_FLOOR))}"
+    if _rounded(lower, DIGITS, ROUND_HALF_EVEN) == _rounded(upper, DIGITS, ROUND_HALF_EVEN):
+        return _text(_rounded(upper, DIGITS, ROUND_HALF_EVEN))
+    if lower <= floor:
+        return f"at most {at_most(min(upper + floor, 1.0))}"
+    return f"{_text(_rounded(lower, FEWER, ROUND_FLOOR))} to {at_most(upper)}"
+
+
+def at_most(share: float) -> str:
+    """Rounded up."""
+    if not share:
+        return "impossible"
+    return _text(_rounded(share, FEWER, ROUND_CEILING))
+
+
+def dependence(kind: str, correlation: float, n: int) -> str:
+    """What the rank autocorrelation of a sample of n says of the independence of its executions."""
+    said = f"Rank autocorrelation {correlation:.2f} ({kind}, n = {n:,})"
+    if abs(correlation) > DOUBTFUL:
+        also = f"; chance alone makes up to {by_chance(n):.2f}" if abs(correlation) <= by_chance(n) else ""
+        return f"{said}: independence doubtful{also}"
+    if by_chance(n) > DOUBTFUL:
+        return f"{said}: too few to tell, chance alone makes up to {by_chance(n):.2f}"
+    return f"{said}: nothing against independence from one execution to the next"
+
+
+def _rounded(share: float, digits: int, rounding: str) -> Decimal:
+    value = Decimal(repr(share))
+    left = min(value, 1 - value)
+    if left < NOISE and value > left:
+        return Decimal(1)
+    return value.quantize(Decimal(1).scaleb(left.adjusted() - digits + 1), rounding) if left else value
+
+
+def _text(value: Decimal) -> str:
+    value = value.normalize()
+    if not value or value >= PLAIN:
+        return f"{value:f}"
+    digits = "".join(map(str, value.as_tuple().digits))
+    return f"{digits[0]}{'.' if digits[1:] else ''}{digits[1:]}e{value.adjusted()}"
