@@ -1,0 +1,1 @@
+"""How often deadlines are missed by random costs: exact, and what finite samples leave open."""

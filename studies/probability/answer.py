@@ -1,0 +1,177 @@
+"""The answer: exact probabilities for the stated costs, and beside them what samples leave open."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from math import fsum
+from typing import Any, NamedTuple, cast
+
+from sched_sim.design.drawn import marks
+from sched_sim.design.methods import METHODS
+from sched_sim.probability.cost_distribution import CostDistribution
+from sched_sim.probability.exact import RandomCosts, probabilities
+from sched_sim.probability.outcome import Bounds, CycleProbabilities, Probabilities
+from studies.probability.blocks import InBlocks, autocorrelations, doubtful, in_blocks
+from studies.probability.question import Question
+from studies.probability.unseen import Resolution, distribution, resolution, with_unseen
+
+Of = Callable[[CycleProbabilities], Bounds | None]
+"""One probability of a cycle; None where there is no such job in it."""
+
+NONE = Bounds(0.0, 0.0)
+
+
+class Figure(NamedTuple):
+    """The probability of something, per job or per measurement.
+
+    first: in the mean of the first cycles; last: in the last of them; long_run: None where there is none. floor: below
+    it samples say nothing. bound: the most it is in any of the three, with what samples have not seen at its worst
+    case; None where there is no such case, and for a single l, of which slower executions may make less too.
+    """
+
+    what: str
+    per: str
+    first: Bounds
+    last: Bounds
+    long_run: Bounds | None
+    floor: float
+    bound: float | None
+
+
+@dataclass(frozen=True)
+class Answer:
+    """given: for the costs as they are stated; bound: with what samples have not seen at its worst case, None where no
+    sample has one; resolution: what samples leave open. correlations: of ranks, by kind of job, of those that
+    have samples; blocks: simulated in measured order, None where independence is not doubtful, or that cannot be."""
+
+    question: Question
+    given: Probabilities
+    bound: Probabilities | None
+    resolution: Resolution
+    correlations: Mapping[str, float]
+    blocks: InBlocks | None
+
+    @property
+    def figures(self) -> list[Figure]:
+        return [*self.misses, self.late, *self.landings]
+
+    @property
+    def misses(self) -> list[Figure]:
+        """By kind of job, the HR jobs first."""
+        kinds = dict.fromkeys(["hr", *(kind for cycle in _all(self.given) for kind in cycle.misses)])
+        return [self._missed(kind) for kind in kinds]
+
+    @property
+    def hr_miss(self) -> Figure:
+        return self._missed("hr")
+
+    @property
+    def late(self) -> Figure:
+        """The correction lands later than by the L of the design; of a serial method, than in m."""
+        what = f"lands after L = {self.question.due}"
+        return self._figure(what, "measurement", _late, self.resolution.cycle)
+
+    @property
+    def landings(self) -> list[Figure]:
+        steps = sorted({L for cycle in _all(self.given) for L in cycle.landing})
+        return [self._landing(L) for L in steps]
+
+    @property
+    def any_hr_miss(self) -> Bounds:
+        """In the first cycles: at least that of the worst of them, at most the sum over all jobs."""
+        each = [cycle.hr_miss for cycle in self.given.cycles]
+        jobs = self.question.timing.N
+        return Bounds(max(one.lower for one in each), min(1.0, jobs * fsum(one.upper for one in each)))
+
+    @property
+    def any_floor(self) -> float:
+        """Below it samples say nothing of `any_hr_miss`."""
+        return min(1.0, self.question.cycles * self.question.timing.N * self.resolution.job)
+
+    def _missed(self, kind: str) -> Figure:
+        floor = self.resolution.job if kind == "hr" else self.resolution.cycle
+        return self._figure(f"{kind} missed", "job", lambda cycle: cycle.misses.get(kind), floor)
+
+    def _landing(self, L: int) -> Figure:
+        what, floor = f"lands at L = {L}", self.resolution.cycle
+        figure = self._figure(what, "measurement", lambda cycle: _landing(cycle, L), floor)
+        return figure._replace(bound=None)
+
+    def _figure(self, what: str, per: str, of: Of, floor: float) -> Figure:
+        first = mean(of, self.given)
+        last, long_run = of(self.given.cycles[-1]) or first, self.given.long_run and of(self.given.long_run)
+        bound = None
+        if self.bound is not None:
+            each = [found.upper for cycle in _all(self.bound) if (found := of(cycle)) is not None]
+            bound = max(each, default=0.0)
+        return Figure(what, per, first, last, long_run or None, floor, bound)
+
+
+def answer(question: Question) -> Answer:
+    """Raises InputError for a design of which nothing is known exactly."""
+    given = exactly(question)
+    worst = any(cost.worst is not None for cost in question.samples.values())
+    bound = _with_unseen(question, given) if worst else None
+    correlations = autocorrelations(question)
+    blocks = in_blocks(question) if doubtful(correlations) else None
+    return Answer(question, given, bound, resolution(question), correlations, blocks)
+
+
+def exactly(question: Question) -> Probabilities:
+    """For the costs as they are stated."""
+    return _probabilities(question, {kind: distribution(cost) for kind, cost in question.costs.items()})
+
+
+def _with_unseen(question: Question, given: Probabilities) -> Probabilities:
+    """Upper bounds. Where longer costs may also do good (`probability.dual_rate.Design`), exact costs do not bound
+    those that are less, and rounded ones do: the worst case is half a tick more, so that it is rounded."""
+    if given.exact and METHODS[question.method].law(question.options.feedback).only_first:
+        return _probabilities(question, with_unseen(question))
+    half = question.speed / given.ticks / 2
+    return _probabilities(replace(question, bins=given.ticks), with_unseen(question, half))
+
+
+def _probabilities(question: Question, costs: Mapping[str, CostDistribution]) -> Probabilities:
+    return probabilities(
+        random_costs(question, costs),
+        question.timing,
+        question.speed,
+        question.cycles,
+        question.options,
+        question.tasks,
+        delays=question.delays,
+        dropout=question.dropout,
+        preempted=question.preempted,
+        bins=question.bins,
+    )
+
+
+def random_costs(question: Question, costs: Mapping[str, CostDistribution]) -> RandomCosts:
+    """The pieces of the method, each with its distribution; a piece that does not run takes no time."""
+    record: Any = type(marks(question.method, tuple(costs), question.options))
+    nothing = CostDistribution.certain(0)
+    pieces = {piece: nothing if kind is None else costs[kind] for piece, kind in question.pieces.items()}
+    return cast("RandomCosts", record(**pieces))
+
+
+def _late(cycle: CycleProbabilities) -> Bounds:
+    """What is too far behind to be followed may be late."""
+    return Bounds(cycle.late.lower, max(cycle.late.upper, min(cycle.behind, 1.0)))
+
+
+def _landing(cycle: CycleProbabilities, L: int) -> Bounds:
+    """The same where nothing that is followed lands."""
+    return cycle.landing.get(L) or Bounds(0.0, min(cycle.behind, 1.0))
+
+
+def _all(found: Probabilities) -> list[CycleProbabilities]:
+    return [*found.cycles, *([] if found.long_run is None else [found.long_run])]
+
+
+def mean(of: Of, found: Probabilities) -> Bounds:
+    """Of the first cycles."""
+    each = [bounds for cycle in found.cycles if (bounds := of(cycle)) is not None]
+    if not each:
+        return NONE
+    return Bounds(*(fsum(bounds[side] for bounds in each) / len(each) for side in (0, 1)))

@@ -1,0 +1,69 @@
+"""The exact probabilities of a scenario's misses, beside those of its simulation, where its structure allows."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import NamedTuple
+
+from sched_sim.probability.outcome import Bounds, CycleProbabilities, Probabilities
+from sched_sim.scenario.dual_rate import gain_kind
+from sched_sim.scenario.load import loads
+from sched_sim.scenario.scenario import Scenario, Sensor
+from sched_sim.scenario.source import correct_kind
+from sched_sim.shares import percent
+from studies.probability.answer import exactly, mean
+from studies.probability.of_scenario import as_designs
+from studies.probability.unseen import resolution
+
+MOST_LOAD = 0.9
+"""Beyond, it may take minutes."""
+
+
+class Exact(NamedTuple):
+    """A probability in the mean of the first cycles, and below which samples say nothing."""
+
+    bounds: Bounds
+    floor: float
+
+
+class Beside(NamedTuple):
+    """By kind of job, of how many measurement cycles, and why others are not there, in words."""
+
+    misses: Mapping[str, Exact]
+    cycles: int
+    why: str
+
+
+def beside_sampled(scenario: Scenario) -> Beside:
+    """Of the first cycles of the scenario, at most a thousand. Raises InputError where its costs are more than can be
+    followed."""
+    designs = as_designs(scenario)
+    if isinstance(designs, str):
+        return Beside({}, 0, designs)
+    if (load := sum(one.share for one in loads(scenario))) > MOST_LOAD:
+        return Beside({}, 0, f"the load is {percent(load)}, and what is left to do would be followed for long")
+    (sensor,) = scenario.sensors
+    predict = exactly(designs.predict)
+    own, cycles = resolution(designs.predict), designs.predict.cycles
+    misses = {"predict": Exact(mean(lambda cycle: cycle.hr_miss, predict), own.job)}
+    if designs.correct is None:
+        return Beside(misses, cycles, designs.why)
+    correct = predict if designs.correct is designs.predict else exactly(designs.correct)
+    if scenario.late == "dual-rate" and _latest(correct) > sensor.every:
+        return Beside({}, 0, "a correction may land after the next measurement was taken, which takes more work")
+    floor = resolution(designs.correct).cycle
+    misses[correct_kind(sensor)] = Exact(mean(lambda cycle: _late(cycle, sensor, correct), correct), floor)
+    if scenario.late == "dual-rate":
+        misses[gain_kind(sensor)] = Exact(mean(lambda cycle: cycle.misses.get("lr_propagate"), correct), floor)
+    return Beside(misses, cycles, "")
+
+
+def _latest(found: Probabilities) -> int:
+    return max(L for cycle in found.cycles for L in cycle.landing)
+
+
+def _late(cycle: CycleProbabilities, sensor: Sensor, found: Probabilities) -> Bounds:
+    """Of the corrections whose measurement arrives."""
+    late = [bounds for L, bounds in cycle.landing.items() if sensor.land_by < L]
+    lower, upper = (sum(bounds[side] for bounds in late) for side in (0, 1))
+    return Bounds(lower / (1 - found.lost), min((upper + cycle.behind) / (1 - found.lost), 1.0))
