@@ -1,0 +1,35 @@
+"""Logarithmic axes of probabilities, on which what is not resolved is shaded."""
+
+from __future__ import annotations
+
+from math import ceil, floor, log10
+
+from matplotlib.axes import Axes
+from matplotlib.patheffects import withStroke
+
+from reports.drawing.axes import decades
+from reports.drawing.style import GREY, SMALL_PT
+
+MOST_DECADES = 6
+"""With a number each; with more decades some have none."""
+SHADE = "#efefef"
+
+
+def tail_axis(axes: Axes, least: float, resolved: float = 0.0) -> None:
+    """From 1 down to the decade of `least`. resolved: what is less is shaded."""
+    low = 10.0 ** floor(log10(least))
+    decades(axes, "y", low, 1.0, every=max(ceil(-log10(low) / MOST_DECADES), 1))
+    if resolved > low:
+        axes.axhspan(low, resolved, facecolor=SHADE, edgecolor="white", hatch="////", lw=0, zorder=0)
+        name = axes.annotate(
+            "not resolved",
+            (0, low),
+            (3, 2),
+            xycoords=axes.get_yaxis_transform(),
+            textcoords="offset points",
+            va="bottom",
+            size=SMALL_PT,
+            color=GREY,
+            zorder=5,
+        )
+        name.set_path_effects([withStroke(linewidth=2.0, foreground="white")])

@@ -1,0 +1,1 @@
+"""The figure that `sched-sim probability` draws."""
