@@ -24,7 +24,7 @@ class Cell(NamedTuple):
     title: str
     notes: Sequence[Note]
     draw: Callable[[Axes], None]
-    shares: str = "% of the finished"
+    shares: str = "share of the finished"
 
 
 def share_axis(axes: Axes, shares: Sequence[float]) -> None:

@@ -28,7 +28,9 @@ from reports.drawing.style import (
     page,
     text_width_mm,
 )
-from reports.scenario.cells import BINS, Cell, Note, share_axis
+from reports.drawing.tails import tail_axis
+from reports.scenario.cells import BINS, Cell, Note
+from sched_sim.probability.samples import unseen_mass
 from sched_sim.scenario.distribution import finished_or_not
 from sched_sim.scenario.kinds import correct_kind
 from sched_sim.scenario.outcome import JobFigures, Outcome, SensorFigures
@@ -45,14 +47,17 @@ NEAR = 1.6
 """A deadline is near if an axis that shows it is no longer than this factor times one without it."""
 FEWEST_SHOWN = 7
 """Steps on the axis of achieved l."""
+FEWEST = 10
+"""So many the axis of shares is for, at the least."""
 EDGE = 0.03
 """Left free at both ends of that axis."""
 
 
 def distributions_figure(scenario: Scenario, outcome: Outcome, accuracy: ScenarioAccuracy | None = None) -> Figure:
     """A histogram of the response times of each job kind, and bars of the achieved l beside it where it is a
-    correction; a red line is a deadline. A deadline that is too far off for a line is in the subtitle. With the
-    accuracy, histograms of the output's standard deviation, and of the age of each sensor's information."""
+    correction, on logarithmic axes: what so many do not resolve is shaded, a red line is a deadline. A deadline that is
+    too far off for a line is in the subtitle. With the accuracy, histograms of the output's standard deviation, and of
+    the age of each sensor's information."""
     plain: list[Cell | None] = [_response("predict", scenario, outcome.jobs["predict"], FILLS["PR"], 1.0)]
     for number, task in enumerate(scenario.tasks):
         fill = TASK_FILLS[number % len(TASK_FILLS)]
@@ -165,18 +170,25 @@ def _response(title: str, scenario: Scenario, figures: JobFigures, fill: Fill, d
         notes.append(Note(f"{figures.misses} of {figures.decided} missed", missed=True))
 
     def draw(axes: Axes) -> None:
-        axes.set_xlabel(f"response time ({unit})", labelpad=2)
+        axes.set_xlabel(f"response time ({unit}); line: longer", labelpad=2)
         axes.xaxis.set_major_locator(MaxNLocator(nbins=6))
         end = 1.05 * max(worst, limit if near and limit is not None else 0, 1e-9)
         counts, edges = np.histogram(values, bins=BINS, range=(0, end))
-        shares = 100 * counts / max(len(values), 1)
+        _tail(axes, len(values))
+        shares = counts / max(len(values), 1)
         axes.bar(edges[:-1], shares, np.diff(edges), align="edge", color=fill.colour, edgecolor=fill.ink, lw=0.3)
+        longer = 1 - np.arange(len(values) + 1) / max(len(values), 1)
+        axes.step([0.0, *sorted(values)], longer, where="post", color=INK, lw=0.8)
         axes.set_xlim(0, end)
-        share_axis(axes, shares.tolist())
         if near and limit is not None:
             _deadline(axes, limit)
 
     return Cell(title, notes, draw)
+
+
+def _tail(axes: Axes, n: int) -> None:
+    """A logarithmic axis of shares; what may well be in none of n is shaded."""
+    tail_axis(axes, 1 / max(n, FEWEST), unseen_mass(max(n, FEWEST)))
 
 
 def _response_notes(values: Sequence[float], figures: JobFigures, unit: str) -> list[Note]:
@@ -214,13 +226,13 @@ def _achieved(sensor: Sensor, figures: SensorFigures) -> Cell:
         axes.xaxis.set_major_locator(MaxNLocator(nbins=8, integer=True))
         starts = list(range(first, last + 1, per_bar))
         counts = [sum(figures.achieved[start + more] for more in range(per_bar)) for start in starts]
-        shares = [100 * count / max(landed, 1) for count in counts]
+        shares = [count / max(landed, 1) for count in counts]
         middles = [start + (per_bar - 1) / 2 for start in starts]
+        _tail(axes, landed)
         axes.bar(middles, shares, 0.8 * per_bar, color=FILLS["CO"].colour, lw=0)
         low, high = (min(first, sensor.land_by), max(shown, sensor.land_by + 1)) if near else (first, shown)
         edge = max(1.0, EDGE * (high - low))
         axes.set_xlim(low - edge, high + edge)
-        share_axis(axes, shares)
         if near:
             _deadline(axes, limit)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from dataclasses import replace
 from fractions import Fraction
+from math import log
 from typing import Any
 
 import pytest
@@ -48,7 +49,7 @@ def bars_of(figure: Figure, title: str) -> dict[float, float]:
     return {
         patch.get_x(): patch.get_height()
         for patch in axes.patches
-        if isinstance(patch, Rectangle) and patch.get_height()
+        if isinstance(patch, Rectangle) and patch.get_height() and not patch.get_hatch()
     }
 
 
@@ -69,10 +70,15 @@ def slow(name: str, **sensor: Any) -> Scenario:
     return Scenario("s", steps=60, speed=Fraction(9), sensors=[one], costs=costs, tasks=[task])
 
 
-def test_a_share_ends_at_100() -> None:
+def test_shares_are_on_a_logarithmic_axis_down_to_one_of_all_and_what_they_do_not_resolve_is_shaded() -> None:
     scenario = slow("s")
     figure = distributions_figure(scenario, run_scenario(scenario))
-    assert [axes.get_ylim() for axes in figure.axes] == [(0, 100)] * 4
+    assert [axes.get_yscale() for axes in figure.axes] == ["log"] * 4
+    assert [axes.get_ylim() for axes in figure.axes] == [(0.01, 1), (0.1, 1), (0.1, 1), (0.1, 1)]
+    shaded = [patch for axes in figure.axes for patch in axes.patches if patch.get_hatch()]
+    assert [patch.get_y() + patch.get_height() for patch in shaded] == pytest.approx(
+        [log(20) / n for n in (60, 10, 10, 10)]
+    )
 
 
 LONG = "a name that would not fit if there were three of it " * 3
@@ -131,8 +137,8 @@ def test_a_wide_range_of_achieved_l_has_whole_steps_in_each_bar() -> None:
     assert "3 in each bar" in axes.get_xlabel()
     drawn = bars_of(figure, "s: achieved l")
     assert len(drawn) == 34
-    assert sum(drawn.values()) == pytest.approx(100)
-    assert drawn[min(drawn)] == pytest.approx(100 * 6 / 103)
+    assert sum(drawn.values()) == pytest.approx(1)
+    assert drawn[min(drawn)] == pytest.approx(6 / 103)
 
 
 def test_what_unfinished_jobs_hide_is_not_claimed() -> None:
@@ -149,7 +155,7 @@ def test_bars_are_the_shares_of_the_achieved_l() -> None:
     outcome = run_scenario(ROCKET)
     drawn = bars_of(distributions_figure(ROCKET, outcome), "gps: achieved l")
     achieved = outcome.sensors["gps"].achieved
-    expected = {step - 0.4: 100 * count / achieved.total() for step, count in achieved.items()}
+    expected = {step - 0.4: count / achieved.total() for step, count in achieved.items()}
     assert {round(x, 6): height for x, height in drawn.items()} == pytest.approx(
         {round(x, 6): height for x, height in expected.items()}
     )
@@ -159,9 +165,9 @@ def test_histograms_hold_every_response_time_where_it_is() -> None:
     outcome = run_scenario(ROCKET)
     drawn = bars_of(distributions_figure(ROCKET, outcome), "correct gps")
     responses = [2.5 * response for response in outcome.jobs["correct gps"].responses]
-    assert sum(drawn.values()) == pytest.approx(100)
+    assert sum(drawn.values()) == pytest.approx(1)
     width = 1.05 * max(responses) / 40
-    shares = [100 * sum(x <= time < x + width for time in responses) / len(responses) for x in drawn]
+    shares = [sum(x <= time < x + width for time in responses) / len(responses) for x in drawn]
     assert list(drawn.values()) == pytest.approx(shares)
 
 
