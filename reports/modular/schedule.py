@@ -152,9 +152,9 @@ def verdict_rows(rows: Sequence[MissRow], at: int) -> Rows:
 
 
 def missed_percent(row: MissRow) -> str:
-    """The share of deadlines missed, with its interval."""
+    """The share of deadlines missed, with its interval; where none is, only what it may be."""
     share, low, high = (f"{100 * value:.1f}" for value in (row.probability, *row.interval))
-    return f"{share} ({low} to {high})"
+    return f"{share} ({low} to {high})" if row.misses else f"none (up to {high})"
 
 
 def share_rows(runs: Iterable[Run]) -> Rows:
