@@ -12,7 +12,8 @@ version = release = installed("sched-sim")
 extensions = ["myst_parser", "sphinx.ext.autodoc", "commands", "docstrings", "drawn", "equations", "published", "wide"]
 exclude_patterns = ["extensions"]
 nitpicky = True
-ALIASES = ("ArrayLike", "Costs", "FloatArray", "Number")  # shown as these names, not as all that they stand for
+# shown as these names, not as all that they stand for
+ALIASES = ("ArrayLike", "Costs", "FloatArray", "Floats", "Number", "RandomCosts")
 nitpick_ignore = [
     *(("py:class", name) for name in ALIASES),
     ("py:class", "filters.jobs.Job"),  # part of a UserFilter, of no use without the arguments that are made for it

@@ -24,6 +24,9 @@ if TYPE_CHECKING:
     from sched_sim.design.times import Times
     from sched_sim.design.timing import Timing
     from sched_sim.errors import InputError
+    from sched_sim.probability.cost_distribution import CostDistribution
+    from sched_sim.probability.exact import probabilities
+    from sched_sim.probability.outcome import Probabilities
     from sched_sim.processors.part import Part, on_part
     from sched_sim.processors.part_file import load_part
     from sched_sim.scenario.outcome import Outcome
@@ -37,12 +40,14 @@ if TYPE_CHECKING:
     from sched_sim.schedule.trace import open_trace
 
 __all__ = [
+    "CostDistribution",
     "CostTable",
     "Fit",
     "InputError",
     "Options",
     "Outcome",
     "Part",
+    "Probabilities",
     "RareMisses",
     "Scenario",
     "Schedule",
@@ -59,6 +64,7 @@ __all__ = [
     "load_part",
     "on_part",
     "open_trace",
+    "probabilities",
     "rare_misses",
     "read_costs",
     "read_scenario",
@@ -86,6 +92,9 @@ __getattr__, __dir__ = lazily(
         "sched_sim.errors": "InputError",
         "sched_sim.processors.part": "Part on_part",
         "sched_sim.processors.part_file": "load_part",
+        "sched_sim.probability.cost_distribution": "CostDistribution",
+        "sched_sim.probability.exact": "probabilities",
+        "sched_sim.probability.outcome": "Probabilities",
         "sched_sim.scenario.outcome": "Outcome",
         "sched_sim.scenario.rare": "RareMisses rare_misses",
         "sched_sim.scenario.run": "run_scenario",

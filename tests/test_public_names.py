@@ -13,7 +13,8 @@ import pytest
 PUBLIC = {
     "sched_sim": "Timing Times Options Task read_tasks CostTable load_costs read_costs write_costs Part load_part "
     "on_part select least_speed less_work achieved_l staircase simulate Schedule Slice fit Fit Sensor Scenario "
-    "read_scenario run_scenario Outcome rare_misses RareMisses open_trace InputError",
+    "read_scenario run_scenario Outcome rare_misses RareMisses open_trace InputError CostDistribution probabilities "
+    "Probabilities",
     "filters": "System Structure linear_system example_system standard recalculate larsen dual_rate delayed_horizon "
     "px4_predictor augmentation fuse_as_fresh clone clone_split carried_gain multirate_gain History "
     "true_covariance modular count Operations accuracy",

@@ -12,7 +12,20 @@ import typer
 import typer.main
 from typer.core import TyperCommand, TyperGroup
 
-from sched_sim.cli import accuracy, code, design, gantt, live, measure, minimum, processors, report, simulate, sweep
+from sched_sim.cli import (
+    accuracy,
+    code,
+    design,
+    gantt,
+    live,
+    measure,
+    minimum,
+    probability,
+    processors,
+    report,
+    simulate,
+    sweep,
+)
 from sched_sim.errors import InputError
 from sched_sim.text import did_you_mean, visible_lines
 
@@ -117,6 +130,7 @@ def sched_sim(
 
 app.command("minimum", cls=Command)(minimum.minimum)
 app.command("simulate", cls=Command)(simulate.simulate)
+app.command("probability", cls=Command)(probability.probability)
 app.command("gantt", cls=Command)(gantt.gantt)
 app.command("sweep", cls=Command)(sweep.sweep)
 app.command("processors", cls=Command)(processors.processors)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from sched_sim import shares
 from sched_sim.cli.chart_options import stretch
-from sched_sim.cli.output import Format, print_csv, print_json, print_table
+from sched_sim.cli.output import Format, lines, print_csv, print_json, print_table
 from sched_sim.cli.outputs import Named, module_files, refuse_one_file_for_two
 from sched_sim.cli.progress import progress_bar
 from sched_sim.cli.rare import check_rare, document_of, find_rare, probability_words, rare_columns, show_rare
@@ -25,6 +25,7 @@ from sched_sim.cli.scenario_accuracy import (
     slower_rows,
     slower_runs,
 )
+from sched_sim.cli.scenario_exact import exact_document, exact_note
 from sched_sim.cli.scenario_flags import Asked
 
 if TYPE_CHECKING:
@@ -153,7 +154,7 @@ def _document(scenario: Scenario, outcome: Outcome, busy: Sequence[float]) -> di
         "note": WITHHELD if scenario.harness else None,
         "jobs": {kind: _job(figures, ms, scenario.harness) for kind, figures in outcome.jobs.items()},
         "sensors": {sensor.name: _of_sensor(scenario, sensor, outcome) for sensor in scenario.sensors},
-    }
+    } | exact_document(scenario)
 
 
 def _of_sensor(scenario: Scenario, sensor: Sensor, outcome: Outcome) -> dict[str, Any]:
@@ -253,7 +254,7 @@ def _show(scenario: Scenario, outcome: Outcome, busy: Sequence[float]) -> None:
     print_table(
         f"{scenario.name}: {scenario.steps} steps {rate}, late measurements: {scenario.late}; response times in {unit}",
         [_job_words(kind, figures, ms or 1.0, scenario.harness) for kind, figures in outcome.jobs.items()],
-        _note(scenario, outcome, busy),
+        lines(_note(scenario, outcome, busy), exact_note(scenario)),
     )
     if outcome.sensors:
         print_table(
