@@ -6,10 +6,9 @@ from collections.abc import Mapping
 from typing import NamedTuple
 
 from sched_sim.probability.outcome import Bounds, CycleProbabilities, Probabilities
-from sched_sim.scenario.dual_rate import gain_kind
+from sched_sim.scenario.kinds import correct_kind, gain_kind
 from sched_sim.scenario.load import loads
 from sched_sim.scenario.scenario import Scenario, Sensor
-from sched_sim.scenario.source import correct_kind
 from sched_sim.shares import percent
 from studies.probability.answer import exactly, mean
 from studies.probability.of_scenario import as_designs

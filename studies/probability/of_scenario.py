@@ -27,8 +27,8 @@ from sched_sim.design.timing import Timing
 from sched_sim.probability.cost_distribution import CostDistribution
 from sched_sim.probability.cost_file import PARTS
 from sched_sim.probability.stated import StatedCost
+from sched_sim.scenario.kinds import correct_kind
 from sched_sim.scenario.scenario import Scenario, Sensor
-from sched_sim.scenario.source import correct_kind
 from sched_sim.schedule.jobs import HR
 from sched_sim.schedule.tasks import Task
 from studies.probability.question import Question
