@@ -46,7 +46,7 @@ class Arrivals(DualRate):
             fate = self.draw("delay")
             if fate == LOST:
                 self.lost.add(step)
-                self.missing.pop()
+                self.on_the_way.pop()
             else:
                 self.arrivals[step + fate] = [*self.arrivals.get(step + fate, []), step]
         for k in self.arrivals.pop(step, []):
