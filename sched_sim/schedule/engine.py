@@ -22,15 +22,15 @@ def check_engine(engine: Engine) -> None:
         raise InputError(f"{option('engine')} is {short(repr(engine))}: choose from {', '.join(get_args(Engine))}")
 
 
-def is_compiled(engine: Engine, jobs: int, *, holds: bool, only_simpy: str = "", many: int = MANY_JOBS) -> bool:
+def is_compiled(engine: Engine, jobs: int, *, holds: bool, only_simpy: str = "", many: int | None = None) -> bool:
     """Whether machine code runs it.
 
     jobs: about how many are simulated; holds: whether 64 bits hold its times; only_simpy: what was asked for that SimPy
-    alone can, by name; many: from so many on it is taken unasked. Raises InputError where machine code was asked for,
-    and cannot.
+    alone can, by name; many: from so many on it is taken unasked, `MANY_JOBS` if not given. Raises InputError where
+    machine code was asked for, and cannot.
     """
     if engine != "compiled":
-        return engine == "auto" and jobs >= many and holds and not only_simpy
+        return engine == "auto" and jobs >= (MANY_JOBS if many is None else many) and holds and not only_simpy
     if only_simpy:
         raise InputError(f"{option('engine')} compiled has no {only_simpy}: leave one of them out")
     if not holds:

@@ -197,7 +197,7 @@ def low_job(run: Run, kind: int, follows: int, k: int, now: int, due: int, work:
 def new_job(
     run: Run, kind: int, follows: int, step: int, priority: int, cpu: int, now: int, deadline: int, work: int
 ) -> int:
-    """Its row of `run.jobs`."""
+    """Its row among the jobs of the run."""
     state = run.state
     if state.unused == 0:
         state.full = 1
