@@ -71,7 +71,8 @@ def _clause(figure: Figure, asked: Question, with_probability: str, impossible: 
 def left_open(found: Answer, unit: str) -> Iterator[str]:
     """What finite samples have not seen. unit: of costs."""
     asked = found.question
-    confidence = "95 %" if len(asked.samples) == 1 else f"95 % for all {len(asked.samples)} samples together"
+    together = "" if len(asked.samples) == 1 else f" for all {len(asked.samples)} samples together"
+    confidence = f"95 %{together}, if independent"
     for kind, cost in asked.samples.items():
         n = len(cost.values)
         yield (

@@ -12,6 +12,8 @@ DIGITS, FEWER = 3, 2
 """Of what is left to 0 or 1, whichever is nearer; of bounds that differ, rounded outwards, fewer."""
 NOISE = Decimal("1e-14")
 """So near to 1 is 1: what sums of floating-point numbers tell."""
+LEAST = 1e-30
+"""What is less is not told apart: masses below 1e-32 are not followed."""
 NOT_RESOLVED = "not resolved"
 PLAIN = Decimal("0.001")
 """What is less has an exponent."""
@@ -24,6 +26,8 @@ def chance(bounds: Bounds, floor: float = 0.0) -> str:
         return f"{NOT_RESOLVED} below {at_most(floor)}"
     if not upper:
         return "impossible"
+    if upper < LEAST:
+        return f"at most {at_most(upper)}"
     if floor and lower > 1 - floor:
         return f"at least {_text(_rounded(max(lower - floor, 0.0), FEWER, ROUND_FLOOR))}"
     if _rounded(lower, DIGITS, ROUND_HALF_EVEN) == _rounded(upper, DIGITS, ROUND_HALF_EVEN):
@@ -37,7 +41,7 @@ def at_most(share: float) -> str:
     """Rounded up."""
     if not share:
         return "impossible"
-    return _text(_rounded(share, FEWER, ROUND_CEILING))
+    return _text(_rounded(max(share, LEAST), FEWER, ROUND_CEILING))
 
 
 def dependence(kind: str, correlation: float, n: int) -> str:
