@@ -1,4 +1,4 @@
-"""Logarithmic axes of probabilities, on which what is not resolved is shaded."""
+"""Logarithmic axes of probabilities, on which a shade covers what is not resolved."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ SHADE = "#efefef"
 
 
 def tail_axis(axes: Axes, least: float, resolved: float = 0.0) -> None:
-    """From 1 down to the decade of `least`. resolved: what is less is shaded."""
+    """From 1 down to the decade of `least`. resolved: what is less is covered by a shade."""
     low = 10.0 ** floor(log10(least))
     decades(axes, "y", low, 1.0, every=max(ceil(-log10(low) / MOST_DECADES), 1))
     if resolved > low:
-        axes.axhspan(low, resolved, facecolor=SHADE, edgecolor="white", hatch="////", lw=0, zorder=0)
+        axes.axhspan(low, resolved, facecolor=SHADE, edgecolor="white", hatch="////", lw=0, zorder=3)
         name = axes.annotate(
             "not resolved",
             (0, low),

@@ -24,6 +24,8 @@ DEEPEST, SHALLOWEST = 1e-18, 1e-2
 """Between these lies the lower end of an axis."""
 BELOW = 30
 """So far below what is resolved the axis ends."""
+CLEAR = 3
+"""So far below the least probability it ends where all are known."""
 PLOT_MM = 42.0
 DEADLINE = Line(RED, "-", "None")
 CURVE = Line(FILLS["HRU"].colour, "-", "None")
@@ -63,7 +65,7 @@ def _response(axes: Axes, found: Answer, kind: str, tail: Tail, rate: Fraction |
     due = _due(found.question, kind)
     high = float(times[np.flatnonzero(upper > axes.get_ylim()[0])[-1] + 1])
     if due is not None:
-        axes.axvline(scale * due, color=RED, lw=1.0)
+        axes.axvline(scale * due, color=RED, lw=1.0, zorder=4)
         high = max(high, scale * due)
     axes.set_xlim(0, 1.05 * high)
     axes.xaxis.set_major_locator(MaxNLocator(nbins=6))
@@ -78,7 +80,7 @@ def _landing(axes: Axes, found: Answer, cycle: CycleProbabilities) -> None:
     at = np.linspace(first, last + 1, last + 2 - first)
     _curve(axes, at, lower, np.minimum(upper, 1.0), found.resolution.cycle, FILLS["LRU"].colour)
     due = found.question.due
-    axes.axvline(due + 0.5, color=RED, lw=1.0)
+    axes.axvline(due + 0.5, color=RED, lw=1.0, zorder=4)
     reached = float(at[np.flatnonzero(upper > axes.get_ylim()[0])[-1] + 1]) if upper.any() else float(last)
     axes.set_xlim(min(first, due) - 0.5, max(reached, due) + 1.5)
     axes.xaxis.set_major_locator(MaxNLocator(nbins=8, integer=True))
@@ -88,7 +90,7 @@ def _landing(axes: Axes, found: Answer, cycle: CycleProbabilities) -> None:
 def _curve(axes: Axes, at: Floats, lower: Floats, upper: Floats, floor: float, colour: str) -> None:
     """Of steps, each from where it is to the next."""
     positive = upper[upper > 0]
-    end = floor / BELOW if floor else float(min(positive, default=SHALLOWEST))
+    end = floor / BELOW if floor else float(min(positive, default=SHALLOWEST)) / CLEAR
     tail_axis(axes, min(max(end, DEEPEST), SHALLOWEST), floor)
     low = axes.get_ylim()[0]
     least, most = (np.maximum(side, low / 10) for side in (lower, upper))

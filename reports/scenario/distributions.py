@@ -165,7 +165,7 @@ def _response(title: str, scenario: Scenario, figures: JobFigures, fill: Fill, d
     near = limit is not None and is_near(limit, 0, worst)
     notes = _response_notes(values, figures, unit)
     if limit is not None and not near:
-        notes.append(Note(f"deadline {limit:.3g} {unit}"))
+        notes.append(Note(f"deadline {_short(limit)} {unit}"))
     if figures.misses:
         notes.append(Note(f"{figures.misses} of {figures.decided} missed", missed=True))
 
@@ -198,12 +198,16 @@ def _response_notes(values: Sequence[float], figures: JobFigures, unit: str) -> 
     finished, released = len(values), figures.released
     spread = finished_or_not(values, released - finished)
     known = [(words, spread[name]) for name, words in (("median", "median"), ("p99", "99 % within"))]
-    said = [f"{words} {value:.3g}" for words, value in known if value is not None]
+    said = [f"{words} {_short(value)}" for words, value in known if value is not None]
     if said:
         said[-1] += f" {unit}"
     if finished < released:
         said.insert(0, f"{finished} of {released} finished")
     return [Note(text) for text in said]
+
+
+def _short(time: float) -> str:
+    return f"{time:.3g}" if time < 1000 else f"{time:,.0f}"
 
 
 def _achieved(sensor: Sensor, figures: SensorFigures) -> Cell:

@@ -49,6 +49,8 @@ def test_curves_are_the_tails() -> None:
     assert at(landing, 2.5) == pytest.approx(1e-6)
     assert {1.0, 1.5} <= {line.get_xdata()[0] for axes in (high, landing) for line in axes.lines}  # deadlines
     assert not [patch for axes in figure.axes for patch in axes.patches if patch.get_hatch()]
+    assert at(high, 0.9) > 2 * high.get_ylim()[0]  # the rarest is seen
+    assert at(landing, 2.5) > 2 * landing.get_ylim()[0]
 
 
 @pytest.mark.parametrize(
