@@ -19,6 +19,7 @@ from studies.probability.question import Question, certain, stated_and_constant
 from tests.reports.layout import flaws
 
 RARE = StatedCost([Fraction(10), Fraction(31)], [Fraction(999, 1000), Fraction(1, 1000)])
+FIGURE_3 = {"hr_propagate": 63, "hr_restart": 4, "hr_update": 3, "lr_propagate": 41}
 SAMPLE = StatedCost([Fraction(10), Fraction(12)] * 500, autocorrelation=0.0)
 
 
@@ -49,8 +50,16 @@ def test_curves_are_the_tails() -> None:
     assert at(landing, 2.5) == pytest.approx(1e-6)
     assert {1.0, 1.5} <= {line.get_xdata()[0] for axes in (high, landing) for line in axes.lines}  # deadlines
     assert not [patch for axes in figure.axes for patch in axes.patches if patch.get_hatch()]
-    assert at(high, 0.9) > 2 * high.get_ylim()[0]  # the rarest is seen
-    assert at(landing, 2.5) > 2 * landing.get_ylim()[0]
+
+
+def test_the_rarest_landing_is_above_the_end_of_the_axis() -> None:
+    stated = {kind: certain(Fraction(work)) for kind, work in FIGURE_3.items()}
+    stated["lr_update"] = StatedCost([Fraction(56), Fraction(61)], [1 - Fraction(1, 10**6), Fraction(1, 10**6)])
+    costs, constant, pieces = stated_and_constant(CostTable("", "us", {}), "dual-rate", Options(), stated, "minimum")
+    asked = Question("dual-rate", costs, constant, pieces, Timing(10, 4, 8), Fraction(78), cycles=3, bins=None)
+    landing = plot(tails_figure(answer(asked), None), "landing")
+    assert at(landing, 8.5) == pytest.approx(1e-6)
+    assert at(landing, 8.5) > 2 * landing.get_ylim()[0]
 
 
 @pytest.mark.parametrize(
