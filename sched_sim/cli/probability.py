@@ -129,7 +129,7 @@ def probability(
         design = design._replace(M=int(late.values[0]))
     timing = design.timing(method, options)
     if late is not None:
-        timing = replace(timing, M=int(late.values[0]))
+        timing = replace(timing, M=min(int(late.values[0]), timing.L))
     stated = flags.stated(distributions, cost, worst, method, table.unit)
     known, constant, pieces = stated_and_constant(table, method, options, stated, statistic)
     found = answer(

@@ -86,6 +86,11 @@ def read_cost_distributions(path: Path, method: str, unit: str) -> dict[str, Sta
     """
     what = f"{option('distributions')} {str(path)!r}"
     document = read_toml(path, what, "give the path of a TOML file with [distribution.KIND], or of samples")
+    if not document.keys() & {"distribution", "samples", "operations", "costs"}:
+        raise InputError(
+            f"{what} has no [distribution.KIND] and no [samples]: write unit = ... and for each kind of job that is "
+            f"random [distribution.KIND] with samples = [...], or values = [...] and probabilities = [...]"
+        )
     if "distribution" not in document:
         return _of_samples(read_sampled_costs(path, str(path)), method, unit, what)
     try:

@@ -203,6 +203,7 @@ def test_delays_that_are_none_are_refused(sched_sim: Run) -> None:
         ("--delays 4.5", "no whole number of HR steps"),
         ("--delays 40ms", "40ms without --hr-hz"),
         ("--delays -1", "-1 is negative"),
+        ("--delays 2,3:0.1 --method standard", "had for recalculate, larsen, carried-gain, clone and dual-rate"),
     ):
         is_refused(sched_sim(f"probability -N 10 --speed 0.78 {flags}"), [said])
 

@@ -90,6 +90,7 @@ def test_samples_of_parts_are_those_of_the_jobs_that_they_are(tmp_path: Path) ->
         (BY_KIND.replace("worst = 9", "worst = 3"), "dual-rate", "the worst case 3 is below 3.5, which was measured"),
         (BY_KIND.replace("samples = [1, 3.5, 2]", ""), "dual-rate", "give samples = [...], or values = [...] with"),
         (BY_KIND.replace("worst", "wurst"), "dual-rate", "wurst"),
+        ("[[task]]\nname = 'a'\n", "dual-rate", "has no [distribution.KIND] and no [samples]: write unit = ..."),
         (SAMPLES, "clone", "samples of a composed filter's parts, of which clone has none"),
         (SAMPLES + "imu = [1e-6]", "recalculate", "has parts of 2 sensors, gps, imu, and a design has one"),
         (SAMPLES, "dual-rate", "of which none is a kind of job of dual-rate"),
