@@ -79,7 +79,9 @@ def grid_of(given: Given, N: int, bins: int | None) -> Grid:
         if ticks <= MOST_TICKS:
             return Grid(int(ticks), unit, exact=True)
         bins = ceil(min(BINS, BINS_OF_A_CYCLE // N + 1) / least) * least
-    if bins % least or not 0 < bins <= MOST_BINS:
+    if bins > MOST_BINS and least <= MOST_BINS:
+        raise InputError(f"{option('bins')} is {bins}: at most {MOST_BINS} are followed; give fewer")
+    if bins % least or bins > MOST_BINS:
         raise InputError(
             f"{option('bins')} {bins} must be a multiple of {least}, at most {MOST_BINS}: tasks are released {least} "
             f"times within an HR period; round their periods and offsets"

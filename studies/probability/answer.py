@@ -70,7 +70,7 @@ class Answer:
     def late(self) -> Figure:
         """The correction lands later than by the L of the design; of a serial method, than in m."""
         what = f"lands after L = {self.question.due}"
-        return self._figure(what, "measurement", _late, self.resolution.cycle)
+        return self._figure(what, "measurement", lambda cycle: cycle.late, self.resolution.cycle)
 
     @property
     def landings(self) -> list[Figure]:
@@ -155,13 +155,8 @@ def random_costs(question: Question, costs: Mapping[str, CostDistribution]) -> R
     return cast("RandomCosts", record(**pieces))
 
 
-def _late(cycle: CycleProbabilities) -> Bounds:
-    """What is too far behind to be followed may be late."""
-    return Bounds(cycle.late.lower, max(cycle.late.upper, min(cycle.behind, 1.0)))
-
-
 def _landing(cycle: CycleProbabilities, L: int) -> Bounds:
-    """The same where nothing that is followed lands."""
+    """What is too far behind to be followed may land in any step."""
     return cycle.landing.get(L) or Bounds(0.0, min(cycle.behind, 1.0))
 
 

@@ -132,3 +132,11 @@ def test_corrections_that_land_together_may_do_so_where_longer_costs_part_them()
     nothing = CostDistribution.certain(0)
     low = CostDistribution.of_samples([10, 42]), nothing, CostDistribution.of_samples([41, 42])
     bins_bound_the_exact(Design(DualRateCosts(high, high, high, *low), Timing(2, 0, 1), Options(), None))
+
+
+def test_what_is_too_far_behind_to_be_followed_may_be_late() -> None:
+    certain = CostDistribution.certain
+    overloaded = RecalculateCosts(certain(Fraction(40)), certain(Fraction(1)), certain(Fraction(1)))
+    found = probabilities(overloaded, Timing(4, 1, 1), 30, cycles=21)
+    assert found.cycles[0].late == Bounds(1.0, 1.0)
+    assert (found.cycles[-1].behind, found.cycles[-1].late.upper) == (1.0, 1.0)

@@ -80,6 +80,7 @@ def task(**changed: Any) -> Task:
         (DUAL_RATE, Timing(4, 1, 2), {"dropout": 1.0}, "dropout is 1.0: it must be a probability"),
         (DUAL_RATE, Timing(4, 1, 2), {"delays": certain("1.5")}, "delays 1.5 must be whole HR steps"),
         (DUAL_RATE, Timing(4, 1, 2), {"bins": 0}, "bins is 0"),
+        (DUAL_RATE, Timing(4, 1, 2), {"bins": 10**5}, "bins is 100000: at most 16384"),
         (
             DUAL_RATE,
             Timing(4, 1, 2),
