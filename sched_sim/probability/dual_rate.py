@@ -106,6 +106,8 @@ class DualRate(LowRate[Front]):
         return parts
 
     def _settle(self, parts: Mapping[Front, Floats]) -> None:
+        if not self.levels:
+            return
         totals: defaultdict[Hashable, float] = defaultdict(float)
         for front, mass in parts.items():
             totals[front.to_apply] += float(mass.sum())

@@ -40,8 +40,11 @@ class Law:
         if len(self.values) > FEW:
             nothing = int(np.argmax(mass > 0))
             return np.concatenate([np.zeros(nothing), np.convolve(mass[nothing:], self.mass)])
-        total = np.zeros(len(mass) + self.worst)
-        for value in self.values:
+        first, *others = self.values
+        total = np.empty(len(mass) + self.worst)
+        total[:first] = total[first + len(mass) :] = 0.0
+        np.multiply(self.mass[first], mass, out=total[first : first + len(mass)])
+        for value in others:
             total[value : value + len(mass)] += self.mass[value] * mass
         return total
 
@@ -57,8 +60,9 @@ class Law:
 
 def sum_of(*masses: Floats) -> Floats:
     """Of laws that exclude one another."""
-    total = np.zeros(max(map(len, masses)))
-    for mass in masses:
+    longest, *others = sorted(masses, key=len, reverse=True)
+    total = longest.copy()
+    for mass in others:
         total[: len(mass)] += mass
     return total
 
@@ -83,8 +87,8 @@ def later_of(one: Floats, other: Floats) -> Floats:
 
 def cut(mass: Floats, most: int) -> tuple[Floats, float]:
     """Without what is more than so many ticks or not worth following, and the mass of that."""
-    worth = np.flatnonzero(mass[: most + 1] > NOTHING)
-    length = int(worth[-1]) + 1 if len(worth) else 1
+    worth = mass[most::-1] > NOTHING
+    length = max(len(worth) - int(np.argmax(worth)), 1) if worth.any() else 1
     return mass[:length], float(mass[length:].sum())
 
 

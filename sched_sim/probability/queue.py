@@ -87,7 +87,7 @@ class LowRate(ABC, Generic[Front]):
             if not front.drawn:
                 add(left, [(front, served(mass, segment.length))])
                 continue
-            done, rest = mass[: segment.length + 1], mass[segment.length :].copy()
+            done, rest = mass[: segment.length + 1].copy(), mass[segment.length :]
             if len(rest) > 1:
                 rest[0] = 0.0
                 add(left, [(front, rest)])
