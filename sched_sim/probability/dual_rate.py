@@ -192,7 +192,8 @@ class DualRate(LowRate[Front]):
         found = []
         if there:
             law = self.design.pieces.together({"lr_update": 1, "hr_update": front.missing[0]})
-            found.append((front._replace(drawn=True), there * law.added_to(mass)))
+            drawn = front._replace(drawn=True, missing=(0, *front.missing[1:]))
+            found.append((drawn, there * law.added_to(mass)))
         if later:
             found.append((front, later * mass))
         if lost:

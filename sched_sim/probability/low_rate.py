@@ -20,7 +20,8 @@ class Front(NamedTuple):
 
     cycle: 0 for the one that is not taken yet, -1 for the newest that is, and so on; drawn: it is there, and its work
     in the law; to_apply: HR updates that the next HR job has to do; missing: of this and each later cycle taken, how
-    many corrections were not in the state at its k.
+    many corrections were not in the state at its k, 0 of this one from when its LR update is drawn, which they are in:
+    so what goes on alike is followed once.
     """
 
     cycle: int
