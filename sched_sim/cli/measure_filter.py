@@ -155,9 +155,9 @@ def what_is_not_seen(samples: Samples) -> str:
 
 def in_runs(autocorrelation: Mapping[str, float]) -> str:
     """A line, if some parts' executions tell of their next ones."""
-    from sched_sim.costs.autocorrelation import DOUBTFUL
+    from sched_sim.costs.autocorrelation import DOUBTFUL, doubtful
 
-    parts = [part for part, each in autocorrelation.items() if abs(each) > DOUBTFUL]
+    parts = [part for part, each in autocorrelation.items() if doubtful(each)]
     if not parts:
         return ""
     return (

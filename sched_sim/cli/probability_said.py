@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from sched_sim.cli.output import units
-from sched_sim.costs.autocorrelation import DOUBTFUL
+from sched_sim.costs.autocorrelation import doubtful
 from sched_sim.probability.words import NOT_RESOLVED, at_most, chance, dependence
 
 if TYPE_CHECKING:
@@ -43,7 +43,7 @@ def sentence(found: Answer) -> str:
         f"how often a correction lands after L = {asked.due} is not resolved below {{}} per measurement",
     )
     worst = max(found.correlations.values(), key=abs, default=0.0)
-    doubt = f", which is doubtful: rank autocorrelation {worst:.2f}" if abs(worst) > DOUBTFUL else ""
+    doubt = f", which is doubtful: rank autocorrelation {worst:.2f}" if doubtful(worst) else ""
     return f"{high}; {late}. This holds for these distributions, executions independent{doubt}."
 
 

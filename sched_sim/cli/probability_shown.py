@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from sched_sim.cli.output import lines, print_csv, print_json, print_table
 from sched_sim.cli.probability_said import constants, in_long_run, independence, left_open, sentence
-from sched_sim.costs.autocorrelation import DOUBTFUL
+from sched_sim.costs.autocorrelation import doubtful
 from sched_sim.probability.outcome import Bounds, CycleProbabilities
 from sched_sim.probability.responses import LEVELS, exceeded_at_most, period_in
 from sched_sim.probability.words import NOT_RESOLVED, at_most, chance
@@ -244,5 +244,5 @@ def _sample(found: Answer, kind: str) -> dict[str, Any]:
         "unseen_most": found.question.unseen(kind),
         "worst": None if cost.worst is None else float(cost.worst),
         "rank_autocorrelation": correlation,
-        "independence_doubtful": None if correlation is None else abs(correlation) > DOUBTFUL,
+        "independence_doubtful": None if correlation is None else doubtful(correlation),
     }

@@ -3,13 +3,14 @@ were measured. Samples that are drawn one by one are independent, and a run of s
 
 from __future__ import annotations
 
+from math import sqrt
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 DOUBTFUL = 0.05
-"""From this rank autocorrelation on, either way, independence is doubtful."""
+"""Above this rank autocorrelation, either way, independence is."""
 
 
 def rank_autocorrelation(times: ArrayLike) -> float:
@@ -23,6 +24,16 @@ def rank_autocorrelation(times: ArrayLike) -> float:
     before, after = _ranks(ordered[:-1]), _ranks(ordered[1:])
     scale = np.sqrt(before @ before) * np.sqrt(after @ after)
     return float(before @ after / scale) if scale else 0.0
+
+
+def doubtful(correlation: float) -> bool:
+    """Whether executions with this rank autocorrelation may not be independent."""
+    return abs(correlation) > DOUBTFUL
+
+
+def by_chance(n: int) -> float:
+    """What the rank autocorrelation of n independent executions exceeds, either way, once in 20 times."""
+    return 1.96 / sqrt(n)
 
 
 def _ranks(times: NDArray[Any]) -> NDArray[np.float64]:

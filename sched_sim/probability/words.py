@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_HALF_EVEN, Decimal
 
-from sched_sim.costs.autocorrelation import DOUBTFUL
+from sched_sim.costs.autocorrelation import DOUBTFUL, by_chance, doubtful
 from sched_sim.probability.outcome import Bounds
-from sched_sim.probability.samples import by_chance
 
 DIGITS, FEWER = 3, 2
 """Of what is left to 0 or 1, whichever is nearer; of bounds that differ, rounded outwards, fewer."""
@@ -47,7 +46,7 @@ def at_most(share: float) -> str:
 def dependence(kind: str, correlation: float, n: int) -> str:
     """What the rank autocorrelation of a sample of n says of the independence of its executions."""
     said = f"Rank autocorrelation {correlation:.2f} ({kind}, n = {n:,})"
-    if abs(correlation) > DOUBTFUL:
+    if doubtful(correlation):
         also = f"; chance alone makes up to {by_chance(n):.2f}" if abs(correlation) <= by_chance(n) else ""
         return f"{said}: independence doubtful{also}"
     if by_chance(n) > DOUBTFUL:

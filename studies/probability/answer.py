@@ -7,12 +7,13 @@ from dataclasses import dataclass, replace
 from math import fsum
 from typing import Any, NamedTuple, cast
 
+from sched_sim.costs.autocorrelation import doubtful
 from sched_sim.design.drawn import marks
 from sched_sim.design.methods import METHODS
 from sched_sim.probability.cost_distribution import CostDistribution
 from sched_sim.probability.exact import RandomCosts, probabilities
 from sched_sim.probability.outcome import Bounds, CycleProbabilities, Probabilities
-from studies.probability.blocks import InBlocks, autocorrelations, doubtful, in_blocks
+from studies.probability.blocks import InBlocks, autocorrelations, in_blocks
 from studies.probability.question import Question
 from studies.probability.unseen import Resolution, distribution, resolution, with_unseen
 
@@ -114,7 +115,7 @@ def answer(question: Question) -> Answer:
     worst = any(cost.worst is not None for cost in question.samples.values())
     bound = _with_unseen(question, given) if worst else None
     correlations = autocorrelations(question)
-    blocks = in_blocks(question) if doubtful(correlations) else None
+    blocks = in_blocks(question) if any(map(doubtful, correlations.values())) else None
     return Answer(question, given, bound, resolution(question), correlations, blocks)
 
 

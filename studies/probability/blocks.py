@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from math import isqrt
 from random import Random
 
-from sched_sim.costs.autocorrelation import DOUBTFUL, rank_autocorrelation
+from sched_sim.costs.autocorrelation import rank_autocorrelation
 from sched_sim.design.drawn import Draw, run_drawn
 from sched_sim.probability.stated import StatedCost
 from sched_sim.scenario.distribution import wilson
@@ -63,10 +63,6 @@ def autocorrelations(question: Question) -> dict[str, float]:
         else cost.autocorrelation
         for kind, cost in question.samples.items()
     }
-
-
-def doubtful(correlations: dict[str, float]) -> dict[str, float]:
-    return {kind: value for kind, value in correlations.items() if abs(value) > DOUBTFUL}
 
 
 def in_blocks(question: Question) -> InBlocks | None:

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.stats import spearmanr
 
-from sched_sim.costs.autocorrelation import rank_autocorrelation
+from sched_sim.costs.autocorrelation import by_chance, rank_autocorrelation
 
 
 @given(st.lists(st.integers(1, 12), min_size=3, max_size=40))
@@ -30,3 +30,9 @@ def test_one_slow_execution_does_not_decide_it() -> None:
     slow = times.copy()
     slow[500:502] = 1e9
     assert abs(rank_autocorrelation(slow) - rank_autocorrelation(times)) < 0.01
+
+
+def test_chance_makes_as_much_once_in_20_times() -> None:
+    random = np.random.default_rng(0)
+    found = [abs(rank_autocorrelation(random.permutation(100))) > by_chance(100) for _ in range(1000)]
+    assert sum(found) / len(found) == pytest.approx(0.05, abs=0.02)
