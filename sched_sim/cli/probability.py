@@ -14,6 +14,7 @@ from sched_sim.cli import options as opt
 from sched_sim.cli.design_flags import with_options
 from sched_sim.cli.output import say
 from sched_sim.cli.outputs import refuse_one_file_for_two
+from sched_sim.cli.progress import progress_bar
 from sched_sim.costs.table import SECONDS
 from sched_sim.design.options import Options
 from sched_sim.errors import InputError
@@ -132,23 +133,23 @@ def probability(
         timing = replace(timing, M=min(int(late.values[0]), timing.L))
     stated = flags.stated(distributions, cost, worst, method, table.unit)
     known, constant, pieces = stated_and_constant(table, method, options, stated, statistic)
-    found = answer(
-        Question(
-            method=method,
-            costs=known,
-            constant=constant,
-            pieces=pieces,
-            timing=timing,
-            speed=_speed(speed, rate, table, part),
-            options=options,
-            tasks=opt.make_tasks(tasks, table.unit, rate),
-            delays=late,
-            dropout=flags.lost(dropout),
-            preempted=preempted,
-            cycles=cycles,
-            bins=bins,
-        )
+    asked = Question(
+        method=method,
+        costs=known,
+        constant=constant,
+        pieces=pieces,
+        timing=timing,
+        speed=_speed(speed, rate, table, part),
+        options=options,
+        tasks=opt.make_tasks(tasks, table.unit, rate),
+        delays=late,
+        dropout=flags.lost(dropout),
+        preempted=preempted,
+        cycles=cycles,
+        bins=bins,
     )
+    with progress_bar("Following, faster with fewer --bins") as progress:
+        found = answer(asked, progress)
     about = shown.About(found, table, rate, part, design.words)
     if format == "json":
         shown.print_document(about)

@@ -34,6 +34,7 @@ from sched_sim.probability.in_ticks import MOST_TICKS, Given, Rounded, grid_of, 
 from sched_sim.probability.model import Model
 from sched_sim.probability.outcome import CycleProbabilities, Probabilities
 from sched_sim.probability.tally import Tally
+from sched_sim.schedule.clock import OnProgress
 from sched_sim.schedule.tasks import Task
 from sched_sim.ticks import Number, positive
 
@@ -57,6 +58,7 @@ def probabilities(
     preempted: bool = False,
     bins: int | None = None,
     debt: int = 4,
+    on_progress: OnProgress | None = None,
 ) -> Probabilities:
     """Of the first `cycles` measurement cycles, and in the long run.
 
@@ -69,6 +71,8 @@ def probabilities(
     that pass meanwhile; else the HR job of m does it.
     bins: of an HR period, to which costs are rounded, up and down; None: none where costs are whole ticks of which a
     period has few. debt: so many cycles behind is followed, more if the design has more on their way.
+    on_progress: called with the cycles followed, those in all, and what they are; anew for each level of priority, and
+    for costs rounded down and up.
     Raises InputError for what is not had: its message names it.
     """
     tasks = checked(timing, options, tasks)
@@ -92,7 +96,7 @@ def probabilities(
         )
     rounded: tuple[Rounded, ...] = ("down",) if grid.exact else ("down", "up")
     models = [Model(costs, timing, options, given, grid, each, delay, debt, preempted=preempted) for each in rounded]
-    followed = [follow(model, cycles) for model in models]
+    followed = [follow(model, cycles, on_progress) for model in models]
     (lower,), uppers = followed[0].values(), followed[-1]
     arrive = 1.0 if delay is None else 1 - delay.lost
 
@@ -124,7 +128,7 @@ def _not_followed(long_run: CycleProbabilities, debt: int) -> str:
         return ""
     return (
         f"in {long_run.behind:.2g} of the cycles it is more than {debt} cycles behind or has not caught up since, and "
-        f"that is not followed: give a larger {option('debt')}, or more {option('bins')}"
+        f"that is not followed: give a faster processor, more {option('bins')}, or in Python a larger debt"
     )
 
 

@@ -8,12 +8,21 @@ from itertools import pairwise
 from sched_sim.design.taken import Taken
 from sched_sim.probability.long_run import Process, changed, shape_of
 from sched_sim.probability.tally import Tallies, Tally
+from sched_sim.schedule.clock import REPORTS, OnProgress
 
 SAME = 1e-13
 """A relative change of every mass that is rounding."""
 
 
-def first_cycles(process: Process, cycles: int, taken: Taken, hyperperiod: int, begin: int, after: int) -> list[Tally]:
+def first_cycles(
+    process: Process,
+    cycles: int,
+    taken: Taken,
+    hyperperiod: int,
+    begin: int,
+    after: int,
+    on_progress: OnProgress | None,
+) -> list[Tally]:
     """hyperperiod, begin: in steps, after which all repeats, and from which on; after: cycles until the correction of
     one has landed, or is no longer followed."""
     every = hyperperiod * taken.count // taken.steps
@@ -24,6 +33,8 @@ def first_cycles(process: Process, cycles: int, taken: Taken, hyperperiod: int, 
             (last, shape), (before, total) = (shape, shape_of(process)), (total, process.total)
             if taken.step(cycle) >= begin + hyperperiod and changed(last, shape) < SAME:
                 followed, stays = min(cycle, cycles), total / before if before else 1.0
+        if on_progress is not None and not cycle % max(cycles // REPORTS, 1):
+            on_progress(min(cycle, cycles), cycles, "cycles")
         process.advance(taken.step(cycle + 1), tallies)
         cycle += 1
     found = []

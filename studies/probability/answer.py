@@ -13,6 +13,7 @@ from sched_sim.design.methods import METHODS
 from sched_sim.probability.cost_distribution import CostDistribution
 from sched_sim.probability.exact import RandomCosts, probabilities
 from sched_sim.probability.outcome import Bounds, CycleProbabilities, Probabilities
+from sched_sim.schedule.clock import OnProgress
 from studies.probability.blocks import InBlocks, autocorrelations, in_blocks
 from studies.probability.question import Question
 from studies.probability.unseen import Resolution, distribution, resolution, with_unseen
@@ -109,31 +110,33 @@ class Answer:
         return Figure(what, per, first, last, long_run or None, floor, bound)
 
 
-def answer(question: Question) -> Answer:
+def answer(question: Question, on_progress: OnProgress | None = None) -> Answer:
     """Raises InputError for a design of which nothing is known exactly."""
-    given = exactly(question)
+    given = exactly(question, on_progress)
     worst = any(cost.worst is not None for cost in question.samples.values())
-    bound = _with_unseen(question, given) if worst else None
+    bound = _with_unseen(question, given, on_progress) if worst else None
     correlations = autocorrelations(question)
     blocks = in_blocks(question) if any(map(doubtful, correlations.values())) else None
     return Answer(question, given, bound, resolution(question), correlations, blocks)
 
 
-def exactly(question: Question) -> Probabilities:
+def exactly(question: Question, on_progress: OnProgress | None = None) -> Probabilities:
     """For the costs as they are stated."""
-    return _probabilities(question, {kind: distribution(cost) for kind, cost in question.costs.items()})
+    return _probabilities(question, {kind: distribution(cost) for kind, cost in question.costs.items()}, on_progress)
 
 
-def _with_unseen(question: Question, given: Probabilities) -> Probabilities:
+def _with_unseen(question: Question, given: Probabilities, on_progress: OnProgress | None) -> Probabilities:
     """Upper bounds. Where longer costs may also do good (`probability.dual_rate.Design`), exact costs do not bound
     those that are less, and rounded ones do: the worst case is half a tick more, so that it is rounded."""
     if given.exact and METHODS[question.method].law(question.options.feedback).only_first:
-        return _probabilities(question, with_unseen(question))
+        return _probabilities(question, with_unseen(question), on_progress)
     half = question.speed / given.ticks / 2
-    return _probabilities(replace(question, bins=given.ticks), with_unseen(question, half))
+    return _probabilities(replace(question, bins=given.ticks), with_unseen(question, half), on_progress)
 
 
-def _probabilities(question: Question, costs: Mapping[str, CostDistribution]) -> Probabilities:
+def _probabilities(
+    question: Question, costs: Mapping[str, CostDistribution], on_progress: OnProgress | None
+) -> Probabilities:
     return probabilities(
         random_costs(question, costs),
         question.timing,
@@ -145,6 +148,7 @@ def _probabilities(question: Question, costs: Mapping[str, CostDistribution]) ->
         dropout=question.dropout,
         preempted=question.preempted,
         bins=question.bins,
+        on_progress=on_progress,
     )
 
 

@@ -48,6 +48,13 @@ def test_an_update_that_takes_61_once_in_a_million_lands_a_step_later_once_in_a_
     assert document["probabilities"]["lands at L = 9"]["long_run"]["most"] == pytest.approx(1e-6, rel=1e-12)
 
 
+def test_what_mends_a_long_run_that_is_not_followed_is_had_on_the_command_line(sched_sim: Run) -> None:
+    out = sched_sim("probability -N 2 -M 0 --speed 10 --cost hr_propagate=2 --cost hr_restart=2 --cost hr_update=1 "
+        "--cost lr_propagate=1 --cost lr_update=1,300:0.01 --cycles 2").out  # fmt: skip
+    assert "and that is not followed: give a faster processor, more --bins" in out
+    assert set(re.findall("--[a-z]+", out)) <= set(re.findall("--[a-z]+", sched_sim("probability --help").out))
+
+
 def test_one_late_execution_makes_every_later_cycle_late_and_both_answers_are_given(sched_sim: Run) -> None:
     out = sched_sim(FOR_EVER).out
     assert "lands after L = 1 with probability 5e-7 per measurement in the first 1,000 cycles, with 1 in the" in out

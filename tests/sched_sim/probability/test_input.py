@@ -129,3 +129,11 @@ def test_where_nothing_can_be_followed_there_is_no_long_run() -> None:
     found = probabilities(costs, Timing(2, 3, 4), 60, 3, debt=2)
     assert found.long_run is None
     assert found.why_no_long_run == "the distribution of what is left to do does not settle"
+
+
+def test_progress_is_told_up_to_the_long_run() -> None:
+    told: list[tuple[int, int, str]] = []
+    probabilities(RECALCULATE, Timing(4, 1, 1), 60, 20, on_progress=lambda *progress: told.append(progress))
+    *cycles, last = told
+    assert last == (20, 20, "cycles, and the long run")
+    assert cycles == [(number, 20, "cycles") for number in range(len(cycles))] != []
