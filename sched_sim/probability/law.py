@@ -12,8 +12,9 @@ import numpy as np
 
 from sched_sim.probability.outcome import Floats
 
-FEW = 24
-"""A law of so few values is added value by value, which is faster than to convolve."""
+FEW, DENSE = 24, 1 / 8
+"""A law of so few values, or of so few of those from its least to its largest, is added value by value, which is faster
+than to convolve."""
 
 NOTHING = 1e-32
 """A mass that is not followed; what is left out is counted."""
@@ -37,10 +38,10 @@ class Law:
 
     def added_to(self, mass: Floats) -> Floats:
         """The law of a sum, of a work and one execution."""
-        if len(self.values) > FEW:
-            nothing = int(np.argmax(mass > 0))
-            return np.concatenate([np.zeros(nothing), np.convolve(mass[nothing:], self.mass)])
         first, *others = self.values
+        if len(self.values) > max(FEW, DENSE * (self.worst - first)):
+            nothing = int(np.argmax(mass > 0))
+            return np.concatenate([np.zeros(nothing + first), np.convolve(mass[nothing:], self.mass[first:])])
         total = np.empty(len(mass) + self.worst)
         total[:first] = total[first + len(mass) :] = 0.0
         np.multiply(self.mass[first], mass, out=total[first : first + len(mass)])
