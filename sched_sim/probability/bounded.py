@@ -16,24 +16,25 @@ def bounded(lower: Tally, uppers: Mapping[int, Tally], arrive: float, *, exact: 
     """Of one cycle. uppers: by how many HR updates are charged to each HR job, each an upper bound; arrive: the
     probability that its measurement does; exact: whether there is one, and it is the lower one too."""
     first = next(iter(uppers.values()))
-    behind = max(lower.behind, *(upper.behind for upper in uppers.values()))
+    behind = max(lower.behind, first.behind)
     late = between(lower.late / lower.due, first.late / first.due + behind) if lower.due else between(0.0, behind)
     misses, responses = {}, {}
     for kind, jobs in lower.jobs.items():
         found = [up.missed[kind] / up.jobs[kind] + _not_in(kind, n, up) for n, up in uppers.items() if kind in up.jobs]
-        misses[kind] = between(lower.missed[kind] / jobs, min(found, default=1.0) + behind)
+        misses[kind] = between(lower.missed[kind] / jobs, min(found, default=1.0))
     if "lr_propagate" in misses or "lr_update" in lower.responses:
         misses["lr_update"] = late
     for kind in lower.responses:
         tails = [_tail(kind, up) + _not_in(kind, n, up) for n, up in uppers.items() if kind in up.responses]
-        responses[kind] = _between_tails(_tail(kind, lower), tails or [np.ones(1)], behind)
+        responses[kind] = _between_tails(_tail(kind, lower), tails or [np.ones(1)])
     landing = _landing_exactly(lower, behind) if exact else _landing_between(lower, first, arrive, behind)
     return CycleProbabilities(misses, landing, late, responses, behind)
 
 
 def _not_in(kind: str, charged: int, upper: Tally) -> float:
-    """The mass of more HR updates than are charged to HR jobs, which delay these and tasks, but no LR jobs."""
-    return 0.0 if kind.startswith("lr") else upper.crowded[charged]
+    """The mass that is not followed, and that of more HR updates than are charged to HR jobs, which delay these and
+    tasks, but no LR jobs."""
+    return upper.behind + (0.0 if kind.startswith("lr") else upper.crowded[charged])
 
 
 def between(lower: float, upper: float) -> Bounds:
@@ -46,11 +47,11 @@ def _tail(kind: str, tally: Tally) -> Floats:
     return exceedance(tally.responses[kind] / tally.jobs.get(kind, tally.due))
 
 
-def _between_tails(lower: Floats, uppers: Sequence[Floats], behind: float) -> Tail:
+def _between_tails(lower: Floats, uppers: Sequence[Floats]) -> Tail:
     length = max(map(len, (lower, *uppers)))
     low, *ups = (np.pad(tail, (0, length - len(tail)), "edge") for tail in (lower, *uppers))
     low = np.minimum(low, 1.0)
-    return Tail(low, np.minimum(np.maximum(np.minimum.reduce(ups), low) + behind, 1.0))
+    return Tail(low, np.minimum(np.maximum(np.minimum.reduce(ups), low), 1.0))
 
 
 def _landing_exactly(tally: Tally, behind: float) -> dict[int, Bounds]:

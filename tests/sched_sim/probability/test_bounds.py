@@ -140,3 +140,16 @@ def test_what_is_too_far_behind_to_be_followed_may_be_late() -> None:
     found = probabilities(overloaded, Timing(4, 1, 1), 30, cycles=21)
     assert found.cycles[0].late == Bounds(1.0, 1.0)
     assert (found.cycles[-1].behind, found.cycles[-1].late.upper) == (1.0, 1.0)
+
+
+def test_a_bound_with_too_many_HR_updates_to_follow_does_not_spoil_that_with_fewer() -> None:
+    certain = CostDistribution.certain
+    lr_update = CostDistribution((20, 22), (0.5, 0.5))
+    costs = DualRateCosts(certain(50), certain(50), certain(20), certain(10), certain(0), lr_update)
+    beside = [Task("control", period=4, cost=25, priority=5, offset=2)]
+    found = probabilities(costs, Timing(4, 0, 4), 80, 9, tasks=beside, bins=100)
+    assert found.long_run is not None
+    for cycle in found.cycles:
+        assert cycle.behind == 0
+        assert cycle.late == Bounds(0, 0)
+        assert cycle.hr_miss.upper <= found.long_run.hr_miss.upper + ROUNDING
