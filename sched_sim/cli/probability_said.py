@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from sched_sim.cli.output import units
 from sched_sim.costs.autocorrelation import doubtful
-from sched_sim.probability.words import NOT_RESOLVED, at_most, chance, dependence
+from sched_sim.probability.words import IMPOSSIBLE, NOT_RESOLVED, VANISHES, at_most, chance, clause_of, dependence
 
 if TYPE_CHECKING:
     from fractions import Fraction
@@ -22,7 +22,7 @@ def in_long_run(figure: Figure) -> str:
     """What comes again and again less often is not impossible."""
     assert figure.long_run is not None
     said = chance(figure.long_run, figure.floor)
-    return "vanishes" if said == "impossible" and figure.last.upper else said
+    return VANISHES if said == IMPOSSIBLE and figure.last.upper else said
 
 
 def sentence(found: Answer) -> str:
@@ -51,7 +51,7 @@ def _clause(figure: Figure, asked: Question, with_probability: str, impossible: 
     def said(words: str) -> str:
         if words.startswith(NOT_RESOLVED):
             return unresolved.format(at_most(figure.floor))
-        return impossible if words == "impossible" else with_probability.format(words)
+        return impossible if words == IMPOSSIBLE else with_probability.format(words)
 
     first = chance(figure.first, figure.floor)
     long_run = None if figure.long_run is None else in_long_run(figure)
@@ -62,7 +62,7 @@ def _clause(figure: Figure, asked: Question, with_probability: str, impossible: 
     clause = said(first)
     if long_run != first:
         clause += f" in the first {asked.cycles:,} cycles" if asked.cycles > 1 else " in the first cycle"
-        clause += "" if long_run is None else f", with {long_run} in the long run"
+        clause += "" if long_run is None else f", {clause_of(long_run)} in the long run"
     if figure.bound:
         clause += f", at most {at_most(figure.bound)} with all that samples have not seen at your worst case (95 %)"
     return clause

@@ -13,7 +13,9 @@ NOISE = Decimal("1e-14")
 """So near to 1 is 1: what sums of floating-point numbers tell."""
 LEAST = 1e-30
 """What is less is not told apart: masses below 1e-32 are not followed."""
-NOT_RESOLVED = "not resolved"
+NOT_RESOLVED, IMPOSSIBLE, VANISHES = "not resolved", "impossible", "vanishes"
+FEWEST = 4
+"""Of fewer executions chance makes any correlation."""
 PLAIN = Decimal("0.001")
 """What is less has an exponent."""
 
@@ -24,10 +26,12 @@ def chance(bounds: Bounds, floor: float = 0.0) -> str:
     if upper < floor:
         return f"{NOT_RESOLVED} below {at_most(floor)}"
     if not upper:
-        return "impossible"
+        return IMPOSSIBLE
     if upper < LEAST:
         return f"at most {at_most(upper)}"
     if floor and lower > 1 - floor:
+        if lower <= floor:
+            return f"{NOT_RESOLVED} below {at_most(floor)}"
         return f"at least {_text(_rounded(max(lower - floor, 0.0), FEWER, ROUND_FLOOR))}"
     if _rounded(lower, DIGITS, ROUND_HALF_EVEN) == _rounded(upper, DIGITS, ROUND_HALF_EVEN):
         return _text(_rounded(upper, DIGITS, ROUND_HALF_EVEN))
@@ -39,12 +43,21 @@ def chance(bounds: Bounds, floor: float = 0.0) -> str:
 def at_most(share: float) -> str:
     """Rounded up."""
     if not share:
-        return "impossible"
+        return IMPOSSIBLE
     return _text(_rounded(max(share, LEAST), FEWER, ROUND_CEILING))
+
+
+def clause_of(said: str) -> str:
+    """What a table says of a probability, within a sentence."""
+    if said == VANISHES:
+        return said
+    return f"is {said}" if said.startswith((IMPOSSIBLE, NOT_RESOLVED)) else f"with {said}"
 
 
 def dependence(kind: str, correlation: float, n: int) -> str:
     """What the rank autocorrelation of a sample of n says of the independence of its executions."""
+    if n < FEWEST:
+        return f"Rank autocorrelation of {kind}: not known, n = {n}"
     said = f"Rank autocorrelation {correlation:.2f} ({kind}, n = {n:,})"
     if doubtful(correlation):
         also = f"; chance alone makes up to {by_chance(n):.2f}" if abs(correlation) <= by_chance(n) else ""

@@ -8,10 +8,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from sched_sim.costs.autocorrelation import by_chance
 from sched_sim.probability.outcome import Bounds, Tail
 from sched_sim.probability.responses import exceeded_at_most, period_in
 from sched_sim.probability.samples import unseen_mass
-from sched_sim.probability.words import at_most, chance, dependence
+from sched_sim.probability.words import at_most, chance, clause_of, dependence
 
 
 @pytest.mark.parametrize(
@@ -31,6 +32,8 @@ from sched_sim.probability.words import at_most, chance, dependence
         (1e-3, 1e-2, 3e-3, "at most 0.014"),
         (0.2, 0.2, 3e-3, "0.2"),
         (1.0, 1.0, 3e-3, "at least 0.997"),
+        (1.0, 1.0, 1.0, "not resolved below 1"),
+        (0.9, 0.9, 0.95, "not resolved below 0.95"),
     ],
 )
 def test_by_hand(lower: float, upper: float, floor: float, said: str) -> None:
@@ -63,6 +66,23 @@ def test_dependence_is_said_with_what_chance_makes() -> None:
     assert dependence("x", 0.06, 100).endswith("independence doubtful; chance alone makes up to 0.20")
     assert dependence("x", 0.01, 100).endswith("too few to tell, chance alone makes up to 0.20")
     assert dependence("x", 0.01, 10_000).endswith("nothing against independence from one execution to the next")
+    assert dependence("x", 0.0, 1) == "Rank autocorrelation of x: not known, n = 1"
+    assert by_chance(4) < 1 <= by_chance(3)
+    assert by_chance(10_000) == pytest.approx(0.0196)
+
+
+@pytest.mark.parametrize(
+    ("said", "clause"),
+    [
+        ("vanishes", "vanishes"),
+        ("impossible", "is impossible"),
+        ("not resolved below 0.003", "is not resolved below 0.003"),
+        ("1e-6", "with 1e-6"),
+        ("at most 1e-6", "with at most 1e-6"),
+    ],
+)
+def test_what_a_table_says_fits_into_a_sentence(said: str, clause: str) -> None:
+    assert clause_of(said) == clause
 
 
 def test_response_times_are_by_the_upper_bound() -> None:
