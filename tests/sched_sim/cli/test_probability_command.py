@@ -9,6 +9,7 @@ import re
 from pathlib import Path
 
 import pytest
+from scipy.stats import poisson
 
 from studies.probability import blocks
 from tests.command_line import Run, is_refused
@@ -135,6 +136,15 @@ def test_a_worst_case_gives_an_upper_bound(sched_sim: Run, sampled: str) -> None
     assert 0.003 < missed["with_unseen_most"] < 0.03
     beyond_doubt = json.loads(sched_sim(f"{sampled} --worst update=7us --format json").out)["probabilities"]
     assert beyond_doubt["hr missed"]["with_unseen_most"] == 0  # 3 + 7 us are no more than the period
+
+
+def test_a_bound_of_what_was_seen_does_not_cover_how_often_it_was(sched_sim: Run, tmp_path: Path, sampled: str) -> None:
+    measured(tmp_path, [2.0, 5.0, 3.0, 8.0] * 25)
+    out = " ".join(sched_sim(f"{sampled} --worst 60us").out.split())
+    assert "not seen (95 %) at your worst case, and what they have seen as often as in them" in out
+    for times, often in ((1, 5.6), (10, 1.9), (100, 1.3)):
+        assert poisson.cdf(times, times * often) < 0.025 < poisson.cdf(times, times * (often - 0.1))
+    assert "once may come 5.6 times as often, what was ten times 1.9 times, a hundred times 1.3 times (95 %)" in out
 
 
 def test_samples_in_a_row_make_independence_doubtful(sched_sim: Run, tmp_path: Path, sampled: str) -> None:
