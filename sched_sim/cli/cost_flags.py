@@ -130,7 +130,7 @@ def _with_worst(costs: Mapping[str, StatedCost], worst: Sequence[str], method: s
             )
         most = _cost(cost, unit, what)
         for kind in kinds:
-            found[kind] = replace(found[kind], worst=most, source=f"{what}, {kind}")
+            found[kind] = replace(found[kind], worst=most, source=f"{what}, {kind}, in {unit}")
     return {kind: replace(cost, source=costs[kind].source) for kind, cost in found.items()}
 
 

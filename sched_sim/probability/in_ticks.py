@@ -97,7 +97,8 @@ def law_of(distribution: CostDistribution, grid: Grid, rounded: Rounded, what: s
     if ticks[-1] > LONGEST * grid.ticks:
         raise InputError(
             f"{what} takes up to {float(distribution.worst):g}, which is {ticks[-1] / grid.ticks:.3g} HR periods: at "
-            f"most {LONGEST} are followed; give a faster processor"
+            f"most {LONGEST} are followed; give a faster processor, or mend the cost: without a unit of its own it is "
+            f"in that of the cost table"
         )
     mass = np.zeros(ticks[-1] + 1)
     np.add.at(mass, ticks, distribution.probabilities)

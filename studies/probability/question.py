@@ -12,7 +12,7 @@ from sched_sim.design.methods import METHODS
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import Statistic
 from sched_sim.design.timing import Timing
-from sched_sim.errors import InputError
+from sched_sim.errors import InputError, option
 from sched_sim.probability.cost_distribution import CostDistribution
 from sched_sim.probability.samples import unseen_mass
 from sched_sim.probability.stated import StatedCost
@@ -76,7 +76,10 @@ def stated_and_constant(
     run = [kind for kind in pieces.values() if kind is not None]
     for kind, cost in stated.items():
         if kind not in run:
-            raise InputError(f"{cost.source}: {kind} does not run with these options: what runs is {', '.join(run)}")
+            others = f"; {option('gain')} and {option('low_rate_noise')} choose others" if method == "dual-rate" else ""
+            raise InputError(
+                f"{cost.source}: {kind} does not run with these options: what runs is {', '.join(run)}{others}"
+            )
     constant = [kind for kind in run if kind not in stated]
     return (
         {kind: stated[kind] if kind in stated else certain(getattr(in_table[kind], statistic)) for kind in run},

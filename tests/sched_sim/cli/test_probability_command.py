@@ -192,7 +192,7 @@ BAD: dict[str, tuple[str, list[str]]] = {
     "twice": ("--cost lr_update=5 --cost lr_update=6", ["lr_update is given twice"]),
     "number": ("--cost lr_update=fast", ["--cost lr_update=fast", "is no cost"]),
     "unit": ("--cost lr_update=5us", ["5us is a time, and costs are in units of standard step"]),
-    "other option": ("--cost lr_gain=5", ["lr_gain does not run with these options", "lr_update"]),
+    "other option": ("--cost lr_gain=5", ["lr_gain does not run with these options", "lr_update", "--gain"]),
     "worst": ("--worst 60", ["no kind of job has samples"]),
     "worst of one": ("--cost lr_update=5 --worst lr_update=60", ["lr_update has no samples"]),
     "delays": ("--delays 4:0.5,6:0.6", ["exclude each other"]),
@@ -211,7 +211,8 @@ def test_bad_input_is_one_message(sched_sim: Run, case: str) -> None:
 
 
 def test_a_worst_case_below_a_sample_is_refused(sched_sim: Run, sampled: str) -> None:
-    is_refused(sched_sim(f"{sampled} --worst 4us"), ["--worst 4us", "the worst case 4 is below 5, which was measured"])
+    said = ["--worst 4us", "in us: the worst case 4 is below 5, which was measured"]
+    is_refused(sched_sim(f"{sampled} --worst 4us"), said)
 
 
 def test_delays_that_are_none_are_refused(sched_sim: Run) -> None:
