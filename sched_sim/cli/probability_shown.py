@@ -112,6 +112,11 @@ def _bounds_note(found: Answer) -> list[str]:
         )
     if given.long_run is None:
         notes.append(f"No long run: {given.why_no_long_run}")
+    if found.not_followed > found.late.last.lower:
+        notes.append(
+            f"Further behind than is followed with a probability of at most {at_most(found.not_followed)}: that is in "
+            f"every upper bound, and may land at an L that has no row"
+        )
     if given.lost:
         share = chance(Bounds(given.lost, given.lost))
         notes.append(f"A measurement never arrives with probability {share}, and lands nowhere")

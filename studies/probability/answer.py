@@ -80,6 +80,11 @@ class Answer:
         return [self._landing(L) for L in steps]
 
     @property
+    def not_followed(self) -> float:
+        """The most that is further behind than is followed, and may land at any L."""
+        return min(1.0, max(cycle.behind for cycle in _all(self.given)))
+
+    @property
     def any_hr_miss(self) -> Bounds:
         """In the first cycles: at least that of the worst of them, at most the sum over all jobs."""
         each = [cycle.hr_miss for cycle in self.given.cycles]

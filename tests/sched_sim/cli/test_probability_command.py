@@ -177,6 +177,12 @@ def test_bins_give_bounds(sched_sim: Run) -> None:
     assert "costs are rounded to 100 parts of an HR period, down and up" in out
 
 
+def test_what_is_not_followed_may_land_where_no_row_is(sched_sim: Run) -> None:
+    coarse = " ".join(sched_sim(f"{LATE_UPDATE} --bins 1 --cycles 20").out.split())
+    assert "Further behind than is followed with a probability of at most 1: that is in every upper bound" in coarse
+    assert "Further behind" not in sched_sim(f"{LATE_UPDATE} --cycles 20").out
+
+
 def test_the_tails_are_drawn(sched_sim: Run, tmp_path: Path) -> None:
     picture = tmp_path / "tails.svg"
     assert sched_sim(f"{HELD_UP} --cycles 3 --histogram {picture}").code == 0

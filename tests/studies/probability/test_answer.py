@@ -81,6 +81,7 @@ def test_what_piles_up_without_end_is_never_called_impossible() -> None:
     stated = {"propagate": certain(Fraction(11)), "update": certain(Fraction(3)), "replay": certain(Fraction(3))}
     found = answer(replace(question("recalculate", stated, Timing(10, 4, 4), 10), cycles=60))
     assert found.late.long_run is None
+    assert found.not_followed == 1
     for figure in found.figures:  # in the last cycle all is further behind than is followed
         assert figure.last.upper == 1
 
