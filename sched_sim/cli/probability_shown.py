@@ -160,7 +160,7 @@ def _flat(figure: Figure) -> dict[str, Any]:
     for when, bounds in (("first", figure.first), ("last", figure.last), ("long_run", figure.long_run)):
         known = bounds_document(bounds, figure.floor) or dict.fromkeys(("least", "most", "impossible"))
         row |= {f"{when}_{name}": value for name, value in known.items()}
-    return row | {"resolved_above": figure.floor or None, "with_unseen_most": figure.bound}
+    return row | _left_open_document(figure)
 
 
 def _about(about: About) -> dict[str, Any]:
@@ -214,8 +214,16 @@ def _document(figure: Figure) -> dict[str, Any]:
         "first": bounds_document(figure.first, figure.floor),
         "last": bounds_document(figure.last, figure.floor),
         "long_run": bounds_document(figure.long_run, figure.floor),
+        **_left_open_document(figure),
+    }
+
+
+def _left_open_document(figure: Figure) -> dict[str, float | bool | None]:
+    """By samples. The last two are None where there is no bound; 0 is impossible, at the declared worst cases."""
+    return {
         "resolved_above": figure.floor or None,
         "with_unseen_most": figure.bound,
+        "with_unseen_impossible": None if figure.bound is None else not figure.bound,
     }
 
 

@@ -134,8 +134,9 @@ def test_a_worst_case_gives_an_upper_bound(sched_sim: Run, sampled: str) -> None
     assert "update 60 us" in out
     missed = json.loads(sched_sim(f"{sampled} --worst 60us --format json").out)["probabilities"]["hr missed"]
     assert 0.003 < missed["with_unseen_most"] < 0.03
+    assert missed["with_unseen_impossible"] is False
     beyond_doubt = json.loads(sched_sim(f"{sampled} --worst update=7us --format json").out)["probabilities"]
-    assert beyond_doubt["hr missed"]["with_unseen_most"] == 0  # 3 + 7 us are no more than the period
+    assert beyond_doubt["hr missed"]["with_unseen_impossible"] is True  # 3 + 7 us are no more than the period
 
 
 def test_a_bound_of_what_was_seen_does_not_cover_how_often_it_was(sched_sim: Run, tmp_path: Path, sampled: str) -> None:
