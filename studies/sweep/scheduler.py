@@ -42,7 +42,7 @@ def cluster(address: str, sweep: Sweep) -> Iterator[Compute]:
     from distributed.utils import silence_logging_cmgr
 
     where = f"{option('dask')} {address}"
-    with silence_logging_cmgr(logging.CRITICAL):
+    with silence_logging_cmgr(logging.CRITICAL + 1):
         client = _connected(address, where)
         try:
             _compare(client, sweep, where)
@@ -66,16 +66,12 @@ def _connected(address: str, where: str) -> distributed.Client:
     from distributed import Client
 
     try:
-        kind = asyncio.run(asyncio.wait_for(_kind(address), ANSWER_S))
+        kind = asyncio.run(asyncio.wait_for(_kind(address, where), ANSWER_S))
         if kind in ("Worker", "Nanny"):
             raise InputError(f"{where}: that is a {kind.lower()}: give the address of its scheduler")
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of versions, which are compared here
             return Client(address, timeout=ANSWER_S, set_as_default=False)
-    except TypeError:  # of Dask, which has no keys
-        raise InputError(
-            f"{where}: there are no keys for TLS: name their files in Dask's configuration, under distributed.comm.tls"
-        ) from None
     except OSError as error:
         raise InputError(
             f"{where}: no scheduler answers ({str(error) or f'nothing for {ANSWER_S:g} s'}): correct the address, or "
@@ -83,17 +79,29 @@ def _connected(address: str, where: str) -> distributed.Client:
         ) from None
 
 
-async def _kind(address: str) -> str:
+async def _kind(address: str, where: str) -> str:
     """What of Dask listens there. A client that finds nothing there, or not a scheduler, would be long in ending."""
     from distributed.comm import connect
     from distributed.security import Security
 
-    comm = await connect(address, ANSWER_S, **Security().get_connection_args("client"))
+    security = Security().get_connection_args("client")
+    if address.startswith("tls") and security["ssl_context"] is None:
+        raise InputError(
+            f"{where}: there are no keys for TLS: name their files in Dask's configuration, under distributed.comm.tls"
+        )
     try:
-        await comm.write({"op": "identity", "reply": True})
-        return str((await comm.read())["type"])
-    finally:
-        await comm.close()
+        comm = await connect(address, ANSWER_S, **security)
+        try:
+            await comm.write({"op": "identity", "reply": True})
+            return str((await comm.read())["type"])
+        finally:
+            await comm.close()
+    except OSError:
+        raise
+    except Exception:  # Dask takes whatever it reads for lengths and messages of its own
+        raise InputError(
+            f"{where}: what listens there is not of Dask: give the address that `dask scheduler` prints"
+        ) from None
 
 
 def _compare(client: distributed.Client, sweep: Sweep, where: str) -> None:

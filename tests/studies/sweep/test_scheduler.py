@@ -2,8 +2,10 @@
 
 import os
 import socket
+import struct
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from importlib.util import find_spec
 
 import pytest
@@ -53,6 +55,20 @@ def test_no_scheduler_answers(monkeypatch, sched_sim):
         busy = silent.getsockname()[1]
         assert f"--dask tcp://127.0.0.1:{busy}: no scheduler answers" in refused(sched_sim, f"--dask 127.0.0.1:{busy}")
     assert f"--dask tcp://127.0.0.1:{busy}: no scheduler answers" in refused(sched_sim, f"--dask 127.0.0.1:{busy}")
+
+
+@needs_dask
+@pytest.mark.parametrize("greeting", [b"SSH-2.0-OpenSSH_9.6\r\n", bytes(64), struct.pack("<3Q", 8, 0, 0)])
+def test_what_listens_is_not_of_dask(sched_sim, greeting):
+    """Dask takes it for lengths: of more than memory holds, of nothing, of a message without parts."""
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        address = f"tcp://127.0.0.1:{server.getsockname()[1]}"
+        with ThreadPoolExecutor(1) as pool:
+            met = pool.submit(lambda: server.accept()[0])
+            met.add_done_callback(lambda there: there.result().sendall(greeting))
+            said = refused(sched_sim, f"--dask {address}")
+            met.result().close()
+    assert said.startswith(f"Error: --dask {address}: what listens there is not of Dask: give the address")
 
 
 @needs_dask
