@@ -111,7 +111,8 @@ def test_a_worker_without_this_project_is_refused(dask):
     refused = r"worker tcp://127\.0\.0\.1:\d+ cannot run .*install the same"
     with pytest.raises(InputError, match=refused), cluster(dask.address, SWEEP):
         pass
-    stranger.kill()
+    stranger.terminate()  # and it signs off
+    stranger.wait()
 
 
 def test_a_worker_is_no_scheduler(dask):
