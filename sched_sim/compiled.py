@@ -26,6 +26,11 @@ from typing import Any, TypeVar
 F = TypeVar("F", bound=Callable[..., Any])
 
 
+def compiles() -> bool:
+    """Whether numba does: with NUMBA_DISABLE_JIT it gives plain functions."""
+    return not import_module("numba").config.DISABLE_JIT
+
+
 @cache
 def compiled(function: F, *, makes_arrays: bool = False) -> F:
     """The numba version, compiled as it is called with arguments of new types.
@@ -36,7 +41,7 @@ def compiled(function: F, *, makes_arrays: bool = False) -> F:
     """
     reached = _reached(function)
     version = _version(function, makes_arrays, {})
-    if hasattr(version, "_cache"):  # with NUMBA_DISABLE_JIT numba gives a plain function
+    if hasattr(version, "_cache"):  # it is no plain function
         with suppress(OSError, RuntimeError):  # of a source that cannot be read, and of a user without a home
             version._cache = _Kept(function.__name__, _hash(reached, makes_arrays))
     return version  # type: ignore[no-any-return]

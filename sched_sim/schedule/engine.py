@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Literal, TypeAlias, get_args
 
 from sched_sim.bounds import short
+from sched_sim.compiled import compiles
 from sched_sim.errors import InputError, option
 
 Engine: TypeAlias = Literal["auto", "simpy", "compiled"]
@@ -30,7 +31,8 @@ def is_compiled(engine: Engine, jobs: int, *, holds: bool, only_simpy: str = "",
     machine code was asked for, and cannot.
     """
     if engine != "compiled":
-        return engine == "auto" and jobs >= (MANY_JOBS if many is None else many) and holds and not only_simpy
+        wanted = engine == "auto" and jobs >= (MANY_JOBS if many is None else many) and holds and not only_simpy
+        return wanted and compiles()
     if only_simpy:
         raise InputError(f"{option('engine')} compiled has no {only_simpy}: leave one of them out")
     if not holds:
@@ -38,4 +40,6 @@ def is_compiled(engine: Engine, jobs: int, *, holds: bool, only_simpy: str = "",
             f"{option('engine')} compiled: times and work in the ticks in which all is whole do not fit into 64 bits; "
             f"give {option('engine')} simpy, which takes any, or costs and times with fewer digits"
         )
+    if not compiles():
+        raise InputError(f"NUMBA_DISABLE_JIT is set: unset it, or give {option('engine')} simpy")
     return True

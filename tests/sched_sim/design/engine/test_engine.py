@@ -7,6 +7,7 @@ from fractions import Fraction
 from random import Random
 from typing import Any
 
+import numba
 import pytest
 
 from sched_sim.design.engine.run import kinds_of, run_plans, schedule_of
@@ -148,6 +149,14 @@ def test_what_machine_code_cannot_is_refused(design: Any, asked: Any, said: str)
 def test_simpy_takes_over_where_64_bits_are_not_enough(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(engine, "MANY_JOBS", 1)
     assert simulate(FIGURE_3, TIMING, Fraction(78 * 10**17 + 1, 10**17), 9).horizon > 2**63
+
+
+def test_simpy_takes_over_where_numba_does_not_compile(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(numba.config, "DISABLE_JIT", 1)
+    monkeypatch.setattr(engine, "MANY_JOBS", 1)
+    assert simulate(FIGURE_3, TIMING, 78, 3) == simulate(FIGURE_3, TIMING, 78, 3, engine="simpy")
+    with pytest.raises(InputError, match="NUMBA_DISABLE_JIT is set: unset it, or give engine simpy"):
+        simulate(FIGURE_3, TIMING, 78, 3, engine="compiled")
 
 
 @pytest.mark.parametrize("by", ["simpy", "compiled"])
