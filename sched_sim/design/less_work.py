@@ -21,7 +21,16 @@ from sched_sim.design.landing import landing
 from sched_sim.design.least_speed import least_speed
 from sched_sim.design.methods import method_of
 from sched_sim.design.options import Options
-from sched_sim.design.pieces import Costs, DelayedHorizonCosts, DualRateCosts, MultirateCosts, RobustCosts, works
+from sched_sim.design.pieces import (
+    Costs,
+    DelayedHorizonCosts,
+    DualRateCosts,
+    LarsenInFlightCosts,
+    MultirateCosts,
+    RobustCosts,
+    product,
+    works,
+)
 from sched_sim.design.timing import Timing
 from sched_sim.schedule.jobs import LR
 from sched_sim.schedule.tasks import Task, phases_matter
@@ -157,5 +166,8 @@ def _less(costs: Costs, tasks: Sequence[Task], tries: int) -> Iterator[tuple[Cos
 
 
 def _shared(costs: Costs, shares: Sequence[Fraction]) -> Costs:
-    made: Costs = type(costs)(*(share * work for share, work in zip(shares, works(costs), strict=True)))
+    less = [share * work for share, work in zip(shares, works(costs), strict=True)]
+    if isinstance(costs, LarsenInFlightCosts):  # of accumulate, a step takes what is beyond propagate several times
+        less[1] = min(less[1], less[0] + product(costs))
+    made: Costs = type(costs)(*less)
     return made

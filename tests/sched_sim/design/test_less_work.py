@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 from sched_sim.design.least_speed import least_speed
 from sched_sim.design.less_work import TRIES, enough_for_less, less_work
 from sched_sim.design.options import Options
-from sched_sim.design.pieces import DualRateCosts, MultirateCosts, works
+from sched_sim.design.pieces import DualRateCosts, LarsenInFlightCosts, MultirateCosts, works
 from sched_sim.design.simulate import simulate
 from sched_sim.design.timing import Timing
 from sched_sim.schedule.jobs import Job
@@ -82,6 +82,13 @@ def test_a_job_that_is_not_preempted_may_begin_where_another_ends_early() -> Non
     assert simulate(replace(work, covariance_gain=Fraction(5)), of, 10, 50, Options(), [driver]).misses > 0
     assert less_work(work, of, 10, Options(), [driver]).holds is False
     assert less_work(work, of, 10, Options(), [replace(driver, preemptive=True)]).holds
+
+
+def test_less_of_a_step_is_not_more_of_its_products() -> None:
+    """Ten are on their way, so that a step takes 10 and nine times 2; its task 4. Less in all never misses 34."""
+    work = LarsenInFlightCosts(*map(Fraction, (10, 12, 0, 0, 1, 0)))
+    options, task = Options(context_switch=Fraction(1, 100)), Task("task", Fraction(1), Fraction(4), 20, Fraction(0))
+    assert less_work(work, Timing(1, 10, 10), 34, options, [task]) == (None, None, (), TRIES)
 
 
 @contextmanager
