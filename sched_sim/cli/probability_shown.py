@@ -46,9 +46,9 @@ def show(about: About) -> None:
         about.words,
     )
     print_table(_title(about), [_row(found.question, figure) for figure in _shown(found)], note)
-    print_table(
-        f"Response times in {period_in(about.rate)[1]}, exceeded with a probability of at most", _responses(about)
-    )
+    when = "in the long run" if found.given.long_run else f"in cycle {found.question.cycles:,}"
+    title = f"Response times {when}, in {period_in(about.rate)[1]}, exceeded with a probability of at most"
+    print_table(title, _responses(about))
 
 
 def _title(about: About) -> str:

@@ -61,6 +61,7 @@ def test_one_late_execution_makes_every_later_cycle_late_and_both_answers_are_gi
     assert "lands after L = 1 with probability 5e-7 per measurement in the first 1,000 cycles, with 1 in the" in out
     assert rows(out)["lands at L = 2"] == ["measurement", "5e-7", "1e-6", "1"]
     document = json.loads(sched_sim(f"{FOR_EVER} --cycles 100 --format json").out)
+    assert "Response times in the long run, in HR periods, exceeded with a probability of at most" in out
     late = document["probabilities"]["lands at L = 2"]
     assert late["last"]["most"] == pytest.approx(1 - (1 - 1e-9) ** 100, rel=1e-9)
     assert late["first"]["most"] == pytest.approx(1e-9 * 101 / 2, rel=1e-6)
