@@ -17,7 +17,7 @@ def bounded(lower: Tally, uppers: Mapping[int, Tally], arrive: float, *, exact: 
     probability that its measurement does; exact: whether there is one, and it is the lower one too."""
     first = next(iter(uppers.values()))
     behind = max(lower.behind, first.behind)
-    late = between(lower.late / lower.due, first.late / first.due + behind) if lower.due else between(0.0, behind)
+    late = between(lower.late / arrive, (first.late + behind) / arrive)
     misses, responses = {}, {}
     for kind, jobs in lower.jobs.items():
         found = [up.missed[kind] / up.jobs[kind] + _not_in(kind, n, up) for n, up in uppers.items() if kind in up.jobs]

@@ -153,3 +153,16 @@ def test_a_bound_with_too_many_HR_updates_to_follow_does_not_spoil_that_with_few
         assert cycle.behind == 0
         assert cycle.late == Bounds(0, 0)
         assert cycle.hr_miss.upper <= found.long_run.hr_miss.upper + ROUNDING
+
+
+@pytest.mark.parametrize("delays", [None, CostDistribution((0, 1, 2), (0.5, 0.25, 0.25))])
+@pytest.mark.parametrize("bins", [None, 7])
+def test_a_correction_of_which_nothing_is_followed_may_be_late(
+    delays: CostDistribution | None, bins: int | None
+) -> None:
+    """The load is 7: from some cycle on all is further behind than is followed."""
+    certain = CostDistribution.certain
+    costs = RecalculateCosts(certain(40), certain(30), certain(30))
+    found = probabilities(costs, Timing(2, 1, 1), 10, 4, delays=delays, bins=bins)
+    for cycle in found.cycles:
+        assert cycle.late.upper == pytest.approx(1)
