@@ -23,6 +23,8 @@ if TYPE_CHECKING:
 
 FEW = 12
 """So many landings have a row of their own."""
+ROUNDING = 1e-9
+"""What a sum of probabilities leaves of 1 is not told apart from 0 below."""
 
 
 class About(NamedTuple):
@@ -68,20 +70,26 @@ def _shown(found: Answer) -> list[Figure]:
         *misses,
         found.late,
         *own,
-        *([_together(f"lands after {own[-1].what.split(' at ')[1]}", rest)] if rest else []),
+        *([_together(f"lands after {own[-1].what.split(' at ')[1]}", own, rest, 1 - found.given.lost)] if rest else []),
     ]
 
 
-def _together(what: str, figures: Sequence[Figure]) -> Figure:
-    def total(each: Sequence[Bounds]) -> Bounds:
-        return Bounds(*(min(1.0, fsum(one[side] for one in each)) for side in (0, 1)))
+def _together(what: str, before: Sequence[Figure], figures: Sequence[Figure], arrive: float) -> Figure:
+    """One figure of the last ones, which are no more than what arrives and does not land before."""
 
-    long_run = [figure.long_run for figure in figures if figure.long_run is not None]
+    def total(sooner: Sequence[Bounds], later: Sequence[Bounds]) -> Bounds:
+        lower, most = (fsum(bounds[side] for bounds in later) for side in (0, 1))
+        left = arrive - fsum(bounds.lower for bounds in sooner)
+        return Bounds(lower, max(lower, min(most, left)) if left > ROUNDING else min(most, 1.0))
+
+    def long_run(each: Sequence[Figure]) -> list[Bounds]:
+        return [figure.long_run for figure in each if figure.long_run is not None]
+
     return figures[0]._replace(
         what=what,
-        first=total([figure.first for figure in figures]),
-        last=total([figure.last for figure in figures]),
-        long_run=total(long_run) if long_run else None,
+        first=total([figure.first for figure in before], [figure.first for figure in figures]),
+        last=total([figure.last for figure in before], [figure.last for figure in figures]),
+        long_run=total(long_run(before), long_run(figures)) if long_run(figures) else None,
     )
 
 

@@ -126,9 +126,11 @@ def _not_followed(long_run: CycleProbabilities, debt: int) -> str:
     """Why it does not say what happens in the long run; empty if it does."""
     if long_run.behind <= max(RARE * long_run.late.upper, NEVER):
         return ""
+    share = min(long_run.behind, 1.0)
     return (
-        f"in {long_run.behind:.2g} of the cycles it is more than {debt} cycles behind or has not caught up since, and "
-        f"that is not followed: give a faster processor, more {option('bins')}, or in Python a larger debt"
+        f"in up to {share:.2g} of the cycles it is more than {debt} cycles behind or has not caught up since, and that "
+        f"is not followed: give a faster processor, more {option('bins')} where costs are rounded, or from Python a "
+        f"larger debt"
     )
 
 

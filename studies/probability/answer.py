@@ -76,7 +76,8 @@ class Answer:
 
     @property
     def landings(self) -> list[Figure]:
-        steps = sorted({L for cycle in _all(self.given) for L in cycle.landing})
+        """Where it may land."""
+        steps = sorted({L for cycle in _all(self.given) for L, bounds in cycle.landing.items() if bounds.upper})
         return [self._landing(L) for L in steps]
 
     @property

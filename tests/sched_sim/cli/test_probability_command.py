@@ -179,6 +179,16 @@ def test_bins_give_bounds(sched_sim: Run) -> None:
     assert "costs are rounded to 100 parts of an HR period, down and up" in out
 
 
+def test_the_last_landings_are_one_of_no_more_than_what_is_left(sched_sim: Run) -> None:
+    delays = ",".join(f"{steps}:0.05" for steps in range(11)) + ",13:0.09,17"
+    design = f"probability -N 20 --method recalculate --delays {delays} --speed 0.8 --cycles 4 --bins 16"
+    out = sched_sim(f"{design} --cost propagate=0.01 --cost update=0.45 --cost replay=0.02").out
+    table = rows(out)
+    assert all("impossible" not in cells for what, cells in table.items() if what.startswith("lands at"))
+    last = next(cells for what, cells in reversed(table.items()) if what.startswith("lands after"))
+    assert last[-1] == "at most 0.65"  # at least 0.35 land before, and bounds of single landings sum to more
+
+
 def test_what_is_not_followed_may_land_where_no_row_is(sched_sim: Run) -> None:
     coarse = " ".join(sched_sim(f"{LATE_UPDATE} --bins 1 --cycles 20").out.split())
     assert "Further behind than is followed with a probability of at most 1: that is in every upper bound" in coarse
