@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from fractions import Fraction
 
     from sched_sim.costs.table import CostTable
+    from sched_sim.probability.stated import StatedCost
     from studies.probability.answer import Answer, Figure
     from studies.probability.blocks import Share
     from studies.probability.question import Question
@@ -118,7 +119,10 @@ def independence(found: Answer) -> Iterator[str]:
 
 
 def constants(asked: Question, table: CostTable, unit: str) -> Iterator[str]:
-    """Which kinds cost always the same, and what that leaves out."""
+    """What was stated, with its unit; which kinds cost always the same, and what that leaves out."""
+    stated = {kind: cost for kind, cost in asked.costs.items() if kind not in asked.constant and not cost.is_sample}
+    if stated:
+        yield f"As stated: {', '.join(f'{kind} {_from_to(cost, unit)}' for kind, cost in stated.items())}"
     if not asked.constant:
         return
     always = ", ".join(f"{kind} {_cost(asked.costs[kind].largest, unit)}" for kind in asked.constant)
@@ -134,6 +138,11 @@ def _counted(share: Share) -> str:
     if not share.events:
         return f"none of {share.n:,} (95 %: at most {at_most(high)})"
     return f"{share.events:,} of {share.n:,} (95 %: {at_most(low)} to {at_most(high)})"
+
+
+def _from_to(cost: StatedCost, unit: str) -> str:
+    least = min(cost.values)
+    return _cost(least, unit) if least == cost.largest else f"{float(least):.4g} to {_cost(cost.largest, unit)}"
 
 
 def _cost(value: Fraction | None, unit: str) -> str:

@@ -44,6 +44,7 @@ def test_an_update_that_takes_61_once_in_a_million_lands_a_step_later_once_in_a_
     assert table["probability of"] == ["per", "first 1,000 cycles, mean", "cycle 1,000", "long run"]
     assert table["lands at L = 8"] == ["measurement", "0.999999", "0.999999", "0.999999"]
     assert table["lands at L = 9"] == ["measurement", "1e-6", "1e-6", "1e-6"]
+    assert "hr_update 3 standard steps, lr_propagate 41 standard steps, lr_update 56 to 61 standard steps" in out
     document = json.loads(sched_sim(f"{LATE_UPDATE} --cycles 5 --format json").out)
     assert document["exact"]
     assert document["probabilities"]["lands at L = 9"]["long_run"]["most"] == pytest.approx(1e-6, rel=1e-12)
