@@ -54,15 +54,15 @@ def described(clock: Clock) -> dict[str, Any]:
     }
 
 
-def switches() -> int:
-    """How often the system has run something else in place of this thread so far; 0 where it does not tell."""
+def switches() -> int | None:
+    """How often the system has run something else in place of this thread so far; None where it does not tell."""
     import resource  # Windows has none
 
     of_thread = getattr(resource, "RUSAGE_THREAD", None)
     if of_thread is None:
-        return 0
+        return None
     usage = resource.getrusage(of_thread)
-    return usage.ru_nvcsw + usage.ru_nivcsw
+    return int(usage.ru_nvcsw + usage.ru_nivcsw)
 
 
 def _resolution(clock: Clock) -> int:

@@ -16,8 +16,8 @@ from sched_sim.costs.autocorrelation import rank_autocorrelation
 from sched_sim.costs.sample_file import SampledCosts
 from sched_sim.errors import InputError
 from studies.measurement.busy import clocks, load, signs_of_others
-from studies.measurement.clock import described, monotonic
-from studies.measurement.executions import FLUSHED, Course, Wanted, alone, in_order, run
+from studies.measurement.clock import described, monotonic, switches
+from studies.measurement.executions import FLUSHED, Course, Executions, Wanted, alone, in_order, run
 from studies.measurement.job_times import Progress, silent
 from studies.measurement.loop_order import loops_of, order_of
 from studies.measurement.methods import COUNTED_SOURCE, counted, nonzero, where_timed
@@ -84,9 +84,7 @@ def _timed(user: UserFilter, name: str, caches: Caches, most: Wanted, seed: int,
         "source": (
             f"{BEFORE[caches]}; each sample is one execution, timed by itself in compiled code, in their order; in it "
             f"are two readings of the clock, {about_clock['median_ns']} ns with nothing between them, interrupts, and "
-            f"what a hypervisor took; blocks in which the operating system ran something else were timed again: "
-            f"{found.again} of {found.blocks + found.again}"
-            f"{f', {found.disturbed} never without' if found.disturbed else ''}"
+            f"what a hypervisor took; {_others(found)}"
         ),
         "executions": True,
         "caches": caches,
@@ -97,6 +95,15 @@ def _timed(user: UserFilter, name: str, caches: Caches, most: Wanted, seed: int,
     }
     samples = {part: _exact(each) for part, each in spans.items()}
     return SampledCosts(name, "ns", samples, {}, _about(user, "compiled") | about)
+
+
+def _others(found: Executions) -> str:
+    """What else the operating system ran meanwhile."""
+    if switches() is None:
+        return "and what else the operating system ran, which it does not tell"
+    never = f", {found.disturbed} never without" if found.disturbed else ""
+    timed = f"{found.again} of {found.blocks + found.again}{never}"
+    return f"blocks in which the operating system ran something else were timed again: {timed}"
 
 
 def _courses(

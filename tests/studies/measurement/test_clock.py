@@ -11,7 +11,10 @@ import pytest
 
 from filters.backends.timed import now
 from sched_sim.errors import InputError
+from studies.measurement.busy import clocks
 from studies.measurement.clock import described, monotonic, switches
+from studies.measurement.executions import Executions
+from studies.measurement.samples import _others
 
 
 def test_it_is_pythons_monotonic_clock() -> None:
@@ -43,7 +46,9 @@ def test_giving_up_the_processor_is_a_switch() -> None:
 
 def test_where_the_system_does_not_tell_nothing_is_known(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delattr(resource, "RUSAGE_THREAD", raising=False)
-    assert switches() == 0
+    found = Executions({}, clocks(), blocks=92, again=0, disturbed=0)
+    assert switches() is None
+    assert _others(found) == "and what else the operating system ran, which it does not tell"
 
 
 def test_a_system_without_the_clock_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
