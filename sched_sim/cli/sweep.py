@@ -44,8 +44,8 @@ Axis = list[str] | None
 GridFile = Annotated[
     Path | None,
     typer.Argument(
-        help="TOML file with the options under Design and Processor, simulate and cycles as keys (- becomes _); flags "
-        "take precedence.",
+        help="TOML file with the options under Design and Processor, simulate, cycles and engine as keys "
+        "(- becomes _); flags take precedence.",
         metavar="GRID",
     ),
 ]
