@@ -39,9 +39,11 @@ def cluster(address: str, sweep: Sweep) -> Iterator[Compute]:
     address = _checked(address)
     if find_spec("distributed") is None:
         raise InputError(f'{option("dask")} needs the package distributed: pip install "sched-sim[cluster]"')
-    from distributed.utils import silence_logging_cmgr
-
     where = f"{option('dask')} {address}"
+    try:
+        from distributed.utils import silence_logging_cmgr
+    except ValueError as error:  # Dask reads its configuration
+        raise InputError(f"{where}: {str(error).partition(chr(10))[0]}") from None
     with silence_logging_cmgr(logging.CRITICAL + 1):
         client = _connected(address, where)
         try:
@@ -84,7 +86,12 @@ async def _kind(address: str, where: str) -> str:
     from distributed.comm import connect
     from distributed.security import Security
 
-    security = Security().get_connection_args("client")
+    try:
+        security = Security().get_connection_args("client")
+    except OSError as error:  # ssl.SSLError is one
+        raise InputError(
+            f"{where}: the keys for TLS cannot be read ({error}): correct distributed.comm.tls in Dask's configuration"
+        ) from None
     if address.startswith("tls") and security["ssl_context"] is None:
         raise InputError(
             f"{where}: there are no keys for TLS: name their files in Dask's configuration, under distributed.comm.tls"

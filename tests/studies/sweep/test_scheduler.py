@@ -76,6 +76,28 @@ def test_no_keys_for_tls(sched_sim):
     assert "--dask tls://127.0.0.1:1: there are no keys for TLS" in refused(sched_sim, "--dask tls://127.0.0.1:1")
 
 
+@needs_dask
+@pytest.mark.parametrize("there", [None, "no key"])
+def test_keys_that_cannot_be_read(sched_sim, tmp_path, there):
+    import dask
+
+    file = tmp_path.parent / f"{tmp_path.name}.pem"
+    if there:
+        file.write_text(there)
+    tls = "distributed.comm.tls"
+    with dask.config.set({f"{tls}.ca-file": str(file), f"{tls}.client.cert": str(file)}):
+        assert "the keys for TLS cannot be read" in refused(sched_sim, "--dask tls://127.0.0.1:1")
+
+
+@needs_dask
+def test_a_configuration_that_is_none(tmp_path):
+    (tmp_path / "dask.yaml").write_text("distributed: [")
+    line = [sys.executable, "-m", "sched_sim", "sweep", "-N", "4", "--dask", "127.0.0.1:1"]
+    run = subprocess.run(line, env={**os.environ, "DASK_CONFIG": str(tmp_path)}, capture_output=True, text=True)
+    assert (run.returncode, run.stdout, run.stderr.count("\n")) == (2, "", 1)
+    assert run.stderr.startswith("Error: --dask tcp://127.0.0.1:1: A dask config file at ")
+
+
 def test_versions_that_differ_are_named():
     here = versions()
     assert refusal(here, here) == ""
