@@ -124,6 +124,9 @@ class _Kept:
             code = import_module("numba.core.serialize").dumps(result._reduce())
             self.cache_path.mkdir(parents=True, exist_ok=True)
             number, name = tempfile.mkstemp(dir=self.cache_path)
-            with open(number, "wb") as file:
-                file.write(hashlib.sha256(code).digest() + code)
-            os.replace(name, self._file(signature, result.library.codegen))
+            try:
+                with open(number, "wb") as file:
+                    file.write(hashlib.sha256(code).digest() + code)
+                os.replace(name, self._file(signature, result.library.codegen))
+            finally:
+                Path(name).unlink(missing_ok=True)

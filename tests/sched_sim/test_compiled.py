@@ -1,5 +1,7 @@
 """Plain functions, compiled with all that they call."""
 
+import errno
+import os
 import sys
 from importlib import import_module
 from pathlib import Path
@@ -49,6 +51,15 @@ def test_a_callee_in_another_file_is_part_of_it(folder: Path) -> None:
     written_anew = file.stat()
     assert twice(folder, 1) == 42
     assert file.stat() == written_anew != as_written
+
+
+def test_of_what_cannot_be_kept_nothing_is_left(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def full(_source: object, _target: object) -> None:
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    monkeypatch.setattr(os, "replace", full)
+    assert twice(folder, 1) == 42
+    assert [path for path in (folder / "cache").rglob("*") if path.is_file()] == []
 
 
 @given(st.lists(st.tuples(st.integers(-3, 3), st.booleans()), max_size=40))
