@@ -19,6 +19,7 @@ from filters.backends.choose import arguments_for, function_for
 from filters.backends.numba_error import gist, is_numbas
 from filters.backends.repeat import repeat
 from filters.jobs import Job
+from sched_sim.compiled import compiles
 from sched_sim.errors import InputError
 from studies.measurement.busy import clocks, load, signs_of_others
 
@@ -57,8 +58,10 @@ def time_jobs(
 ) -> Timed[Key]:
     """What each job takes; a key is the words that name the job.
 
-    Raises InputError for a job with a function of the user's that numba cannot compile.
+    Raises InputError for a job with a function of the user's that numba cannot compile, and where it compiles nothing.
     """
+    if backend == "compiled":
+        check_compiles()
     before, total = load(), len(jobs) + protocol.rounds
     runs, empty_runs = {}, {}
     for done, (key, job) in enumerate(jobs.items()):
@@ -89,6 +92,12 @@ def time_jobs(
     scale = protocol.repetitions * 1e9
     seconds = {key: [max(each - min(overhead[key]), 1) / scale for each in times[key]] for key in jobs}
     return Timed(seconds, signs_of_others(before, start, end, times.values()))
+
+
+def check_compiles() -> None:
+    """Raises InputError where numba runs in Python what it was asked to compile: other times are measured then."""
+    if not compiles():
+        raise InputError("NUMBA_DISABLE_JIT is set, and compiled code is to be timed: unset it")
 
 
 def _timer(

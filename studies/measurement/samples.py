@@ -18,7 +18,7 @@ from sched_sim.errors import InputError
 from studies.measurement.busy import clocks, load, signs_of_others
 from studies.measurement.clock import described, monotonic, switches
 from studies.measurement.executions import FLUSHED, Course, Executions, Wanted, alone, in_order, run
-from studies.measurement.job_times import Progress, silent
+from studies.measurement.job_times import Progress, check_compiles, silent
 from studies.measurement.loop_order import loops_of, order_of
 from studies.measurement.methods import COUNTED_SOURCE, counted, nonzero, where_timed
 from studies.measurement.user_filter import UserFilter
@@ -73,6 +73,7 @@ def measure_filter(
 
 
 def _timed(user: UserFilter, name: str, caches: Caches, most: Wanted, seed: int, progress: Progress) -> SampledCosts:
+    check_compiles()
     wanted = Wanted(min(most.executions, MOST_TOGETHER // len(user.jobs)), most.seconds)
     before, clock = load(), monotonic()
     found = run(_courses(user, caches, wanted, clock, seed, progress), wanted, seed, progress)

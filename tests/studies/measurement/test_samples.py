@@ -9,6 +9,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
+import numba
 import numpy as np
 import pytest
 
@@ -314,3 +315,10 @@ def test_how_caches_are_is_for_executions_of_a_filter_only(sched_sim: Run) -> No
     is_refused(sched_sim("measure --robust position --cold"), ["--cold", "only with --filter"])
     with pytest.raises(InputError, match=r"caches=.hot. is unknown"):
         measure_filter(load_filter("own_filter:cart"), name="c", caches="hot")  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("what", ["--filter own_filter:cart", "--method standard"])
+def test_python_is_not_timed_as_compiled_code(what: str, sched_sim: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(numba.config, "DISABLE_JIT", 1)
+    said = "NUMBA_DISABLE_JIT is set, and compiled code is to be timed: unset it"
+    is_refused(sched_sim(f"measure {what} -o costs.toml"), [said])
