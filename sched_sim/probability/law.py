@@ -88,8 +88,10 @@ def later_of(one: Floats, other: Floats) -> Floats:
 
 def cut(mass: Floats, most: int) -> tuple[Floats, float]:
     """Without what is more than so many ticks or not worth following, and the mass of that."""
-    worth = mass[most::-1] > NOTHING
-    length = max(len(worth) - int(np.argmax(worth)), 1) if worth.any() else 1
+    length = min(len(mass), most + 1)
+    if mass[length - 1] <= NOTHING:
+        worth = np.flatnonzero(mass[:length] > NOTHING)
+        length = int(worth[-1]) + 1 if len(worth) else 1
     return mass[:length], float(mass[length:].sum())
 
 
