@@ -15,11 +15,11 @@ from typing import Any
 import numpy as np
 
 from sched_sim.probability.high_rate import WithCorrections
-from sched_sim.probability.law import later_of, sum_of
+from sched_sim.probability.law import add, later_of, sum_of
 from sched_sim.probability.level import Level
 from sched_sim.probability.low_rate import EARLY, FEEDBACK, GAIN, UPDATE, Design, Front
 from sched_sim.probability.outcome import Floats
-from sched_sim.probability.queue import LowRate, add
+from sched_sim.probability.queue import LowRate
 from sched_sim.probability.tally import Tally
 from sched_sim.probability.timeline import Segment, Timeline
 

@@ -6,7 +6,9 @@ FFT would leave rounding errors of the largest mass everywhere.
 
 from __future__ import annotations
 
+from collections.abc import Hashable, Iterable
 from functools import cached_property
+from typing import TypeVar
 
 import numpy as np
 
@@ -18,6 +20,8 @@ than to convolve."""
 
 NOTHING = 1e-32
 """A mass that is not followed; what is left out is counted."""
+
+Key = TypeVar("Key", bound=Hashable)
 
 
 class Law:
@@ -66,6 +70,12 @@ def sum_of(*masses: Floats) -> Floats:
     for mass in others:
         total[: len(mass)] += mass
     return total
+
+
+def add(parts: dict[Key, Floats], more: Iterable[tuple[Key, Floats]]) -> None:
+    """To laws that exclude one another, by what is known of each."""
+    for key, mass in more:
+        parts[key] = sum_of(parts[key], mass) if key in parts else mass
 
 
 def served(mass: Floats, ticks: int) -> Floats:

@@ -13,7 +13,7 @@ from collections.abc import Callable, Hashable, Iterator, Mapping
 import numpy as np
 
 from sched_sim.probability.high_rate import Branch, HighRate
-from sched_sim.probability.law import NOTHING, cut, served, sum_of
+from sched_sim.probability.law import NOTHING, add, cut, served, sum_of
 from sched_sim.probability.outcome import Floats
 from sched_sim.probability.tally import Tally
 from sched_sim.probability.timeline import TaskInTicks, Timeline
@@ -78,7 +78,7 @@ class Level:
         after: Parts = {}
         own = self.priority == HR
         for branch, work in self._branched(parts, step):
-            _add(after, branch.key, work)
+            add(after, [(branch.key, work)])
             if own:
                 response = self._response({branch.key: work}, step, 0, tally)
                 tally.responded("hr", response)
@@ -134,10 +134,5 @@ class Level:
         if self.high is None or index or self.priority == HR:
             return parts
         after: Parts = {}
-        for branch, work in self._branched(parts, step):
-            _add(after, branch.key, work)
+        add(after, ((branch.key, work) for branch, work in self._branched(parts, step)))
         return after
-
-
-def _add(parts: Parts, key: Hashable, mass: Floats) -> None:
-    parts[key] = sum_of(parts[key], mass) if key in parts else mass

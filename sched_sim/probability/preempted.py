@@ -15,9 +15,9 @@ import numpy as np
 
 from sched_sim.design.timing import Timing
 from sched_sim.probability.high_rate import Pieces
-from sched_sim.probability.law import Law
+from sched_sim.probability.law import Law, add
 from sched_sim.probability.outcome import Floats
-from sched_sim.probability.queue import LowRate, add
+from sched_sim.probability.queue import LowRate
 from sched_sim.probability.timeline import Segment, Timeline
 
 

@@ -9,7 +9,7 @@ from typing import Any, Generic, Protocol, TypeVar
 import numpy as np
 
 from sched_sim.design.taken import Taken
-from sched_sim.probability.law import cut, served, sum_of
+from sched_sim.probability.law import add, cut, served
 from sched_sim.probability.outcome import Floats
 from sched_sim.probability.tally import Tallies
 from sched_sim.probability.timeline import Segment, Timeline
@@ -106,8 +106,3 @@ class LowRate(ABC, Generic[Front]):
     @abstractmethod
     def _finished(self, step: int, segment: Segment, front: Front, done: Floats) -> Iterable[tuple[Front, Floats]]:
         """What follows where the job at the front has finished at these instants of the segment."""
-
-
-def add(parts: dict[Front, Floats], more: Iterable[tuple[Front, Floats]]) -> None:
-    for front, mass in more:
-        parts[front] = sum_of(parts[front], mass) if front in parts else mass

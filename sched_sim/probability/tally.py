@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from sched_sim.probability.law import exceedance, sum_of
+from sched_sim.probability.law import add, exceedance
 from sched_sim.probability.outcome import Floats
 
 
@@ -32,8 +32,7 @@ class Tally:
         self.missed[kind] += missed
 
     def responded(self, kind: str, mass: Floats) -> None:
-        known = self.responses.get(kind)
-        self.responses[kind] = mass if known is None else sum_of(known, mass)
+        add(self.responses, [(kind, mass)])
 
     def add(self, other: Tally, scale: float = 1.0) -> None:
         for kind, jobs in other.jobs.items():
