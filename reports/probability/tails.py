@@ -37,7 +37,7 @@ def tails_figure(found: Answer, rate: Fraction | None) -> Figure:
     rate: of the HR loop, in Hz. Between bounds that differ there is a band; a red line is a deadline; what samples do
     not resolve is shaded.
     """
-    cycle = found.given.long_run or found.given.cycles[-1]
+    cycle = found.given.settled
     responses = sorted(cycle.responses.items(), key=lambda response: response[0] != "hr")
     with drawing():
         figure, rows = sheet(ceil((len(responses) + 1) / 2), 2, _legend(found), height_mm=PLOT_MM)
@@ -58,7 +58,7 @@ def _legend(found: Answer) -> list[Entry]:
 
 def _response(axes: Axes, found: Answer, kind: str, tail: Tail, rate: Fraction | None) -> None:
     scale, unit = period_in(rate)
-    floor = found.resolution.job if kind == "hr" else found.resolution.cycle
+    floor = found.resolution.of(kind)
     times = np.linspace(0.0, scale * len(tail.upper) / found.given.ticks, len(tail.upper) + 1)
     lower, upper = (np.append(side, 0.0) if side[-1] else np.append(side, side[-1]) for side in tail)
     _curve(axes, times, lower, upper, floor, FILLS["LRU" if kind == "lr_update" else "HRU"].colour)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from sched_sim.cli.output import lines, print_csv, print_json, print_table
 from sched_sim.cli.probability_said import constants, in_long_run, independence, left_open, sentence
 from sched_sim.costs.autocorrelation import doubtful
-from sched_sim.probability.outcome import Bounds, CycleProbabilities
+from sched_sim.probability.outcome import Bounds
 from sched_sim.probability.responses import LEVELS, exceeded_at_most, period_in
 from sched_sim.probability.words import NOT_RESOLVED, at_most, chance
 from sched_sim.text import visible_lines
@@ -139,11 +139,11 @@ def _bounds_note(found: Answer) -> list[str]:
 
 def _responses(about: About) -> list[dict[str, Any]]:
     found = about.found
-    cycle, ticks = _latest(found), found.given.ticks
+    ticks = found.given.ticks
     scale, _ = period_in(about.rate)
     rows = []
-    for kind, tail in sorted(cycle.responses.items(), key=lambda response: response[0] != "hr"):
-        floor = found.resolution.job if kind == "hr" else found.resolution.cycle
+    for kind, tail in sorted(found.given.settled.responses.items(), key=lambda response: response[0] != "hr"):
+        floor = found.resolution.of(kind)
         row: dict[str, Any] = {"job": kind}
         for level in LEVELS:
             time = exceeded_at_most(tail, level, ticks)
@@ -151,11 +151,6 @@ def _responses(about: About) -> list[dict[str, Any]]:
             row[f"{level:.0e}".replace("e-0", "e-")] = NOT_RESOLVED if level < floor else said
         rows.append(row)
     return rows
-
-
-def _latest(found: Answer) -> CycleProbabilities:
-    """In the long run, or the last cycle."""
-    return found.given.long_run or found.given.cycles[-1]
 
 
 def print_rows(about: About) -> None:
@@ -248,12 +243,12 @@ def bounds_document(bounds: Bounds | None, floor: float) -> dict[str, Any] | Non
 def _response_document(found: Answer) -> dict[str, dict[str, float | None]]:
     """By kind of job and probability; None where longer ones are as likely, or that is not resolved."""
     document: dict[str, dict[str, float | None]] = {}
-    for kind, tail in _latest(found).responses.items():
-        floor = found.resolution.job if kind == "hr" else found.resolution.cycle
-        times = {level: exceeded_at_most(tail, level, found.given.ticks) for level in LEVELS if level >= floor}
-        document[kind] = {
-            f"{level:g}": None if times.get(level) is None else float(times[level] or 0) for level in LEVELS
-        }
+    for kind, tail in found.given.settled.responses.items():
+        document[kind] = {}
+        for level in LEVELS:
+            time = exceeded_at_most(tail, level, found.given.ticks)
+            resolved = level >= found.resolution.of(kind)
+            document[kind][f"{level:g}"] = float(time) if resolved and time is not None else None
     return document
 
 

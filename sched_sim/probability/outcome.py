@@ -72,3 +72,8 @@ class Probabilities:
     ticks: int
     exact: bool
     lost: float
+
+    @property
+    def settled(self) -> CycleProbabilities:
+        """In the long run, or of the last cycle where there is none."""
+        return self.long_run or self.cycles[-1]

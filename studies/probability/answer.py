@@ -98,8 +98,7 @@ class Answer:
         return min(1.0, self.question.cycles * self.question.timing.N * self.resolution.job)
 
     def _missed(self, kind: str) -> Figure:
-        floor = self.resolution.job if kind == "hr" else self.resolution.cycle
-        return self._figure(f"{kind} missed", "job", lambda cycle: cycle.misses.get(kind), floor)
+        return self._figure(f"{kind} missed", "job", lambda cycle: cycle.misses.get(kind), self.resolution.of(kind))
 
     def _landing(self, L: int) -> Figure:
         what, floor = f"lands at L = {L}", self.resolution.cycle

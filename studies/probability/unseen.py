@@ -20,6 +20,10 @@ class Resolution:
     job: float
     cycle: float
 
+    def of(self, kind: str) -> float:
+        """Of a job of this kind: of those that are no HR jobs once in a cycle, that of the cycle."""
+        return self.job if kind == "hr" else self.cycle
+
 
 def resolution(question: Question) -> Resolution:
     """The union over all executions of one HR job, of that which has the most, and of all jobs of a cycle. An HR job of
