@@ -110,6 +110,7 @@ class _Walk:
         self.hash = hashlib.sha256()
         self.opaque: list[Any] = []
         self._functions: dict[FunctionType, int] = {}
+        self._by_module: dict[str, tuple[bool, ...]] = {}
         self._function: FunctionType | None = None  # at hand, and the modules that it was seen to name
         self._modules: list[ModuleType] = []
 
@@ -121,12 +122,17 @@ class _Walk:
         before = self._function, self._modules
         self._function, self._modules = function, []
         self._put("function", function.__module__, function.__qualname__)
-        self._put(*(says(function.__module__, name) for name in NAMES))
+        self._put(self._said(function.__module__))
         self._put(_code_digest(function.__code__))
         self._value(function.__defaults__)
         self._items(function.__kwdefaults__ or {})
         self._items(named_values(function))
         self._function, self._modules = before
+
+    def _said(self, module: str) -> tuple[bool, ...]:
+        if module not in self._by_module:
+            self._by_module[module] = tuple(says(module, name) for name in NAMES)
+        return self._by_module[module]
 
     def _value(self, value: Any) -> None:
         kind = type(value)
