@@ -15,14 +15,14 @@ MOST_DECADES = 6
 SHADE = "#efefef"
 
 
-def tail_axis(axes: Axes, least: float, resolved: float = 0.0) -> None:
-    """From 1 down to the decade of `least`. resolved: what is less is covered by a shade."""
+def tail_axis(axes: Axes, least: float, resolved: float = 0.0, name: str = "not resolved") -> None:
+    """From 1 down to the decade of `least`. resolved: what is less is covered by a shade of this name."""
     low = 10.0 ** floor(log10(least))
     decades(axes, "y", low, 1.0, every=max(ceil(-log10(low) / MOST_DECADES), 1))
     if resolved > low:
         axes.axhspan(low, resolved, facecolor=SHADE, edgecolor="white", hatch="////", lw=0, zorder=3)
-        name = axes.annotate(
-            "not resolved",
+        written = axes.annotate(
+            name,
             (0, low),
             (3, 2),
             xycoords=axes.get_yaxis_transform(),
@@ -32,4 +32,4 @@ def tail_axis(axes: Axes, least: float, resolved: float = 0.0) -> None:
             color=GREY,
             zorder=5,
         )
-        name.set_path_effects([withStroke(linewidth=2.0, foreground="white")])
+        written.set_path_effects([withStroke(linewidth=2.0, foreground="white")])

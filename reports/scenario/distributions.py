@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from math import ceil
 from typing import TYPE_CHECKING
 
@@ -37,6 +37,8 @@ from sched_sim.scenario.outcome import JobFigures, Outcome, SensorFigures
 from sched_sim.scenario.scenario import Scenario, Sensor
 
 if TYPE_CHECKING:
+    from sched_sim.probability.outcome import Floats
+    from studies.probability.beside_sampled import Beside, Exact, Longer
     from studies.selection.in_scenario import ScenarioAccuracy
 
 LEFT_MM, RIGHT_MM, GAP_MM, EDGE_MM = 11.0, 3.0, 15.0, 2.0
@@ -49,16 +51,22 @@ FEWEST_SHOWN = 7
 """Steps on the axis of achieved l."""
 FEWEST = 10
 """So many the axis of shares is for, at the least."""
+DEEPEST = 1e-12
+"""What is exact and rarer is not drawn."""
+DASHES = (0, (3, 2))
 EDGE = 0.03
 """Left free at both ends of that axis."""
 
 
-def distributions_figure(scenario: Scenario, outcome: Outcome, accuracy: ScenarioAccuracy | None = None) -> Figure:
+def distributions_figure(
+    scenario: Scenario, outcome: Outcome, accuracy: ScenarioAccuracy | None = None, exact: Beside | None = None
+) -> Figure:
     """A histogram of the response times of each job kind, and bars of the achieved l beside it where it is a
     correction, on logarithmic axes: what so many do not resolve is shaded, a red line is a deadline. A deadline that is
-    too far off for a line is in the subtitle. With the accuracy, histograms of the output's standard deviation, and of
-    the age of each sensor's information."""
-    plain: list[Cell | None] = [_response("predict", scenario, outcome.jobs["predict"], FILLS["PR"], 1.0)]
+    too far off for a line is in the subtitle. What is known exactly is dashed, or a circle. With the accuracy,
+    histograms of the output's standard deviation, and of the age of each sensor's information."""
+    longer, landing = (None, {}) if exact is None else (exact.longer, exact.landing)
+    plain: list[Cell | None] = [_response("predict", scenario, outcome.jobs["predict"], FILLS["PR"], 1.0, longer)]
     for number, task in enumerate(scenario.tasks):
         fill = TASK_FILLS[number % len(TASK_FILLS)]
         kind = f"task:{task.name}"
@@ -72,7 +80,7 @@ def distributions_figure(scenario: Scenario, outcome: Outcome, accuracy: Scenari
         plain.append(
             _response(f"correct {shortened(sensor.name)}", scenario, outcome.jobs[kind], FILLS["CO"], deadline)
         )
-        plain.append(_achieved(sensor, outcome.sensors[sensor.name]))
+        plain.append(_achieved(sensor, outcome.sensors[sensor.name], landing))
     if accuracy is not None:
         from reports.scenario.accuracy import accuracy_cells
 
@@ -132,14 +140,14 @@ def _note_lines(notes: Sequence[Note], width_mm: float) -> list[list[tuple[float
     return lines
 
 
-def _deadline(axes: Axes, at: float) -> None:
-    """A red line, its name on the side where there is room."""
-    axes.axvline(at, color=RED, lw=1.0)
+def _deadline(axes: Axes, at: float, height: float = 1.0) -> None:
+    """A red line, its name at this height of the plot, on the side where there is room."""
+    axes.axvline(at, color=RED, lw=1.0, zorder=4)
     low, high = axes.get_xlim()
     right = at > (low + high) / 2
     name = axes.annotate(
         "deadline",
-        (at, 1),
+        (at, height),
         (-2.5 if right else 2.5, -2),
         xycoords=axes.get_xaxis_transform(),
         textcoords="offset points",
@@ -147,6 +155,7 @@ def _deadline(axes: Axes, at: float) -> None:
         va="top",
         size=SMALL_PT,
         color=RED,
+        zorder=5,
     )
     name.set_path_effects([withStroke(linewidth=2.5, foreground="white")])
 
@@ -156,7 +165,14 @@ def is_near(limit: float, low: float, high: float) -> bool:
     return max(high, limit) - min(low, limit) <= NEAR * (high - low)
 
 
-def _response(title: str, scenario: Scenario, figures: JobFigures, fill: Fill, deadline: float | None) -> Cell:
+def _response(
+    title: str,
+    scenario: Scenario,
+    figures: JobFigures,
+    fill: Fill,
+    deadline: float | None,
+    exact: Longer | None = None,
+) -> Cell:
     """deadline: in HR periods from the release, None if it differs from job to job."""
     unit, scale = ("HR periods", 1.0) if scenario.hr_hz is None else ("ms", float(1000 / scenario.hr_hz))
     values = [scale * response for response in figures.responses]
@@ -170,15 +186,21 @@ def _response(title: str, scenario: Scenario, figures: JobFigures, fill: Fill, d
         notes.append(Note(f"{figures.misses} of {figures.decided} missed", missed=True))
 
     def draw(axes: Axes) -> None:
-        axes.set_xlabel(f"response time ({unit}); line: longer", labelpad=2)
+        dashed = "" if exact is None else ", dashed: exactly"
+        axes.set_xlabel(f"response time ({unit}); line: longer{dashed}", labelpad=2)
         axes.xaxis.set_major_locator(MaxNLocator(nbins=6))
-        end = 1.05 * max(worst, limit if near and limit is not None else 0, 1e-9)
+        reached = 0.0 if exact is None else scale * _reached(exact)
+        end = 1.05 * max(worst, reached, limit if near and limit is not None else 0, 1e-9)
         counts, edges = np.histogram(values, bins=BINS, range=(0, end))
-        _tail(axes, len(values))
+        _tail(axes, len(values), 1.0 if exact is None else _least(exact.exceedance, exact.floor))
         shares = counts / max(len(values), 1)
         axes.bar(edges[:-1], shares, np.diff(edges), align="edge", color=fill.colour, edgecolor=fill.ink, lw=0.3)
         longer = 1 - np.arange(len(values) + 1) / max(len(values), 1)
         axes.step([0.0, *sorted(values)], longer, where="post", color=INK, lw=0.8)
+        if exact is not None:
+            times = scale * np.arange(len(exact.exceedance) + 1) / exact.ticks
+            shown = np.where(exact.exceedance > exact.floor, exact.exceedance, np.nan)
+            axes.step(times[:-1], shown, where="post", color=INK, lw=1.0, ls=DASHES, zorder=4)
         axes.set_xlim(0, end)
         if near and limit is not None:
             _deadline(axes, limit)
@@ -186,9 +208,21 @@ def _response(title: str, scenario: Scenario, figures: JobFigures, fill: Fill, d
     return Cell(title, notes, draw)
 
 
-def _tail(axes: Axes, n: int) -> None:
-    """A logarithmic axis of shares; what may well be in none of n is shaded."""
-    tail_axis(axes, 1 / max(n, FEWEST), unseen_mass(max(n, FEWEST)))
+def _reached(exact: Longer) -> float:
+    """The longest response that is drawn, in HR periods."""
+    return float(np.count_nonzero(exact.exceedance > max(exact.floor, DEEPEST))) / exact.ticks
+
+
+def _least(exact: Floats, floor: float) -> float:
+    """A third of the rarest that is drawn; 1 if nothing is."""
+    drawn = exact[exact > max(floor, DEEPEST)]
+    return float(drawn.min()) / 3 if len(drawn) else 1.0
+
+
+def _tail(axes: Axes, n: int, least: float = 1.0) -> None:
+    """A logarithmic axis of shares, down to `least`; what may well be in none of n is shaded."""
+    name = "not resolved" if least == 1 else "not resolved by this simulation"
+    tail_axis(axes, min(1 / max(n, FEWEST), least), unseen_mass(max(n, FEWEST)), name)
 
 
 def _response_notes(values: Sequence[float], figures: JobFigures, unit: str) -> list[Note]:
@@ -210,9 +244,10 @@ def _short(time: float) -> str:
     return f"{time:.3g}" if time < 1000 else f"{time:,.0f}"
 
 
-def _achieved(sensor: Sensor, figures: SensorFigures) -> Cell:
+def _achieved(sensor: Sensor, figures: SensorFigures, exact: Mapping[int, Exact]) -> Cell:
     landed = figures.achieved.total()
-    steps = sorted(figures.achieved) or [sensor.least_delay]
+    known = {L: one.bounds.upper for L, one in exact.items() if one.bounds.upper > max(one.floor, DEEPEST)}
+    steps = sorted({*figures.achieved, *known}) or [sensor.least_delay]
     first, last = steps[0], steps[-1]
     shown = max(last, first + FEWEST_SHOWN)
     limit = sensor.land_by + 0.5  # what lands in step k + land_by has met it
@@ -226,18 +261,21 @@ def _achieved(sensor: Sensor, figures: SensorFigures) -> Cell:
 
     def draw(axes: Axes) -> None:
         each = f", {per_bar} in each bar" if per_bar > 1 else ""
-        axes.set_xlabel(f"$l - k$ (high-rate steps{each})", labelpad=2)
+        circles = "; circles: exactly" if known and per_bar == 1 else ""
+        axes.set_xlabel(f"$l - k$ (high-rate steps{each}){circles}", labelpad=2)
         axes.xaxis.set_major_locator(MaxNLocator(nbins=8, integer=True))
         starts = list(range(first, last + 1, per_bar))
         counts = [sum(figures.achieved[start + more] for more in range(per_bar)) for start in starts]
         shares = [count / max(landed, 1) for count in counts]
         middles = [start + (per_bar - 1) / 2 for start in starts]
-        _tail(axes, landed)
+        _tail(axes, landed, min(known.values()) / 3 if known else 1.0)
+        if circles:
+            axes.plot([*known], [*known.values()], "o", color=INK, mfc="white", ms=3.5, zorder=4)
         axes.bar(middles, shares, 0.8 * per_bar, color=FILLS["CO"].colour, lw=0)
         low, high = (min(first, sensor.land_by), max(shown, sensor.land_by + 1)) if near else (first, shown)
         edge = max(1.0, EDGE * (high - low))
         axes.set_xlim(low - edge, high + edge)
         if near:
-            _deadline(axes, limit)
+            _deadline(axes, limit, 0.5 if circles else 1.0)
 
     return Cell(f"{shortened(sensor.name)}: achieved l", notes, draw)

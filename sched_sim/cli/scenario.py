@@ -25,7 +25,7 @@ from sched_sim.cli.scenario_accuracy import (
     slower_rows,
     slower_runs,
 )
-from sched_sim.cli.scenario_exact import exact_document, exact_note
+from sched_sim.cli.scenario_exact import exact_document, exact_note, find_exact
 from sched_sim.cli.scenario_flags import Asked
 
 if TYPE_CHECKING:
@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from sched_sim.scenario.scenario import Scenario, Sensor
     from sched_sim.schedule.engine import Engine
     from sched_sim.schedule.outcome import Slice
+    from studies.probability.beside_sampled import Beside
     from studies.selection.in_scenario import ScenarioAccuracy
 
 
@@ -91,11 +92,13 @@ def simulate_scenario(
         on_slice = write if writers else None
         outcome = run_scenario(scenario, engine=engine, on_slice=on_slice, on_progress=progress)
     accuracy = None if about is None else accuracy_of(about, scenario, outcome)
+    exact = "" if format == "csv" and histogram is None else find_exact(scenario)
     if histogram is not None:
         from reports.drawing.picture import save
         from reports.scenario.distributions import distributions_figure
 
-        save(distributions_figure(scenario, outcome, accuracy), histogram, "--histogram")
+        beside = None if isinstance(exact, str) else exact
+        save(distributions_figure(scenario, outcome, accuracy, beside), histogram, "--histogram")
     if gantt is not None:
         from reports.charts.chart import gantt as draw
         from reports.charts.chart import save
@@ -110,14 +113,14 @@ def simulate_scenario(
     if format == "json":
         more = {} if accuracy is None else {"accuracy": document(accuracy, runs)}
         more |= {} if seldom is None else {"rare": document_of(seldom)}
-        print_json(_document(scenario, outcome, busy_shares) | more)
+        print_json(_document(scenario, outcome, busy_shares) | exact_document(exact) | more)
     elif format == "csv":
         rows = _rows(scenario, outcome, accuracy)
         if seldom is not None:
             rows = [row | rare_columns(seldom.get(row["job"])) for row in rows]
         print_csv(slower_rows(runs) or rows)
     else:
-        _show(scenario, outcome, busy_shares)
+        _show(scenario, outcome, busy_shares, exact)
         if seldom is not None:
             show_rare(seldom)
         if accuracy is not None:
@@ -154,7 +157,7 @@ def _document(scenario: Scenario, outcome: Outcome, busy: Sequence[float]) -> di
         "note": WITHHELD if scenario.harness else None,
         "jobs": {kind: _job(figures, ms, scenario.harness) for kind, figures in outcome.jobs.items()},
         "sensors": {sensor.name: _of_sensor(scenario, sensor, outcome) for sensor in scenario.sensors},
-    } | exact_document(scenario)
+    }
 
 
 def _of_sensor(scenario: Scenario, sensor: Sensor, outcome: Outcome) -> dict[str, Any]:
@@ -245,7 +248,7 @@ def _sensor(sensor: Sensor, figures: SensorFigures) -> dict[str, Any]:
     }
 
 
-def _show(scenario: Scenario, outcome: Outcome, busy: Sequence[float]) -> None:
+def _show(scenario: Scenario, outcome: Outcome, busy: Sequence[float], exact: Beside | str) -> None:
     from sched_sim.cli.scenario_times import times
 
     ms = None if scenario.hr_hz is None else float(1000 / scenario.hr_hz)
@@ -254,7 +257,7 @@ def _show(scenario: Scenario, outcome: Outcome, busy: Sequence[float]) -> None:
     print_table(
         f"{scenario.name}: {scenario.steps} steps {rate}, late measurements: {scenario.late}; response times in {unit}",
         [_job_words(kind, figures, ms or 1.0, scenario.harness) for kind, figures in outcome.jobs.items()],
-        lines(_note(scenario, outcome, busy), exact_note(scenario)),
+        lines(_note(scenario, outcome, busy), exact_note(exact)),
     )
     if outcome.sensors:
         print_table(

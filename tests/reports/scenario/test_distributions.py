@@ -8,6 +8,7 @@ from fractions import Fraction
 from math import log
 from typing import Any
 
+import numpy as np
 import pytest
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -21,6 +22,7 @@ from sched_sim.scenario.run import run_scenario
 from sched_sim.scenario.scenario import Scenario, Sensor
 from sched_sim.scenario.scenario_file import read_scenario
 from sched_sim.schedule.tasks import Task
+from studies.probability.beside_sampled import beside_sampled
 from tests import scenarios
 from tests.reports.layout import flaws, texts
 
@@ -159,6 +161,30 @@ def test_bars_are_the_shares_of_the_achieved_l() -> None:
     assert {round(x, 6): height for x, height in drawn.items()} == pytest.approx(
         {round(x, 6): height for x, height in expected.items()}
     )
+
+
+ONE_LATE = Scenario(
+    "one",
+    steps=400,
+    speed=Fraction(10),
+    sensors=[Sensor("s", every=20, delays=(4,), land_by=6)],
+    costs={"predict": [Fraction(3)] * 19 + [Fraction(6)], "correct.s": [Fraction(1)] * 9 + [Fraction(12)]},
+)
+
+
+def test_what_is_exact_is_drawn_over_what_was_simulated() -> None:
+    exact = beside_sampled(ONE_LATE)
+    figure = distributions_figure(ONE_LATE, run_scenario(ONE_LATE), exact=exact)
+    (circles,) = [line for line in plot(figure, "s: achieved l").lines if line.get_marker() == "o"]
+    known = {L: one.bounds.upper for L, one in exact.landing.items()}
+    steps, heights = (np.asarray(data, dtype=float) for data in circles.get_data())
+    assert dict(zip(steps, heights, strict=True)) == {L: share for L, share in known.items() if share > 1e-12}
+    assert sum(known.values()) == pytest.approx(1)
+    assert plot(figure, "s: achieved l").get_ylim()[0] < heights.min() < 1e-9
+    (dashed,) = [line for line in plot(figure, "predict").lines if line.is_dashed()]
+    times, longer = (np.asarray(data, dtype=float) for data in dashed.get_data())
+    assert longer[(times > 0.3) & (times < 0.6)] == pytest.approx(0.05)
+    assert flaws(figure) == []
 
 
 def test_histograms_hold_every_response_time_where_it_is() -> None:
