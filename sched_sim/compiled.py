@@ -44,7 +44,7 @@ def compiled(function: F, *, makes_arrays: bool = False) -> F:
     if hasattr(version, "_cache"):  # it is no plain function
         with suppress(OSError, RuntimeError):  # of a source that cannot be read, and of a user without a home
             version._cache = _Kept(function.__name__, _hash(reached, makes_arrays))
-    return version  # type: ignore[no-any-return]
+    return version  # type: ignore[no-any-return]  # numba's, of the same signature
 
 
 def _named(function: Any) -> dict[str, Any]:

@@ -23,7 +23,7 @@ MOST_TICKS = 2_048
 BINS, BINS_OF_A_CYCLE = 512, 102_400
 """Where none are asked for: fewer where a measurement cycle has very many HR periods, for it takes their square."""
 MOST_BINS = 16_384
-LONGEST = 2_000
+LONGEST_COST = 2_000
 """HR periods that one piece of work may take."""
 
 Rounded = Literal["down", "up"]
@@ -94,11 +94,11 @@ def law_of(distribution: CostDistribution, grid: Grid, rounded: Rounded, what: s
     """Raises InputError for a cost of very many HR periods."""
     to_whole = ceil if rounded == "up" else floor
     ticks = [to_whole(value / grid.unit) for value in distribution.values]
-    if ticks[-1] > LONGEST * grid.ticks:
+    if ticks[-1] > LONGEST_COST * grid.ticks:
         raise InputError(
             f"{what} takes up to {float(distribution.worst):g}, which is {ticks[-1] / grid.ticks:.3g} HR periods: at "
-            f"most {LONGEST} are followed; give a faster processor, or mend the cost: without a unit of its own it is "
-            f"in that of the cost table"
+            f"most {LONGEST_COST} are followed; give a faster processor, or mend the cost: without a unit of its own "
+            f"it is in that of the cost table"
         )
     mass = np.zeros(ticks[-1] + 1)
     np.add.at(mass, ticks, distribution.probabilities)

@@ -19,7 +19,7 @@ from sched_sim.probability.tally import Tally
 from sched_sim.probability.timeline import TaskInTicks, Timeline
 from sched_sim.schedule.jobs import HR
 
-LONGEST = 16
+LONGEST_RESPONSE = 16
 """Times the backlog that is followed, a response."""
 
 Parts = dict[Hashable, Floats]
@@ -108,7 +108,7 @@ class Level:
                 done = sum_of(done, np.concatenate([np.zeros(at), mass[: segment.length + 1]]))
                 rest = mass[segment.length :].copy()
                 rest[:1] = 0.0
-                if at > LONGEST * self.most or rest.sum() <= NOTHING:
+                if at > LONGEST_RESPONSE * self.most or rest.sum() <= NOTHING:
                     self._leave(float(rest.sum()), tally)
                 else:
                     left[key] = rest

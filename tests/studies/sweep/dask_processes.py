@@ -17,6 +17,16 @@ ROOT = Path(__file__).resolve().parents[3]
 PATIENCE_S = 300
 """Longer than any machine needs, however busy."""
 
+END_WITH_THE_TESTS = f"""
+import os, threading, time
+def end():
+    while os.getppid() == {os.getpid()}:
+        time.sleep(1)
+    os.killpg(0, 9)
+threading.Thread(target=end, daemon=True).start()
+"""
+"""What the interpreter of each does first: one whose tests were killed would stay."""
+
 
 class Processes:
     """Those of one scheduler. folder: for their files; settings: of Dask, in their environment."""
@@ -40,7 +50,7 @@ class Processes:
         return started
 
     def _start(self, which: str, *options: str, before: str = "pass") -> subprocess.Popen[bytes]:
-        code = f"{before}\nfrom distributed.cli.dask_{which} import main\nmain()"
+        code = f"{END_WITH_THE_TESTS}\n{before}\nfrom distributed.cli.dask_{which} import main\nmain()"
         line = [sys.executable, "-c", code, "--host", "127.0.0.1", "--dashboard-address", "127.0.0.1:0", *options]
         with (self._folder / f"{len(self._started) + 1}.log").open("wb") as log:
             started = subprocess.Popen(

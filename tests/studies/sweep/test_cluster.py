@@ -11,12 +11,12 @@ import pytest
 
 from sched_sim.errors import InputError
 from studies.sweep import run as sweeping
-from studies.sweep.export import export
 from studies.sweep.run import run
 from studies.sweep.scheduler import cluster
 from studies.sweep.settings import settings
 from studies.sweep.workers import processes
 from tests.studies.sweep.dask_processes import ROOT, dask_processes
+from tests.studies.sweep.exported import exported, local_rows
 
 pytest.importorskip("distributed", reason="the extra cluster is not installed")
 
@@ -28,18 +28,10 @@ def small_portions(monkeypatch):
     monkeypatch.setattr(sweeping, "SIMULATED_STEPS", 200)
 
 
-def exported(store, folder):
-    export(store, folder / "r.csv")
-    return (folder / "r.csv").read_bytes()
-
-
 @pytest.fixture(scope="module")
 def local(tmp_path_factory):
     """The rows of a sweep without a cluster, as CSV."""
-    folder = tmp_path_factory.mktemp("local")
-    with SWEEP.open(folder / "r.sqlite") as store:
-        run(SWEEP, store, processes(0), lambda _: None)
-        return exported(store, folder)
+    return local_rows(SWEEP, tmp_path_factory.mktemp("local"), processes(0))
 
 
 @pytest.fixture(scope="module")

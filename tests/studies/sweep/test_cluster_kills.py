@@ -14,13 +14,13 @@ from sched_sim.errors import InputError
 from studies.sweep import cluster as team
 from studies.sweep import run as sweeping
 from studies.sweep.dispatch import WorkerDeathError
-from studies.sweep.export import export
 from studies.sweep.run import run
 from studies.sweep.scheduler import cluster
 from studies.sweep.settings import settings
 from studies.sweep.workers import processes
 from tests.exhaust import share_of
 from tests.studies.sweep.dask_processes import dask_processes
+from tests.studies.sweep.exported import exported, local_rows
 
 pytest.importorskip("distributed", reason="the extra cluster is not installed")
 
@@ -35,18 +35,10 @@ def small_portions(monkeypatch):
     monkeypatch.setattr(sweeping, "SIMULATED_STEPS", 5_000)
 
 
-def exported(store, folder):
-    export(store, folder / "r.csv")
-    return (folder / "r.csv").read_bytes()
-
-
 @pytest.fixture(scope="module")
 def local(tmp_path_factory):
     """The rows of a sweep without a cluster, as CSV."""
-    folder = tmp_path_factory.mktemp("local")
-    with SWEEP.open(folder / "r.sqlite") as store:
-        run(SWEEP, store, processes(2), lambda _: None)
-        return exported(store, folder)
+    return local_rows(SWEEP, tmp_path_factory.mktemp("local"), processes(2))
 
 
 class Killer(threading.Thread):
