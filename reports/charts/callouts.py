@@ -6,10 +6,10 @@ from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
-from reports.charts.intervals import TASK, Bar
 from reports.charts.scale import Scale
 from reports.drawing.placing import spread, worst_shift
 from reports.drawing.style import SMALL_PT, drawable, text_width_mm
+from sched_sim.schedule.intervals import TASK, Bar
 
 PADDING_MM = 0.5
 GAP_MM = 1.0

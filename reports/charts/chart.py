@@ -10,7 +10,6 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from reports.charts.axis import MS_MM, STEPS_MM, draw_ms, name_steps, step_ticks
-from reports.charts.intervals import jobs, never_ran, rows
 from reports.charts.lanes import arrow_stride, draw_lanes, fills_of, lanes, shortened, shown_styles
 from reports.charts.marks import draw_marks
 from reports.charts.panels import Panel, method_panel
@@ -20,6 +19,7 @@ from reports.drawing.picture import image, save
 from reports.drawing.style import FONT_PT, INK, PALE, RED, TITLE_PT, WIDTH_MM, axes_at, drawing, page, text_width_mm
 from sched_sim.bounds import short
 from sched_sim.errors import InputError
+from sched_sim.schedule.intervals import jobs, never_ran, rows
 from sched_sim.ticks import Number, exact, positive
 
 __all__ = ["Panel", "gantt", "image", "method_panel", "save"]

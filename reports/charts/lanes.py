@@ -12,9 +12,9 @@ from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.patheffects import withStroke
 
 from reports.charts.callouts import Callout, callouts, label_fits, shown_label
-from reports.charts.intervals import TASK, Bar, JobSpan, Row, bars, jobs, overdue_work, rows, waits
 from reports.charts.scale import Scale
 from reports.drawing.style import FILLS, FONT_PT, GREY, INK, RED, SMALL_PT, TASK_FILLS, Fill, drawable, text_width_mm
+from sched_sim.schedule.intervals import TASK, Bar, JobSpan, Row, bars, jobs, overdue_work, rows, waits
 from sched_sim.schedule.outcome import Schedule
 
 Fills = Mapping[str, Fill]

@@ -7,7 +7,6 @@ from dataclasses import replace
 from math import ceil
 from typing import NamedTuple
 
-from reports.charts.intervals import jobs
 from reports.charts.lanes import shortened
 from reports.charts.panels import Mark, Panel, steps_shown
 from sched_sim.errors import InputError
@@ -15,6 +14,7 @@ from sched_sim.scenario.kinds import correct_kind
 from sched_sim.scenario.outcome import Outcome
 from sched_sim.scenario.run import run_scenario
 from sched_sim.scenario.scenario import Scenario
+from sched_sim.schedule.intervals import jobs
 from sched_sim.schedule.outcome import Schedule, Slice
 
 FEWEST_STEPS, MOST_STEPS = 12, 24

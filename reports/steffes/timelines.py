@@ -13,7 +13,6 @@ from matplotlib.patheffects import withStroke
 from matplotlib.ticker import FixedFormatter, FixedLocator
 
 from reports.charts.chart import frame
-from reports.charts.intervals import JobSpan, bars, jobs, rows
 from reports.charts.lanes import Lane, draw_lanes, fills_of
 from reports.charts.marks import draw_marks
 from reports.charts.panels import METHOD_NAMES, Panel, cycle_marks
@@ -27,6 +26,7 @@ from sched_sim.design.pieces import Costs, LarsenCosts
 from sched_sim.design.simulate import simulate
 from sched_sim.design.timing import Timing
 from sched_sim.errors import InputError
+from sched_sim.schedule.intervals import JobSpan, bars, jobs, rows
 
 LEFT_MM, RIGHT_MM, MARKS_MM, AXIS_MM, KEY_LINE_MM, EDGE_MM = 12.0, 7.0, 5.0, 6.5, 4.6, 2.0
 

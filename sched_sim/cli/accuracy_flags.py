@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from fractions import Fraction
 
     from filters.accuracy.shipped import ShippedModel
-    from sched_sim.cli.design_times import Design
+    from sched_sim.design.stated import Stated
     from studies.selection.sampling import Sampling
 
 ACCURACY = "Accuracy"
@@ -148,7 +148,7 @@ def sampled(
     land_within_ms: str | None = None,
 ) -> Sampled:
     """In steps and in time. Raises InputError for steps and times that do not agree, as the other commands do."""
-    from sched_sim.cli.design_times import make_design
+    from sched_sim.design.stated import Stated
     from studies.selection.sampling import Sampling, with_defaults
 
     if N is not None and N < 1:
@@ -157,7 +157,7 @@ def sampled(
         raise InputError(f"-M is {M}: give 0 or more steps of delay")
     asked = with_defaults(shipped, N, M, hr_hz, measurement_hz, delay_ms)
     rate = None if asked.hr_hz is None else positive(asked.hr_hz, "--hr-hz")
-    design = make_design(
+    design = Stated.of(
         asked.N,
         asked.M,
         L,
@@ -175,7 +175,7 @@ def _text(value: object) -> str | None:
     return None if value is None else str(value)
 
 
-def _held(design: Design) -> tuple[Fraction | None, Fraction | None]:
+def _held(design: Stated) -> tuple[Fraction | None, Fraction | None]:
     """What holds at any rate, of measurements and delay."""
     return (None, None) if design.times is None else (design.times.measurement_hz, design.times.delay_ms)
 

@@ -61,12 +61,12 @@ def gantt(
     from reports.charts.panels import zoomed
     from reports.drawing.picture import check_picture
     from sched_sim.cli.caveats import caveat_note
-    from sched_sim.cli.design_times import make_design
     from sched_sim.cli.measured_note import say_of_statistic
     from sched_sim.cli.simulate import of_the_start, released_together
     from sched_sim.cli.update_form import counted_note
     from sched_sim.design.least_speed import least_speed
     from sched_sim.design.methods import select
+    from sched_sim.design.stated import Stated
 
     check_picture(output, "--output")
     across = width_mm(width)
@@ -75,7 +75,7 @@ def gantt(
     part = opt.make_processor(processor)
     table, rate = opt.costs_on(costs, part), opt.hr_rate(hr_hz)
     others = opt.make_tasks(tasks, table.unit, rate)
-    design = make_design(N, M, L, rate, measurement_hz, delay_ms, land_within_ms)
+    design = Stated.of(N, M, L, rate, measurement_hz, delay_ms, land_within_ms)
     say_of_statistic(statistic, [table])
     panels, longer, methods = [], [], opt.wanted_methods(method or _usual(table), table)
     refused = Refused(methods)

@@ -57,7 +57,6 @@ def minimum(
     sched-sim minimum -N 40 -M 4 --hr-hz 400 --costs my-costs.toml --method dual-rate
     """
     from sched_sim.cli.caveats import caveat_note, with_caveats
-    from sched_sim.cli.design_times import make_design
     from sched_sim.cli.less_work import least_note, speed_words
     from sched_sim.cli.measured_note import measured_row, range_note, say_of_statistic
     from sched_sim.cli.parts import MEANING, fit_row, fit_words, fixed_by, highest_note, least_row, no_less
@@ -70,12 +69,13 @@ def minimum(
     from sched_sim.design.less_work import enough_for_less, holds_for_less
     from sched_sim.design.methods import select
     from sched_sim.design.pieces import converted
+    from sched_sim.design.stated import Stated
 
     part, table = part_and_costs(costs, processor, clock_mhz, cycles_per_instruction)
     check_ram(table, ram_kb)
     rate = opt.hr_rate(hr_hz)
     others = opt.make_tasks(tasks, table.unit, rate)
-    design = make_design(N, M, L, rate, measurement_hz, delay_ms, land_within_ms)
+    design = Stated.of(N, M, L, rate, measurement_hz, delay_ms, land_within_ms)
     timed = rate is not None and table.unit in SECONDS
     second = SECONDS.get(table.unit, Fraction(1))
 

@@ -14,9 +14,7 @@ from sched_sim.bounds import MOST_STEPS, short
 from sched_sim.costs.methods import METHODS as NAMES
 from sched_sim.costs.methods import Method
 from sched_sim.costs.table import COUNTED, PAPERS, SECONDS, CostTable, default_methods
-from sched_sim.design.options import Options
 from sched_sim.design.pieces import Statistic
-from sched_sim.design.timing import Timing
 from sched_sim.errors import InputError
 from sched_sim.schedule.tasks import Task
 from sched_sim.text import did_you_mean
@@ -197,34 +195,6 @@ def given_options(context: typer.Context, wanted: Callable[[str], bool]) -> list
         and (source := context.get_parameter_source(str(parameter.name)))
         and source.name != "DEFAULT"
     ]
-
-
-def make_timing(
-    N: int, M: int | None, L: int | None, method: str, options: Options, delay: str | None = None
-) -> Timing:
-    """With L the latest that the method can have, if the user did not say. Multirate methods have no delay.
-
-    delay: as the user wrote it, where it was not -M.
-    """
-    from sched_sim.design.methods import METHODS
-
-    law = METHODS[method].law(options.feedback)
-    if law.undelayed:
-        if M:
-            said = delay or f"-M {M}"
-            raise InputError(
-                f"{said}: {method} has no delay, it uses each measurement in its step: for a late one choose --method "
-                f"recalculate, larsen, clone, carried-gain or dual-rate; without delay leave {said.split()[0]} out"
-            )
-        M = 0
-    if M is None:
-        raise InputError(
-            "-M is missing: give the delay of the measurement in HR steps, such as -M 4, or --delay-ms with --hr-hz "
-            "(multirate and robust methods have none)"
-        )
-    if L is None:
-        L = law.latest(N, M) if M >= 0 else M
-    return Timing(N, M, L)
 
 
 def make_tasks(path: Path | None, unit: str, rate: Fraction | None) -> Sequence[Task]:

@@ -110,7 +110,7 @@ def probability(
 --method recalculate --cost update=30us:0.999,50us
     """
     from sched_sim.cli import probability_shown as shown
-    from sched_sim.cli.design_times import make_design
+    from sched_sim.design.stated import Stated
     from studies.probability.answer import answer
     from studies.probability.question import Question, stated_and_constant
 
@@ -125,7 +125,7 @@ def probability(
     part = opt.make_processor(processor)
     table, rate = opt.costs_on(costs, part), opt.hr_rate(hr_hz)
     late = flags.random_delays(delays, M, delay_ms, rate)
-    design = make_design(N, M if late is None else int(late.worst), L, rate, measurement_hz, delay_ms, land_within_ms)
+    design = Stated.of(N, M if late is None else int(late.worst), L, rate, measurement_hz, delay_ms, land_within_ms)
     if late is not None and design.L is not None:
         design = design._replace(M=int(late.values[0]))
     timing = design.timing(method, options)

@@ -105,8 +105,8 @@ def processors(
     sched-sim processors --hr-hz 400 --measurement-hz 5 --delay-ms 110 --method larsen --method dual-rate
     sched-sim processors --scenario rocket.toml
     """
-    from sched_sim.cli.design_times import make_design
     from sched_sim.costs.table_file import load_costs
+    from sched_sim.design.stated import Stated
     from sched_sim.errors import InputError
     from sched_sim.processors.part_file import load_part
     from sched_sim.ticks import positive
@@ -130,7 +130,7 @@ def processors(
         raise InputError(f"{missing} is missing: which processors can run a method depends on -N and --hr-hz")
     else:
         rate = positive(hr_hz, "--hr-hz")
-        design = make_design(N, M, L, rate, measurement_hz, delay_ms, land_within_ms)
+        design = Stated.of(N, M, L, rate, measurement_hz, delay_ms, land_within_ms)
         methods = opt.known_methods(method or ["dual-rate"])
         refused, timings = Refused(methods), {}
         for name in methods:

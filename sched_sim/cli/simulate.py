@@ -146,7 +146,6 @@ def simulate(
     from contextlib import ExitStack
 
     from sched_sim.cli.caveats import caveat_note, with_caveats
-    from sched_sim.cli.design_times import make_design
     from sched_sim.cli.instructions import board_row
     from sched_sim.cli.measured_note import busy_row, say_of_statistic
     from sched_sim.cli.simulated import of_run, outcome, responses, show
@@ -155,6 +154,7 @@ def simulate(
     from sched_sim.design.least_speed import least_speed
     from sched_sim.design.methods import select
     from sched_sim.design.simulate import simulate as run
+    from sched_sim.design.stated import Stated
     from sched_sim.schedule.trace import check_trace, open_trace
 
     if gantt is not None:
@@ -165,7 +165,7 @@ def simulate(
         check_trace(path)
     part = opt.make_processor(processor)
     table, rate = opt.costs_on(costs, part), opt.hr_rate(hr_hz)
-    design = make_design(N, M, L, rate, measurement_hz, delay_ms, land_within_ms)
+    design = Stated.of(N, M, L, rate, measurement_hz, delay_ms, land_within_ms)
     timing = design.timing(method, options)
     others = opt.make_tasks(tasks, table.unit, rate)
     work = select(table, method, options, statistic)

@@ -11,7 +11,6 @@ from matplotlib.figure import Figure
 
 from filters.arrays import FloatArray
 from reports.charts.chart import gantt
-from reports.charts.intervals import jobs
 from reports.erkf.cost_figure import Way, cost_figure
 from reports.erkf.drive import (
     attitude_figure,
@@ -27,6 +26,7 @@ from reports.erkf.singular import WAYS, singular_figure
 from sched_sim.design.least_speed import least_speed
 from sched_sim.design.pieces import RobustCosts
 from sched_sim.design.timing import Timing
+from sched_sim.schedule.intervals import jobs
 from tests.reports.layout import flaws, texts
 
 COSTS = RobustCosts(Fraction(10), Fraction(900))

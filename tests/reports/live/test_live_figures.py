@@ -5,10 +5,10 @@ from __future__ import annotations
 import pytest
 
 from reports.charts.chart import gantt
-from reports.charts.intervals import bars
 from reports.live.beside import beside_panels, rate_of
 from reports.live.histograms import histograms_figure
 from reports.live.staircase import staircase_figure
+from sched_sim.schedule.intervals import bars
 from studies.live.jobs import Ran
 from studies.live.measure import Measured, measured
 from studies.live.stairs import through_two_steps

@@ -17,8 +17,6 @@ from matplotlib.patches import Rectangle
 from filters.arrays import FloatArray
 from filters.systems.rocket_filter import SENSORS, PredictorName
 from reports.charts.chart import gantt
-from reports.charts.intervals import bars as bars_of
-from reports.charts.intervals import never_ran
 from reports.modular.schedule import (
     LEVELS,
     landing_figure,
@@ -34,6 +32,8 @@ from reports.modular.schedule import (
 from reports.modular.schedule_gantt import DELAY, fix_panels
 from reports.pages.stored import Rows, records
 from sched_sim.costs.sample_file import SampledCosts
+from sched_sim.schedule.intervals import bars as bars_of
+from sched_sim.schedule.intervals import never_ran
 from studies.modular.rocket_schedule import JOBS, URGENCIES, WAYS, MissRow, Run, chosen
 from tests.reports.layout import flaws, texts
 

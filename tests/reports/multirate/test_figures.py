@@ -7,7 +7,6 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from reports.charts.intervals import bars
 from reports.multirate.accuracy import Curve, Family, start_figure, steady_figure
 from reports.multirate.costs import least_time_of, our_forms, patents_form
 from reports.multirate.figures import load_figure, one_loop_panel, rates_figure, two_rates_panel
@@ -15,6 +14,7 @@ from sched_sim.design.load import utilization
 from sched_sim.design.timing import Timing
 from sched_sim.processors.part import on_part
 from sched_sim.processors.part_file import load_part
+from sched_sim.schedule.intervals import bars
 from tests.reports.layout import flaws, texts
 
 PATENT = load_part("patent")

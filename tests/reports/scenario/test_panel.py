@@ -10,11 +10,11 @@ import pytest
 from matplotlib.collections import PolyCollection
 
 from reports.charts.chart import gantt
-from reports.charts.intervals import bars, jobs, rows
 from reports.scenario.panel import LEAST_BAR_MM, Late, first_late, scenario_panel, window
 from sched_sim.scenario.draws import fates
 from sched_sim.scenario.run import run_scenario
 from sched_sim.scenario.scenario import Scenario, Sensor
+from sched_sim.schedule.intervals import bars, jobs, rows
 from sched_sim.schedule.tasks import Task
 from tests import scenarios
 from tests.reports.layout import flaws, texts

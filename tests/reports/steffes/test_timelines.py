@@ -8,7 +8,6 @@ import pytest
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import to_rgba
 
-from reports.charts.intervals import jobs
 from reports.drawing.style import FILLS
 from reports.steffes.timelines import dual_rate_timeline, serial_timeline, unused
 from sched_sim.costs.table_file import load_costs
@@ -17,6 +16,7 @@ from sched_sim.design.options import Options
 from sched_sim.design.simulate import simulate
 from sched_sim.design.timing import Timing
 from sched_sim.errors import InputError
+from sched_sim.schedule.intervals import jobs
 from tests.reports.layout import flaws, texts
 
 PAPER = load_costs("steffes2014")

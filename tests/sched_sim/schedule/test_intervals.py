@@ -10,13 +10,13 @@ from itertools import pairwise
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from reports.charts.intervals import bars, jobs, never_ran, overdue_work, rows, waits
 from reports.drawing.placing import spread, worst_shift
 from sched_sim.design.least_speed import least_speed
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import DualRateCosts
 from sched_sim.design.simulate import simulate
 from sched_sim.design.timing import Timing
+from sched_sim.schedule.intervals import bars, jobs, never_ran, overdue_work, rows, waits
 from sched_sim.schedule.outcome import Schedule
 from sched_sim.schedule.tasks import Task
 from tests.designs import Design, designs
