@@ -6,10 +6,10 @@ from collections.abc import Sequence
 
 from matplotlib.axes import Axes
 
-from reports.charts.panels import Mark
 from reports.charts.scale import Scale
 from reports.drawing.placing import spread, worst_shift
 from reports.drawing.style import FONT_PT, INK, text_width_mm
+from sched_sim.design.cycle_marks import Mark
 
 GAP_MM = 1.2
 FARTHEST_MM = 4.0

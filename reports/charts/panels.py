@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, fields, replace
 from fractions import Fraction
-from typing import NamedTuple
 
 from sched_sim.bounds import at_least_one, whole
 from sched_sim.costs.methods import CAVEATS, MULTIRATE_METHODS, TWO_RATE_METHODS
 from sched_sim.costs.table import INSTRUCTION, CostTable
+from sched_sim.design.cycle_marks import Mark, cycle_marks
 from sched_sim.design.methods import select
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import Statistic
@@ -45,16 +45,6 @@ METHOD_NAMES = {
 
 MOST_STEPS, MOST_JOBS = 20_000, 100_000
 """A picture's."""
-
-
-class Mark(NamedTuple):
-    """A step that the paper names. text: without dollar signs, such as "l = k+N"; cycle: from 0; is_k: whether a
-    measurement is taken there."""
-
-    step: int
-    text: str
-    cycle: int
-    is_k: bool
 
 
 @dataclass(frozen=True)
@@ -94,42 +84,6 @@ def steps_shown(first: int, last: int, steps: int) -> str:
     if first:
         return f"steps {first} to {last - 1} of {steps}"
     return f"first {last} of {steps} steps" if last < steps else f"all {steps} steps"
-
-
-def cycle_marks(
-    timing: Timing, cycles: int, landings: Mapping[int, int], *, arrives: bool = True, end: int = 0
-) -> list[Mark]:
-    """k, m and l of every cycle; steps that coincide share one mark, "m = l".
-
-    landings: achieved L by cycle, for the cycles whose correction landed; arrives: whether there is an m; end: where
-    the last of them must have landed after the last cycle, the step until which each k has its mark.
-    """
-    names: dict[int, list[Mark]] = {}
-
-    def add(step: int, text: str, cycle: int, is_k: bool = False) -> None:
-        names.setdefault(step, []).append(Mark(step, text, cycle, is_k))
-
-    taken = timing.taken
-    for cycle in range(max(cycles, taken.before(end + 1) - 1) + 1):
-        k = taken.step(cycle)
-        later = "" if cycle == 0 else "+N" if cycle == 1 else f"+{cycle}N"
-        add(k, f"k{later}", cycle, True)
-        if cycle >= cycles:
-            continue
-        if arrives:
-            add(k + timing.M, f"m{later}", cycle)
-        if cycle in landings:
-            L = landings[cycle]
-            add(k + L, f"l{later}" if landings.get(0) == L else f"l = k{later}+{L}", cycle)
-    return [
-        Mark(step, _joined(marks), min(mark.cycle for mark in marks), any(mark.is_k for mark in marks))
-        for step, marks in sorted(names.items())
-    ]
-
-
-def _joined(marks: Sequence[Mark]) -> str:
-    """In order of their cycles: "m = k+N" where the measurement arrives as the next one is taken."""
-    return " = ".join(mark.text for mark in sorted(marks, key=lambda mark: mark.cycle))
 
 
 def landing_note(landings: Iterable[int], M: int) -> str:

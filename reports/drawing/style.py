@@ -16,6 +16,7 @@ from matplotlib.font_manager import FontProperties, findfont, get_font
 from matplotlib.textpath import text_to_path
 
 from sched_sim.errors import InputError
+from sched_sim.schedule.labels import MEANINGS
 from sched_sim.text import visible
 
 WIDTH_MM = 170.0
@@ -71,28 +72,31 @@ class Fill(NamedTuple):
 
 
 FILLS = {
-    "P": Fill("#b3d4ee", INK, "", "propagate"),
-    "U": Fill("#11538c", "white", "", "update"),
-    "G": Fill("#f4e9d8", "#9a6200", "\\\\\\\\", "gain and covariance"),
-    "R": Fill("#dfe8f0", "#11538c", "\\\\\\\\", "replayed steps"),
-    "ST": Fill("#5b93c4", "white", "", "start"),
-    "CA": Fill("#e3edf5", "#11538c", "....", "carry"),
-    "LA": Fill("#5b93c4", "white", "////", "land"),
-    "HRP": Fill("#b3d4ee", INK, "", "high-rate propagate"),
-    "HRU": Fill("#11538c", "white", "", "high-rate update"),
-    "LRP": Fill("#fbe3b5", "#9a6200", "////", "low-rate propagate"),
-    "LRG": Fill("#f4e9d8", "#9a6200", "\\\\\\\\", "gain, precomputed"),
-    "LRU": Fill("#dd9009", INK, "", "low-rate update"),
-    "SU": Fill("#b3d4ee", INK, "", "state update"),
-    "CG": Fill("#dd9009", INK, "", "covariance and gain"),
-    "OC": Fill("#f4e9d8", "#9a6200", "\\\\\\\\", "output correction"),
-    "IP": Fill("#b3d4ee", INK, "", "inertial propagation"),
-    "RS": Fill("#dd9009", INK, "", "robust step"),
-    "PR": Fill("#b3d4ee", INK, "", "predict"),
-    "CO": Fill("#11538c", "white", "", "correct"),
-    "RP": Fill("#dfe8f0", "#11538c", "\\\\\\\\", "replayed steps"),
-    "CU": Fill("#fbe3b5", "#9a6200", "////", "catch-up"),
-    "switch": Fill("#1a1a1a", "white", "", "context switch"),
+    label: Fill(*look, MEANINGS[label])
+    for label, look in {
+        "P": ("#b3d4ee", INK, ""),
+        "U": ("#11538c", "white", ""),
+        "G": ("#f4e9d8", "#9a6200", "\\\\\\\\"),
+        "R": ("#dfe8f0", "#11538c", "\\\\\\\\"),
+        "ST": ("#5b93c4", "white", ""),
+        "CA": ("#e3edf5", "#11538c", "...."),
+        "LA": ("#5b93c4", "white", "////"),
+        "HRP": ("#b3d4ee", INK, ""),
+        "HRU": ("#11538c", "white", ""),
+        "LRP": ("#fbe3b5", "#9a6200", "////"),
+        "LRG": ("#f4e9d8", "#9a6200", "\\\\\\\\"),
+        "LRU": ("#dd9009", INK, ""),
+        "SU": ("#b3d4ee", INK, ""),
+        "CG": ("#dd9009", INK, ""),
+        "OC": ("#f4e9d8", "#9a6200", "\\\\\\\\"),
+        "IP": ("#b3d4ee", INK, ""),
+        "RS": ("#dd9009", INK, ""),
+        "PR": ("#b3d4ee", INK, ""),
+        "CO": ("#11538c", "white", ""),
+        "RP": ("#dfe8f0", "#11538c", "\\\\\\\\"),
+        "CU": ("#fbe3b5", "#9a6200", "////"),
+        "switch": ("#1a1a1a", "white", ""),
+    }.items()
 }
 
 TASK_FILLS = (

@@ -9,10 +9,11 @@ from fractions import Fraction
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, NullLocator
 
-from reports.charts.panels import Panel, cycle_marks
+from reports.charts.panels import Panel
 from reports.drawing.axes import AXIS_MM, EDGE_MM, TITLE_MM, decades, plain
 from reports.drawing.legend import draw_legend, legend_height, line_entry
 from reports.drawing.style import SOURCE_LINES, TITLE_PT, WIDTH_MM, axes_at, drawing, page
+from sched_sim.design.cycle_marks import cycle_marks
 from sched_sim.design.least_speed import achieved_l, least_speed
 from sched_sim.design.pieces import RobustCosts, StandardCosts
 from sched_sim.design.simulate import simulate

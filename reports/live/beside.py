@@ -6,7 +6,8 @@ from collections.abc import Iterator
 from dataclasses import replace
 from fractions import Fraction
 
-from reports.charts.panels import Mark, Panel, cycle_marks, landing_note, steps_shown
+from reports.charts.panels import Panel, landing_note, steps_shown
+from sched_sim.design.cycle_marks import Mark, cycle_marks
 from sched_sim.design.simulate import simulate
 from sched_sim.schedule.outcome import Schedule
 from studies.live.measure import Measured

@@ -7,7 +7,8 @@ from dataclasses import replace
 from itertools import count
 
 from filters.systems.rocket_filter import GPS
-from reports.charts.panels import Mark, Panel
+from reports.charts.panels import Panel
+from sched_sim.design.cycle_marks import Mark
 from sched_sim.scenario.draws import fates
 from sched_sim.scenario.run import run_scenario
 from sched_sim.schedule.outcome import Response, Slice

@@ -12,10 +12,11 @@ from matplotlib.patheffects import withStroke
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from reports.charts.chart import gantt
-from reports.charts.panels import Panel, cycle_marks, method_panel
+from reports.charts.panels import Panel, method_panel
 from reports.drawing.legend import draw_legend, legend_height, line_entry
 from reports.drawing.style import INK, PALE, SMALL_PT, SOURCE_LINES, WIDTH_MM, Line, axes_at, drawing, page
 from sched_sim.costs.table import CostTable
+from sched_sim.design.cycle_marks import cycle_marks
 from sched_sim.design.load import utilization
 from sched_sim.design.pieces import MultirateCosts, StandardCosts
 from sched_sim.design.simulate import simulate

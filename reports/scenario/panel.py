@@ -8,7 +8,8 @@ from math import ceil
 from typing import NamedTuple
 
 from reports.charts.lanes import shortened
-from reports.charts.panels import Mark, Panel, steps_shown
+from reports.charts.panels import Panel, steps_shown
+from sched_sim.design.cycle_marks import Mark
 from sched_sim.errors import InputError
 from sched_sim.scenario.kinds import correct_kind
 from sched_sim.scenario.outcome import Outcome

@@ -15,11 +15,12 @@ from matplotlib.ticker import FixedFormatter, FixedLocator
 from reports.charts.chart import frame
 from reports.charts.lanes import Lane, draw_lanes, fills_of
 from reports.charts.marks import draw_marks
-from reports.charts.panels import METHOD_NAMES, Panel, cycle_marks
+from reports.charts.panels import METHOD_NAMES, Panel
 from reports.charts.scale import Scale
 from reports.drawing.legend import draw_legend, fill_entries, legend_height
 from reports.drawing.style import GREY, INK, SMALL_PT, WIDTH_MM, axes_at, drawing, page, text_width_mm
 from sched_sim.costs.table import CostTable
+from sched_sim.design.cycle_marks import cycle_marks
 from sched_sim.design.methods import select
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import Costs, LarsenCosts

@@ -10,8 +10,9 @@ import typer
 from sched_sim.cli import accuracy_flags as flags
 from sched_sim.cli import options as opt
 from sched_sim.cli.design_flags import with_options
-from sched_sim.cli.output import lines, print_csv, print_json, print_table, say, units
+from sched_sim.cli.output import lines, print_csv, print_json, print_table, say
 from sched_sim.cli.processors import Parts
+from sched_sim.costs.table import units
 from sched_sim.design.options import Options
 from sched_sim.errors import InputError, option
 

@@ -19,9 +19,10 @@ from sched_sim.cli.measure_filter import (
     measure_own_filter,
     refuse_with_filter,
 )
-from sched_sim.cli.output import lines, print_csv, print_json, print_table, say, units
+from sched_sim.cli.output import lines, print_csv, print_json, print_table, say
 from sched_sim.cli.outputs import module_files, refuse_one_file_for_two
 from sched_sim.costs.methods import SYSTEM_METHODS
+from sched_sim.costs.table import units
 from sched_sim.errors import InputError
 
 if TYPE_CHECKING:

@@ -19,10 +19,10 @@ from sched_sim.cli.instructions import (
     part_and_costs,
     ram_words,
 )
-from sched_sim.cli.output import lines, print_csv, print_json, print_table, units
+from sched_sim.cli.output import lines, print_csv, print_json, print_table
 from sched_sim.cli.progress import simulations
 from sched_sim.cli.refused import Refused
-from sched_sim.costs.table import SECONDS
+from sched_sim.costs.table import SECONDS, units
 from sched_sim.design.options import Options
 
 LARGEST_DENOMINATOR = 10_000

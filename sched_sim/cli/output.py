@@ -21,18 +21,6 @@ Format = Literal["table", "json", "csv"]
 UNBOUNDED = 10**6
 """Columns of a file or a pipe, unless COLUMNS says how many."""
 
-PLURALS = {
-    "standard step": "standard steps",
-    "second": "seconds",
-    "operation": "operations",
-    "instruction": "instructions",
-}
-
-
-def units(unit: str) -> str:
-    """The plural of a cost table's unit, where it is a word; "ms" stays."""
-    return PLURALS.get(unit, unit)
-
 
 def say(message: str) -> None:
     """A message to the person who is at it, on standard error."""

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from sched_sim.cli.output import units
 from sched_sim.costs.autocorrelation import doubtful
+from sched_sim.costs.table import units
 from sched_sim.probability.words import IMPOSSIBLE, NOT_RESOLVED, VANISHES, at_most, chance, clause_of, dependence
 
 if TYPE_CHECKING:

@@ -28,6 +28,19 @@ INSTRUCTION = "instruction"
 """The unit of costs that were counted on an emulated core: no cycles, and so no times."""
 
 
+PLURALS = {
+    "standard step": "standard steps",
+    "second": "seconds",
+    "operation": "operations",
+    "instruction": "instructions",
+}
+
+
+def units(unit: str) -> str:
+    """The plural of a cost table's unit, where it is a word; "ms" stays."""
+    return PLURALS.get(unit, unit)
+
+
 def measured_on_busy_machine(provenance: Mapping[str, Any]) -> bool | None:
     """Whether something else had the machine while costs of this provenance were timed; None if `sched-sim measure`
     did not time them."""

@@ -11,9 +11,10 @@ import pytest
 from matplotlib.collections import PolyCollection
 
 from reports.charts.chart import Panel, gantt, title_lines
-from reports.charts.panels import cycle_marks, method_panel
+from reports.charts.panels import method_panel
 from reports.drawing.style import RED
 from sched_sim.costs.table_file import load_costs
+from sched_sim.design.cycle_marks import cycle_marks
 from sched_sim.design.options import Options
 from sched_sim.design.timing import Timing
 from sched_sim.errors import InputError
