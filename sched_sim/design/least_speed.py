@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from fractions import Fraction
 from typing import NamedTuple
 
@@ -118,9 +118,11 @@ def achieved_l(costs: Costs, timing: Timing, speed: Number, options: Options = O
     return None if landed == NOT_LANDED else landed
 
 
-def staircase(costs: Costs, N: int, M: int, options: Options = Options()) -> list[Stair]:
+def staircase(
+    costs: Costs, N: int, M: int, options: Options = Options(), *, only: Collection[int] | None = None
+) -> list[Stair]:
     """Every legal L with its least speed, from the earliest to the latest, or to the one that is meant where none is
-    given (`Law.latest`), where later ones are possible.
+    given (`Law.latest`), where later ones are possible; or `only` some of these.
 
     A step on which `achieved` is less than L is waste: the same processor already lands earlier.
     For the serial methods there is one stair: the correction lands at m, whatever L is.
@@ -133,7 +135,7 @@ def staircase(costs: Costs, N: int, M: int, options: Options = Options()) -> lis
     legal = law.legal(N, M)
     if not legal:
         method.check_design(costs, longest, options.feedback)
-    timings = [Timing(N, M, L) for L in legal]
+    timings = [Timing(N, M, L) for L in (legal if only is None else sorted(only)) if L in legal]
     if all(has_closed_form(options, (), costs, timing) for timing in timings):
         return _in_closed_form(costs, timings, options)
     stairs = []

@@ -36,7 +36,8 @@ class Bar(NamedTuple):
 
 
 class JobSpan(NamedTuple):
-    """One job from release to finish (None: unfinished at the horizon); runs: when it had the processor."""
+    """One job from release to finish (None: unfinished at the horizon); runs: when it had the processor; preemptions:
+    how often another job took it."""
 
     row: Row
     kind: str
@@ -46,6 +47,7 @@ class JobSpan(NamedTuple):
     finish: int | None
     missed: bool
     runs: tuple[tuple[int, int], ...]
+    preemptions: int
 
 
 def row_of(kind: str, cpu: int | None) -> Row:
@@ -97,15 +99,24 @@ def jobs(schedule: Schedule) -> list[JobSpan]:
     slices_of: dict[tuple[str, int], list[Slice]] = {}
     for piece in schedule.slices:
         slices_of.setdefault((piece.kind, piece.step), []).append(piece)
-    return sorted(map(_span, slices_of.values()), key=lambda job: (job.release, job.row.name))
+    spans = (_span(slices, schedule.horizon) for slices in slices_of.values())
+    return sorted(spans, key=lambda job: (job.release, job.row.name))
 
 
-def _span(slices: Sequence[Slice]) -> JobSpan:
+def _span(slices: Sequence[Slice], horizon: int) -> JobSpan:
     last = slices[-1]
     finish = last.end if last.finished else None
     runs = tuple((piece.start, piece.end) for piece in slices if piece.start < piece.end)
     row = row_of(last.kind, last.cpu)
-    return JobSpan(row, last.kind, last.step, last.release, last.deadline, finish, last.missed, runs)
+    preemptions = sum(_is_preempted(piece, horizon) for piece in slices)
+    return JobSpan(row, last.kind, last.step, last.release, last.deadline, finish, last.missed, runs, preemptions)
+
+
+def _is_preempted(piece: Slice, horizon: int) -> bool:
+    """Whether another job took the processor at its end: not where it had done what it knew of, and went on."""
+    if piece.finished or piece.end == horizon:
+        return False
+    return piece.begin + piece.end - piece.start - piece.overhead < sum(work for _, work in piece.parts)
 
 
 def never_ran(schedule: Schedule) -> int:

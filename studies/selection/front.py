@@ -85,7 +85,7 @@ def _points(question: Question, accuracy: Accuracies, variant: Variant) -> Itera
         costs = select(variant.table, variant.method, variant.options, question.statistic)
     except ValueError:
         return
-    for L in _some(first, min(last, curve.first + len(curve.figures) - 1)):
+    for L in some_landings(first, min(last, curve.first + len(curve.figures) - 1)):
         std = curve.at(L)
         timing = using.timing(delay, max(L, delay))
         in_closed_form = has_closed_form(variant.options, question.tasks_in_unit, costs, timing)
@@ -99,9 +99,9 @@ def _points(question: Question, accuracy: Accuracies, variant: Variant) -> Itera
             yield FrontPoint(variant.method, variant.every, L, std, float(speed))
 
 
-def _some(first: int, last: int) -> list[int]:
-    """From the first to the last, denser where each step counts most."""
-    if last - first < LANDINGS:
+def some_landings(first: int, last: int, most: int = LANDINGS) -> list[int]:
+    """From the first to the last, denser where each step counts most; all where there are no more than `most`."""
+    if last - first < most:
         return list(range(first, last + 1))
-    ratio = (last - first) ** (1 / (LANDINGS - 1))
-    return sorted({first + round(ratio**number) - 1 for number in range(LANDINGS - 1)} | {last})
+    ratio = (last - first) ** (1 / (most - 1))
+    return sorted({first + round(ratio**number) - 1 for number in range(most - 1)} | {last})

@@ -1,0 +1,21 @@
+"""Records as plain data that JSON has."""
+
+from __future__ import annotations
+
+from dataclasses import fields, is_dataclass
+from fractions import Fraction
+from typing import Any
+
+
+def document(value: Any) -> Any:
+    """Records and mappings become objects, tuples lists of what they hold, fractions their value beside the exact text.
+    Lists are columns of plain values, and stay as they are."""
+    if isinstance(value, Fraction):
+        return {"value": float(value), "exact": str(value)}
+    if is_dataclass(value):
+        return {field.name: document(getattr(value, field.name)) for field in fields(value)}
+    if isinstance(value, dict):
+        return {key: document(item) for key, item in value.items()}
+    if isinstance(value, tuple):
+        return [document(item) for item in value]
+    return value

@@ -1,0 +1,66 @@
+"""What each landing asks of the processor, and where each speed lands: two views of one staircase."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from fractions import Fraction
+
+from sched_sim.design.landing import landing
+from sched_sim.design.least_speed import Stair, has_closed_form, least_speed, staircase
+from sched_sim.design.methods import method_of
+from sched_sim.design.options import Options
+from sched_sim.design.pieces import Costs
+from sched_sim.design.timing import Timing
+from sched_sim.schedule.tasks import Task
+from studies.selection.front import some_landings
+
+MOST_STAIRS = 200
+"""Of one method."""
+
+MOST_SIMULATED = 6
+"""Where each takes a search by simulation."""
+
+
+def stairs(costs: Costs, timing: Timing, options: Options, tasks: Sequence[Task]) -> list[Stair]:
+    """Of some legal L, all where there are no more than MOST_STAIRS, and of the timing's own; without a closed form no
+    more than MOST_SIMULATED. Raises InputError as `least_speed` does."""
+    legal = method_of(costs).law(options.feedback).legal(timing.N, timing.M)
+    own = {timing.L} if len(legal) > 1 else set()
+    if in_closed_form(costs, timing, options, tasks):
+        at = {*some_landings(legal[0], legal[-1], MOST_STAIRS), *own}
+        found = staircase(costs, timing.N, timing.M, options, only=frozenset(at))
+        own -= {*legal}
+    else:
+        found, own = [], {*some_landings(legal[0], legal[-1], MOST_SIMULATED), *own}
+    return found + [_stair(costs, replace(timing, L=L), options, tasks) for L in sorted(own)]
+
+
+def in_closed_form(costs: Costs, timing: Timing, options: Options, tasks: Sequence[Task]) -> bool:
+    """Whether no stair takes a simulation, up to the L that is meant where none is given."""
+    latest = method_of(costs).law(options.feedback).latest(timing.N, timing.M)
+    return timing.instants is None and has_closed_form(options, tasks, costs, replace(timing, L=latest))
+
+
+def _stair(costs: Costs, timing: Timing, options: Options, tasks: Sequence[Task]) -> Stair:
+    least = least_speed(costs, timing, options, tasks)
+    landed = landing(costs, timing, least.speed, options, tasks)
+    assert landed is not None
+    return Stair(timing.L, least.speed, least.binding, landed)
+
+
+def landings(
+    costs: Costs, timing: Timing, options: Options, tasks: Sequence[Task], known: Sequence[Stair]
+) -> list[tuple[Fraction, int]]:
+    """Speeds from which on corrections land earlier than at the one before, each with that L. known: the stairs.
+
+    In closed form that is where they land whatever else is missed, such as LR propagate by step m.
+    """
+    if options.lr_propagate_by == "m" and in_closed_form(costs, timing, options, tasks):
+        at = frozenset(stair.L for stair in known)
+        known = staircase(costs, timing.N, timing.M, replace(options, lr_propagate_by="l"), only=at)
+    found: list[tuple[Fraction, int]] = []
+    for speed, landed in sorted((stair.speed, stair.achieved) for stair in known):
+        if not found or landed < found[-1][1]:
+            found.append((speed, landed))
+    return found
