@@ -15,6 +15,7 @@ from sched_sim.cli.processors import Parts
 from sched_sim.costs.table import units
 from sched_sim.design.options import Options
 from sched_sim.errors import InputError, option
+from sched_sim.rounding import no_less
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -178,7 +179,7 @@ def _draw(path: Path, question: Question, found: Choice, every: Sequence[int]) -
 def _show(found: Choice, ways: Sequence[Candidate], question: Question, words: str) -> None:
     from sched_sim.cli.instructions import cycles_note, target_note
     from sched_sim.cli.less_work import offsets_note
-    from sched_sim.cli.update_form import calibration_texts, ground_note
+    from sched_sim.processors.ground import calibration_texts, ground
     from studies.selection.methods import by_reason
 
     unit = found.outputs.unit and f" {found.outputs.unit}"
@@ -211,7 +212,7 @@ def _show(found: Choice, ways: Sequence[Candidate], question: Question, words: s
             words,
             f"costs: {_names(question)}",
             *(
-                ground_note(table, [of.variant.method for of in ways], calibration_texts(table, question.parts))
+                ground(table, [of.variant.method for of in ways], calibration_texts(table, question.parts))
                 for table in of_each.values()
             ),
             *(target_note(table) for table in question.tables),
@@ -237,7 +238,6 @@ def _why_no_parts(question: Question) -> str:
 
 
 def _words(of: Candidate, found: Choice) -> dict[str, Any]:
-    from sched_sim.cli.parts import no_less
     from sched_sim.cli.update_form import structure_word
 
     assert of.least is not None

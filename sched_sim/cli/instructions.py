@@ -13,6 +13,7 @@ from sched_sim.cli import options as opt
 from sched_sim.cli.output import lines
 from sched_sim.costs.table import INSTRUCTION, CostTable
 from sched_sim.errors import InputError
+from sched_sim.rounding import no_less
 from sched_sim.ticks import positive
 
 if TYPE_CHECKING:
@@ -169,8 +170,6 @@ def instructions_note(table: CostTable, rows: Sequence[Mapping[str, Any]], *part
 
 def _needed(part: Part, rows: Sequence[Mapping[str, Any]]) -> str:
     assert part.cycles_per_instruction is not None
-    from sched_sim.cli.parts import no_less
-
     shares = ", ".join(
         f"{row['method']} "
         + " to ".join(no_less(100 * Fraction(row[f"needed_share_{end}"]), 3) for end in ("least", "most"))
@@ -226,8 +225,6 @@ def _cycles(table: CostTable) -> str | None:
 
 def ram_words(row: Mapping[str, Any]) -> dict[str, str | None]:
     """Memory of a `board_row` in words, and the verdict where it has one: "fits" is in time and in RAM."""
-    from sched_sim.cli.parts import no_less
-
     if "fits_ram" not in row:
         return {}
     words = {True: "yes", False: "no", None: None}

@@ -7,7 +7,7 @@ from dataclasses import fields
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from sched_sim.cli.parts import no_less
+from sched_sim.rounding import no_less
 
 if TYPE_CHECKING:
     from sched_sim.design.less_work import LessWork

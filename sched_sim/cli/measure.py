@@ -203,10 +203,11 @@ def measure(
     from filters.registry import SPARSE_METHODS
     from filters.systems.example import example_system
     from sched_sim.cli.instructions import built_note, target_note, target_row
-    from sched_sim.cli.measured_note import busy_note, busy_row, say_busy
+    from sched_sim.cli.measured_note import busy_row, say_busy
     from sched_sim.cli.own_note import own_note, own_share
     from sched_sim.cli.progress import progress_bar
     from sched_sim.cli.update_form import update_form
+    from sched_sim.costs.table import busy_note
     from sched_sim.costs.table_file import write_costs
     from sched_sim.files.writable import check_writable
     from studies.measurement.emulation.targets import precision_of, target_of

@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
-from sched_sim.cli.measured_note import busy_note, busy_row, say_busy
+from sched_sim.cli.measured_note import busy_row, say_busy
 from sched_sim.cli.options import given_options
 from sched_sim.cli.output import Format, lines, print_csv, print_json, print_table, say
 from sched_sim.cli.outputs import module_files, refuse_one_file_for_two
 from sched_sim.cli.own_note import parts_note
 from sched_sim.cli.progress import progress_bar
+from sched_sim.costs.table import busy_note
 from sched_sim.errors import InputError
 
 if TYPE_CHECKING:

@@ -8,19 +8,13 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from sched_sim.cli.output import say
-from sched_sim.costs.table import SECONDS, CostTable, measured_on_busy_machine
+from sched_sim.costs.table import SECONDS, CostTable, busy_note, measured_on_busy_machine
 
 if TYPE_CHECKING:
     from sched_sim.design.options import Options
     from sched_sim.design.pieces import Statistic
     from sched_sim.design.timing import Timing
     from sched_sim.schedule.tasks import Task
-
-
-def busy_note(provenance: Mapping[str, Any]) -> str:
-    """A line, if the machine was busy while the costs were timed; empty otherwise."""
-    busy = provenance.get("busy")
-    return f"measured on a busy machine: {busy}; measure again on an idle one" if busy else ""
 
 
 def say_busy(name: str, provenance: Mapping[str, Any]) -> None:

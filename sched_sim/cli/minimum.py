@@ -24,6 +24,7 @@ from sched_sim.cli.progress import simulations
 from sched_sim.cli.refused import Refused
 from sched_sim.costs.table import SECONDS, units
 from sched_sim.design.options import Options
+from sched_sim.rounding import no_less
 
 LARGEST_DENOMINATOR = 10_000
 """A fraction with a larger one (of measured costs) tells a person nothing; --format json has it."""
@@ -59,7 +60,7 @@ def minimum(
     from sched_sim.cli.caveats import caveat_note, with_caveats
     from sched_sim.cli.less_work import least_note, speed_words
     from sched_sim.cli.measured_note import measured_row, range_note, say_of_statistic
-    from sched_sim.cli.parts import MEANING, fit_row, fit_words, fixed_by, highest_note, least_row, no_less
+    from sched_sim.cli.parts import MEANING, fit_row, fit_words, fixed_by, highest_note, least_row
     from sched_sim.cli.uneven_note import uneven_note
     from sched_sim.cli.update_form import structure_word, update_form, update_note
     from sched_sim.costs.table import COUNTED
@@ -172,7 +173,6 @@ def minimum(
 
 def _speed(speed: Fraction, unit: str) -> dict[str, str]:
     """Seconds per HR period as microseconds; the exact fraction where a person can read it."""
-    from sched_sim.cli.parts import no_less
 
     if unit == "second":
         return {"least speed, us": no_less(10**6 * speed, 5)}

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
+from decimal import Decimal
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any
+
+from sched_sim.rounding import Figure, down, up, written
 
 if TYPE_CHECKING:
     from sched_sim.design.fit import Fit
@@ -78,48 +80,19 @@ KEYS = ("processor", "hr_hz", "needed_mhz", "needed_share", "needed_share_least"
         "fits", "achieved_l", "correction_ms", "highest_hr_hz")  # fmt: skip
 
 
-Figure: TypeAlias = Fraction | float
-
-
-def no_less(value: Fraction, digits: int) -> str:
-    """Rounded up to so many digits, without zeros behind them; very large and very small numbers with an exponent."""
-    return f"{float(_rounded(value, digits, ROUND_CEILING)):.{max(digits, 15)}g}"
-
-
-def _up(digits: int) -> Callable[[Figure], str]:
-    return lambda value: _rounded(value, digits, ROUND_CEILING)
-
-
-def _down(digits: int) -> Callable[[Figure], str]:
-    return lambda value: _rounded(value, digits, ROUND_FLOOR)
-
-
-def _rounded(value: Figure, digits: int, way: str) -> str:
-    """To so many digits, whole numbers in full: a need never looks smaller than it is, nor a limit larger.
-
-    Rounded once, of the exact number; a float stands for the shortest decimal that it is the nearest to.
-    """
-    exact = Fraction(repr(value)) if isinstance(value, float) else value
-    most = max(digits, len(str(abs(int(exact)))))
-    context = Context(prec=most, rounding=way)
-    number = context.divide(Decimal(exact.numerator), Decimal(exact.denominator))
-    places = max(digits - 1 - number.adjusted(), 0)
-    return f"{number.quantize(Decimal(1).scaleb(-places), context=context):f}"
-
-
 def _limit(value: Figure) -> str:
     """A rate that may be as long as it takes to fit, and is then shown so; others are rounded down to four digits."""
-    exact = Fraction(repr(value)) if isinstance(value, float) else value
+    exact = written(value)
     number = Decimal(exact.numerator) / Decimal(exact.denominator)
     if Fraction(number) == exact and len(number.as_tuple().digits) <= MOST_SHOWN_DIGITS:
         return f"{number.normalize():f}"
     if exact.denominator <= MOST_SHOWN_DENOMINATOR:
         return str(exact)
-    return _down(4)(exact)
+    return down(exact, 4)
 
 
-def _percent(rounded: Callable[[Figure], str]) -> Callable[[Figure], str]:
-    return lambda value: f"{rounded(100 * value)} %"
+def _percent(rounded: Callable[[Figure, int], str]) -> Callable[[Figure], str]:
+    return lambda value: f"{rounded(100 * value, 3)} %"
 
 
 HIGHEST_HR_HZ = "highest HR Hz"
@@ -128,10 +101,10 @@ MOST_SHOWN_DIGITS, MOST_SHOWN_DENOMINATOR = 12, 1000
 """Of the highest rate."""
 
 WORDS: dict[str, tuple[str, Callable[[Any], str]]] = {
-    "needs, MHz": ("needed_mhz", _up(4)),
-    "of its speed": ("needed_share", _percent(_up(3))),
-    "slack": ("slack", _percent(_down(3))),
-    "load": ("load", _percent(_up(3))),
+    "needs, MHz": ("needed_mhz", lambda value: up(value, 4)),
+    "of its speed": ("needed_share", _percent(up)),
+    "slack": ("slack", _percent(down)),
+    "load": ("load", _percent(up)),
     "lands after, ms": ("correction_ms", lambda value: f"{float(value):.6g}"),
     HIGHEST_HR_HZ: ("highest_hr_hz", _limit),
 }

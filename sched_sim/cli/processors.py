@@ -243,10 +243,11 @@ def _verdicts(
     from sched_sim.cli.no_time import no_time_note
     from sched_sim.cli.parts import fit_row, fit_words, fixed_by, least_row
     from sched_sim.cli.progress import simulations
-    from sched_sim.cli.update_form import calibration_texts, form_note, ground_note, structure_word, update_form
+    from sched_sim.cli.update_form import form_note, structure_word, update_form
     from sched_sim.design.fit import fit
     from sched_sim.design.methods import select
     from sched_sim.errors import InputError
+    from sched_sim.processors.ground import calibration_texts, ground
     from sched_sim.processors.part import on_part, ranged, without_time
 
     rows, shown = [], []
@@ -301,7 +302,7 @@ def _verdicts(
         [
             caveat_note(timings),
             form_note(counts, timings),
-            ground_note(counts, timings, calibrations),
+            ground(counts, timings, calibrations),
             no_time_note(lacking),
             instructions_note(counts, rows, *parts),
         ],

@@ -18,6 +18,7 @@ from sched_sim.cli.outputs import refuse_one_file_for_two
 from sched_sim.cli.progress import progress_bar
 from sched_sim.design.options import Options
 from sched_sim.errors import InputError
+from sched_sim.rounding import no_less
 
 if TYPE_CHECKING:
     from sched_sim.design.pieces import Costs
@@ -272,7 +273,6 @@ def unseen(
 def of_the_start(costs: Costs, timing: Timing, speed: Fraction, options: Options, tasks: Sequence[Task]) -> str | None:
     """That a simulation begins before any measurement is there, and how busy the processor is once the filter runs, in
     words; None where that is not known without a simulation, or no more are on their way later."""
-    from sched_sim.cli.parts import no_less
     from sched_sim.design.least_speed import has_closed_form
     from sched_sim.design.load import loads
 

@@ -7,7 +7,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from sched_sim.cli.output import lines, print_table
-from sched_sim.cli.parts import no_less
+from sched_sim.rounding import no_less
 from sched_sim.shares import percent
 
 if TYPE_CHECKING:

@@ -41,8 +41,9 @@ def say_of_no_accuracy(accuracy: OutputAccuracy, methods: Sequence[str]) -> None
 def report(asked: Sweep, store: Store, outcome: Outcome, exports: Sequence[Path], format: Format) -> None:
     from sched_sim.cli.caveats import caveat_note
     from sched_sim.cli.less_work import offsets_note
-    from sched_sim.cli.measured_note import busy_note, busy_row
+    from sched_sim.cli.measured_note import busy_row
     from sched_sim.cli.update_form import form_note
+    from sched_sim.costs.table import busy_note
     from studies.sweep.summary import best, by_method
 
     tables = asked.grid.tables

@@ -49,6 +49,12 @@ def measured_on_busy_machine(provenance: Mapping[str, Any]) -> bool | None:
     return False if "protocol" in provenance else None
 
 
+def busy_note(provenance: Mapping[str, Any]) -> str:
+    """A line, if the machine was busy while the costs were timed; empty otherwise."""
+    busy = provenance.get("busy")
+    return f"measured on a busy machine: {busy}; measure again on an idle one" if busy else ""
+
+
 @dataclass(frozen=True, slots=True)
 class Cost:
     """The work of one job, in the unit of its table. A cost written as one number has all three alike."""
