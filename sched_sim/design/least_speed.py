@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Sequence
+from dataclasses import replace
 from fractions import Fraction
 from typing import NamedTuple
 
@@ -14,7 +15,7 @@ from sched_sim.design.load import loads
 from sched_sim.design.long_pattern import of_bound
 from sched_sim.design.methods import method_of
 from sched_sim.design.options import Options
-from sched_sim.design.pieces import Costs, JobCosts, converted, works
+from sched_sim.design.pieces import Costs, DualRateCosts, JobCosts, converted, works
 from sched_sim.design.timing import Timing
 from sched_sim.design.uneven import comes_unevenly, longest_job
 from sched_sim.errors import InputError
@@ -78,7 +79,8 @@ def least_speed(
 
         before = alone(costs, timing, options, tasks)
         enough = None if before is None else least_speed(costs, before, options)
-        if enough is not None and enough.speed == _floor(costs, timing, options):
+        floor = _floor(costs, timing, options)
+        if enough is not None and (enough.speed == floor or _always_alone(costs, before, floor, options)):
             return enough
         found = LeastSpeed(*least_speed_by_simulation(costs, timing, options, tasks, on_progress))
         return found if enough is None or found.speed < enough.speed else enough
@@ -190,6 +192,16 @@ def alone(costs: Costs, timing: Timing, options: Options, tasks: Sequence[Task])
 def _floor(costs: Costs, timing: Timing, options: Options) -> Fraction:
     """Less will never do."""
     return max(method_of(costs).longest(costs, timing), *loads(costs, timing, Fraction(1), options))
+
+
+def _always_alone(costs: Costs, before: Timing | None, floor: Fraction, options: Options) -> bool:
+    """Whether on every processor that is not slower than `floor` LR jobs are done before the step in which the next
+    measurement is taken: then a later L changes nothing, and what misses a deadline is an HR job, with any L."""
+    if before is None or not isinstance(costs, DualRateCosts):
+        return False
+    last = method_of(costs).law(options.feedback).last_alone(before.N, before.M)
+    landed = achieved_l(replace(costs, hr_update=Fraction(0)), before, floor, options)
+    return last is not None and landed is not None and landed < last
 
 
 def _in_ticks(costs: Costs, *others: Fraction) -> tuple[int, JobCosts[int]]:

@@ -26,7 +26,7 @@ from sched_sim.design.pieces import (
     LarsenInFlightCosts,
     RecalculateCosts,
 )
-from sched_sim.design.search import search_resolution
+from sched_sim.design.search import least_speed_by_simulation, search_resolution
 from sched_sim.design.simulate import simulate
 from sched_sim.design.steady import run_until_steady
 from sched_sim.design.timing import Feedback, Timing
@@ -240,6 +240,26 @@ def test_from_a_landing_on_a_later_one_asks_for_no_less(
     speeds = [least_speed(costs, Timing(N, M, L), options).speed for L in (*range(first, last + 1), last + 2 * N)]
     assert speeds == sorted(speeds, reverse=True)
     assert speeds[-1] == speeds[-2]
+
+
+COST = st.integers(1, 9)
+
+
+@settings(max_examples=30)
+@given(st.data())
+def test_a_later_landing_needs_no_more_than_a_search_finds_where_none_is_made(data: st.DataObject) -> None:
+    """LR work that is done before the next measurement on each processor that bears the HR loop: any L > N needs what
+    L = N does. Where a slower processor does again, the search may find more."""
+    early, hr = data.draw(st.booleans()), data.draw(st.integers(1, 60))
+    costs = DualRateCosts(hr, data.draw(COST), data.draw(COST), data.draw(COST), 7 if early else 0, data.draw(COST))
+    options = Options(
+        feedback=data.draw(st.sampled_from(["next-step", "same-step"])),
+        gain="precomputed" if early else "at-update",
+        cpus=data.draw(st.sampled_from([1, 2])),
+    )
+    N = data.draw(st.integers(2, 12))
+    timing = Timing(N, M := data.draw(st.integers(0, N - 1)), data.draw(st.integers(N + 1, 2 * N + M + 1)))
+    assert least_speed(costs, timing, options).speed <= least_speed_by_simulation(costs, timing, options, ())[0]
 
 
 def test_the_default_is_the_first_measurement_that_is_taken_after_arrival() -> None:
