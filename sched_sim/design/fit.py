@@ -70,9 +70,7 @@ def fit(
     rate = positive(hr_hz, "hr_hz")
     check_shares(tasks, rate)
     least = least_speed(costs, timing, options, tasks, on_progress)
-    busy = sum(loads(costs, timing, 1 / rate, options, tasks), Fraction(0)) / options.cpus
-    if options.context_switch or method_of(costs).work_varies:
-        busy = _busy(costs, timing, 1 / rate, options, tasks)
+    busy = busy_share(costs, timing, 1 / rate, options, tasks)
     landed = landing(costs, timing, 1 / rate, options, tasks)
     period_ms = 1000 / rate
     held = times or Times(rate / timing.N, timing.M * period_ms, timing.L * period_ms)
@@ -94,7 +92,10 @@ def check_shares(tasks: Sequence[Task], rate: Fraction, second: Fraction = Fract
             )
 
 
-def _busy(costs: Costs, timing: Timing, pace: Fraction, options: Options, tasks: Sequence[Task]) -> Fraction:
+def busy_share(costs: Costs, timing: Timing, pace: Fraction, options: Options, tasks: Sequence[Task]) -> Fraction:
+    """`Fit.load`, of a processor of this speed, in cost units per HR period."""
+    if not (options.context_switch or method_of(costs).work_varies):
+        return sum(loads(costs, timing, pace, options, tasks), Fraction(0)) / options.cpus
     from sched_sim.design.simulate import at_worst_phase
     from sched_sim.design.steady import run_until_steady
 

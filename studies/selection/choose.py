@@ -9,33 +9,28 @@ from typing import Any
 
 from sched_sim.costs.table import INSTRUCTION, CostTable
 from sched_sim.design.fit import check_shares
-from sched_sim.design.landing import landing
-from sched_sim.design.least_speed import has_closed_form, least_speed
-from sched_sim.design.method import Law
 from sched_sim.design.methods import METHODS as SCHEDULED
-from sched_sim.design.methods import select
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import Statistic
 from sched_sim.errors import InputError, option
 from sched_sim.processors.part import Part, why_not_instructions
 from sched_sim.processors.part_file import load_part, shipped_parts
-from sched_sim.schedule.tasks import Task, phases_matter
+from sched_sim.schedule.tasks import Task
 from sched_sim.ticks import Number, positive
 from studies.selection.choice import Candidate, Choice
 from studies.selection.compare import Metric, check_metric, undelayed
 from studies.selection.conditions import TAU_S, check_ages, check_every, check_names, chosen_methods, conditions_of
+from studies.selection.considered import NOT_TRIED, considered, ordinal
 from studies.selection.costs import tables_for
-from studies.selection.curve import Curve
-from studies.selection.landing import earliest
 from studies.selection.methods import METHODS, by_reason
 from studies.selection.model import load_model, shipped_defaults
 from studies.selection.outputs import outputs_of
-from studies.selection.parts import OnPart, Parts, by_cost, percent
+from studies.selection.parts import Parts, by_cost, too_slow
 from studies.selection.question import Accuracies, Question
 from studies.selection.remarks import remarks
 from studies.selection.sampling import Sampling
-from studies.selection.variants import Variant, candidates, kept, variants
-from studies.selection.waiting import too_irregular, too_late
+from studies.selection.variants import candidates, kept, variants
+from studies.selection.waiting import too_late
 
 
 def choose_filter(
@@ -151,7 +146,7 @@ def chosen(question: Question, methods: Sequence[str] | None = None, every: Sequ
         raise InputError(f"{option('method')} {'; '.join(without)}: choose from {has}")
     accuracy = Accuracies(question)
     looked = [
-        _candidate(question, accuracy, variant)
+        considered(question, accuracy.of, variant)
         for variant in variants(names, every, tables, question.options, question.ways)
     ]
     beside = [of for of in looked if of.variant.is_beside(question.options) and of.allowed is not None]
@@ -209,59 +204,6 @@ def _why_not(method: str, table: CostTable) -> str:
     return f"the cost table {table.shown} has no costs of it"
 
 
-def _candidate(question: Question, accuracy: Accuracies, variant: Variant) -> Candidate:
-    using = question.sampling.using(variant.every)
-    first = earliest(variant.method, using.M, variant.options)
-    delay = 0 if METHODS[variant.method].landing == "at once" else using.M
-    if irregular := too_irregular(variant.method, using, variant.options):
-        return Candidate(variant, using.N, first, float("inf"), reason=irregular)
-    try:
-        curve = accuracy.of(variant)
-    except ValueError as error:
-        return Candidate(variant, using.N, first, float("inf"), reason=str(error))
-    curve = Curve(first, curve.figures[first - curve.first :])
-    found = Candidate(variant, using.N, first, curve.at(first), curve.latest(question.within))
-    if found.allowed is None:
-        return replace(found, reason=_too_coarse(question, found))
-    if late := too_late(variant.method, question.sampling, variant.every, variant.options):
-        return replace(found, reason=late)
-    law = SCHEDULED[variant.method].law(variant.options.feedback)
-    later = METHODS[variant.method].landing == "later"
-    most: int | None = _last_known(question, law, using.N, delay)
-    if variant.is_beside(question.options):
-        most = law.last_alone(using.N, delay) if has_closed_form(variant.options, question.tasks_in_unit) else None
-    if most is None:
-        return replace(found, reason=NOT_TRIED)
-    last = min(found.allowed, most) if later else found.first
-    try:
-        timing = using.timing(delay, max(last, delay))
-        SCHEDULED[variant.method].check(timing, variant.options.feedback)
-        costs = select(variant.table, variant.method, variant.options, question.statistic)
-        least = least_speed(costs, timing, variant.options, question.tasks_in_unit)
-    except InputError as error:
-        return replace(found, reason=str(error))
-    landed = landing(costs, timing, least.speed, variant.options, question.tasks_in_unit)
-    at = None if landed is None else (0 if delay == 0 and found.first == 0 else landed)
-    return replace(
-        found,
-        L=timing.L,
-        std=curve.at(timing.L),
-        least=least,
-        landed=at,
-        landed_std=None if at is None else curve.at(max(at, first)),
-    )
-
-
-NOT_TRIED = "not tried"
-"""Of a way beside the options that has no closed form."""
-
-
-def _last_known(question: Question, law: Law, N: int, M: int) -> int:
-    """By deadlines the worst phase of tasks is known with one correction on its way."""
-    by_deadlines = question.options.policy == "edf" and phases_matter(question.tasks)
-    return law.latest(N, M) if by_deadlines else law.last_of_use(N, M)
-
-
 def _on_parts(question: Question, accuracy: Accuracies, parts: Parts, candidate: Candidate) -> Candidate:
     rate, variant = question.sampling.hr_hz, candidate.variant
     if rate is None or candidate.L is None:
@@ -276,30 +218,8 @@ def _on_parts(question: Question, accuracy: Accuracies, parts: Parts, candidate:
     if not looked:
         return candidate
     looked.sort(key=by_cost)
-    reason = "" if any(on.fits for on in looked) else _too_slow(looked)
+    reason = "" if any(on.fits for on in looked) else too_slow(looked)
     return replace(candidate, parts=tuple(looked), reason=reason)
-
-
-def _too_slow(looked: Sequence[OnPart]) -> str:
-    nearest = looked[0]
-    if nearest.needed is None:
-        return "; ".join(dict.fromkeys(on.remark for on in looked))
-    which = f"{nearest.name} is too slow: it"
-    if nearest.part is not None:
-        which = f"no part is fast enough: the nearest, {nearest.name},"
-    return f"{which} needs {percent(nearest.needed)} of its speed"
-
-
-def _too_coarse(question: Question, found: Candidate) -> str:
-    measured = "" if found.variant.every == 1 else f" with every {ordinal(found.variant.every)} measurement"
-    unit = f" {question.outputs.unit}" if question.outputs.unit else ""
-    floor = "more than " if METHODS[found.variant.method].floored and found.variant.every > 1 else ""
-    return f"{floor}{found.best:.4g}{unit} at best, landing at L={found.first}{measured}"
-
-
-def ordinal(number: int) -> str:
-    """second, third, 4th, ..."""
-    return {2: "second", 3: "third"}.get(number, f"{number}th")
 
 
 def _out_of_reach(question: Question, looked: Sequence[Candidate], no_delay: float) -> str:

@@ -9,9 +9,9 @@ from fractions import Fraction
 from math import ceil
 
 from sched_sim.costs.table import SECONDS, CostTable
+from sched_sim.design.fit import busy_share
 from sched_sim.design.landing import landing
 from sched_sim.design.least_speed import least_speed
-from sched_sim.design.load import loads
 from sched_sim.design.methods import select
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import Costs, Statistic
@@ -68,6 +68,17 @@ def percent(share: Fraction) -> str:
     return f"{float(100 * share):.3g} %" if share <= 1 else f"{ceil(100 * share):,} %"
 
 
+def too_slow(looked: Sequence[OnPart]) -> str:
+    """Why none of these runs it, the nearest first."""
+    nearest = looked[0]
+    if nearest.needed is None:
+        return "; ".join(dict.fromkeys(on.remark for on in looked))
+    which = f"{nearest.name} is too slow: it"
+    if nearest.part is not None:
+        which = f"no part is fast enough: the nearest, {nearest.name},"
+    return f"{which} needs {percent(nearest.needed)} of its speed"
+
+
 class Parts:
     """The cost tables on each part, each made once."""
 
@@ -113,6 +124,6 @@ def _looked(
 ) -> OnPart:
     """pace: what it does in an HR period, in the unit of the costs."""
     needed = least_speed(costs, timing, options, tasks).speed / pace
-    busy = sum(loads(costs, timing, pace, options, tasks), Fraction(0)) / options.cpus
+    busy = busy_share(costs, timing, pace, options, tasks)
     lands = landing(costs, timing, pace, options, tasks) if needed <= 1 else None
     return OnPart(part, needed, busy, lands)
