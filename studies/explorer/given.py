@@ -10,6 +10,7 @@ from pathlib import Path
 
 from filters.accuracy.shipped import SHIPPED_MODELS
 from sched_sim.bounds import short
+from sched_sim.costs.methods import DELAYED_METHODS
 from sched_sim.costs.table import CostTable
 from sched_sim.costs.table_file import load_costs, shipped_tables
 from sched_sim.errors import InputError, option
@@ -43,11 +44,12 @@ class Given:
 
     @property
     def table_names(self) -> list[str]:
-        return list(dict.fromkeys([*self.costs, *shipped_tables()]))
+        """Of those with a method of a late measurement."""
+        return list(dict.fromkeys([*self.costs, *_shipped_of_late_methods()]))
 
     @property
     def part_names(self) -> list[str]:
-        return list(dict.fromkeys([*self.parts, *shipped_parts()]))
+        return list(dict.fromkeys([*self.parts, *_shipped_parts()]))
 
     @property
     def model_names(self) -> list[str]:
@@ -90,7 +92,13 @@ def _check_name(what: str, name: str, known: Sequence[str]) -> None:
         )
 
 
+@cache
+def _shipped_of_late_methods() -> tuple[str, ...]:
+    return tuple(name for name in shipped_tables() if {*DELAYED_METHODS} & {*load_costs(name).costs})
+
+
 _shipped_table = cache(load_costs)
+_shipped_parts = cache(shipped_parts)
 _shipped_part = cache(load_part)
 _shipped_model = lru_cache(maxsize=64)(load_model)
 

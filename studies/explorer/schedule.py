@@ -110,9 +110,20 @@ def timeline(
     steps = min(wanted, most_steps(tasks))
     landings: dict[int, int] = {}
     schedule = _simulated(costs, timing, speed, steps, options, tasks, landings)
-    shown = cycle_marks(timing, cycles if steps == wanted else _cycles(timing, steps), landings, end=steps)
-    marks = tuple(StepMark(mark.step, mark.text, mark.meaning) for mark in shown if mark.step <= steps)
+    named = cycle_marks(timing, cycles if steps == wanted else _cycles(timing, steps), landings, end=steps)
+    marks = [StepMark(mark.step, mark.text, mark.meaning) for mark in named if mark.step <= steps]
     cut = "" if steps == wanted else f"the first {steps:,} of {wanted:,} steps"
+    return shown(schedule, steps, marks, cut, period_ms)
+
+
+def shown(
+    schedule: Schedule,
+    steps: int,
+    marks: Sequence[StepMark] = (),
+    cut: str = "",
+    period_ms: float | None = None,
+) -> Timeline:
+    """Any schedule that was simulated with its slices kept."""
     spans, lines = intervals.jobs(schedule), intervals.rows(schedule)
     number = {line: index for index, line in enumerate(lines)}
     bars, styles = _bars(schedule, spans, number)
@@ -124,7 +135,7 @@ def timeline(
         styles,
         _jobs(spans, number, schedule.period),
         bars,
-        marks,
+        tuple(marks),
         schedule.misses,
         float(schedule.utilization),
     )
@@ -191,4 +202,4 @@ def _bars(schedule: Schedule, spans: Sequence[JobSpan], number: dict[Row, int]) 
 
 
 def _meaning(label: str) -> str:
-    return f"task {label.removeprefix(TASK)}" if label.startswith(TASK) else MEANINGS[label]
+    return f"task {label.removeprefix(TASK)}" if label.startswith(TASK) else MEANINGS.get(label, label)
