@@ -1,0 +1,101 @@
+// What is said of one job and of a whole schedule, in words: for the tip, the table, and who cannot see the chart.
+
+import { digits } from "./svg.js";
+
+const KINDS = {
+  hr: "high-rate job",
+  hr_update: "high-rate update",
+  lr_propagate: "low-rate propagate",
+  lr_update: "low-rate update",
+  lr_gain: "covariance and gain",
+  lr_step: "robust step",
+};
+const PLACES = 6;
+
+/** The kind of a job in words. */
+export function kindWords(kind) {
+  if (kind.startsWith("task:")) return `task ${kind.slice("task:".length)}`;
+  return KINDS[kind] ?? kind.replaceAll("_", " ");
+}
+
+/** A job's {kind, row, step, work, release, start, finish, response, deadline, preemptions, missed, verdict}: times in
+ *  steps, null where there is none. */
+export function jobFacts(line, job) {
+  const { jobs, bars, styles, rows } = line.schedule;
+  const [release, start, finish, deadline] = ["release", "start", "finish", "deadline"].map((name) => jobs[name][job]);
+  const labels = new Set(line.pieces[job].map((piece) => bars.style[piece]));
+  const row = rows[jobs.row[job]];
+  return {
+    kind: kindWords(jobs.kind[job]),
+    row: line.rows[jobs.row[job]].cpu ? `${row.name}, CPU ${row.cpu + 1}` : row.name,
+    step: jobs.step[job],
+    work: [...labels].map((style) => styles[style].meaning).filter((work) => work !== "context switch"),
+    release,
+    start,
+    finish,
+    response: finish === null ? null : finish - release,
+    deadline,
+    preemptions: jobs.preemptions[job],
+    missed: jobs.missed[job],
+    verdict: verdictOf(line, { missed: jobs.missed[job], start, finish, deadline }),
+  };
+}
+
+/** By how much a job met its deadline or missed it. */
+function verdictOf(line, { missed, start, finish, deadline }) {
+  if (!missed && finish === null) return "not yet finished, and not yet due";
+  if (finish === deadline) return "meets its deadline, with nothing to spare";
+  if (!missed) return `meets its deadline, ${bothUnits(line, deadline - finish)} to spare`;
+  if (finish !== null) return `misses its deadline by ${bothUnits(line, finish - deadline)}`;
+  return start === null ? "misses its deadline: it never gets the processor" : "misses its deadline: it never finishes";
+}
+
+/** "2.5 steps (6.25 ms)". */
+export function bothUnits(line, steps) {
+  if (steps === null) return "never";
+  const ms = line.periodMs === null ? "" : ` (${inMs(line, steps)} ms)`;
+  return `${inSteps(steps)} ${Math.abs(steps - 1) < 1e-9 ? "step" : "steps"}${ms}`;
+}
+
+export function inSteps(steps) {
+  return steps === null ? "never" : digits(steps, PLACES);
+}
+
+export function inMs(line, steps) {
+  return steps === null ? "never" : digits(steps * line.periodMs, PLACES);
+}
+
+/** A job in one sentence, to be read out. */
+export function jobSentence(line, job) {
+  const facts = jobFacts(line, job);
+  const said = (words, name) => (facts[name] === null ? [] : [`${words} ${bothUnits(line, facts[name])}`]);
+  const course = [
+    ...said("released at", "release"),
+    ...said("starts at", "start"),
+    ...said("finishes at", "finish"),
+    ...said("response time", "response"),
+    ...said("deadline", "deadline"),
+    ...(facts.preemptions ? [`preempted ${times(facts.preemptions)}`] : []),
+  ];
+  return `${facts.kind} of step ${facts.step}, row ${facts.row}: ${facts.verdict}; ${course.join(", ")}`;
+}
+
+/** A whole number with commas. */
+export function grouped(number) {
+  return number.toLocaleString("en");
+}
+
+export function times(count) {
+  return count === 1 ? "once" : count === 2 ? "twice" : `${grouped(count)} times`;
+}
+
+/** How many jobs miss their deadline. */
+export function missesSentence({ jobs }) {
+  const missed = jobs.missed.filter(Boolean).length;
+  if (!jobs.missed.length) return "nothing runs";
+  if (!missed) return "no deadline missed";
+  const silent = jobs.missed.filter((miss, job) => miss && jobs.start[job] === null).length;
+  const waiting = silent ? `, ${grouped(silent)} never got the processor` : "";
+  const verb = missed === 1 ? "misses its" : "miss their";
+  return `${grouped(missed)} of ${grouped(jobs.missed.length)} jobs ${verb} deadline${waiting}`;
+}

@@ -1,0 +1,77 @@
+// One frame of a Gantt chart on a canvas.
+
+import { linear } from "./scales.js";
+import { drawArrows, arrowStride } from "./arrows.js";
+import { drawAxes, drawGrid, drawMarks } from "./axis.js";
+import { drawBars, drawWaits } from "./bars.js";
+import { drawCallouts, drawLabels } from "./labels.js";
+import { drawNames, lanesOf } from "./lanes.js";
+
+const FONT_PX = 12.5;
+const MOST_RATIO = 3;
+const TRACK_PX = 3;
+
+/** Draws `stretch` of a timeline into `canvas`, `width` wide; {layout, scale, every}: what it then shows where, and of
+ *  how many jobs of a crowded row one has its arrows. */
+export function drawGantt(canvas, line, stretch, width, colours, ratio = devicePixelRatio) {
+  const context = canvas.getContext("2d");
+  const sharp = Math.min(ratio, MOST_RATIO);
+  const font = `${FONT_PX}px ${getComputedStyle(canvas).fontFamily}`;
+  const measure = measured(context, font);
+  const layout = lanesOf(line, width, measure);
+  sized(canvas, width, layout.height, sharp);
+  context.setTransform(sharp, 0, 0, sharp, 0, 0);
+  context.clearRect(0, 0, width, layout.height);
+  context.font = font;
+  const scale = linear([stretch.first, stretch.end], [layout.left, layout.right]);
+  const sheet = { context, scale, ratio: sharp, layout, colours, line, measure };
+  const every = arrowStride(sheet);
+  drawGrid(sheet);
+  drawMarks(sheet);
+  drawNames(sheet);
+  for (const lane of layout.lanes) {
+    drawWaits(sheet, lane);
+    drawBars(sheet, lane);
+    drawLabels(sheet, lane);
+    drawCallouts(sheet, lane);
+    drawArrows(sheet, lane, every);
+  }
+  drawAxes(sheet);
+  drawTrack(sheet);
+  return { layout, scale, every };
+}
+
+function sized(canvas, width, height, ratio) {
+  const [across, down] = [Math.round(width * ratio), Math.round(height * ratio)];
+  if (canvas.width === across && canvas.height === down) return;
+  [canvas.width, canvas.height] = [across, down];
+  canvas.style.width = `${width}px`;
+  canvas.style.height = `${height}px`;
+}
+
+const widths = new Map();
+
+/** The width of a text in the font, measured once. */
+function measured(context, font) {
+  return (text) => {
+    const key = `${font} ${text}`;
+    if (!widths.has(key)) {
+      context.font = font;
+      widths.set(key, context.measureText(text).width);
+    }
+    return widths.get(key);
+  };
+}
+
+/** Which part of all steps is shown, where that is not all. */
+function drawTrack({ context, scale, layout, colours, line }) {
+  const [first, end] = scale.domain;
+  if (first <= 0 && end >= line.steps) return;
+  const across = layout.right - layout.left;
+  const y = layout.height - TRACK_PX;
+  context.fillStyle = colours.pale;
+  context.fillRect(layout.left, y, across, TRACK_PX);
+  context.fillStyle = colours.accent;
+  const length = Math.max(((end - first) / line.steps) * across, 6);
+  context.fillRect(layout.left + Math.min((first / line.steps) * across, across - length), y, length, TRACK_PX);
+}
