@@ -1,10 +1,11 @@
 // Scales: from values to pixels and back, and where their ticks are.
 
 const SUPERSCRIPT = "⁰¹²³⁴⁵⁶⁷⁸⁹";
-const LEADS = [[1, 2, 3, 4, 5, 6, 7, 8, 9], [1, 2, 5], [1, 3], [1]];
+const TICK_LEADS = [[1, 2, 3, 4, 5, 6, 7, 8, 9], [1, 2, 5], [1, 3], [1]];
+const DECADES_APART = [2, 3, 4, 6, 10, 20, 50, 100];
 const FEWEST_TICKS = 3;
 const MOST_MINOR = 8;
-const ROUNDING = 1e-9;
+const TICK_ROUNDING = 1e-9;
 
 /** The least and the greatest number of lists, which may hold nulls, or null where they hold none. */
 export function extent(...lists) {
@@ -68,27 +69,28 @@ export function ticks(low, high, count = 5) {
   const least = (high - low) / Math.max(count, 1);
   if (!(least > 0) || !Number.isFinite(least)) return [];
   let power = Math.floor(Math.log10(least)) - 1;
-  const fits = (factor) => factor * 10 ** power >= least * (1 - ROUNDING);
+  const fits = (factor) => factor * 10 ** power >= least * (1 - TICK_ROUNDING);
   let factor;
   while ((factor = [1, 2, 5].find(fits)) === undefined) power += 1;
   const step = factor * 10 ** power;
-  const last = Math.floor(high / step + ROUNDING);
+  const last = Math.floor(high / step + TICK_ROUNDING);
   const found = [];
-  for (let number = Math.ceil(low / step - ROUNDING); number <= last; number += 1) {
+  for (let number = Math.ceil(low / step - TICK_ROUNDING); number <= last; number += 1) {
     found.push(Number(`${number * factor}e${power}`));
   }
   return found.filter((value, index) => value !== found[index - 1]);
 }
 
 function logarithmicTicks(low, high, count) {
-  const spans = [...LEADS.map((leads) => [leads, 1]), ...[2, 3, 4, 6, 10, 20, 50, 100].map((every) => [[1], every])];
-  const fitting = spans.map(([leads, every]) => multiples(low, high, leads, every)).find((each) => each.length <= count + 1);
+  const spans = [...TICK_LEADS.map((leads) => [leads, 1]), ...DECADES_APART.map((every) => [[1], every])];
+  const found = spans.map(([leads, every]) => multiples(low, high, leads, every));
+  const fitting = found.find((each) => each.length <= count + 1);
   const even = ticks(low, high, count);
   return fitting.length >= Math.min(FEWEST_TICKS, even.length) ? fitting : even;
 }
 
 function minorTicks(low, high, major) {
-  const leads = Math.log10(high / low) <= MOST_MINOR ? LEADS[0] : [1];
+  const leads = Math.log10(high / low) <= MOST_MINOR ? TICK_LEADS[0] : [1];
   return multiples(low, high, leads, 1).filter((value) => !major.includes(value));
 }
 
@@ -98,13 +100,14 @@ function multiples(low, high, leads, every) {
   for (let power = Math.floor(Math.log10(low)) - 1; power <= Math.log10(high) + 1; power += 1) {
     if (power % every === 0) found.push(...leads.map((lead) => Number(`${lead}e${power}`)));
   }
-  return found.filter((value) => value >= low * (1 - ROUNDING) && value <= high * (1 + ROUNDING));
+  return found.filter((value) => value >= low * (1 - TICK_ROUNDING) && value <= high * (1 + TICK_ROUNDING));
 }
 
 /** A tick's number: with commas, as a power of ten where it is very large or small, with a minus sign. */
 export function tickText(value) {
   const size = Math.abs(value);
-  const text = size === 0 || (size >= 1e-3 && size < 1e6) ? size.toLocaleString("en", { maximumSignificantDigits: 15 }) : inPowers(size);
+  const plain = size === 0 || (size >= 1e-3 && size < 1e6);
+  const text = plain ? size.toLocaleString("en", { maximumSignificantDigits: 15 }) : inPowers(size);
   return value < 0 ? `−${text}` : text;
 }
 

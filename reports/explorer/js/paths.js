@@ -1,0 +1,106 @@
+// Path data of lines, thinned to what pixels can show.
+
+const COLUMN_PX = 0.5;
+const CLEAR_PX = 8;
+
+/** Of a line through these points, in the pixels of two scales: a step line holds each value until the next x. Where a
+ *  value is null, or has no place on its scale, there is a gap. Within a column of half a pixel it keeps the first, the
+ *  extreme and the last value. */
+export function linePath(xs, ys, x, y, step) {
+  const parts = [];
+  let column = null;
+  let begun = false;
+  const flush = () => {
+    if (column === null) return;
+    if (!begun) parts.push(`M${column.x} ${column.first}`);
+    else parts.push(step ? `H${column.x}V${column.first}` : `L${column.x} ${column.first}`);
+    const stays = column.low === column.high;
+    if (stays && !begun) parts.push("h0");
+    if (!stays) parts.push(`V${column.low}V${column.high}V${column.last}`);
+    begun = true;
+    column = null;
+  };
+  for (let index = 0; index < xs.length; index += 1) {
+    const across = tenthOfPixel(x(xs[index]));
+    const down = tenthOfPixel(y(ys[index]));
+    if (across === null || down === null) {
+      flush();
+      if (begun && step && across !== null) parts.push(`H${across}`);
+      begun = false;
+    } else if (column !== null && Math.abs(across - column.x) < COLUMN_PX) {
+      column.low = Math.min(column.low, down);
+      column.high = Math.max(column.high, down);
+      column.last = down;
+    } else {
+      flush();
+      column = { x: across, first: down, low: down, high: down, last: down };
+    }
+  }
+  flush();
+  return parts.join("");
+}
+
+function tenthOfPixel(pixel) {
+  return pixel === null ? null : Math.round(pixel * 10) / 10;
+}
+
+/** Indices of the points that get a marker: each that is at least `apart` pixels from the one before, the first of them
+ *  about `from` pixels behind the start of the line, so that lines which lie on each other differ; and all that stand
+ *  alone. */
+export function markedIndices(xs, ys, x, y, apart, from = 0) {
+  const found = [];
+  const here = (index) => index >= 0 && index < xs.length && x(xs[index]) !== null && y(ys[index]) !== null;
+  let next = null;
+  for (let index = 0; index < xs.length; index += 1) {
+    if (!here(index)) continue;
+    const across = x(xs[index]);
+    if (next === null) next = across + from;
+    const alone = !here(index - 1) && !here(index + 1);
+    if (!alone && across < next) continue;
+    found.push(index);
+    next = Math.max(next, across) + apart;
+  }
+  return found;
+}
+
+/** The value of a line at x: of a step line what holds there, of another one what is at that very x; null where there
+ *  is nothing. xs ascend. */
+export function valueAt(xs, ys, at, step) {
+  const index = indexAt(xs, at);
+  if (index < 0) return null;
+  const exact = xs[index] === at;
+  return exact || (step && index < xs.length - 1) ? ys[index] : null;
+}
+
+/** The last index whose x is no more than this; −1 before the first. */
+export function indexAt(xs, at) {
+  let [low, high] = [-1, xs.length - 1];
+  while (low < high) {
+    const middle = Math.ceil((low + high) / 2);
+    if (xs[middle] <= at) low = middle;
+    else high = middle - 1;
+  }
+  return low;
+}
+
+/** Points on a line that are some pixels apart, for labels to stay clear of. */
+export function pointsAlong(line, { x, y }) {
+  const found = [];
+  let before = null;
+  line.x.forEach((at, index) => {
+    const here = [x(at), y(line.y[index])];
+    if (here.includes(null)) return (before = null);
+    const long = before === null ? CLEAR_PX : Math.hypot(here[0] - before[0], here[1] - before[1]);
+    if (long < CLEAR_PX / 2) return null;
+    const count = Math.ceil(long / CLEAR_PX);
+    for (let part = 1; part < count; part += 1) {
+      const share = part / count;
+      const down = line.step ? before[1] : before[1] + share * (here[1] - before[1]);
+      found.push([before[0] + share * (here[0] - before[0]), down]);
+    }
+    found.push(here);
+    before = here;
+    return null;
+  });
+  return found;
+}
