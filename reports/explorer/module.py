@@ -12,6 +12,8 @@ from importlib.resources import files
 IMPORT = re.compile(r'^import \{[^}]*\} from "\./([a-z]+)\.js";\n', re.MULTILINE)
 EXPORT = re.compile(r"^export (?=const|function|class|async function)", re.MULTILINE)
 
+PALETTE = "palette.css"
+
 
 @cache
 def module(entry: str) -> str:
@@ -31,6 +33,13 @@ def _join(name: str, parts: dict[str, str], importing: tuple[str, ...]) -> None:
         _join(other, parts, (*importing, name))
     text = IMPORT.sub("", text)
     parts[name] = EXPORT.sub("", text) if importing else text
+
+
+@cache
+def stylesheet() -> str:
+    """All style sheets of `js` as one, the palette before those that use its colours."""
+    names = sorted(path.name for path in (files("reports.explorer") / "js").iterdir() if path.name.endswith(".css"))
+    return "".join(map(asset, sorted(names, key=lambda name: name != PALETTE)))
 
 
 @cache
