@@ -44,8 +44,10 @@ def document(value: object, status: int = 200) -> Answer:
 class Asked:
     """Questions asked, one at a time: what came of them, and what a person at the terminal is told meanwhile.
 
-    tell: says something there.
+    tell: says something there. last: the query that was answered last.
     """
+
+    last: str | None = None
 
     def __init__(self, tell: Callable[[str], None]) -> None:
         self._tell = tell
@@ -62,6 +64,7 @@ class Asked:
         try:
             answer = question(query)
             self.answered += 1
+            self.last = query
         except InputError as error:
             answer = document({"error": str(error)}, 422)
             self.refused += 1

@@ -16,6 +16,7 @@ from sched_sim.cli import (
     accuracy,
     code,
     design,
+    explore,
     gantt,
     live,
     measure,
@@ -136,6 +137,7 @@ app.command("sweep", cls=Command)(sweep.sweep)
 app.command("processors", cls=Command)(processors.processors)
 app.command("accuracy", cls=Command)(accuracy.accuracy)
 app.command("design", cls=Command)(design.design)
+app.command("explore", cls=Command)(explore.explore)
 app.command("measure", cls=Command)(measure.measure)
 app.command("code", cls=Command)(code.code)
 app.command("live", cls=Command)(live.live)

@@ -35,10 +35,13 @@ class Client(NamedTuple):
     """Asks an application without a network; follows no redirect."""
 
     app: App
+    port: int = PORT
 
     def request(self, method: str, path: str, headers: Mapping[str, str] = {}) -> httpx.Response:
         async def ask() -> httpx.Response:
-            async with httpx.AsyncClient(transport=httpx.ASGITransport(self.app), base_url=HERE) as asking:
+            async with httpx.AsyncClient(
+                transport=httpx.ASGITransport(self.app), base_url=f"http://127.0.0.1:{self.port}"
+            ) as asking:
                 return await asking.request(method, path, headers=headers)
 
         return run(ask())
