@@ -33,8 +33,8 @@ FirstCosts = Annotated[
     str | None,
     typer.Option(
         "--costs",
-        help="Cost table: a shipped one by name, or your own TOML file by path; by default the operations of filters of "
-        "the model's size are counted; without a model steffes2014, with --processor counted-9-3-3.",
+        help="Cost table: a shipped one by name, or your own TOML file by path; by default operations of filters of "
+        "the model's size are counted, without a model steffes2014, with --processor counted-9-3-3.",
         rich_help_panel=opt.DESIGN,
     ),
 ]

@@ -56,6 +56,13 @@ def folder_of_modules(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterat
             del sys.modules[name]
 
 
+@pytest.fixture(autouse=True)
+def explorers_end_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """And open no browser."""
+    monkeypatch.setattr("reports.explorer.serve.serve", lambda _app, _there: None)
+    monkeypatch.setattr("sched_sim.cli.explore.open_browser", lambda _address: None)
+
+
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
 def test_a_page_does_as_it_shows(page: Path, sched_sim: Run) -> None:
     def do(command: str) -> str:

@@ -62,6 +62,10 @@ COMMANDS: dict[str, tuple[Options, Options]] = {
     "accuracy --model system:made": (options("-N=4 -M=1 --output=0"), [*ACCURACY, *SETTINGS]),
     "design": (options("--model=camera --within=0.03"), [*ACCURACY, *SETTINGS, *options("--all-methods")]),
     "design --model system:made": (options("--within=1 -N=4 -M=1 --output=0"), [*ACCURACY, *SETTINGS]),
+    "explore --no-browser --port 0": (
+        [],
+        [*DESIGN, *ACCURACY, *SETTINGS, *options("--model=system:made --within=0.03")],
+    ),
     "": ([], [*options("--version --help"), *SETTINGS]),
 }
 """What each needs, and what else it may have."""

@@ -110,6 +110,7 @@ def _run(folder: Path, case: Case) -> Result:
         with (
             patch.object(sys, "argv", ["sched-sim", *case.arguments]),
             patch("studies.sweep.workers._Team", side_effect=OSError),  # no processes
+            patch("reports.explorer.serve.serve"),  # nothing is waited for
             redirect_stdout(out),
             redirect_stderr(err),
             _bounded(),
