@@ -5,9 +5,11 @@ from __future__ import annotations
 import csv
 import io
 from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 from reports.explorer.answer import Answer, Question, document
+from sched_sim.errors import InputError
 from sched_sim.text import csv_cell
 from studies.explorer.given import Given
 from studies.explorer.query import design_of
@@ -24,13 +26,28 @@ def questions(given: Given) -> dict[str, Question]:
     def view(query: str) -> Document:
         return explore(design_of(query, given), given).document()
 
-    return {
+    asked: dict[str, Question] = {
         "/view": lambda query: document(view(query)),
         "/schedule.svg": lambda query: schedule_picture(query, given),
         "/methods.csv": lambda query: table(method_rows(view(query)), "methods"),
         "/parts.csv": lambda query: table(part_rows(view(query)), "parts"),
         "/jobs.csv": lambda query: table(job_rows(view(query)), "jobs"),
     }
+    if isinstance(given.tasks, Path):
+        return {path: _without(given.tasks, question) for path, question in asked.items()}
+    return asked
+
+
+def _without(file: Path, question: Question) -> Question:
+    """What is refused names the file alone, not where it is."""
+
+    def asked(query: str) -> Answer:
+        try:
+            return question(query)
+        except InputError as error:
+            raise InputError(str(error).replace(str(file), file.name)) from None
+
+    return asked
 
 
 def schedule_picture(query: str, given: Given) -> Answer:

@@ -17,12 +17,12 @@ if TYPE_CHECKING:
 
 def open_browser(address: str) -> None:
     """In the background, as some browsers return only when they are closed."""
-
-    def opened() -> None:
-        if not webbrowser.open(address):
-            say("No browser could be opened: open the address yourself")
-
-    Thread(target=opened, name="browser", daemon=True).start()
+    try:
+        webbrowser.get()
+    except webbrowser.Error:
+        say("There is no browser here: open the address in one")
+        return
+    Thread(target=webbrowser.open, args=[address], name="browser", daemon=True).start()
 
 
 def has_screen(environment: Mapping[str, str] = os.environ) -> bool:
