@@ -8,7 +8,7 @@ from importlib.resources import files
 
 import pytest
 
-from reports.explorer.module import IMPORT, asset, module
+from reports.explorer.module import IMPORT, PALETTE, asset, module, stylesheet
 from tests.browser import Visit
 
 NAMES = sorted(path.name.removesuffix(".js") for path in (files("reports.explorer") / "js").iterdir()
@@ -31,3 +31,10 @@ def test_no_name_is_declared_twice() -> None:
 def test_it_runs(name: str, visit: Visit) -> None:
     visit.page.set_content("<!doctype html><title>empty</title>")
     visit.page.add_script_tag(content=module(name), type="module")
+
+
+def test_the_style_sheets_are_one_which_begins_with_the_palette() -> None:
+    sheets = [path.name for path in (files("reports.explorer") / "js").iterdir() if path.name.endswith(".css")]
+    assert len(stylesheet()) == sum(len(asset(name)) for name in sheets)
+    assert all(asset(name) in stylesheet() for name in sheets)
+    assert PALETTE not in sheets or stylesheet().startswith(asset(PALETTE))

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from threading import Event
+
 import pytest
 
+from reports.explorer import answer as answers
 from reports.explorer.answer import NO_MEMORY, UNEXPECTED, Answer
 from reports.explorer.module import asset, module, stylesheet
 from sched_sim.errors import InputError
@@ -65,3 +68,27 @@ def test_there_is_nothing_else(path: str) -> None:
     answer = client().get(path)
     assert answer.status_code == 404
     assert answer.text == "There is nothing here: the explorer is at /\n"
+
+
+def test_what_takes_long_is_told_once_with_its_query(monkeypatch: pytest.MonkeyPatch) -> None:
+    said: list[str] = []
+    told = Event()
+
+    def tell(words: str) -> None:
+        said.append(words)
+        told.set()
+
+    def slow(_query: str) -> Answer:
+        assert told.wait(60)
+        return Answer(b"")
+
+    monkeypatch.setattr(answers, "SLOW_S", 0.01)
+    assert client(slow, tell).get("/view?N=10").status_code == 200
+    assert said == ["Slow: computing for 0.01 s so far: /view?N=10"]
+
+
+def test_what_does_not_is_not_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    said: list[str] = []
+    monkeypatch.setattr(answers, "SLOW_S", 60.0)
+    client(tell=said.append).get("/view")
+    assert said == []
