@@ -1,0 +1,75 @@
+// The sentence that answers, what to be warned of, and how far it is when it takes long.
+
+import { html } from "./svg.js";
+
+const SETTLED_MS = 600;
+const STATE_SIGNS = { holds: "✓", misses: "✗", inaccurate: "✗", unknown: "?" };
+
+/** The answer in `box`, warnings and notes in `beside`. `onPin`, `onStop` and `onBack` hear of its buttons. Each of its methods shows a state. */
+export function answerBox(box, beside, id, { onPin, onStop, onBack }) {
+  const sign = html("span", { class: "ss-sign", "aria-hidden": "true" });
+  const words = html("span", {}, "One moment …");
+  const sentence = html("p", { class: "ss-sentence", role: "status", "aria-live": "polite", "aria-atomic": "true" }, sign, words);
+  const telling = html("p", { class: "ss-telling", "aria-live": "polite" });
+  const seconds = html("span", { class: "ss-seconds", "aria-hidden": "true" });
+  const pin = button("Pin this design", onPin);
+  pin.classList.add("ss-pin");
+  const stop = button("Stop", onStop);
+  const back = button("Back to the last design", onBack);
+  const line = html("div", { class: "ss-line" }, telling, seconds, stop, back, pin);
+  const warnings = html("ul", { class: "ss-warnings", "aria-label": "Warnings" });
+  const notes = html("ul", { id: `${id}-notes` });
+  const noted = html("details", { class: "ss-notes" }, html("summary", {}, "How this was computed"), notes);
+  box.append(sentence, line);
+  beside.append(warnings, noted);
+  let settling = null;
+
+  const tell = (text, { stopping = false, backing = false } = {}) => {
+    if (telling.textContent !== text) telling.textContent = text;
+    seconds.textContent = "";
+    stop.hidden = !stopping;
+    back.hidden = !backing;
+  };
+  const listed = (list, texts) => {
+    list.replaceChildren(...texts.map((text) => html("li", {}, text)));
+    list.hidden = texts.length === 0;
+  };
+  const settle = () => {
+    sentence.setAttribute("aria-busy", "true");
+    clearTimeout(settling);
+    settling = setTimeout(() => sentence.removeAttribute("aria-busy"), SETTLED_MS);
+  };
+  tell("");
+  pin.disabled = true;
+
+  return {
+    /** The answer of a view. It is read out when no other has followed for a while. */
+    show({ answer, warnings: warned, notes: said }) {
+      if (words.textContent !== answer.sentence) {
+        settle();
+        words.textContent = answer.sentence;
+      }
+      sign.textContent = STATE_SIGNS[answer.state] ?? "";
+      box.dataset.state = answer.state;
+      pin.disabled = false;
+      listed(warnings, warned);
+      listed(notes, said);
+      noted.hidden = said.length === 0;
+      tell("");
+    },
+    waiting(count) {
+      tell("Still computing", { stopping: true });
+      seconds.textContent = `(${count} s)`;
+    },
+    stopped: () => tell("Stopped. What is shown is the design before.", { backing: true }),
+    gone: (text) => tell(text),
+    refused: (text) => tell(text, { backing: true }),
+    destroy: () => clearTimeout(settling),
+  };
+}
+
+function button(text, onClick) {
+  const element = html("button", { type: "button", class: "ss-button" }, text);
+  element.addEventListener("click", onClick);
+  return element;
+}

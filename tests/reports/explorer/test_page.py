@@ -1,0 +1,339 @@
+"""The page in a browser: what is changed, what it then shows, and what its address says."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+from axe_playwright_python.sync_playwright import Axe
+from playwright.sync_api import Locator, Page, expect
+
+from tests.browser import Visit
+from tests.reports.explorer.small_server import SmallServer
+
+DESIGN = "hr_hz=400&measurement_hz=5&delay_ms=110&model=ins-gps"
+
+
+@pytest.fixture
+def server() -> Iterator[SmallServer]:
+    with SmallServer().running() as server:
+        yield server
+
+
+def opened(visit: Visit, server: SmallServer, link: str = "") -> Page:
+    """The page of a link, with its first picture."""
+    visit.page.goto(server.url + link)
+    expect(visit.page.locator(".ss-explorer")).to_have_attribute("data-shown", re.compile("."))
+    return visit.page
+
+
+def field(page: Page, label: str) -> Locator:
+    return page.get_by_label(label, exact=True).filter(visible=True)
+
+
+def slider(page: Page, label: str) -> Locator:
+    return page.get_by_label(f"{label}, slider", exact=True).filter(visible=True)
+
+
+def give(page: Page, label: str, text: str) -> None:
+    field(page, label).fill(text)
+    field(page, label).press("Enter")
+
+
+def shows(page: Page, text: str) -> None:
+    """What the view that is drawn was asked for."""
+    expect(page.locator(".ss-explorer")).to_have_attribute("data-shown", text)
+
+
+def test_without_a_link_it_begins_with_a_design_and_can_be_changed(visit: Visit, server: SmallServer) -> None:
+    page = opened(visit, server)
+    shows(page, DESIGN)
+    assert [field(page, label).input_value() for label in ("Loop rate", "Measurement rate", "Delay")] == [
+        "400",
+        "5",
+        "110",
+    ]
+    give(page, "Needed accuracy", "0.38")
+    shows(page, f"{DESIGN}&within=0.38")
+    expect(page.get_by_role("heading", name="Designs that keep 0.38 m")).to_be_visible()
+    assert page.url == f"{server.url}?{DESIGN}&within=0.38"
+
+
+def test_a_comma_is_a_point(visit: Visit, server: SmallServer) -> None:
+    page = opened(visit, server)
+    give(page, "Needed accuracy", "0,38")
+    shows(page, f"{DESIGN}&within=0.38")
+
+
+def test_the_answer_and_its_warnings_come_with_the_design(visit: Visit, server: SmallServer) -> None:
+    page = opened(visit, server, f"?{DESIGN}&L=62")
+    expect(page.get_by_role("status").first).to_have_text("✓dual-rate lands by step 62 of 80 with speed 0.656")
+    expect(page.get_by_role("list", name="Warnings")).to_have_text("lands at 45 of the 62 you allow")
+
+
+def test_of_a_design_that_is_picked_the_controls_and_the_address_tell(visit: Visit, server: SmallServer) -> None:
+    page = opened(visit, server, f"?{DESIGN}&within=0.38")
+    page.get_by_role("button", name="clone").first.click()
+    taken = f"{DESIGN}&within=0.38&method=clone&L=66&processor=rp2040"
+    shows(page, taken)
+    assert page.url == f"{server.url}?{taken}"
+    assert field(page, "Method").input_value() == "clone"
+    assert field(page, "Land by").input_value() == "165"
+    assert field(page, "Processor").input_value() == "rp2040"
+
+
+def drag(page: Page, label: str, *shares: float) -> None:
+    slider(page, label).scroll_into_view_if_needed()
+    box = slider(page, label).bounding_box()
+    assert box is not None
+    down = box["y"] + box["height"] / 2
+    page.mouse.move(box["x"] + shares[0] * box["width"], down)
+    page.mouse.down()
+    for share in shares[1:]:
+        page.mouse.move(box["x"] + share * box["width"], down, steps=4)
+    page.mouse.up()
+
+
+SLIDERS = ["Loop rate", "Measurement rate", "Delay", "Needed accuracy", "Land by"]
+
+
+@pytest.mark.parametrize("label", SLIDERS)
+def test_dragging_meets_no_refusal_and_is_one_step_back(visit: Visit, server: SmallServer, label: str) -> None:
+    page = opened(visit, server, f"?{DESIGN}&L=62&within=0.38")
+    before = page.url
+    drag(page, label, 0.5, 0.02, 0.98, 0.4)
+    expect(page).not_to_have_url(before)
+    shows(page, page.url.partition("?")[2])
+    expect(page.locator(".ss-stale")).to_have_count(0)
+    assert [alert.text_content() for alert in page.get_by_role("alert").all() if alert.text_content()] == []
+    page.go_back()
+    expect(page).to_have_url(before)
+    shows(page, before.partition("?")[2])
+
+
+def test_a_slider_goes_by_the_arrow_keys(visit: Visit, server: SmallServer) -> None:
+    page = opened(visit, server)
+    slider(page, "Delay").focus()
+    page.keyboard.press("ArrowLeft")
+    assert field(page, "Delay").input_value() == "109"
+    expect(slider(page, "Delay")).to_have_attribute("aria-valuetext", "109 ms")
+    shows(page, DESIGN.replace("110", "109"))
+    expect(slider(page, "Delay")).to_be_focused()
+
+
+def test_back_and_forward_show_each_discrete_change(visit: Visit, server: SmallServer) -> None:
+    page = opened(visit, server)
+    field(page, "Method").select_option("clone")
+    shows(page, f"{DESIGN}&method=clone")
+    field(page, "Processor").select_option("rp2040")
+    shows(page, f"{DESIGN}&method=clone&processor=rp2040")
+    page.go_back()
+    shows(page, f"{DESIGN}&method=clone")
+    assert field(page, "Processor").input_value() == ""
+    page.go_back()
+    shows(page, DESIGN)
+    page.go_forward()
+    shows(page, f"{DESIGN}&method=clone")
+    assert field(page, "Method").input_value() == "clone"
+
+
+def test_what_is_refused_is_said_beside_its_field_and_the_last_picture_stays(visit: Visit, server: SmallServer) -> None:
+    page = opened(visit, server, f"?{DESIGN}&L=62")
+    field(page, "Land by").fill("100")
+    expect(page.get_by_role("alert").filter(has_text="L=40 must be > M=44")).to_be_visible()
+    expect(field(page, "Land by")).to_be_focused()
+    expect(field(page, "Land by")).to_have_attribute("aria-invalid", "true")
+    described = field(page, "Land by").get_attribute("aria-describedby") or ""
+    assert "L=40 must be" in "".join(page.locator(f"#{name}").inner_text() for name in described.split())
+    expect(page.locator(".ss-stale")).to_have_count(1)
+    shows(page, f"{DESIGN}&L=62")
+    page.get_by_role("button", name="Back to the last design").click()
+    expect(page.locator(".ss-stale")).to_have_count(0)
+    assert field(page, "Land by").input_value() == "155"
+    visit.errors.remove(*(error for error in visit.errors if "422" in error))
+
+
+def test_a_link_that_is_refused_says_why_and_can_be_mended(visit: Visit, server: SmallServer) -> None:
+    page = opened(visit, server, "?N=10&M=12&L=8")
+    expect(page.get_by_role("alert").filter(has_text="must be > M=12")).to_be_visible()
+    assert field(page, "M").input_value() == "12"
+    expect(page.locator(".ss-stale")).to_have_count(1)
+    give(page, "M", "4")
+    shows(page, "N=10&M=4&L=8")
+    expect(page.locator(".ss-stale")).to_have_count(0)
+    visit.errors.remove(*(error for error in visit.errors if "422" in error))
+
+
+def test_in_steps_and_back(visit: Visit, server: SmallServer) -> None:
+    page = opened(visit, server)
+    page.get_by_role("radio", name="steps").check()
+    shows(page, "hr_hz=400&model=ins-gps&N=80&M=44")
+    assert [field(page, label).input_value() for label in ("N", "M", "Loop rate")] == ["80", "44", "400"]
+    give(page, "N", "100")
+    page.get_by_role("radio", name="Hz and ms").check()
+    shows(page, "hr_hz=400&model=ins-gps&measurement_hz=4&delay_ms=110")
+    assert field(page, "Measurement rate").input_value() == "4"
+
+
+def test_designs_are_pinned_kept_in_the_link_and_removed(visit: Visit, server: SmallServer) -> None:
+    page = opened(visit, server, f"?{DESIGN}")
+    page.get_by_role("button", name="Pin this design").click()
+    field(page, "Method").select_option("clone")
+    shows(page, f"{DESIGN}&method=clone")
+    page.get_by_role("button", name="Pin this design").click()
+    pinned = page.get_by_role("region", name="Pinned designs").get_by_role("table")
+    expect(pinned.get_by_role("row", name="method")).to_have_text("methodclonedual-rateclone")
+    expect(page).to_have_url(re.compile("#A=.*&B="))
+    link = page.url
+    page.goto("about:blank")
+    opened(visit, server, link.removeprefix(server.url))
+    expect(pinned.get_by_role("row", name="method")).to_have_text("methodclonedual-rateclone")
+    page.get_by_role("button", name="Remove design A").click()
+    expect(pinned.get_by_role("row", name="method")).to_have_text("methodcloneclone")
+    expect(page).to_have_url(re.compile(r"\?[^#]*#B=[^&]*$"))
+    page.get_by_role("button", name="Remove design B").click()
+    expect(pinned).to_have_count(0)
+    expect(page).to_have_url(re.compile("^[^#]*$"))
+
+
+def test_pins_are_marked_in_the_plots(visit: Visit, server: SmallServer) -> None:
+    page = opened(visit, server, f"?{DESIGN}#A=N%3D80%26M%3D44%26L%3D50%26hr_hz%3D400")
+    plot = page.get_by_role("img", name=re.compile("Land later"))
+    expect(plot).to_have_attribute("aria-label", re.compile("A: L, step .* 50"))
+
+
+def test_what_takes_long_says_so_and_can_be_stopped(visit: Visit, server: SmallServer) -> None:
+    page = opened(visit, server)
+    server.open.clear()
+    field(page, "Method").select_option("clone")
+    expect(page.get_by_text("Still computing")).to_be_visible()
+    page.get_by_role("button", name="Stop").click()
+    expect(page.get_by_text("Stopped. What is shown is the design before.")).to_be_visible()
+    expect(page.locator(".ss-stale")).to_have_count(1)
+    server.open.set()
+    field(page, "Processor").select_option("rp2040")
+    shows(page, f"{DESIGN}&method=clone&processor=rp2040")
+    expect(page.locator(".ss-stale")).to_have_count(0)
+
+
+def test_a_server_that_has_ended_is_told_and_found_again(visit: Visit) -> None:
+    server = SmallServer()
+    with server.running():
+        page = opened(visit, server)
+    field(page, "Method").select_option("clone")
+    expect(page.get_by_text("sched-sim explore is not running any more")).to_be_visible()
+    shows(page, DESIGN)
+    with server.running():
+        shows(page, f"{DESIGN}&method=clone")
+        expect(page.get_by_text("not running any more")).to_have_count(0)
+    visit.errors = [error for error in visit.errors if "ERR_CONNECTION_REFUSED" not in error]
+
+
+def test_what_is_no_view_is_told(visit: Visit, server: SmallServer) -> None:
+    page = opened(visit, server)
+    server.view = lambda query: {"odd": query}
+    field(page, "Method").select_option("clone")
+    expect(page.get_by_text("failed to answer (HTTP 200)").first).to_be_visible()
+    shows(page, DESIGN)
+
+
+def test_the_link_is_copied_or_selected(visit: Visit, server: SmallServer) -> None:
+    page = opened(visit, server)
+    page.evaluate("() => { navigator.clipboard.writeText = async (text) => { window.copied = text; }; }")
+    page.get_by_role("button", name="Copy link").click()
+    expect(page.get_by_text("Copied.")).to_be_visible()
+    assert page.evaluate("window.copied") == f"{server.url}?{DESIGN}"
+    page.evaluate("() => { navigator.clipboard.writeText = () => Promise.reject(new Error()); }")
+    page.get_by_role("button", name="Copy command").click()
+    expect(page.get_by_text("Selected")).to_be_visible()
+    assert page.evaluate("getSelection().toString() || document.activeElement.value") == "sched-sim minimum -N 80 -M 44"
+
+
+def test_files_are_those_of_the_design(visit: Visit, server: SmallServer) -> None:
+    page = opened(visit, server, f"?{DESIGN}&L=62")
+    for name, kind in [("Chart (SVG)", "schedule.svg"), ("Methods (CSV)", "methods.csv"), ("Jobs (CSV)", "jobs.csv")]:
+        expect(page.get_by_role("link", name=name)).to_have_attribute("href", f"{server.url}{kind}?{DESIGN}&L=62")
+
+
+WIDE, NARROW = {"width": 1280, "height": 800}, {"width": 360, "height": 740}
+
+
+@pytest.mark.parametrize("size", [WIDE, NARROW], ids=["desktop", "phone"])
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_it_is_accessible(visit: Visit, server: SmallServer, size: Any, scheme: Any) -> None:
+    visit.page.set_viewport_size(size)
+    visit.page.emulate_media(color_scheme=scheme)
+    page = opened(visit, server, f"?{DESIGN}&within=0.38#A={DESIGN.replace('&', '%26').replace('=', '%3D')}")
+    expect(page.get_by_role("button", name="Remove design A")).to_be_visible()
+    page.get_by_text("Further options").click()
+    found = Axe().run(page)
+    assert found.violations_count == 0, found.generate_report()
+
+
+def test_on_a_phone_the_answer_stays_in_sight_and_nothing_is_wider(visit: Visit, server: SmallServer) -> None:
+    visit.page.set_viewport_size(NARROW)  # type: ignore[arg-type]
+    page = opened(visit, server)
+    for name in ("Land by", "Link"):
+        field(page, name).scroll_into_view_if_needed()
+        expect(page.get_by_role("status").first).to_be_in_viewport(ratio=1)
+    assert page.evaluate("document.documentElement.scrollWidth") <= NARROW["width"]
+
+
+def test_a_form_in_a_narrow_place_is_above_what_it_shows(visit: Visit, server: SmallServer) -> None:
+    """It looks at its own width, not at the window's: a notebook's cell is narrow in a wide window."""
+    page = opened(visit, server)
+
+    def sides() -> tuple[Any, Any]:
+        return page.get_by_role("form", name="Design").bounding_box(), page.locator(".ss-results").bounding_box()
+
+    form, results = sides()
+    assert form["x"] + form["width"] <= results["x"]
+    page.evaluate("document.querySelector('main').style.width = '500px'")
+    form, results = sides()
+    assert form["y"] + form["height"] <= results["y"]
+
+
+def test_by_keyboard_alone_a_method_is_shown(visit: Visit, server: SmallServer) -> None:
+    page = opened(visit, server)
+    page.keyboard.press("Tab")
+    expect(page.get_by_role("button", name="Skip to the designs")).to_be_focused()
+    page.keyboard.press("Enter")
+    for _ in range(9):
+        page.keyboard.press("Tab")
+        if page.evaluate("document.activeElement.textContent") == "clone":
+            break
+    page.keyboard.press("Enter")
+    shows(page, f"{DESIGN}&method=clone")
+    assert page.evaluate("document.activeElement.textContent") == "clone"
+
+
+def test_two_on_one_page_share_no_id(visit: Visit, server: SmallServer) -> None:
+    page = opened(visit, server)
+    page.evaluate("""async () => {
+      const more = document.createElement("div");
+      more.dataset.explorer = "";
+      document.querySelector("main").before(more);
+      await import("/explorer.js?again");
+    }""")
+    expect(page.locator(".ss-explorer[data-shown]")).to_have_count(2)
+    ids = page.evaluate("[...document.querySelectorAll('[id]')].map(({id}) => id)")
+    assert len(ids) == len(set(ids))
+
+
+def test_the_answer_is_read_out_when_it_stands_still(visit: Visit, server: SmallServer) -> None:
+    page = opened(visit, server)
+    answer = page.get_by_role("status").first
+    expect(answer).not_to_have_attribute("aria-busy", "true")
+    page.evaluate("""() => {
+      window.busy = [];
+      const answer = document.querySelector("[role=status]");
+      new MutationObserver(() => busy.push(answer.getAttribute("aria-busy"))).observe(answer, {subtree: true, characterData: true, childList: true});
+    }""")
+    drag(page, "Land by", 1, 0.3, 0.6)
+    expect(page.locator(".ss-explorer")).to_have_attribute("data-shown", re.compile("L="))
+    expect(answer).not_to_have_attribute("aria-busy", "true")
+    said = page.evaluate("window.busy")
+    assert said
+    assert set(said) == {"true"}
