@@ -57,7 +57,7 @@ def _landing(axes: Axes, found: Landing) -> None:
     label(axes, heading(of).replace(": a fix every ", ": every "))
     end = 2 * of.N
     for n, curve in found.curves.items():
-        _curve(axes, of, found.no_delay, curve, EVERY_LINES[n], end)
+        _curve(axes, of, found.no_delay, curve, n, end)
     axes.set(xlim=(of.ms(of.M) - 0.04 * of.ms(end), of.ms(end) * 1.02))
     axes.set_ylim(-0.03 * axes.get_ylim()[1], axes.get_ylim()[1] * 1.12)
     top = axes.get_ylim()[1]
@@ -71,14 +71,15 @@ def _landing(axes: Axes, found: Landing) -> None:
     axes.xaxis.set_major_locator(MaxNLocator(nbins=6, steps=[1, 2, 5, 10]))
 
 
-def _curve(axes: Axes, of: Given, no_delay: float, curve: Curve, line: Line, end: int) -> None:
+def _curve(axes: Axes, of: Given, no_delay: float, curve: Curve, n: int, end: int) -> None:
+    line = EVERY_LINES[n]
     shown = [
         (of.ms(L), 100 * (std / no_delay - 1)) for L, std in zip(curve.landings, curve.worst, strict=True) if end >= L
     ]
     at, over = zip(*shown, strict=True)
     axes.plot(
         at, over, line.marker, color=line.colour, ls=line.dashes, lw=1.2, ms=line.size, mew=0,
-        markevery=[0, of.N - of.M],
+        markevery=[0, of.N - of.M], label=f"{ordinal(n)} fix",
     )  # fmt: skip
 
 
@@ -152,7 +153,7 @@ def _front(axes: Axes, designs: Sequence[Placed]) -> None:
         axes.plot(
             [float(place.speed) for place in inside], [_over(place) for place in inside], line.marker,
             color=line.colour, ls=line.dashes, lw=1.1, ms=1.25 * line.size, mew=0.5, mec="white",
-            markevery=[0, len(inside) - 1] if len(inside) > 1 else None, zorder=3,
+            markevery=[0, len(inside) - 1] if len(inside) > 1 else None, zorder=3, label=method_name(method),
         )  # fmt: skip
 
 
@@ -193,6 +194,7 @@ def slow_figure(choices: Sequence[Choice], slowest: float = SLOWEST, fastest: fl
                 [(speed, choice) for speed, choice in chosen if choice is not None],
                 line,
                 fastest,
+                names[several],
                 above=not several,
             )
         axes.set_xscale("log")
@@ -214,10 +216,14 @@ def slow_figure(choices: Sequence[Choice], slowest: float = SLOWEST, fastest: fl
         return figure
 
 
-def _stairs(axes: Axes, chosen: Sequence[tuple[float, Choice]], line: Line, fastest: float, *, above: bool) -> None:
+def _stairs(
+    axes: Axes, chosen: Sequence[tuple[float, Choice]], line: Line, fastest: float, name: str, *, above: bool
+) -> None:
     """A sign and the n where the number of frames in use changes."""
     speeds, levels = zip(*((speed, 1000 * choice.worst) for speed, choice in chosen), strict=True)
-    axes.step([*speeds, fastest], [*levels, levels[-1]], where="post", color=line.colour, ls=line.dashes, lw=1.3)
+    axes.step(
+        [*speeds, fastest], [*levels, levels[-1]], where="post", color=line.colour, ls=line.dashes, lw=1.3, label=name
+    )
     before = None
     for speed, choice in chosen:
         if choice.every != before and speed >= SLOWEST:

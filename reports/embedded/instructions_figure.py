@@ -52,6 +52,6 @@ def _jobs(axes: Axes, by_core: Mapping[str, Sequence[tuple[int, float]]]) -> Non
     for core, jobs in by_core.items():
         across, up = zip(*jobs, strict=True)
         line = LINES[core]
-        axes.plot(across, up, line.marker, color=line.colour, ms=line.size, mew=0, ls="none")
+        axes.plot(across, up, line.marker, color=line.colour, ms=line.size, mew=0, ls="none", label=SOURCES[core])
     axes.set_ylim(0, 1.12 * max(ratio for jobs in by_core.values() for _, ratio in jobs))
     plain(axes)

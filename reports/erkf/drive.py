@@ -50,8 +50,9 @@ def route_figure(drive: Columns, close_up: Columns, error: str) -> Figure:
         route.plot(drive["gps east"], drive["gps north"], GPS.marker, color=GPS.colour, ms=2.0, mew=0)
         for name, line in FILTERS.items():
             route.plot(
-                drive[f"{name} {error} east"], drive[f"{name} {error} north"], color=line.colour, lw=WIDTHS[name]
-            )
+                drive[f"{name} {error} east"], drive[f"{name} {error} north"], color=line.colour, lw=WIDTHS[name],
+                label=name,
+            )  # fmt: skip
         route.set_aspect("equal", adjustable="datalim")
         route.plot([drive["true east"][0]], [drive["true north"][0]], "o", ms=5, mfc="none", mec=INK, mew=0.9)
         _style(route, "The route", "east (m)", "north (m)")
@@ -74,9 +75,12 @@ def _close_up(figure: Figure, drive: Columns, close_up: Columns, error: str, lef
 
     for row, (name, side) in enumerate(sides.items()):
         axes = axes_at(figure, left, EDGE_MM + TITLE_MM + row * (ROW_MM + BETWEEN_MM), width, ROW_MM)
-        axes.plot(time_s, along(close_up, "true", side), color=INK, lw=0.7)
+        axes.plot(time_s, along(close_up, "true", side), color=INK, lw=0.7, label="true")
         for of_filter, line in FILTERS.items():
-            axes.plot(time_s, along(close_up, f"{of_filter} {error}", side), color=line.colour, lw=WIDTHS[of_filter])
+            axes.plot(
+                time_s, along(close_up, f"{of_filter} {error}", side), color=line.colour, lw=WIDTHS[of_filter],
+                label=of_filter,
+            )  # fmt: skip
         at, seen = drive["time_s"][fixes], along(drive, "gps", side)[fixes]
         axes.step(at, seen, where="post", color=GPS.colour, lw=0.7, zorder=1)
         axes.plot(at, seen, GPS.marker, color=GPS.colour, ms=6.0, mew=0)
@@ -101,8 +105,8 @@ def attitude_figure(drive: Columns, error: str) -> Figure:
             if angle != "yaw":
                 axes.plot(time_s, drive[f"imu {angle}"], color="#b7cfbc", lw=0.4)
             for name, values in shown.items():
-                axes.plot(time_s, _near(values, truth), color=FILTERS[name].colour, lw=WIDTHS[name])
-            axes.plot(time_s, _turned(truth), color=INK, lw=0.6)
+                axes.plot(time_s, _near(values, truth), color=FILTERS[name].colour, lw=WIDTHS[name], label=name)
+            axes.plot(time_s, _turned(truth), color=INK, lw=0.6, label="true")
             _style(axes, "", "", f"{angle} (deg)")
         _yaw_error(rows[-1], drive, error)
         return figure
@@ -116,7 +120,7 @@ def _yaw_error(axes: Axes, drive: Columns, error: str) -> None:
     axes.plot(time_s[::2], seen, GPS.marker, color=GPS.colour, ms=2.6, mew=0)
     axes.plot(time_s, wrapped_deg(drive["imu yaw"] - truth), color=IMU.colour, lw=0.5)
     for name, line in FILTERS.items():
-        axes.plot(time_s, wrapped_deg(drive[f"{name} {error} yaw"] - truth), color=line.colour, lw=0.8)
+        axes.plot(time_s, wrapped_deg(drive[f"{name} {error} yaw"] - truth), color=line.colour, lw=0.8, label=name)
     _style(axes, "", "time (s)", "yaw, error (deg)")
 
 
@@ -134,7 +138,8 @@ def position_figure(drive: Columns, error: str) -> Figure:
             seen = (drive[f"gps {side}"] - truth)[::2]
             axes.plot(drive["time_s"][::2], seen, GPS.marker, color=GPS.colour, ms=2.6, mew=0)
             for name, line in FILTERS.items():
-                axes.plot(drive["time_s"], drive[f"{name} {error} {side}"] - truth, color=line.colour, lw=WIDTHS[name])
+                off = drive[f"{name} {error} {side}"] - truth
+                axes.plot(drive["time_s"], off, color=line.colour, lw=WIDTHS[name], label=name)
             _style(axes, "", "time (s)" if axes is rows[-1] else "", f"{side}, error (m)")
         return figure
 
@@ -160,7 +165,17 @@ def errors_figure(drive: Columns, errors: Sequence[str]) -> Figure:
                 axes = axes_at(figure, LEFT_MM + column * (width + GAP_MM), top, width, ROW_MM)
                 for name, line in MARKED.items():
                     shown = rms[error, name][1:]
-                    axes.plot(time_s[1:], shown, line.marker, color=line.colour, ms=line.size, mew=0, ls="-", lw=0.8)
+                    axes.plot(
+                        time_s[1:],
+                        shown,
+                        line.marker,
+                        color=line.colour,
+                        ms=line.size,
+                        mew=0,
+                        ls="-",
+                        lw=0.8,
+                        label=name,
+                    )
                 axes.set(xlim=(0, time_s[-1] + time_s[0]), ylim=(0, limit))
                 title = f"Gyro scale wrong by {error}" if row == 0 else ""
                 _style(axes, title, "time (s)" if row == 2 else "", f"{angle}, error (deg)" if column == 0 else "")

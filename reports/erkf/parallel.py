@@ -37,7 +37,7 @@ def parallel_figure(times: Mapping[str, Mapping[str, Mapping[int, int]]]) -> Fig
                 line = lines[name]
                 axes.plot(
                     list(curve), list(curve.values()), line.marker, color=line.colour, ms=line.size, mew=0,
-                    ls=line.dashes, lw=1.0,
+                    ls=line.dashes, lw=1.0, label=name,
                 )  # fmt: skip
             decades(axes, "y", shortest / 1.5, longest * 1.5)
             _processors(axes, sorted({P for curve in curves.values() for P in curve}))

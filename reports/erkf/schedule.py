@@ -49,7 +49,7 @@ def speed_figure(costs: Mapping[str, Mapping[str, RobustCosts[Fraction]]], N: in
                 line = lines[way]
                 axes.plot(
                     range(1, N + 1), speeds[system, way], line.marker, color=line.colour, ms=0.75 * line.size, mew=0,
-                    ls=line.dashes, lw=0.8, markevery=3,
+                    ls=line.dashes, lw=0.8, markevery=3, label=way,
                 )  # fmt: skip
             every = [speed for of_curve in speeds.values() for speed in of_curve]
             decades(axes, "y", min(every) / 1.6, 1.6 * max(every))

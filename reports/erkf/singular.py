@@ -67,7 +67,7 @@ _ENDS = (("smallest", np.min), ("largest", np.max))
 
 def _values(axes: Axes, time_s: FloatArray, values: FloatArray, which: str) -> None:
     """The inverse as a line, Givens as signs on it, for the two cannot be told apart."""
-    axes.plot(time_s, values, color=INK, lw=0.8)
+    axes.plot(time_s, values, color=INK, lw=0.8, label=f"{which}, explicit inverse")
     signs = slice(len(time_s) // (2 * MARKED), None, max(len(time_s) // MARKED, 1))
     line = LINES["givens"]
     axes.plot(time_s[signs], values[signs], line.marker, color=line.colour, ms=line.size, mew=0, ls="none")
@@ -85,5 +85,5 @@ def _differences(axes: Axes, time_s: FloatArray, differences: Mapping[str, Float
         positive = np.where(curve > 0, curve, np.nan)
         axes.plot(
             time_s, positive, line.marker, color=line.colour, ms=line.size, mew=0, ls="-", lw=0.7,
-            markevery=(number * every // len(WAYS), every),
+            markevery=(number * every // len(WAYS), every), label=WAYS[way],
         )  # fmt: skip

@@ -114,7 +114,9 @@ def _shares(axes: Axes, runs: Sequence[Measured]) -> None:
     everything = [float(100 * of.share) for of in agreements]
     low, high = axes.get_xlim()
     axes.bar(speeds, undisturbed, 0.012 * (high - low), color=UNDISTURBED, lw=0, zorder=1)
-    for line, values in ((ALL, everything), (CALM, calm)):
-        axes.plot(speeds, values, line.marker, color=line.colour, ms=line.size, mew=0, clip_on=False, zorder=3)
+    for name, line, values in (("of all cycles", ALL, everything), ("of undisturbed cycles", CALM, calm)):
+        axes.plot(
+            speeds, values, line.marker, color=line.colour, ms=line.size, mew=0, clip_on=False, zorder=3, label=name
+        )
     axes.set_ylim(0, 100)
     label(axes, "", "speed (cost units per HR period)", "% of the cycles")

@@ -37,7 +37,7 @@ def cost_figure(rows: Sequence[Record]) -> Figure:
                         axes.vlines(int(row["states"]), least, median, color=line.colour, lw=0.8, zorder=2)
                     axes.plot(
                         [int(row["states"]) for row in of_kind], [float(row[column]) for row in of_kind], line.marker,
-                        color=line.colour, ms=line.size, mew=0, ls=line.dashes, lw=1.0,
+                        color=line.colour, ms=line.size, mew=0, ls=line.dashes, lw=1.0, label=kind,
                     )  # fmt: skip
                 axes.set_xscale("log")
                 axes.set_xlim(states[0] / 1.1, states[-1] * 1.1)

@@ -39,13 +39,14 @@ def late_figure(by_sensors: Mapping[str, Sequence[Record]]) -> Figure:
                 delay = _column(of_way, "delay")
                 error, bar = (_column(of_way, name) / unit for name in ("error", "se"))
                 line, width = LINES[way], WIDTHS.get(way, 1.0)
-                rows[0][column].errorbar(
+                drawn = rows[0][column].errorbar(
                     delay, error, 2 * bar, fmt=line.marker, color=line.colour, ms=line.size, mew=0, ls=line.dashes,
                     lw=width, elinewidth=0.8,
                 )  # fmt: skip
+                drawn.lines[0].set_label(way)
                 rows[1][column].plot(
                     delay, _column(of_way, "longest"), line.marker, color=line.colour, ms=line.size, mew=0,
-                    ls=line.dashes, lw=width,
+                    ls=line.dashes, lw=width, label=way,
                 )  # fmt: skip
             for row in rows:
                 row[column].set_ylim(0, None)

@@ -59,11 +59,11 @@ def history_figure(run: Columns, periods_s: float) -> Figure:
             if name in SENSORS:
                 seen = run[f"{name} measured"][kept]
                 left.plot(time_s, seen, MEASURED.marker, color=MEASURED.colour, ms=3.2, mew=0, zorder=4)
-            left.plot(time_s, estimate, color=ESTIMATE.colour, lw=1.8)
-            left.plot(time_s, truth, color=INK, lw=0.7)
+            left.plot(time_s, estimate, color=ESTIMATE.colour, lw=1.8, label="estimate")
+            left.plot(time_s, truth, color=INK, lw=0.7, label="true")
             right.fill_between(time_s, -2 * sigma, 2 * sigma, color=BAND["band:"].colour, lw=0)
             right.axhline(0.0, color=INK, lw=0.6)
-            right.plot(time_s, estimate - truth, color=ESTIMATE.colour, lw=0.9)
+            right.plot(time_s, estimate - truth, color=ESTIMATE.colour, lw=0.9, label="error")
             settled = np.abs(np.concatenate([2 * sigma, estimate - truth])[np.tile(time_s > 0.1 * periods_s, 2)])
             right.set_ylim(-1.2 * settled.max(), 1.2 * settled.max())
             for axes in (left, right):
@@ -86,7 +86,7 @@ def dropout_figure(rows: Sequence[Record]) -> Figure:
             for name in QUANTITIES if what == "error" else SENSORS:
                 unit = 0.01 * OSCILLATOR_AMPLITUDES[name] if what == "error" else NOISES[name]
                 value, *ends = (_column(shown, f"{what} {end}{UNITS[name]}") / unit for end in ENDS)
-                _curve(axes, _spaced(_column(shown, "dropout")), value, ends, LINES[name])
+                _curve(axes, _spaced(_column(shown, "dropout")), value, ends, LINES[name], name)
             label(axes, title, "dropout (%)", up)
             dropout_axis(axes)
         decades(plots[0], "y", 1, 20_000)
@@ -111,8 +111,9 @@ def rate_figure(by_rate: Mapping[int, Sequence[Record]], reach: float) -> Figure
             value, *ends = (
                 _column(shown, f"error {end}m") / (0.01 * OSCILLATOR_AMPLITUDES["position"]) for end in ENDS
             )
-            _curve(left, _spaced(_column(shown, "dropout")), value, ends, lines[rate])
-            _curve(right, _column(shown, "interval"), value, ends, lines[rate])
+            name = f"{rate} in a period"
+            _curve(left, _spaced(_column(shown, "dropout")), value, ends, lines[rate], name)
+            _curve(right, _column(shown, "interval"), value, ends, lines[rate], name)
         for axes in (left, right):
             decades(axes, "y", 0.5, 50_000)
         still = 100 * float(next(iter(by_rate.values()))[0]["still"])
@@ -149,14 +150,14 @@ def nees_figure(
         for name, line in lines.items():
             left.plot(
                 course["time_s"], course[name], line.marker, color=line.colour, ls="-", lw=0.8, ms=0.8 * line.size,
-                mew=0, markevery=12,
+                mew=0, markevery=12, label=name,
             )  # fmt: skip
         left.set(xlim=(course["time_s"][0], course["time_s"][-1]), ylim=(0, None))
         label(left, "Dropout 50 %", "time (s)", "NEES, mean over the runs")
         for name, rows in overall.items():
             shown = [row for row in rows if float(row["dropout"]) >= SHOWN[0]]
             at, value, line = _spaced(_column(shown, "dropout")), _column(shown, "nees"), lines[name]
-            right.plot(at, value, line.marker, color=line.colour, ms=line.size, mew=0, ls="-", lw=1.0)
+            right.plot(at, value, line.marker, color=line.colour, ms=line.size, mew=0, ls="-", lw=1.0, label=name)
         right.set_ylim(0, None)
         for axes in (left, right):
             axes.axhline(3.0, color=INK, lw=0.7, zorder=1)
@@ -172,6 +173,7 @@ def dropout_axis(axes: Axes) -> None:
     axes.xaxis.set_major_locator(FixedLocator([_gap(dropout) for dropout in SHOWN]))
     axes.xaxis.set_minor_locator(NullLocator())
     axes.xaxis.set_major_formatter(FuncFormatter(lambda gap, _: f"{100 * (1 - 1 / gap):.0f}"))
+    axes.fmt_xdata = lambda gap: f"{100 * (1 - 1 / gap):.3g}"
     axes.axvline(_gap(CLAIMED), color=GREY, lw=0.9, ls=(0, (2, 1.5)), zorder=1)
 
 
@@ -188,13 +190,14 @@ def _column(rows: Iterable[Record], name: str) -> FloatArray:
     return np.array([float(row[name]) for row in rows])
 
 
-def _curve(axes: Axes, across: FloatArray, up: FloatArray, ends: Sequence[FloatArray], line: Line) -> None:
+def _curve(axes: Axes, across: FloatArray, up: FloatArray, ends: Sequence[FloatArray], line: Line, name: str) -> None:
     """ends: of the bars, low and high."""
     low, high = ends
-    axes.errorbar(
+    drawn = axes.errorbar(
         across, up, [up - low, high - up], fmt=line.marker, color=line.colour, ms=line.size,
         mew=1.3 if line.marker == "|" else 0, ls=line.dashes, lw=1.0, elinewidth=0.8, capsize=1.6, capthick=0.8,
     )  # fmt: skip
+    drawn.lines[0].set_label(name)
 
 
 def _level(axes: Axes, at: float, text: str = "") -> None:

@@ -40,11 +40,11 @@ def flight_figure(flight: Columns, burnout_s: float) -> Figure:
         time_s = flight["time_s"]
         for (left, right), (name, unit) in zip(rows, SHOWN.items(), strict=True):
             error, sigma = flight[f"{name} error"], flight[f"{name} sigma"]
-            left.plot(time_s, flight[f"{name} estimate"], color=ESTIMATE.colour, lw=1.8)
-            left.plot(time_s, flight[f"{name} true"], color=INK, lw=0.7)
+            left.plot(time_s, flight[f"{name} estimate"], color=ESTIMATE.colour, lw=1.8, label="estimate")
+            left.plot(time_s, flight[f"{name} true"], color=INK, lw=0.7, label="true")
             right.fill_between(time_s, -2 * sigma, 2 * sigma, color=BAND["band:"].colour, lw=0)
             right.axhline(0.0, color=INK, lw=0.6)
-            right.plot(time_s, error, color=ESTIMATE.colour, lw=0.8)
+            right.plot(time_s, error, color=ESTIMATE.colour, lw=0.8, label="error")
             for axes in (left, right):
                 axes.set_xlim(time_s[0], time_s[-1])
                 axes.axvline(burnout_s, color=GREY, lw=0.9, ls=(0, (2, 1.5)), zorder=1)
@@ -77,7 +77,7 @@ def residual_figure(series: Columns, readings: Sequence[str]) -> Figure:
                     curve = series[f"{reading}, {dropout}, {name}"]
                     axes.plot(
                         series["time_s"], curve, line.marker, color=line.colour, ls=dashes, lw=1.2, ms=0.8 * line.size,
-                        mew=0, markevery=(2 * start, 9),
+                        mew=0, markevery=(2 * start, 9), label=f"dropout {dropout}, {name}",
                     )  # fmt: skip
             axes.axhline(CLAIM_PERCENT, color=CLAIM.colour, ls=CLAIM.dashes, lw=1.0)
             decades(axes, "y", 0.01, 1000)
@@ -109,7 +109,7 @@ def nees_figure(
         for start, (dropout, line) in enumerate(LINES.items()):
             above.plot(
                 series["time_s"], series[dropout], line.marker, color=line.colour, ls="-", lw=0.9, ms=0.8 * line.size,
-                mew=0, markevery=(9 * start, 37),
+                mew=0, markevery=(9 * start, 37), label=f"dropout {dropout}",
             )  # fmt: skip
         decades(above, "y", 3, 2000)
         above.set_xlim(series["time_s"][0], series["time_s"][-1])

@@ -182,7 +182,7 @@ def miss_figure(rows: Sequence[MissRow]) -> Figure:
             for axes, job in zip(of_urgency, JOBS, strict=True):
                 for name, line in LINES.items():
                     of_way = [row for row in rows if (row.way, row.urgency, row.job) == (name, urgency, job)]
-                    _miss_curve(axes, of_way, line)
+                    _miss_curve(axes, of_way, name, line)
                 _clock_axis(axes, ends)
                 _probability_axis(axes)
                 _titles(axes, urgency, job, "deadlines missed (%)")
@@ -204,7 +204,7 @@ def response_figure(columns: Columns) -> Figure:
                     values = columns[f"{job}, {way.name}, {urgency}"]
                     axes.plot(
                         values, 100 * columns["share"], line.marker, color=line.colour, ls="-", lw=1.2,
-                        ms=0.9 * line.size, mew=0, markevery=(5 * start, 15),
+                        ms=0.9 * line.size, mew=0, markevery=(5 * start, 15), label=way.name,
                     )  # fmt: skip
                 decades(axes, "y", 100 * LEAST_SHARE, 130)
                 axes.yaxis.set_major_formatter(FuncFormatter(lambda share, _: f"{share:g}"))
@@ -256,14 +256,14 @@ def _solid(line: Line) -> Line:
     return line._replace(dashes="-")
 
 
-def _miss_curve(axes: Axes, rows: Sequence[MissRow], line: Line) -> None:
+def _miss_curve(axes: Axes, rows: Sequence[MissRow], name: str, line: Line) -> None:
     """With its 95 % band."""
     across = [row.clock_mhz for row in rows]
     low, high = (np.array([100 * row.interval[side] for row in rows]) for side in (0, 1))
     axes.fill_between(across, low, high, color=line.colour, alpha=0.18, lw=0)
     axes.plot(
         across, [100 * row.probability for row in rows], line.marker, color=line.colour, ms=0.75 * line.size, mew=0,
-        ls=line.dashes, lw=1.0,
+        ls=line.dashes, lw=1.0, label=name,
     )  # fmt: skip
 
 

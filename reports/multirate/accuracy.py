@@ -76,7 +76,7 @@ def _curves(axes: Axes, curves: Sequence[Curve]) -> None:
         mew = 1.2 if line.marker == "|" else 0
         axes.plot(
             list(losses), list(losses.values()), line.marker, color=line.colour, ms=0.75 * line.size, mew=mew,
-            ls=line.dashes, lw=0.8,
+            ls=line.dashes, lw=0.8, label=curve.label,
         )  # fmt: skip
         ends.append(((log10(losses[last]) - low) / (high - low) * STEADY_MM, curve.label))
     ends.sort()
@@ -92,6 +92,7 @@ def _ratio_axis(axes: Axes, highest: float, *, numbers: bool) -> None:
     axes.yaxis.set_major_locator(FixedLocator([ratio - 1 for ratio in RATIOS if ratio < highest]))
     axes.yaxis.set_minor_locator(NullLocator())
     axes.yaxis.set_major_formatter(FuncFormatter(lambda loss, _: f"{1 + loss:.4g}"))
+    axes.fmt_ydata = lambda loss: ratio_text(1 + loss)
     axes.tick_params(axis="y", labelleft=numbers)
     axes.spines[["right", "top"]].set_visible(False)
     axes.grid(axis="y", color=PALE, lw=0.5)
@@ -120,10 +121,13 @@ def start_figure(
         for axes in (left, right):
             _ratio_axis(axes, highest, numbers=True)
         for (n, course), line in zip(courses.items(), SOURCE_LINES[1:], strict=False):
-            _course(left, course[: last_step + 1], line)
+            _course(left, course[: last_step + 1], line, f"n = {n}")
             steps = starts[n]
             losses = [ratio - 1 for ratio in steps.values()]
-            right.plot(list(steps), losses, line.marker, color=line.colour, ms=line.size, mew=0, ls=line.dashes, lw=1.0)
+            right.plot(
+                list(steps), losses, line.marker, color=line.colour, ms=line.size, mew=0, ls=line.dashes, lw=1.0,
+                label=f"n = {n}",
+            )  # fmt: skip
         left.set_title("Gain every $n$-th step from the start", loc="left", size=TITLE_PT)
         right.set_title("The first steps with a gain each", loc="left", size=TITLE_PT)
         left.set_xlabel("step after the start (1 s each)", labelpad=2)
@@ -135,7 +139,7 @@ def start_figure(
         return figure
 
 
-def _course(axes: Axes, course: FloatArray, line: Line) -> None:
+def _course(axes: Axes, course: FloatArray, line: Line, name: str) -> None:
     """With a ring at its peak."""
     axes.plot(
         range(len(course)),
@@ -147,6 +151,7 @@ def _course(axes: Axes, course: FloatArray, line: Line) -> None:
         ls=line.dashes,
         lw=0.8,
         markevery=10,
+        label=name,
     )
     peak = int(course.argmax())
     axes.plot([peak], [course[peak] - 1], "o", ms=7, mfc="none", mec=INK, mew=0.8, zorder=4)

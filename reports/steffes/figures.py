@@ -65,7 +65,7 @@ def least_speed_figure(
                     _mark_knee(axes, stairs)
                 else:
                     levels.append(float(stairs[0].speed))
-                    axes.axhline(levels[-1], color=line.colour, ls=line.dashes, lw=1.2)
+                    axes.axhline(levels[-1], color=line.colour, ls=line.dashes, lw=1.2, label=METHOD_NAMES[method])
                     axes.plot([M], levels[-1:], line.marker, color=line.colour, ms=MARKER_PT)
             _level_numbers(axes, sorted(levels), limits)
         plots[0].set_ylabel(f"least speed ({SPEED_UNIT})", labelpad=2)
@@ -95,7 +95,9 @@ def achieved_figure(
                 if not points:
                     continue
                 across, up = [speed for speed, _ in points], [L for _, L in points]
-                axes.step(across, up, where="post", color=line.colour, ls=line.dashes, lw=1.2)
+                axes.step(
+                    across, up, where="post", color=line.colour, ls=line.dashes, lw=1.2, label=METHOD_NAMES[method]
+                )
                 axes.plot(across[:1], up[:1], line.marker, color=line.colour, ms=MARKER_PT, zorder=3)
                 latest = max(latest, *up)
                 if isinstance(costs, DualRateCosts):
@@ -159,7 +161,10 @@ def _dual_rate_stairs(axes: Axes, stairs: Sequence[Stair]) -> None:
     line = METHOD_LINES["dual-rate"]
     asked, speeds = [stair.L for stair in stairs], [float(stair.speed) for stair in stairs]
     size = MARKER_PT if len(stairs) <= 30 else 1.8
-    axes.plot(asked, speeds, marker=line.marker, ls="-", lw=0.6, color=line.colour, ms=size, mew=0, zorder=3)
+    axes.plot(
+        asked, speeds, marker=line.marker, ls="-", lw=0.6, color=line.colour, ms=size, mew=0, zorder=3,
+        label=METHOD_NAMES["dual-rate"],
+    )  # fmt: skip
 
 
 def _level_numbers(axes: Axes, levels: Sequence[float], limits: tuple[float, float]) -> None:
