@@ -10,7 +10,7 @@ from sched_sim.cli.no_time import no_time_note
 from sched_sim.cli.output import Format, lines, print_csv, print_json, print_table
 from sched_sim.cli.parts import WORDS
 from sched_sim.cli.progress import progress_bar
-from sched_sim.cli.scenario import describe, phases_note
+from sched_sim.cli.scenario import describe
 from sched_sim.cli.scenario_accuracy import accuracy_of, over_the_same_steps, question, verdict_columns, verdict_words
 from sched_sim.cli.scenario_flags import NOTHING_ASKED
 from sched_sim.errors import InputError
@@ -28,6 +28,7 @@ def verdicts(path: Path, processors: Sequence[str], format: Format) -> None:
     from sched_sim.processors.part import NoTimeError
     from sched_sim.processors.part_file import load_part
     from sched_sim.scenario.run import run_scenario
+    from sched_sim.scenario.said import phases_note
     from sched_sim.scenario.scenario_file import read_scenario
 
     parts = {path: load_part(path).name for path in processors}

@@ -137,8 +137,9 @@ def describe(name: str, folder: Path) -> Composition:
 
 
 def _document(scenario: Scenario, outcome: Outcome, busy: Sequence[float]) -> dict[str, Any]:
-    from sched_sim.cli.overload import causes
+    from sched_sim.scenario.causes import causes
     from sched_sim.scenario.load import demand
+    from sched_sim.scenario.said import WITHHELD
 
     ms = None if scenario.hr_hz is None else float(1000 / scenario.hr_hz)
     return {
@@ -168,14 +169,9 @@ def _of_sensor(scenario: Scenario, sensor: Sensor, outcome: Outcome) -> dict[str
     return rate | delays | _sensor(sensor, outcome.sensors[sensor.name])
 
 
-WITHHELD = (
-    "no P(miss): these samples are of an earlier `measure --filter`, for the most part the loop that took them, and a "
-    "mean of several executions hides the slow ones; for a probability measure again: each sample is then one execution"
-)
 WHY_NOT_RESOLVED = (
     "not resolved: none of n missed; with a P(miss) of 3/n or more one would have, with 95 % (for less: --rare)"
 )
-INTERVAL = "95 % interval: noise of this simulation only, for the costs as stated, as if each job missed on its own"
 
 
 def _job(figures: JobFigures, ms: float | None, harness: bool) -> dict[str, Any]:
@@ -249,7 +245,7 @@ def _sensor(sensor: Sensor, figures: SensorFigures) -> dict[str, Any]:
 
 
 def _show(scenario: Scenario, outcome: Outcome, busy: Sequence[float], exact: Beside | str) -> None:
-    from sched_sim.cli.scenario_times import times
+    from sched_sim.scenario.sensor_times import times
 
     ms = None if scenario.hr_hz is None else float(1000 / scenario.hr_hz)
     rate = f"at {float(scenario.speed):.6g} cost units a step" if ms is None else f"at {float(1000 / ms):g} Hz"
@@ -269,7 +265,8 @@ def _show(scenario: Scenario, outcome: Outcome, busy: Sequence[float], exact: Be
 
 def _note(scenario: Scenario, outcome: Outcome, busy: Sequence[float]) -> str:
     """Below the table: how busy the processors were, what the figures are of, and why deadlines are missed."""
-    from sched_sim.cli.overload import causes
+    from sched_sim.scenario.causes import causes
+    from sched_sim.scenario.said import INTERVAL, WITHHELD, phases_note
 
     processors = "Processors" if len(busy) > 1 else "Processor"
     lines = [f"{processors} busy {' and '.join(map(shares.percent, busy))} of the time"]
@@ -286,12 +283,6 @@ def _note(scenario: Scenario, outcome: Outcome, busy: Sequence[float]) -> str:
     if not scenario.harness and any(jobs.decided and not jobs.misses for jobs in outcome.jobs.values()):
         lines.append(WHY_NOT_RESOLVED)
     return "\n".join([*lines, *causes(scenario, outcome, busy)])
-
-
-def phases_note(scenario: Scenario) -> str:
-    """Of tasks whose phase may be any, of which a simulation shows one; empty if there are none."""
-    free = ", ".join(task.name for task in scenario.tasks if task.offset == "any")
-    return free and f"{free}: of any phase, and here first released with step 0 (offset = ... for another)"
 
 
 def _job_words(kind: str, figures: JobFigures, unit: float, harness: bool) -> dict[str, Any]:

@@ -18,37 +18,53 @@ from sched_sim.schedule.processor import OnSlice, Platform, Processor
 
 
 def simulated(work: Workload, on_slice: OnSlice | None = None, on_progress: OnProgress | None = None) -> Outcome:
-    scenario, period = work.scenario, work.period
-    source = DualRateFilter if scenario.late == "dual-rate" else ComposedFilter
-    composed = source(scenario, work.costs, period)
-    clock = [] if on_progress is None else [Clock(period, scenario.steps, on_progress)]
-    sources: list[Source] = [composed, *work.tasks(), *clock]
-    finishes: defaultdict[str, list[Finish]] = defaultdict(list)
+    return Simulation(work, on_slice, on_progress).outcome()
 
-    def on_finish(job: Job, now: int) -> None:
-        finishes[job.kind].append(Finish(job.step, job.release, job.deadline, now))
 
-    platform = Platform(scenario.cpus, work.context_switch)
-    processor = Processor(sources, period, work.horizon, platform, on_slice, on_finish)
-    processor.run()
-    schedule = processor.schedule()
-    sensors = {}
-    for number, sensor in enumerate(scenario.sensors):
-        done = finishes[correct_kind(sensor)]
-        landings = [(job.step, scenario.lands(job.end, period)) for job in done]
-        achieved = Counter(l - k for k, l in landings)
-        arrived = achieved.total() + sum(waiting.sensor == number for waiting in composed.pending)
-        sensors[sensor.name] = SensorFigures(
-            composed.taken[number],
-            composed.dropped[number],
-            arrived,
-            achieved,
-            longest_wait(sensor, achieved, landings),
-            landings,
-        )
-    jobs = {kind: _figures(finishes[kind], schedule.responses.get(kind), period) for kind in work.kinds}
-    first_miss = processor.first_miss[0] / period if processor.first_miss else None
-    return Outcome(jobs, sensors, schedule, first_miss, [cpu.busy for cpu in processor.cpus])
+class Simulation:
+    """One that can be stopped on its way, and goes on."""
+
+    def __init__(self, work: Workload, on_slice: OnSlice | None = None, on_progress: OnProgress | None = None) -> None:
+        self.work = work
+        scenario, period = work.scenario, work.period
+        source = DualRateFilter if scenario.late == "dual-rate" else ComposedFilter
+        self.composed = source(scenario, work.costs, period)
+        clock = [] if on_progress is None else [Clock(period, scenario.steps, on_progress)]
+        sources: list[Source] = [self.composed, *work.tasks(), *clock]
+        self.finishes: defaultdict[str, list[Finish]] = defaultdict(list)
+        platform = Platform(scenario.cpus, work.context_switch)
+        self.processor = Processor(sources, period, work.horizon, platform, on_slice, self._on_finish)
+
+    def _on_finish(self, job: Job, now: int) -> None:
+        self.finishes[job.kind].append(Finish(job.step, job.release, job.deadline, now))
+
+    def advance(self, step: int) -> None:
+        """To the start of this step before the last: what ends there has not ended yet."""
+        self.processor.advance(step * self.work.period)
+
+    def outcome(self) -> Outcome:
+        """At the end, to which it goes."""
+        work, finishes, processor = self.work, self.finishes, self.processor
+        scenario, period = work.scenario, work.period
+        processor.run()
+        schedule = processor.schedule()
+        sensors = {}
+        for number, sensor in enumerate(scenario.sensors):
+            done = finishes[correct_kind(sensor)]
+            landings = [(job.step, scenario.lands(job.end, period)) for job in done]
+            achieved = Counter(l - k for k, l in landings)
+            arrived = achieved.total() + sum(waiting.sensor == number for waiting in self.composed.pending)
+            sensors[sensor.name] = SensorFigures(
+                self.composed.taken[number],
+                self.composed.dropped[number],
+                arrived,
+                achieved,
+                longest_wait(sensor, achieved, landings),
+                landings,
+            )
+        jobs = {kind: _figures(finishes[kind], schedule.responses.get(kind), period) for kind in work.kinds}
+        first_miss = processor.first_miss[0] / period if processor.first_miss else None
+        return Outcome(jobs, sensors, schedule, first_miss, [cpu.busy for cpu in processor.cpus])
 
 
 class Finish(NamedTuple):

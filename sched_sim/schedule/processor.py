@@ -88,9 +88,20 @@ class Processor:
         self.tallies: defaultdict[str, Tally] = defaultdict(Tally)
         self.first_miss: tuple[int, int, int, str, bool] | None = None
         self.instants = 0
+        self._environment: simpy.Environment | None = None
 
     def run(self) -> None:
-        environment = simpy.Environment()
+        """To the horizon."""
+        environment = self._environment or self._begun()
+        environment.run(until=self._ended)
+
+    def advance(self, until: int) -> None:
+        """To this instant before the horizon, of which nothing is done yet; later than the one reached before."""
+        environment = self._environment or self._begun()
+        environment.run(until=until)
+
+    def _begun(self) -> simpy.Environment:
+        environment = self._environment = simpy.Environment()
         self._ended = environment.event()
         instant = environment.timeout(0)
         callbacks: EventCallbacks = []
@@ -98,7 +109,7 @@ class Processor:
         next(timeline)
         callbacks.append(timeline.send)
         instant.callbacks = callbacks
-        environment.run(until=self._ended)
+        return environment
 
     def end(self, now: int) -> None:
         """Makes this instant the last: what is released and dispatched in it does not run."""

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from sched_sim.cli.overload import causes
+from sched_sim.scenario.causes import causes
 from sched_sim.scenario.load import catching_up, demand, loads
 from sched_sim.scenario.run import run_scenario
 from sched_sim.scenario.scenario import Late, Scenario, Sensor

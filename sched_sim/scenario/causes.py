@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING
 
 from sched_sim.scenario.kinds import correct_kind
+from sched_sim.scenario.load import catching_up, loads
+from sched_sim.scenario.outcome import Outcome
+from sched_sim.scenario.scenario import Scenario, Sensor
 from sched_sim.shares import percent
-
-if TYPE_CHECKING:
-    from sched_sim.scenario.outcome import Outcome
-    from sched_sim.scenario.scenario import Scenario, Sensor
-
 
 SATURATED = 0.99
 """The share of its time from which a processor counts as always busy."""
@@ -26,8 +23,6 @@ def causes(scenario: Scenario, outcome: Outcome, busy: Sequence[float]) -> list[
 
 
 def _overload(scenario: Scenario, outcome: Outcome, busy: Sequence[float]) -> Iterator[str]:
-    from sched_sim.scenario.load import loads
-
     if not outcome.misses:
         return
     parts = loads(scenario)
@@ -63,8 +58,6 @@ def _percent(share: float) -> str:
 
 
 def _catching_up(scenario: Scenario, outcome: Outcome) -> Iterator[str]:
-    from sched_sim.scenario.load import catching_up
-
     away = [sensor for sensor in scenario.sensors if _stay_away(outcome, sensor)]
     figures = catching_up(scenario) if away else {}
     for sensor in away:

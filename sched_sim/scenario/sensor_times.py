@@ -4,15 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
-from typing import TYPE_CHECKING
 
 from sched_sim.scenario.fields import ends
 from sched_sim.scenario.file_units import shown
+from sched_sim.scenario.instants import Steps
+from sched_sim.scenario.scenario import Scenario, Sensor
 from sched_sim.text import visible
-
-if TYPE_CHECKING:
-    from sched_sim.scenario.instants import Steps
-    from sched_sim.scenario.scenario import Scenario, Sensor
 
 FEW = 4
 """Delays, and steps in which measurements are taken, are listed up to so many."""

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from sched_sim.cli.scenario_times import times
+from sched_sim.scenario.sensor_times import times
 from tests.command_line import Run
 from tests.scenarios import BY_HAND, scenario, sensor
 
