@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter, defaultdict
 from collections.abc import Sequence
+from math import inf
 from typing import NamedTuple
 
 from sched_sim.scenario.dual_rate import DualRateFilter
@@ -41,6 +42,12 @@ class Simulation:
     def advance(self, step: int) -> None:
         """To the start of this step before the last: what ends there has not ended yet."""
         self.processor.advance(step * self.work.period)
+
+    @property
+    def runs_since(self) -> float:
+        """The earliest instant, in HR periods, since when a job runs that runs now; infinity if none does."""
+        since = (cpu.since / self.work.period for cpu in self.processor.cpus if cpu.running is not None)
+        return min(since, default=inf)
 
     def outcome(self) -> Outcome:
         """At the end, to which it goes."""

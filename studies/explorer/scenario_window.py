@@ -1,0 +1,208 @@
+"""Some steps of a scenario's run, as the schedule that a Gantt chart shows."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from math import inf, isnan
+from typing import Any, NamedTuple, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from sched_sim.scenario.kinds import correct_kind, gain_kind, loss_kind
+from sched_sim.scenario.scenario import Scenario
+from sched_sim.schedule.labels import MEANINGS
+from studies.explorer.scenario_trace import AHEAD, TASK, Bars, Trace
+
+Ints: TypeAlias = npt.NDArray[np.int64]
+Floats: TypeAlias = npt.NDArray[np.float64]
+
+Columns: TypeAlias = dict[str, npt.NDArray[Any]]
+Document: TypeAlias = dict[str, Any]
+
+MOST_STEPS = 2_000
+"""Of one window."""
+MOST_JOBS = 5_000
+"""Of one window. Where work piles up, more wait: then those are left out that were released last and did not run."""
+MOST_MARKS = 60
+"""More measurements than a chart has room for are not marked."""
+
+
+class Seen(NamedTuple):
+    """Jobs, by their indices in the trace, how many are left out, and the instant before which it is known what they
+    did."""
+
+    jobs: Ints
+    left_out: int
+    before: float
+
+
+def window(trace: Trace, first: int, until: int) -> Document:
+    """The steps from `first` on, before step `until`, which the trace `knows`.
+
+    It has what does not lie outside, whole: bars, and the jobs that were released before its end and not finished
+    before its start. What a job did AHEAD steps after the window, or later than the last bar ends, is not told: it has
+    then no finish, and is missed if its deadline had passed. So the same window is the same, however far the trace goes
+    on.
+    """
+    scenario = trace.scenario
+    shown = [_columns(bars, bars.between(first, until)) for bars in trace.bars]
+    seen = _seen(trace, first, until, shown)
+    rows = row_kinds(scenario)
+    jobs = _jobs(trace, seen, rows)
+    bars = _bars(trace, shown, seen, rows)
+    busy = sum(_busy(columns, first, until) for columns in shown)
+    return {
+        "origin": first,
+        "steps": until,
+        "period_ms": None if scenario.hr_hz is None else float(1000 / scenario.hr_hz),
+        "cut": f"without {seen.left_out:,} more jobs that wait" if seen.left_out else "",
+        "rows": [{"name": row.name, "cpu": row.cpu} for row in rows],
+        **bars,
+        "jobs": jobs,
+        "marks": marks(trace, first, until),
+        "misses": sum(jobs["missed"]),
+        "busy": busy / (until - first) / scenario.cpus,
+    }
+
+
+class RowKinds(NamedTuple):
+    """A line of the chart, and the kinds of job on it. cpu: from 0."""
+
+    name: str
+    cpu: int
+    kinds: tuple[str, ...]
+
+
+def row_kinds(scenario: Scenario) -> list[RowKinds]:
+    """The lines of all windows: by processor, the predict jobs first, then the sensors, then the tasks."""
+    last = scenario.cpus - 1
+    lines = [RowKinds("predict", 0, ("predict",))]
+    lines += [
+        RowKinds(sensor.name, last, (correct_kind(sensor), gain_kind(sensor), loss_kind(sensor)))
+        for sensor in scenario.sensors
+    ]
+    lines += [RowKinds(task.name, task.cpu - 1, (f"{TASK}{task.name}",)) for task in scenario.tasks]
+    return sorted(lines, key=lambda line: line.cpu)
+
+
+def _columns(bars: Bars, part: slice) -> Columns:
+    return {name: np.array(getattr(bars, name)[part]) for name in ("job", "run", "last", "style", "start", "end")}
+
+
+def _seen(trace: Trace, first: int, until: int, shown: Sequence[Columns]) -> Seen:
+    """shown: the bars."""
+    last_end = max(float(bars["end"].max(initial=0)) for bars in shown)
+    before = max(float(until + AHEAD), float(np.nextafter(last_end, inf)))
+    if before >= trace.scenario.steps:
+        before = inf
+    jobs = trace.jobs
+    if not jobs.kind:
+        return Seen(np.zeros(0, np.int64), 0, before)
+    seen, release, finish = (np.frombuffer(column) for column in (jobs.seen, jobs.release, jobs.finish))
+    begun = (seen < before) & ((release < until) | (until == trace.scenario.steps))
+    ended = (finish < before) & (finish <= first) & (release < first)
+    found = np.flatnonzero(begun & ~ended)
+    idle = np.setdiff1d(found, np.concatenate([bars["job"] for bars in shown]))
+    room = max(MOST_JOBS - (found.size - idle.size), 0)
+    left_out = idle[np.argsort(release[idle], kind="stable")][room:]
+    return Seen(np.setdiff1d(found, left_out), left_out.size, before)
+
+
+def _jobs(trace: Trace, seen: Seen, rows: Sequence[RowKinds]) -> Document:
+    jobs, names = trace.jobs, list(trace.kinds)
+    row_of = {kind: number for number, row in enumerate(rows) for kind in row.kinds}
+    kinds = [names[jobs.kind[job]] for job in seen.jobs]
+    finish = [_known(jobs.finish[job], seen.before) for job in seen.jobs]
+    deadline = [jobs.deadline[job] for job in seen.jobs]
+    late = trace.scenario.steps if seen.before == inf else float(np.nextafter(seen.before, 0))
+    return {
+        "row": [row_of[kind] for kind in kinds],
+        "kind": kinds,
+        "step": [jobs.step[job] for job in seen.jobs],
+        "release": [jobs.release[job] for job in seen.jobs],
+        "start": [_known(jobs.start[job], seen.before) for job in seen.jobs],
+        "finish": finish,
+        "deadline": deadline,
+        "missed": [due < done if done is not None else due <= late for due, done in zip(deadline, finish, strict=True)],
+        "preemptions": _preemptions(trace, seen),
+    }
+
+
+def _known(time: float, before: float) -> float | None:
+    return None if isnan(time) or time >= before else time
+
+
+def _preemptions(trace: Trace, seen: Seen) -> list[int]:
+    """So far: how often another job came between."""
+    if not seen.jobs.size:
+        return []
+    starts = np.array([trace.jobs.start[job] for job in seen.jobs])
+    first = float(starts[~np.isnan(starts)].min(initial=inf))
+    last_run = np.zeros(len(trace.jobs.kind), np.int64)
+    for bars in trace.bars:
+        columns = _columns(bars, bars.between(first, seen.before))
+        there = (columns["end"] < seen.before) & (columns["last"] == 1)
+        np.maximum.at(last_run, columns["job"][there], columns["run"][there])
+    found: list[int] = last_run[seen.jobs].tolist()
+    return found
+
+
+def _bars(trace: Trace, shown: Sequence[Columns], seen: Seen, rows: Sequence[RowKinds]) -> Document:
+    """The styles that are used, and the bars by processor, in the order of time."""
+    styles, kinds = list(trace.styles), list(trace.kinds)
+    job, style, start, end = (
+        np.concatenate([columns[name] for columns in shown]) for name in ("job", "style", "start", "end")
+    )
+    used = sorted({styles[index] for index in style}, key=_rank)
+    number = {label: index for index, label in enumerate(used)}
+    row_of = {kind: index for index, row in enumerate(rows) for kind in row.kinds}
+    return {
+        "styles": [{"label": label, "meaning": _meaning(label)} for label in used],
+        "bars": {
+            "row": [row_of[kinds[trace.jobs.kind[index]]] for index in job],
+            "style": [number[styles[index]] for index in style],
+            "start": start.tolist(),
+            "end": end.tolist(),
+            "job": np.searchsorted(seen.jobs, job).tolist(),
+        },
+    }
+
+
+def _rank(label: str) -> tuple[int, str]:
+    known = list(MEANINGS)
+    return (known.index(label) if label in MEANINGS else len(known), label)
+
+
+def _meaning(label: str) -> str:
+    return label.removeprefix(TASK) if label.startswith(TASK) else MEANINGS[label]
+
+
+def _busy(columns: Columns, first: int, until: int) -> float:
+    inside: Floats = np.minimum(columns["end"], until) - np.maximum(columns["start"], first)
+    return float(inside.sum())
+
+
+def marks(trace: Trace, first: int, until: int) -> list[Document]:
+    """k, m and l of the late measurements, in the steps of the window."""
+    found = list(_marks(trace, first, until))
+    return sorted(found, key=lambda mark: (mark["step"], mark["label"])) if len(found) <= MOST_MARKS else []
+
+
+def _marks(trace: Trace, first: int, until: int) -> Iterator[Document]:
+    late = [sensor for sensor in trace.scenario.sensors if sensor.delayed]
+    for sensor in late:
+        kind, of = correct_kind(sensor), f" {sensor.name}" if len(late) > 1 else ""
+        for letter, meaning, steps in (
+            ("k", f"{sensor.name} measures", trace.taken[kind]),
+            ("m", f"a measurement of {sensor.name} arrives", trace.arrivals[kind]),
+            ("l", f"a correction of {sensor.name} has landed", np.array(trace.landings[kind], np.int64)),
+        ):
+            for step in dict.fromkeys(_within(steps, first, until)):
+                yield {"step": step, "label": letter + of, "meaning": meaning}
+
+
+def _within(ascending: Ints, first: int, until: int) -> list[int]:
+    low, high = np.searchsorted(ascending, (first, until))
+    found: list[int] = ascending[low:high].tolist()
+    return found
