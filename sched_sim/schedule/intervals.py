@@ -113,7 +113,8 @@ def _span(slices: Sequence[Slice], horizon: int) -> JobSpan:
 
 
 def _is_preempted(piece: Slice, horizon: int) -> bool:
-    """Whether another job took the processor at its end: not where it had done what it knew of, and went on."""
+    """Whether another job took the processor at its end: not where it had done what it knew of, and went on. Of a job
+    that has work."""
     if piece.finished or piece.end == horizon:
         return False
     return piece.begin + piece.end - piece.start - piece.overhead < sum(work for _, work in piece.parts)

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
 
 from sched_sim.design.landing import landing
-from sched_sim.design.least_speed import Stair, has_closed_form, least_speed, staircase
+from sched_sim.design.least_speed import Stair, achieved_l, has_closed_form, least_speed, staircase
 from sched_sim.design.methods import method_of
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import Costs
@@ -51,16 +52,43 @@ def _stair(costs: Costs, timing: Timing, options: Options, tasks: Sequence[Task]
 
 def landings(
     costs: Costs, timing: Timing, options: Options, tasks: Sequence[Task], known: Sequence[Stair]
-) -> list[tuple[Fraction, int]]:
-    """Speeds from which on corrections land earlier than at the one before, each with that L. known: the stairs.
+) -> list[tuple[Fraction, int | None]]:
+    """Speeds from which on corrections land in another step than at the one before, each with that L. known: the
+    stairs.
 
-    In closed form that is where they land whatever else is missed, such as LR propagate by step m.
+    In closed form that is, but for a delayed horizon, where they land whatever else is missed, such as LR propagate by
+    step m; and None where they would land earlier, but the HR job that they are part of overruns its step: where that
+    begins is known to 1 / FINENESS of a tread.
     """
-    if options.lr_propagate_by == "m" and in_closed_form(costs, timing, options, tasks):
+    closed = in_closed_form(costs, timing, options, tasks)
+    if closed and options.lr_propagate_by == "m":
         at = frozenset(stair.L for stair in known)
         known = staircase(costs, timing.N, timing.M, replace(options, lr_propagate_by="l"), only=at)
-    found: list[tuple[Fraction, int]] = []
-    for speed, landed in sorted((stair.speed, stair.achieved) for stair in known):
-        if not found or landed < found[-1][1]:
-            found.append((speed, landed))
+    found: list[tuple[Fraction, int | None]] = []
+    last: Stair | None = None
+    for stair in sorted(known, key=lambda stair: (stair.speed, stair.achieved)):
+        if last is not None and stair.achieved >= last.achieved:
+            continue
+        if closed and last is not None:
+            found += _overrun(costs, timing, options, last.speed, stair.speed)
+        found.append((stair.speed, stair.achieved))
+        last = stair
     return found
+
+
+FINENESS = 4096
+
+
+def _overrun(
+    costs: Costs, timing: Timing, options: Options, start: Fraction, end: Fraction
+) -> list[tuple[Fraction, int | None]]:
+    """Where, between two speeds, an HR job begins to overrun; nothing if none does."""
+
+    def lands(part: int) -> bool:
+        speed = start + (end - start) * Fraction(part, FINENESS)
+        return achieved_l(costs, timing, speed, options) is not None
+
+    if lands(FINENESS - 1):
+        return []
+    first = bisect_left(range(1, FINENESS - 1), True, key=lambda part: not lands(part))
+    return [(start + (end - start) * Fraction(first, FINENESS), None)]
