@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Sequence
-from dataclasses import replace
 from fractions import Fraction
 from typing import NamedTuple
 
@@ -11,11 +10,12 @@ from sched_sim.design import analysis
 from sched_sim.design.arguments import checked
 from sched_sim.design.binding import Binding
 from sched_sim.design.demand import NOT_LANDED
+from sched_sim.design.later import gains_nothing
 from sched_sim.design.load import loads
 from sched_sim.design.long_pattern import of_bound
 from sched_sim.design.methods import method_of
 from sched_sim.design.options import Options
-from sched_sim.design.pieces import Costs, DualRateCosts, JobCosts, converted, works
+from sched_sim.design.pieces import Costs, JobCosts, converted, works
 from sched_sim.design.timing import Timing
 from sched_sim.design.uneven import comes_unevenly, longest_job
 from sched_sim.errors import InputError
@@ -80,8 +80,10 @@ def least_speed(
         before = alone(costs, timing, options, tasks)
         enough = None if before is None else least_speed(costs, before, options)
         floor = _floor(costs, timing, options)
-        if enough is not None and (enough.speed == floor or _always_alone(costs, before, floor, options)):
-            return enough
+        if before is not None and enough is not None:
+            known = enough.speed == floor or gains_nothing(costs, timing, before, enough.speed, floor, options)
+            if known:
+                return enough
         found = LeastSpeed(*least_speed_by_simulation(costs, timing, options, tasks, on_progress))
         return found if enough is None or found.speed < enough.speed else enough
     if comes_unevenly(costs, timing):
@@ -90,6 +92,22 @@ def least_speed(
     least = analysis.least_period(in_ticks, timing.N, timing.M, timing.L, options)
     speed = Fraction(least.numerator, least.denominator * resolution)
     return LeastSpeed(speed, Binding(least.code).name)
+
+
+def least_speed_range(
+    costs: Costs, timing: Timing, options: Options = Options(), tasks: Sequence[Task] = ()
+) -> tuple[Fraction, Fraction | None]:
+    """What the least speed is at least and at most, as far as no simulation is needed to know it; None: not known."""
+    tasks = checked(timing, options, tasks)
+    method_of(costs).check_design(costs, timing, options.feedback)
+    at, bound = of_bound(costs, timing)
+    if has_closed_form(options, tasks, at, bound):
+        speed = least_speed(costs, timing, options).speed
+        return speed, speed
+    before = alone(at, bound, options, tasks)
+    if before is None:
+        return Fraction(0), None
+    return _floor(at, bound, options), least_speed(at, before, options).speed
 
 
 def achieved_l(costs: Costs, timing: Timing, speed: Number, options: Options = Options()) -> int | None:
@@ -192,16 +210,6 @@ def alone(costs: Costs, timing: Timing, options: Options, tasks: Sequence[Task])
 def _floor(costs: Costs, timing: Timing, options: Options) -> Fraction:
     """Less will never do."""
     return max(method_of(costs).longest(costs, timing), *loads(costs, timing, Fraction(1), options))
-
-
-def _always_alone(costs: Costs, before: Timing | None, floor: Fraction, options: Options) -> bool:
-    """Whether on every processor that is not slower than `floor` LR jobs are done before the step in which the next
-    measurement is taken: then a later L changes nothing, and what misses a deadline is an HR job, with any L."""
-    if before is None or not isinstance(costs, DualRateCosts):
-        return False
-    last = method_of(costs).law(options.feedback).last_alone(before.N, before.M)
-    landed = achieved_l(replace(costs, hr_update=Fraction(0)), before, floor, options)
-    return last is not None and landed is not None and landed < last
 
 
 def _in_ticks(costs: Costs, *others: Fraction) -> tuple[int, JobCosts[int]]:

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import ceil
+from typing import NamedTuple
 
 from sched_sim.costs.table import SECONDS, CostTable
 from sched_sim.design.fit import busy_share
@@ -79,6 +80,16 @@ def too_slow(looked: Sequence[OnPart]) -> str:
     return f"{which} needs {percent(nearest.needed)} of its speed"
 
 
+class Place(NamedTuple):
+    """Where a method would run: a part, or None for the machine of the costs. costs: None where there are none, and the
+    remark says why; pace: what it does in an HR period, in their unit."""
+
+    part: Part | None
+    costs: Costs | None
+    pace: Fraction
+    remark: str = ""
+
+
 class Parts:
     """The cost tables on each part, each made once."""
 
@@ -92,38 +103,31 @@ class Parts:
     ) -> list[OnPart]:
         """What each part makes of the design, without its accuracy, or the machine of a table of times; nothing without
         either."""
+        return [_looked(place, timing, options, tasks) for place in self.places(table, method, rate, options)]
+
+    def places(self, table: CostTable, method: str, rate: Fraction, options: Options) -> list[Place]:
+        """The same places, with the costs of the method on each."""
         if not self.parts and table.unit in SECONDS:
             costs = select(table, method, options, self.statistic)
-            return [_looked(None, costs, timing, 1 / (rate * SECONDS[table.unit]), options, tasks)]
-        return [self._one(part, table, method, timing, rate, options, tasks) for part in self.parts]
+            return [Place(None, costs, 1 / (rate * SECONDS[table.unit]))]
+        return [self._place(part, table, method, rate, options) for part in self.parts]
 
-    def _one(
-        self,
-        part: Part,
-        table: CostTable,
-        method: str,
-        timing: Timing,
-        rate: Fraction,
-        options: Options,
-        tasks: Sequence[Task],
-    ) -> OnPart:
+    def _place(self, part: Part, table: CostTable, method: str, rate: Fraction, options: Options) -> Place:
         key = table.name, part.name
         if key not in self._tables:
             self._tables[key] = on_part(table, part)
         try:
-            costs = select(self._tables[key], method, options, self.statistic)
+            return Place(part, select(self._tables[key], method, options, self.statistic), 1 / rate)
         except InputError as error:
             if method not in self._tables[key].lacking:
                 raise
-            return OnPart(part, None, None, remark=str(error))
-        return _looked(part, costs, timing, 1 / rate, options, tasks)
+            return Place(part, None, 1 / rate, str(error))
 
 
-def _looked(
-    part: Part | None, costs: Costs, timing: Timing, pace: Fraction, options: Options, tasks: Sequence[Task]
-) -> OnPart:
-    """pace: what it does in an HR period, in the unit of the costs."""
-    needed = least_speed(costs, timing, options, tasks).speed / pace
-    busy = busy_share(costs, timing, pace, options, tasks)
-    lands = landing(costs, timing, pace, options, tasks) if needed <= 1 else None
-    return OnPart(part, needed, busy, lands)
+def _looked(place: Place, timing: Timing, options: Options, tasks: Sequence[Task]) -> OnPart:
+    if place.costs is None:
+        return OnPart(place.part, None, None, remark=place.remark)
+    needed = least_speed(place.costs, timing, options, tasks).speed / place.pace
+    busy = busy_share(place.costs, timing, place.pace, options, tasks)
+    lands = landing(place.costs, timing, place.pace, options, tasks) if needed <= 1 else None
+    return OnPart(place.part, needed, busy, lands)

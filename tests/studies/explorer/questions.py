@@ -1,0 +1,74 @@
+"""What may be asked of the shipped models: every method, at rates and in steps, with options and parts."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from math import inf
+
+from hypothesis import strategies as st
+
+from sched_sim.design.options import Options
+from sched_sim.processors.part import Part
+from sched_sim.processors.part_file import load_part, shipped_parts
+from studies.explorer.given import Given
+from studies.selection.conditions import conditions_of
+from studies.selection.outputs import outputs_of
+from studies.selection.question import Question
+from studies.selection.sampling import Sampling
+
+GIVEN = Given()
+PARTS: tuple[Part, ...] = tuple(map(load_part, shipped_parts()))
+RATE = {"ins-gps": 400, "camera": 200}
+
+
+def question(
+    model: str = "ins-gps",
+    *,
+    N: int = 80,
+    M: int = 44,
+    within: float = inf,
+    metric: str = "worst",
+    hr_hz: int | None = 400,
+    options: Options = Options(),
+    parts: tuple[Part, ...] = PARTS,
+    costs: str = "counted-9-3-3",
+) -> Question:
+    """By default the design that the explorer starts with."""
+    rate = None if hr_hz is None else Fraction(hr_hz)
+    loaded = GIVEN.model(model, rate)
+    sampling = Sampling.of(None, N, M, rate)
+    conditions = conditions_of(loaded, sampling, None)
+    where = parts if hr_hz else ()
+    table = GIVEN.table(costs)
+    return Question(
+        loaded, outputs_of(loaded), sampling, within, metric, conditions, (table,), where, options, {}  # type: ignore[arg-type]
+    )  # fmt: skip
+
+
+@st.composite
+def options(draw: st.DrawFn) -> Options:
+    return Options(
+        lr_propagate_by=draw(st.sampled_from(["m", "l"])),
+        feedback=draw(st.sampled_from(["next-step", "same-step"])),
+        gain=draw(st.sampled_from(["at-update", "precomputed"])),
+        low_rate_noise=draw(st.sampled_from(["exact", "sum", "euler"])),
+        cpus=draw(st.sampled_from([1, 2])),
+    )
+
+
+@st.composite
+def questions(draw: st.DrawFn) -> Question:
+    """Of short cycles, that are quick to search; several measurements may be on their way."""
+    N = draw(st.integers(2, 12))
+    M = draw(st.integers(0, N) | st.integers(0, 2 * N))
+    model = draw(st.sampled_from(["ins-gps", "camera"]))
+    within = draw(st.floats(0.3, 0.5) if model == "ins-gps" else st.floats(0.01, 1.0))
+    return question(
+        model,
+        N=N,
+        M=M,
+        within=within,
+        metric=draw(st.sampled_from(["worst", "rms"])),
+        hr_hz=draw(st.sampled_from([None, RATE[model], 20 * RATE[model]])),
+        options=draw(options()),
+    )
