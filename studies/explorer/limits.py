@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from sched_sim.bounds import MOST_IN_FLIGHT, MOST_STEPS
 from sched_sim.design.least_speed import has_closed_form
 from sched_sim.design.methods import METHODS
-from sched_sim.design.steady import LONGEST
 from studies.explorer.resolved import Resolved
+from studies.explorer.searched import MOST
 
 LADDER = tuple(mantissa * 10**power for power in range(2, 7) for mantissa in (1, 2, 5))
 """Where scales of N end."""
@@ -37,12 +37,14 @@ def limits(asked: Resolved) -> Limits:
     alone = max(M + beside, 0 if said is None else said + law.before) <= N
     longest = max(M, L)
     scale = max(2 * N, longest)
-    most = MOST_STEPS if has_closed_form(options, asked.tasks) else LONGEST
-    last_N = max(N, min(next((rung for rung in LADDER if rung >= scale), MOST_STEPS), most))
+    last_N = next((rung for rung in LADDER if rung >= scale), MOST_STEPS)
+    if not (alone and has_closed_form(options, asked.tasks)):
+        last_N = min(last_N, (MOST - longest) // 2)
+    last_N = max(N, last_N)
     if alone:
         first_N = max(M + beside if said is None else said + law.before, 1)
         last_M = N - beside if said is None else said - law.after
         return Limits((first_N, last_N), (0, last_M), (M + law.after, N - law.before))
     first_N = max(-(-longest // MOST_IN_FLIGHT), 1)
     last_M = M if said is None else said - law.after
-    return Limits((first_N, last_N), (0, last_M), (M + law.after, max(L, law.latest(N, M))))
+    return Limits((first_N, last_N), (0, last_M), (M + law.after, max(L, min(law.latest(N, M), MOST - N))))

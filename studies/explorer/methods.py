@@ -2,28 +2,29 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
 from sched_sim.design.binding import BINDING_WORDS
 from sched_sim.design.landing import landing
-from sched_sim.design.least_speed import LeastSpeed, achieved_l, has_closed_form, least_speed
-from sched_sim.design.load import loads
+from sched_sim.design.least_speed import LeastSpeed, Stair, achieved_l, has_closed_form, least_speed
 from sched_sim.design.pieces import Costs
 from sched_sim.design.timing import Timing
 from sched_sim.errors import InputError
 from studies.explorer.power import Power
 from studies.explorer.query import query_of
 from studies.explorer.resolved import Resolved
+from studies.explorer.searched import check_beside, check_searched
 from studies.explorer.staircases import landings, stairs
 
 
 @dataclass(frozen=True, slots=True)
 class Planned:
     """One method at the design's N, M and L. speed: that it runs at, its least if none was asked for; landed: the L at
-    which corrections land then, None if they do not; fits: whether every deadline holds then; load: share of the time
-    of the processors."""
+    which corrections land then, None if they do not; fits: whether every deadline holds then. stairs: what other L ask
+    for; turns: speeds from which on it lands in another step."""
 
     method: str
     costs: Costs
@@ -32,21 +33,25 @@ class Planned:
     speed: Fraction
     landed: int | None
     fits: bool
-    load: Fraction
+    stairs: Sequence[Stair]
+    turns: Sequence[tuple[Fraction, int | None]]
 
 
 def planned(asked: Resolved, method: str) -> Planned:
     """Raises InputError that says why the method cannot be had."""
     options, tasks = asked.design.options, asked.tasks
     timing, costs = asked.timing(method), asked.costs(method)
+    current = method == asked.design.method
+    (check_searched if current else check_beside)(costs, timing, options, tasks)
     least = least_speed(costs, timing, options, tasks)
     speed = least.speed if asked.pace is None else asked.pace
     held = landing(costs, timing, speed, options, tasks)
     landed = held
     if held is None and has_closed_form(options, tasks, costs, timing):
         landed = achieved_l(costs, timing, speed, options)
-    load = sum(loads(costs, timing, speed, options, tasks), Fraction(0)) / options.cpus
-    return Planned(method, costs, timing, least, speed, landed, held is not None, load)
+    known = stairs(costs, timing, options, tasks, least, beside=current)
+    turns = landings(costs, timing, options, tasks, known)
+    return Planned(method, costs, timing, least, speed, landed, held is not None, known, turns)
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,9 +97,6 @@ class MethodView:
 
 def method_view(asked: Resolved, plan: Planned, power: Power) -> MethodView:
     """Without what its accuracy says."""
-    options, tasks = asked.design.options, asked.tasks
-    known = stairs(plan.costs, plan.timing, options, tasks)
-    turns = landings(plan.costs, plan.timing, options, tasks, known)
     return MethodView(
         plan.method,
         "",
@@ -107,11 +109,11 @@ def method_view(asked: Resolved, plan: Planned, power: Power) -> MethodView:
         asked.sampling.ms(plan.landed),
         fits=None if asked.pace is None else plan.fits,
         staircase=Staircase(
-            [stair.L for stair in known],
-            [power.of(stair.speed) for stair in known],
-            [stair.achieved for stair in known],
+            [stair.L for stair in plan.stairs],
+            [power.of(stair.speed) for stair in plan.stairs],
+            [stair.achieved for stair in plan.stairs],
         ),
-        landing=Landing([power.of(speed) for speed, _ in turns], [landed for _, landed in turns]),
+        landing=Landing([power.of(speed) for speed, _ in plan.turns], [landed for _, landed in plan.turns]),
     )
 
 

@@ -8,33 +8,40 @@ from dataclasses import replace
 from fractions import Fraction
 
 from sched_sim.design.landing import landing
-from sched_sim.design.least_speed import Stair, achieved_l, has_closed_form, least_speed, staircase
+from sched_sim.design.least_speed import LeastSpeed, Stair, achieved_l, has_closed_form, least_speed, staircase
 from sched_sim.design.methods import method_of
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import Costs
 from sched_sim.design.timing import Timing
 from sched_sim.schedule.tasks import Task
+from studies.explorer.searched import MOST_BESIDE, searched
 from studies.selection.front import some_landings
 
 MOST_STAIRS = 200
 """Of one method."""
 
-MOST_SIMULATED = 6
-"""Where each takes a search by simulation."""
+MOST_SIMULATED = 3
+"""Beside that of the design, where each takes a search by simulation."""
 
 
-def stairs(costs: Costs, timing: Timing, options: Options, tasks: Sequence[Task]) -> list[Stair]:
-    """Of some legal L, all where there are no more than MOST_STAIRS, and of the timing's own; without a closed form no
-    more than MOST_SIMULATED. Raises InputError as `least_speed` does."""
+def stairs(
+    costs: Costs, timing: Timing, options: Options, tasks: Sequence[Task], own: LeastSpeed, *, beside: bool = True
+) -> list[Stair]:
+    """Of some legal L, all where there are no more than MOST_STAIRS, and of the timing's own, whose least speed is
+    known; without a closed form of MOST_SIMULATED others, or of none where each takes long or none is wanted `beside`.
+    Raises InputError as `least_speed` does."""
     legal = method_of(costs).law(options.feedback).legal(timing.N, timing.M)
-    own = {timing.L} if len(legal) > 1 else set()
+    if len(legal) == 1:
+        timing = replace(timing, L=max(legal[0], timing.M))
     if in_closed_form(costs, timing, options, tasks):
-        at = {*some_landings(legal[0], legal[-1], MOST_STAIRS), *own}
+        at = {*some_landings(legal[0], legal[-1], MOST_STAIRS), timing.L}
         found = staircase(costs, timing.N, timing.M, options, only=frozenset(at))
-        own -= {*legal}
-    else:
-        found, own = [], {*some_landings(legal[0], legal[-1], MOST_SIMULATED), *own}
-    return found + [_stair(costs, replace(timing, L=L), options, tasks) for L in sorted(own)]
+        return found if timing.L in legal else [*found, _stair(costs, timing, options, tasks, own)]
+    beside = beside and searched(costs, timing, options, tasks) <= MOST_BESIDE
+    at = {*some_landings(legal[0], legal[-1], MOST_SIMULATED)} - {timing.L} if beside else set()
+    known = [(L, least_speed(costs, replace(timing, L=L), options, tasks)) for L in at]
+    known = sorted([(timing.L, own), *known])
+    return [_stair(costs, replace(timing, L=L), options, tasks, least) for L, least in known]
 
 
 def in_closed_form(costs: Costs, timing: Timing, options: Options, tasks: Sequence[Task]) -> bool:
@@ -43,8 +50,7 @@ def in_closed_form(costs: Costs, timing: Timing, options: Options, tasks: Sequen
     return timing.instants is None and has_closed_form(options, tasks, costs, replace(timing, L=latest))
 
 
-def _stair(costs: Costs, timing: Timing, options: Options, tasks: Sequence[Task]) -> Stair:
-    least = least_speed(costs, timing, options, tasks)
+def _stair(costs: Costs, timing: Timing, options: Options, tasks: Sequence[Task], least: LeastSpeed) -> Stair:
     landed = landing(costs, timing, least.speed, options, tasks)
     assert landed is not None
     return Stair(timing.L, least.speed, least.binding, landed)

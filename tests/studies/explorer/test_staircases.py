@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from fractions import Fraction
 
 import pytest
@@ -10,9 +11,10 @@ from hypothesis import strategies as st
 
 from sched_sim.costs.table_file import load_costs
 from sched_sim.design.landing import landing
-from sched_sim.design.least_speed import achieved_l, has_closed_form, least_speed, staircase
+from sched_sim.design.least_speed import Stair, achieved_l, has_closed_form, least_speed, staircase
 from sched_sim.design.methods import select
 from sched_sim.design.options import Options
+from sched_sim.design.pieces import Costs
 from sched_sim.design.timing import Timing
 from sched_sim.schedule.tasks import Task
 from studies.explorer.staircases import MOST_SIMULATED, MOST_STAIRS, landings, stairs
@@ -21,10 +23,14 @@ from tests.designs import Design, dual_rate_designs, horizon_designs, serial_des
 DUAL_RATE = select(load_costs("steffes2014"), "dual-rate")
 
 
+def _stairs(costs: Costs, timing: Timing, options: Options, tasks: Sequence[Task]) -> list[Stair]:
+    return stairs(costs, timing, options, tasks, least_speed(costs, timing, options, tasks))
+
+
 @given(dual_rate_designs() | horizon_designs() | serial_designs())
 def test_short_staircases_are_whole(design: Design) -> None:
     costs, timing, options = design
-    assert stairs(costs, timing, options, ()) == staircase(costs, timing.N, timing.M, options)
+    assert _stairs(costs, timing, options, ()) == staircase(costs, timing.N, timing.M, options)
 
 
 speeds = st.fractions(Fraction(1, 10), 500, max_denominator=50)
@@ -34,7 +40,7 @@ speeds = st.fractions(Fraction(1, 10), 500, max_denominator=50)
 def test_every_speed_lands_where_the_closed_form_says(design: Design, speed: Fraction) -> None:
     costs, timing, options = design
     assume(has_closed_form(options, (), costs, timing))
-    turns = landings(costs, timing, options, (), stairs(costs, timing, options, ()))
+    turns = landings(costs, timing, options, (), _stairs(costs, timing, options, ()))
     overruns = [turn for turn, reached in turns if reached is None]
     if not any(turn * (1 - NEAR) < speed < turn for turn in overruns):
         assert _at(turns, speed) == achieved_l(costs, timing, speed, options)
@@ -43,7 +49,7 @@ def test_every_speed_lands_where_the_closed_form_says(design: Design, speed: Fra
 @given(horizon_designs(), speeds)
 def test_of_a_delayed_horizon_only_where_every_deadline_holds(design: Design, speed: Fraction) -> None:
     costs, timing, options = design
-    turns = landings(costs, timing, options, (), stairs(costs, timing, options, ()))
+    turns = landings(costs, timing, options, (), _stairs(costs, timing, options, ()))
     if speed >= turns[0][0]:
         assert _at(turns, speed) == achieved_l(costs, timing, speed, options)
 
@@ -51,7 +57,7 @@ def test_of_a_delayed_horizon_only_where_every_deadline_holds(design: Design, sp
 @given(dual_rate_designs())
 def test_just_below_a_turn_corrections_land_as_at_the_one_before(design: Design) -> None:
     costs, timing, options = design
-    turns = landings(costs, timing, options, (), stairs(costs, timing, options, ()))
+    turns = landings(costs, timing, options, (), _stairs(costs, timing, options, ()))
     assert turns == sorted(turns, key=lambda turn: turn[0])
     for speed, landed in turns:
         if landed is not None:
@@ -69,7 +75,7 @@ def _at(turns: list[tuple[Fraction, int | None]], speed: Fraction) -> int | None
 
 @pytest.mark.parametrize(("N", "M", "L"), [(1000, 4, 733), (5000, 0, 4999)])
 def test_of_long_staircases_some_stairs_are_kept_the_designs_own_among_them(N: int, M: int, L: int) -> None:
-    found = stairs(DUAL_RATE, Timing(N, M, L), Options(), ())
+    found = _stairs(DUAL_RATE, Timing(N, M, L), Options(), ())
     kept = [stair.L for stair in found]
     assert len(kept) <= MOST_STAIRS + 1
     assert kept == sorted(set(kept))
@@ -93,7 +99,7 @@ def test_without_a_closed_form_a_few_stairs_are_searched(
     timing: Timing, options: Options, tasks: tuple[Task, ...]
 ) -> None:
     assert not has_closed_form(options, tasks, DUAL_RATE, timing)
-    found = stairs(DUAL_RATE, timing, options, tasks)
+    found = _stairs(DUAL_RATE, timing, options, tasks)
     assert 1 < len(found) <= MOST_SIMULATED + 1
     assert timing.L in [stair.L for stair in found]
     for stair in found:

@@ -1,0 +1,49 @@
+"""Over how many HR periods a least speed is searched by simulation, and how many are while somebody waits."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from sched_sim.design.least_speed import has_closed_form
+from sched_sim.design.long_pattern import of_bound
+from sched_sim.design.options import Options
+from sched_sim.design.pieces import Costs
+from sched_sim.design.steady import hyperperiod_steps
+from sched_sim.design.timing import Timing
+from sched_sim.errors import InputError, option
+from sched_sim.schedule.tasks import Task
+
+MOST = 2_000
+"""HR periods, of the design itself: a second or two."""
+
+MOST_BESIDE = 100
+"""HR periods, of each method, landing or part beside it: some ten milliseconds."""
+
+
+def searched(costs: Costs, timing: Timing, options: Options, tasks: Sequence[Task]) -> int:
+    """HR periods until measurements and tasks are released together again, and of the longest landing; 0 in closed
+    form."""
+    costs, timing = of_bound(costs, timing)
+    if has_closed_form(options, tasks, costs, timing):
+        return 0
+    return hyperperiod_steps(timing, tasks) + max(timing.M, timing.L)
+
+
+def check_searched(costs: Costs, timing: Timing, options: Options, tasks: Sequence[Task]) -> None:
+    """Raises InputError for a design whose least speed takes too long to wait for."""
+    periods = searched(costs, timing, options, tasks)
+    if periods > MOST:
+        raise InputError(
+            f"the least speed takes a search by simulation over {periods:,} HR periods, and while you wait at most "
+            f"{MOST:,} are looked at: ask `sched-sim minimum`, or take fewer HR steps between measurements, a shorter "
+            f"delay, periods of tasks that divide {option('N')} {timing.N}, or one measurement on its way at a time"
+        )
+
+
+def check_beside(costs: Costs, timing: Timing, options: Options, tasks: Sequence[Task]) -> None:
+    """Raises InputError for another method than the one that is looked at, whose least speed takes long to find."""
+    periods = searched(costs, timing, options, tasks)
+    if periods > MOST_BESIDE:
+        raise InputError(
+            f"its least speed takes a search by simulation over {periods:,} HR periods: choose it to see it"
+        )
