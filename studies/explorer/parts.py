@@ -2,64 +2,78 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import replace
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import lru_cache
+from pathlib import Path
 
-from sched_sim.costs.table import INSTRUCTION, SECONDS, CostTable
+from sched_sim.costs.table import COUNTED, INSTRUCTION, SECONDS, CostTable
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import Statistic
 from sched_sim.design.timing import Timing
 from sched_sim.errors import option
 from sched_sim.processors.part import Part, why_not_instructions
 from sched_sim.schedule.tasks import Task
+from studies.explorer.resolved import Resolved
 from studies.explorer.same import Same, itself
-from studies.selection.parts import OnPart, Parts, by_cost
+from studies.selection.parts import OnPart, Parts, Place, by_cost, looked_at
 
 
-def known_parts(table: CostTable, parts: Sequence[Part], rate: Fraction | None) -> tuple[tuple[Part, ...], str]:
-    """Those on which the costs of a table can be told, and why there are none. rate: of the HR loop."""
-    if rate is None:
-        return (), f"no parts: which do depends on the rate of the HR loop: give {option('hr_hz')}"
-    if table.unit == INSTRUCTION:
-        stated = tuple(part for part in parts if not why_not_instructions(table, part))
-        none = f"no parts: none here states the cycles of instructions of {table.target}"
-        return stated, "" if stated else none
-    if table.operations:
-        return tuple(parts), ""
-    if table.unit in SECONDS:
-        return (), ""
-    return (
-        (),
-        f"no parts: {table.name} has no counted operations: choose other {option('costs')}, such as counted-9-3-3",
-    )
+@dataclass(frozen=True, slots=True)
+class Where:
+    """Where a design may run: the parts, by a table of counts; without parts the machine of a table of times.
 
-
-def verdicts(
-    table: CostTable,
-    parts: Sequence[Part],
-    method: str,
-    timing: Timing,
-    rate: Fraction,
-    options: Options,
-    statistic: Statistic,
-    tasks: Sequence[Task],
-    at: Callable[[int], float | None],
-) -> tuple[OnPart, ...]:
-    """What each part makes of a design, by cost; without parts the machine, where the costs are times.
-
-    table: before a part makes times of it. tasks, and a context switch of the options: in seconds. at: the figure of
-    the output by landing. Raises InputError as `least_speed` does.
+    table: before a part makes times of it; rate: of the HR loop. tasks, and a context switch of the options: in
+    seconds, without parts in the unit of the table.
     """
-    looked = on_parts(table, parts, statistic).look(table, method, timing, rate, options, tasks)
+
+    table: CostTable
+    parts: tuple[Part, ...]
+    rate: Fraction
+    options: Options
+    statistic: Statistic
+    tasks: tuple[Task, ...] = ()
+
+    def places(self, method: str) -> list[Place]:
+        """With the costs of the method on each. Raises InputError for a table that lacks them."""
+        return self._looker.places(self.table, method, self.rate, self.options)
+
+    @property
+    def _looker(self) -> Parts:
+        return _kept(itself(self.table), tuple(map(itself, self.parts)), self.statistic)
+
+
+def where_of(asked: Resolved) -> tuple[Where | None, str]:
+    """And why nothing is known of any place."""
+    table, rate, given = asked.counts, asked.rate, asked.given
+    if rate is None:
+        return None, f"no parts: which do depends on the rate of the HR loop: give {option('hr_hz')}"
+    parts = tuple(given.part(name) for name in given.part_names)
+    if table.unit == INSTRUCTION:
+        parts = tuple(part for part in parts if not why_not_instructions(table, part))
+        if not parts:
+            return None, f"no parts: none here states the cycles of instructions of {table.target}"
+    elif not table.operations:
+        if table.unit in SECONDS:
+            return Where(table, (), rate, asked.design.options, asked.design.statistic, asked.tasks), ""
+        return None, f"no parts: {table.name} has no counted operations: choose other costs, such as {COUNTED}"
+    if asked.part is None and asked.design.options.context_switch:
+        return None, f"no parts: {option('context_switch')} is no time beside counts: choose a processor, for seconds"
+    if asked.part is None and given.tasks and not isinstance(given.tasks, Path):
+        return None, "no parts: the costs of the tasks are no times: choose a processor"
+    tasks = given.tasks_in("second", Fraction(1), rate)
+    return Where(table, parts, rate, asked.design.options, asked.design.statistic, tasks), ""
+
+
+def verdicts(where: Where, method: str, timing: Timing, at: Callable[[int], float | None]) -> tuple[OnPart, ...]:
+    """What each place makes of a design, by cost. at: the figure of the output by landing.
+
+    Raises InputError as `least_speed` does.
+    """
+    looked = [looked_at(place, timing, where.options, where.tasks) for place in where.places(method)]
     figured = [replace(on, std=None if on.landed is None else at(on.landed)) for on in looked]
     return tuple(sorted(figured, key=by_cost))
-
-
-def on_parts(table: CostTable, parts: Sequence[Part], statistic: Statistic) -> Parts:
-    """The table on each part, made once."""
-    return _kept(itself(table), tuple(map(itself, parts)), statistic)
 
 
 @lru_cache(maxsize=16)

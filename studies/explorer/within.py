@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Hashable, Sequence
 from dataclasses import replace
 from functools import lru_cache
 
 from sched_sim.design.least_speed import has_closed_form
 from studies.explorer.accuracy import curve_of, lacks
 from studies.explorer.cheapest import cheapest
-from studies.explorer.parts import on_parts
+from studies.explorer.parts import Where
 from studies.explorer.same import Same, contents, itself
 from studies.selection.choice import Candidate
 from studies.selection.considered import considered
@@ -20,15 +20,19 @@ from studies.selection.question import Question
 from studies.selection.variants import Variant, variants
 
 
-def keeping(question: Question, methods: Sequence[str], current: str) -> dict[str, Candidate]:
-    """As `studies.choose_filter` says of each method, with every measurement and the options of the question alone; of
-    its parts only the cheapest that does, or else the nearest.
+def keeping(question: Question, methods: Sequence[str], current: str, where: Where | None) -> dict[str, Candidate]:
+    """As `studies.choose_filter` says of each method, with every measurement and the options of the question alone.
 
-    current: the one method that is looked at where each takes simulations.
+    question: with the costs that the least speed is of, and the tasks in their unit; its parts are not looked at.
+    where: of these only the cheapest that does is looked for, or else the nearest. current: the one method that is
+    looked at where each takes simulations.
     """
     simulated, same = not has_closed_form(question.options, question.tasks), _same(question)
+    place = None if where is None else Same(where, _contents(where))
     return {
-        method: _none(question, method, OF_CURRENT) if simulated and method != current else _keeping(same, method)
+        method: _none(question, method, OF_CURRENT)
+        if simulated and method != current
+        else _keeping(same, method, place)
         for method in methods
     }
 
@@ -41,13 +45,11 @@ OF_CURRENT = "each method takes simulations with such a processor: choose it"
 
 def _same(question: Question) -> Same[Question]:
     """Known by all that it depends on; tables and parts by being the same ones."""
-    arrays = question.model.linear, question.outputs, question.conditions
-    objects = *question.tables, *question.parts
     return Same(
         question,
         (
-            contents(arrays),
-            tuple(map(itself, objects)),
+            contents((question.model.linear, question.outputs, question.conditions)),
+            tuple(map(itself, question.tables)),
             question.sampling,
             question.within,
             question.metric,
@@ -58,15 +60,21 @@ def _same(question: Question) -> Same[Question]:
     )
 
 
+def _contents(where: Where) -> Hashable:
+    table, parts = itself(where.table), tuple(map(itself, where.parts))
+    return table, parts, where.rate, where.options, where.statistic, where.tasks
+
+
 @lru_cache(maxsize=KEPT)
-def _keeping(same: Same[Question], method: str) -> Candidate:
+def _keeping(same: Same[Question], method: str, where: Same[Where] | None) -> Candidate:
     question = same.value
     if reason := lacks(question, method):
         return _none(question, method, reason)
     variant = next(variants([method], (1,), question.tables, question.options, question.ways), None)
     if variant is None:
         return _none(question, method, f"the cost table {question.tables[0].name} has no costs of it")
-    return _on_cheapest(question, considered(question, lambda of: curve_of(question, of.method), variant))
+    found = considered(question, lambda of: curve_of(question, of.method), variant)
+    return found if where is None or found.L is None else _on_cheapest(question, found, where.value)
 
 
 def _none(question: Question, method: str, reason: str) -> Candidate:
@@ -76,15 +84,12 @@ def _none(question: Question, method: str, reason: str) -> Candidate:
     return Candidate(variant, question.sampling.N, first, float("inf"), reason=reason)
 
 
-def _on_cheapest(question: Question, found: Candidate) -> Candidate:
-    rate, method = question.sampling.hr_hz, found.variant.method
-    if rate is None or found.L is None:
-        return found
-    table, options = found.variant.table, found.variant.options
+def _on_cheapest(question: Question, found: Candidate, where: Where) -> Candidate:
+    method, curve = found.variant.method, curve_of(question, found.variant.method)
+    assert found.L is not None
     delay = 0 if METHODS[method].landing == "at once" else question.sampling.M
-    places = on_parts(table, question.parts, question.statistic).places(table, method, rate, options)
-    looked = cheapest(places, question.sampling.timing(delay, found.L), options, question.tasks)
-    curve = curve_of(question, method)
+    timing = question.sampling.timing(delay, found.L)
+    looked = cheapest(where.places(method), timing, found.variant.options, where.tasks)
     parts = tuple(
         replace(on, std=None if on.landed is None else curve.at(max(on.landed, found.first))) for on in looked
     )

@@ -103,7 +103,7 @@ class Parts:
     ) -> list[OnPart]:
         """What each part makes of the design, without its accuracy, or the machine of a table of times; nothing without
         either."""
-        return [_looked(place, timing, options, tasks) for place in self.places(table, method, rate, options)]
+        return [looked_at(place, timing, options, tasks) for place in self.places(table, method, rate, options)]
 
     def places(self, table: CostTable, method: str, rate: Fraction, options: Options) -> list[Place]:
         """The same places, with the costs of the method on each."""
@@ -124,7 +124,8 @@ class Parts:
             return Place(part, None, 1 / rate, str(error))
 
 
-def _looked(place: Place, timing: Timing, options: Options, tasks: Sequence[Task]) -> OnPart:
+def looked_at(place: Place, timing: Timing, options: Options, tasks: Sequence[Task]) -> OnPart:
+    """What one place makes of a design. Raises InputError as `least_speed` does."""
     if place.costs is None:
         return OnPart(place.part, None, None, remark=place.remark)
     needed = least_speed(place.costs, timing, options, tasks).speed / place.pace

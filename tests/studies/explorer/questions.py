@@ -11,6 +11,7 @@ from sched_sim.design.options import Options
 from sched_sim.processors.part import Part
 from sched_sim.processors.part_file import load_part, shipped_parts
 from studies.explorer.given import Given
+from studies.explorer.parts import Where
 from studies.selection.conditions import conditions_of
 from studies.selection.outputs import outputs_of
 from studies.selection.question import Question
@@ -43,6 +44,14 @@ def question(
     return Question(
         loaded, outputs_of(loaded), sampling, within, metric, conditions, (table,), where, options, {}  # type: ignore[arg-type]
     )  # fmt: skip
+
+
+def where(asked: Question) -> Where | None:
+    """The parts of a question, by its own counts."""
+    rate = asked.sampling.hr_hz
+    if rate is None:
+        return None
+    return Where(asked.tables[0], tuple(asked.parts), rate, asked.options, asked.statistic, tuple(asked.tasks))
 
 
 @st.composite

@@ -5,23 +5,33 @@ from __future__ import annotations
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
+from typing import Any
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given as with_random
+from hypothesis import settings
 from hypothesis import strategies as st
 
 from sched_sim import Options, fit, load_costs, on_part, read_costs, select
 from sched_sim.costs.table import CostTable
 from sched_sim.design.timing import Timing
+from sched_sim.processors.part import Part
 from sched_sim.schedule.tasks import Task
-from studies.explorer.parts import known_parts, verdicts
+from studies.explorer.design import Design
+from studies.explorer.given import Given
+from studies.explorer.parts import Where, verdicts, where_of
+from studies.explorer.resolved import resolved
 from tests.studies.explorer.questions import PARTS, options
 
-COUNTED = load_costs("counted-9-3-3")
+COUNTED, PAPERS = load_costs("counted-9-3-3"), Options()
+
+
+def where(parts: tuple[Part, ...], rate: int, options: Options = PAPERS, *tasks: Task) -> Where:
+    return Where(COUNTED, parts, Fraction(rate), options, "minimum", tasks)
 
 
 @settings(max_examples=15)
-@given(
+@with_random(
     st.sampled_from(["dual-rate", "larsen", "clone", "delayed-horizon"]),
     options(),
     st.integers(2, 12),
@@ -32,7 +42,7 @@ def test_they_are_those_of_fit(method: str, chosen: Options, N: int, data: st.Da
     M = data.draw(st.integers(0, N - 2))
     timing = Timing(N, M, N - 1)
     parts = PARTS[::4]
-    found = verdicts(COUNTED, parts, method, timing, Fraction(rate), chosen, "minimum", (), lambda L: L / 100)
+    found = verdicts(where(parts, rate, chosen), method, timing, lambda L: L / 100)
     for on in found:
         assert on.part is not None
         expected = fit(select(on_part(COUNTED, on.part), method, chosen), timing, rate, chosen)
@@ -50,9 +60,7 @@ def test_they_are_those_of_fit(method: str, chosen: Options, N: int, data: st.Da
 def test_beside_tasks_and_with_switches_too() -> None:
     chosen = Options(context_switch="0.000002")
     task = Task("control", Fraction(2), Fraction(1, 10**4), priority=5)
-    (on,) = verdicts(
-        COUNTED, PARTS[:1], "larsen", Timing(4, 2, 4), Fraction(400), chosen, "minimum", [task], lambda _: None
-    )
+    (on,) = verdicts(where(PARTS[:1], 400, chosen, task), "larsen", Timing(4, 2, 4), lambda _: None)
     assert on.part is not None
     expected = fit(select(on_part(COUNTED, on.part), "larsen"), Timing(4, 2, 4), 400, chosen, [task])
     assert (on.needed, on.load, on.landed) == (expected.needed, expected.load, expected.landed)
@@ -60,9 +68,7 @@ def test_beside_tasks_and_with_switches_too() -> None:
 
 def test_a_part_without_a_time_for_an_operation_is_last_with_the_reason() -> None:
     lame = replace(PARTS[0], name="lame", seconds={"add": Fraction(1, 10**6)})
-    found = verdicts(
-        COUNTED, [lame, PARTS[0]], "clone", Timing(4, 2, 4), Fraction(400), Options(), "minimum", (), lambda _: None
-    )
+    found = verdicts(where((lame, PARTS[0]), 400), "clone", Timing(4, 2, 4), lambda _: None)
     assert [on.name for on in found] == [PARTS[0].name, "lame"]
     assert "gives no time for" in found[1].remark
     assert found[1].needed is None
@@ -70,25 +76,44 @@ def test_a_part_without_a_time_for_an_operation_is_last_with_the_reason() -> Non
 
 def test_of_costs_that_are_times_it_is_the_machine(tmp_path: Path) -> None:
     (tmp_path / "mine.toml").write_text('name = "mine"\nunit = "us"\n[costs.standard]\npropagate = 400\nupdate = 600\n')
-    table = read_costs(tmp_path / "mine.toml")
-    assert known_parts(table, PARTS, Fraction(400)) == ((), "")
-    (on,) = verdicts(table, (), "standard", Timing(4, 0, 4), Fraction(400), Options(), "minimum", (), lambda _: 0.5)
+    given = Given(costs={"mine": read_costs(tmp_path / "mine.toml")})
+    found, reason = where_of(resolved(Design(N=4, M=0, hr_hz=400, method="standard", costs="mine"), given))
+    assert reason == ""
+    assert found is not None
+    (on,) = verdicts(found, "standard", Timing(4, 0, 4), lambda _: 0.5)
     assert (on.name, on.needed, on.landed, on.std) == ("the machine of the costs", Fraction(2, 5), 0, 0.5)
 
 
+def test_they_are_all_that_were_given_whatever_the_design_runs_on() -> None:
+    mine = replace(PARTS[0], name="mine")
+    design = Design(hr_hz=400, measurement_hz=5, delay_ms=110, model="ins-gps")
+    for processor in (None, "rp2040"):
+        found, _ = where_of(resolved(replace(design, processor=processor), Given(parts={"mine": mine})))
+        assert found is not None
+        assert [part.name for part in found.parts] == ["mine", *(part.name for part in PARTS)]
+        assert found.table.name == "counted-9-3-3"
+
+
+BOARD = CostTable("board", "instruction", {"larsen": {"propagate": 9, "update": 3}}, {"target": "abacus"})
+TASK = Task("control", Fraction(1), Fraction(1, 10**6), priority=5)
+
+
 @pytest.mark.parametrize(
-    ("table", "rate", "said"),
+    ("more", "given", "said"),
     [
-        (COUNTED, None, "give hr_hz"),
-        (load_costs("steffes2014"), Fraction(400), "no counted operations: choose other costs, such as"),
+        ({"hr_hz": None}, Given(), "which do depends on the rate of the HR loop: give hr_hz"),
+        ({"costs": "steffes2014"}, Given(), "steffes2014 has no counted operations: choose other costs"),
+        ({"costs": "board"}, Given(costs={"board": BOARD}), "none here states the cycles of instructions of abacus"),
         (
-            CostTable("board", "instruction", {"larsen": {"update": 3}}, {"target": "cortex-m4f"}),
-            Fraction(400),
-            "none here states the cycles of instructions of cortex-m4f",
+            {"options": Options(context_switch=3)},
+            Given(),
+            "context_switch is no time beside counts: choose a processor",
         ),
+        ({}, Given(tasks=(TASK,)), "the costs of the tasks are no times: choose a processor"),
     ],
-)  # fmt: skip
-def test_where_there_are_none_it_is_told_why(table: CostTable, rate: Fraction | None, said: str) -> None:
-    parts, reason = known_parts(table, [replace(part, cycles_per_instruction=None) for part in PARTS], rate)
-    assert parts == ()
+)
+def test_where_there_are_none_it_is_told_why(more: dict[str, Any], given: Given, said: str) -> None:
+    asked = {"N": 4, "M": 2, "hr_hz": 400, "costs": "counted-9-3-3", "method": "larsen"} | more
+    found, reason = where_of(resolved(Design(**asked), given))
+    assert found is None
     assert said in reason

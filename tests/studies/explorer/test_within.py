@@ -16,13 +16,12 @@ from sched_sim.processors.part_file import load_part
 from sched_sim.schedule.tasks import Task
 from studies.explorer import within as kept
 from studies.explorer.cheapest import cheapest
-from studies.explorer.parts import on_parts
+from studies.explorer.parts import verdicts
 from studies.explorer.within import OF_CURRENT, keeping
 from studies.selection.choice import Candidate
 from studies.selection.choose import chosen
-from studies.selection.parts import by_cost
 from studies.selection.question import Question
-from tests.studies.explorer.questions import PARTS, question, questions
+from tests.studies.explorer.questions import PARTS, question, questions, where
 
 METHODS = [method for method in DELAYED_METHODS if method != "fuse-as-fresh"]
 
@@ -41,7 +40,7 @@ def all_of(asked: Question, method: str) -> Candidate | None:
 @given(questions(), st.sampled_from(METHODS))
 def test_it_is_what_choose_filter_says(asked: Question, method: str) -> None:
     expected = all_of(asked, method)
-    got = keeping(asked, [method], "larsen")[method]
+    got = keeping(asked, [method], "larsen", where(asked))[method]
     if expected is None or expected.least is None:
         assert got.least is None
         assert got.reason
@@ -51,7 +50,8 @@ def test_it_is_what_choose_filter_says(asked: Question, method: str) -> None:
 
 
 def test_of_the_design_that_the_explorer_starts_with() -> None:
-    found = keeping(question(within=0.38), METHODS, "dual-rate")
+    asked = question(within=0.38)
+    found = keeping(asked, METHODS, "dual-rate", where(asked))
     assert {method: (of.L, of.cheapest and of.cheapest.name) for method, of in found.items() if of.L is not None} == {
         "standard": (0, "leon3"),
         "recalculate": (44, "cortex-m7"),
@@ -68,16 +68,17 @@ def test_of_the_design_that_the_explorer_starts_with() -> None:
 
 def test_prices_come_before_what_is_to_spare() -> None:
     dear, cheap = (replace(load_part(name), price=Fraction(price)) for name, price in (("rp2040", 9), ("leon3", 2)))
-    found = keeping(question(within=0.38, parts=(dear, cheap)), ["clone"], "clone")["clone"]
+    asked = question(within=0.38, parts=(dear, cheap))
+    found, expected = keeping(asked, ["clone"], "clone", where(asked))["clone"], all_of(asked, "clone")
     assert found.parts[0].part is cheap
-    expected = all_of(question(within=0.38, parts=(dear, cheap)), "clone")
     assert expected is not None
     assert found.parts == expected.parts[:1]
 
 
 def test_where_no_part_is_fast_enough_the_nearest_is_told() -> None:
     slow = question(within=0.4, hr_hz=20_000, parts=PARTS[:3])
-    found, expected = keeping(slow, ["recalculate"], "recalculate")["recalculate"], all_of(slow, "recalculate")
+    found = keeping(slow, ["recalculate"], "recalculate", where(slow))["recalculate"]
+    expected = all_of(slow, "recalculate")
     assert expected is not None
     assert found.cheapest is None
     assert found.reason == expected.reason
@@ -89,29 +90,33 @@ def test_the_first_place_is_that_of_all_of_them_by_cost(rate: int) -> None:
     """Also for a landing after the next measurement, whose least speed may take a search."""
     asked = question(N=10, M=4, hr_hz=rate)
     timing = asked.sampling.timing(4, 13)
-    looker = on_parts(asked.tables[0], PARTS, "minimum")
     for options in (Options(), Options(cpus=2), Options(feedback="same-step", lr_propagate_by="l")):
-        each = looker.look(asked.tables[0], "dual-rate", timing, Fraction(rate), options, ())
-        places = looker.places(asked.tables[0], "dual-rate", Fraction(rate), options)
-        assert cheapest(places, timing, options, ()) == sorted(each, key=by_cost)[:1]
+        at = where(replace(asked, options=options))
+        assert at is not None
+        each = verdicts(at, "dual-rate", timing, lambda _: None)
+        assert cheapest(at.places("dual-rate"), timing, options, ()) == [each[0]]
 
 
 def test_where_each_takes_simulations_only_the_current_method_is_looked_at() -> None:
-    task = Task("control", Fraction(1), Fraction(1, 10**6), priority=5)
-    busy = replace(question(N=4, M=2, within=0.5, parts=PARTS[:2]), tasks=(task,))
-    found = keeping(busy, ["larsen", "clone"], "clone")
+    """The least speed is with the tasks, in the unit of the costs; on parts they take seconds."""
+    asked = question(N=4, M=2, within=0.5, parts=PARTS[:2])
+    on_parts = replace(asked, tasks=(Task("control", Fraction(1), Fraction(1, 10**6), priority=5),))
+    busy = replace(asked, parts=(), tasks=(Task("control", Fraction(1), Fraction(100), priority=5),))
+    found = keeping(busy, ["larsen", "clone"], "clone", where(on_parts))
     assert found["larsen"].reason == OF_CURRENT
-    expected = all_of(busy, "clone")
+    alone, expected = all_of(busy, "clone"), all_of(on_parts, "clone")
+    assert alone is not None
     assert expected is not None
+    assert found["clone"].least == alone.least
     assert found["clone"].parts == expected.parts[:1]
 
 
 def test_moving_l_computes_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
-    first = keeping(question(within=0.38), METHODS, "dual-rate")
+    first = keeping(question(within=0.38), METHODS, "dual-rate", where(question()))
     monkeypatch.setattr(kept, "considered", lambda *_: pytest.fail("computed again"))
-    assert keeping(question(within=0.38), METHODS, "dual-rate") == first
+    assert keeping(question(within=0.38), METHODS, "dual-rate", where(question())) == first
 
 
 def test_what_a_table_lacks_is_told() -> None:
-    found = keeping(question(within=0.5, costs="steffes2014", parts=()), ["clone"], "clone")["clone"]
+    found = keeping(question(within=0.5, costs="steffes2014", parts=()), ["clone"], "clone", None)["clone"]
     assert "steffes2014 has no costs of it" in found.reason
