@@ -1,57 +1,20 @@
-"""Every method side by side: what it needs, where it lands, and its staircase."""
+"""Every method side by side, as plain data: what it needs, where it lands, how accurate it is then."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import Any
 
 from sched_sim.design.binding import BINDING_WORDS
-from sched_sim.design.landing import landing
-from sched_sim.design.least_speed import LeastSpeed, Stair, achieved_l, has_closed_form, least_speed
-from sched_sim.design.pieces import Costs
-from sched_sim.design.timing import Timing
-from sched_sim.errors import InputError
+from studies.explorer.accuracy import Accuracy
+from studies.explorer.front import Front
+from studies.explorer.planned import Planned
 from studies.explorer.power import Power
 from studies.explorer.query import query_of
 from studies.explorer.resolved import Resolved
-from studies.explorer.searched import check_beside, check_searched
-from studies.explorer.staircases import landings, stairs
-
-
-@dataclass(frozen=True, slots=True)
-class Planned:
-    """One method at the design's N, M and L. speed: that it runs at, its least if none was asked for; landed: the L at
-    which corrections land then, None if they do not; fits: whether every deadline holds then. stairs: what other L ask
-    for; turns: speeds from which on it lands in another step."""
-
-    method: str
-    costs: Costs
-    timing: Timing
-    least: LeastSpeed
-    speed: Fraction
-    landed: int | None
-    fits: bool
-    stairs: Sequence[Stair]
-    turns: Sequence[tuple[Fraction, int | None]]
-
-
-def planned(asked: Resolved, method: str) -> Planned:
-    """Raises InputError that says why the method cannot be had."""
-    options, tasks = asked.design.options, asked.tasks
-    timing, costs = asked.timing(method), asked.costs(method)
-    current = method == asked.design.method
-    (check_searched if current else check_beside)(costs, timing, options, tasks)
-    least = least_speed(costs, timing, options, tasks)
-    speed = least.speed if asked.pace is None else asked.pace
-    held = landing(costs, timing, speed, options, tasks)
-    landed = held
-    if held is None and has_closed_form(options, tasks, costs, timing):
-        landed = achieved_l(costs, timing, speed, options)
-    known = stairs(costs, timing, options, tasks, least, beside=current)
-    turns = landings(costs, timing, options, tasks, known)
-    return Planned(method, costs, timing, least, speed, landed, held is not None, known, turns)
+from studies.explorer.staircases import MOST_STAIRS
+from studies.selection.choice import Candidate
+from studies.selection.front import some_landings
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,10 +35,48 @@ class Landing:
 
 
 @dataclass(frozen=True, slots=True)
+class AccuracyCurve:
+    """Columns: the standard deviation of the output by where corrections land, None where it has no bound."""
+
+    L: list[int]
+    std: list[float | None]
+
+
+@dataclass(frozen=True, slots=True)
+class FrontLine:
+    """Columns: landings, the power that each takes and the standard deviation of the output; on_front: no other design,
+    of any method, is as accurate with less."""
+
+    L: list[int]
+    power: list[float]
+    std: list[float]
+    on_front: list[bool]
+
+
+@dataclass(frozen=True, slots=True)
+class Within:
+    """What the method needs to keep the accuracy that is asked for. L: the latest landing that does, std: the figure
+    then; least, power: the least speed for it. part: the cheapest that will do, needed: the share of its speed, else of
+    the nearest; landed, landed_std: on it. reason: why it will not do; query: of that design on that part."""
+
+    L: int | None
+    std: float | None
+    least: Fraction | None
+    power: float | None
+    part: str | None
+    needed: Fraction | None
+    landed: int | None
+    landed_std: float | None
+    reason: str
+    query: str
+
+
+@dataclass(frozen=True, slots=True)
 class MethodView:
     """One method beside the others, at the same N, M and L. reason: why it cannot be had, empty if it can; query: of
-    its design. power: of the least speed; achieved_l: as it runs, None if it does not land; fits: None where it runs at
-    its least speed."""
+    its design. power: of the least speed; achieved_l: as it runs, None if it does not land, std: the figure of the
+    output then; fits: None where it runs at its least speed. within: None where no accuracy is asked for; accuracy,
+    front: None where no model is, or it has none of this method."""
 
     method: str
     reason: str
@@ -88,15 +89,21 @@ class MethodView:
     landed_ms: float | None = None
     std: float | None = None
     fits: bool | None = None
-    within: Any = None
+    within: Within | None = None
     staircase: Staircase | None = None
     landing: Landing | None = None
-    accuracy: Any = None
-    front: Any = None
+    accuracy: AccuracyCurve | None = None
+    front: FrontLine | None = None
 
 
-def method_view(asked: Resolved, plan: Planned, power: Power) -> MethodView:
-    """Without what its accuracy says."""
+def method_view(
+    asked: Resolved,
+    plan: Planned,
+    power: Power,
+    figures: Accuracy | None,
+    kept: Candidate | None,
+    front: Front | None,
+) -> MethodView:
     return MethodView(
         plan.method,
         "",
@@ -107,18 +114,59 @@ def method_view(asked: Resolved, plan: Planned, power: Power) -> MethodView:
         binding_words(plan.least.binding),
         plan.landed,
         asked.sampling.ms(plan.landed),
-        fits=None if asked.pace is None else plan.fits,
-        staircase=Staircase(
+        None if figures is None else figures.at(plan.landed),
+        None if asked.pace is None else plan.fits,
+        None if kept is None else within_of(asked, plan.method, kept, power),
+        Staircase(
             [stair.L for stair in plan.stairs],
             [power.of(stair.speed) for stair in plan.stairs],
             [stair.achieved for stair in plan.stairs],
         ),
-        landing=Landing([power.of(speed) for speed, _ in plan.turns], [landed for _, landed in plan.turns]),
+        Landing([power.of(speed) for speed, _ in plan.turns], [landed for _, landed in plan.turns]),
+        None if figures is None else _curve(figures, plan.timing.L),
+        None if front is None else FrontLine(front.L, list(map(float, front.power)), front.std, front.on_front),
     )
 
 
-def refused_view(asked: Resolved, method: str, why: InputError) -> MethodView:
-    return MethodView(method, str(why), query_of(replace(asked.design, method=method)))
+def refused_view(asked: Resolved, method: str, reason: str) -> MethodView:
+    """Of one that cannot be had."""
+    return MethodView(method, reason, query_of(replace(asked.design, method=method)))
+
+
+def within_of(asked: Resolved, method: str, kept: Candidate, power: Power) -> Within:
+    on = kept.parts[0] if kept.parts else None
+    part = None if on is None or not on.fits else on.name
+    named = asked.design.processor if on is None or not on.fits or on.part is None else on.part.name
+    at_L = replace(
+        asked.design,
+        method=method,
+        L=kept.L,
+        land_within_ms=None,
+        processor=named,
+        speed=None if named else asked.design.speed,
+    )
+    least = None if kept.least is None else kept.least.speed
+    return Within(
+        kept.L,
+        kept.std,
+        least,
+        None if least is None else power.of(least),
+        part,
+        None if on is None else on.needed,
+        kept.landed if on is None else on.landed,
+        kept.landed_std if on is None else on.std,
+        kept.reason,
+        query_of(at_L),
+    )
+
+
+def _curve(figures: Accuracy, L: int) -> AccuracyCurve | None:
+    if figures.curve is None:
+        return None
+    first = figures.curve.first
+    last = first + len(figures.curve.figures) - 1
+    at = sorted({*some_landings(first, last, MOST_STAIRS), *({L} & {*range(first, last + 1)})})
+    return AccuracyCurve(at, [figures.at(landing) for landing in at])
 
 
 def binding_words(binding: str) -> str:

@@ -16,7 +16,7 @@ from sched_sim.schedule.tasks import Task
 MOST = 2_000
 """HR periods, of the design itself: a second or two."""
 
-MOST_BESIDE = 100
+MOST_BESIDE = 200
 """HR periods, of each method, landing or part beside it: some ten milliseconds."""
 
 

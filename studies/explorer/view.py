@@ -2,50 +2,43 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from fractions import Fraction
+from math import inf
 from typing import Any
 
 from sched_sim.errors import InputError
+from studies.explorer.accuracy import Accuracy, accuracy
 from studies.explorer.choices import Choices, choices_of
+from studies.explorer.current import Current, current_of, said_of
 from studies.explorer.design import Design
 from studies.explorer.document import document
+from studies.explorer.front import Front, front
 from studies.explorer.given import Given
 from studies.explorer.limits import Limits, limits
-from studies.explorer.methods import MethodView, Planned, binding_words, method_view, planned, refused_view
-from studies.explorer.power import Power, machine_name, power_of
-from studies.explorer.query import number_text, query_of, texts
+from studies.explorer.methods import MethodView, method_view, refused_view
+from studies.explorer.part_views import PartView, part_view
+from studies.explorer.parts import Where, verdicts, where_of
+from studies.explorer.planned import Planned, planned
+from studies.explorer.power import Power, power_of
+from studies.explorer.query import query_of
+from studies.explorer.question import question_of
 from studies.explorer.resolved import Resolved, resolved
 from studies.explorer.schedule import Timeline, timeline
-
-
-@dataclass(frozen=True, slots=True)
-class Current:
-    """The design itself. least: the least speed, in cost units per HR period, power: that as a power; speed: that it
-    runs at, in words runs_at, pace: that as a power. achieved_l: where corrections land then, std: the figure of the
-    output there, std_at_L: at the L that was asked for, both in `unit`; load: share of the time of the processors;
-    misses: in the schedule that is shown; fits: None where it runs at its least speed."""
-
-    least: Fraction
-    power: float
-    binding: str
-    speed: Fraction
-    runs_at: str
-    pace: float
-    achieved_l: int | None
-    landed_ms: float | None
-    std: float | None
-    std_at_L: float | None
-    unit: str
-    load: Fraction
-    misses: int
-    fits: bool | None
+from studies.explorer.searched import MOST_BESIDE, searched
+from studies.explorer.within import keeping
+from studies.selection.choice import Candidate
+from studies.selection.question import Question
 
 
 @dataclass(frozen=True, slots=True)
 class View:
     """What `explore` returns; `document` makes JSON of it. Fractions are exact; powers are floats in `power.unit`;
-    lists are columns; None is what is not known or not there."""
+    lists are columns; None is what is not known or not there.
+
+    query: the link; design: every key of it, with what the design comes to. limits: how far N, M and L may go. current:
+    the design itself, schedule: what its processor does; methods: beside it all others, parts: where it may run.
+    """
 
     query: str
     design: dict[str, Any]
@@ -59,7 +52,7 @@ class View:
     current: Current
     schedule: Timeline
     methods: tuple[MethodView, ...]
-    parts: Any
+    parts: tuple[PartView, ...]
     commands: Any
 
     def document(self) -> dict[str, Any]:
@@ -80,77 +73,87 @@ def explore(design: Design, given: Given = Given()) -> View:
     Raises InputError that names what is wrong, its value and what to give.
     """
     asked = resolved(design, given)
-    current = planned(asked, design.method)
-    power = power_of(asked)
+    current, power = planned(asked, design.method), power_of(asked)
+    plans, refused = _plans(asked, current)
+    question = question_of(asked)
+    figures = {} if question is None else _figures(question, plans, design.method)
+    where, why_nowhere = _where(asked, current)
+    kept = {} if question is None else _kept(question, plans, design.method, where)
+    own = figures.get(design.method)
+    looked = () if where is None else verdicts(where, design.method, current.timing, own.at if own else _unknown)
     period_ms = None if asked.rate is None else float(1000 / asked.rate)
     shown = timeline(
         current.costs, current.timing, current.speed, design.cycles, design.options, asked.tasks, period_ms
     )
+    fronts = _fronts(plans, figures, power)
     return View(
         query_of(design),
-        _said(asked, current),
+        said_of(asked, current),
         choices_of(asked),
         limits(asked),
         period_ms,
         power,
         None,
         (),
-        tuple(filter(None, asked.stated.words.split("\n"))),
-        _current(asked, current, power, shown.misses),
+        tuple(filter(None, [*asked.stated.words.split("\n"), why_nowhere])),
+        current_of(asked, current, power, own, shown.misses),
         shown,
-        tuple(_method(asked, method, current, power) for method in asked.methods),
-        (),
+        tuple(
+            refused_view(asked, method, refused[method])
+            if method in refused
+            else method_view(asked, plans[method], power, figures.get(method), kept.get(method), fronts.get(method))
+            for method in asked.methods
+        ),
+        tuple(part_view(asked, on) for on in looked),
         None,
     )
 
 
-def _method(asked: Resolved, method: str, current: Planned, power: Power) -> MethodView:
-    try:
-        plan = current if method == current.method else planned(asked, method)
-        return method_view(asked, plan, power)
-    except InputError as error:
-        return refused_view(asked, method, error)
+def _plans(asked: Resolved, current: Planned) -> tuple[dict[str, Planned], dict[str, str]]:
+    """By method, and why others cannot be had."""
+    plans, refused = {current.method: current}, {}
+    for method in asked.methods:
+        if method == current.method:
+            continue
+        try:
+            plans[method] = planned(asked, method)
+        except InputError as error:
+            refused[method] = str(error)
+    return plans, refused
 
 
-def _current(asked: Resolved, plan: Planned, power: Power, misses: int) -> Current:
-    return Current(
-        plan.least.speed,
-        power.of(plan.least.speed),
-        binding_words(plan.least.binding),
-        plan.speed,
-        _runs_at(asked, plan),
-        power.of(plan.speed),
-        plan.landed,
-        asked.sampling.ms(plan.landed),
-        None,
-        None,
-        "" if asked.outputs is None else asked.outputs.unit,
-        plan.load,
-        misses,
-        None if asked.pace is None else plan.fits,
-    )
+def _figures(question: Question, plans: Mapping[str, Planned], current: str) -> dict[str, Accuracy]:
+    return {
+        method: accuracy(question, method, whole=method == current, last=plan.timing.L)
+        for method, plan in plans.items()
+    }
 
 
-def _runs_at(asked: Resolved, plan: Planned) -> str:
-    if asked.design.speed is not None:
-        return number_text(plan.speed)
-    return "least speed" if asked.machine_pace is None else machine_name(asked)
+def _kept(question: Question, plans: Mapping[str, Planned], current: str, where: Where | None) -> dict[str, Candidate]:
+    """What each method needs for the accuracy, if one is asked for."""
+    return {} if question.within == inf else keeping(question, [*plans], current, where)
 
 
-def _said(asked: Resolved, plan: Planned) -> dict[str, Any]:
-    """Every key of a query, with what the design comes to."""
-    times, rate = asked.sampling.times, asked.rate
-    N, M, L = asked.sampling.N, asked.sampling.M, plan.timing.L if asked.stated.L is None else asked.stated.L
-    table = asked.counts.name if asked.counts.name in asked.given.table_names else None
-    lands = None if times is None or rate is None else times.landing_ms(L, rate)
-    shipped = None if asked.model is None else asked.model.shipped
-    full = replace(
-        asked.design,
-        hr_hz=rate,
-        measurement_hz=None if times is None else times.measurement_hz,
-        delay_ms=None if times is None else times.delay_ms,
-        land_within_ms=lands if asked.design.land_within_ms is None else asked.design.land_within_ms,
-        costs=asked.design.costs or table,
-        output=asked.design.output or (shipped and shipped.output),
-    )
-    return {**texts(full), "N": N, "M": M, "L": L, "cycles": full.cycles, "cpus": full.options.cpus}
+def _fronts(plans: Mapping[str, Planned], figures: Mapping[str, Accuracy], power: Power) -> dict[str, Front]:
+    stairs = {
+        method: ([stair.L for stair in plan.stairs], [power.of(stair.speed) for stair in plan.stairs])
+        for method, plan in plans.items()
+    }
+    return front(stairs, figures)
+
+
+def _where(asked: Resolved, plan: Planned) -> tuple[Where | None, str]:
+    """Where the design may run, and why nothing is known of other places: not where each takes a long search."""
+    where, why = where_of(asked)
+    if where is None or searched(plan.costs, plan.timing, asked.design.options, asked.tasks) <= MOST_BESIDE:
+        return where, why
+    if asked.part is None:
+        return (
+            None,
+            "no parts: on each the least speed takes a search by simulation: choose a processor",
+        )
+    return replace(where, parts=(asked.part,)), "other parts: on each the least speed takes a search by simulation"
+
+
+def _unknown(_L: int) -> None:
+    return None
