@@ -10,8 +10,16 @@ from hypothesis import strategies as st
 from sched_sim.design.options import Options
 from sched_sim.processors.part import Part
 from sched_sim.processors.part_file import load_part, shipped_parts
+from studies.explorer.accuracy import accuracy
+from studies.explorer.answer import Found
 from studies.explorer.given import Given
-from studies.explorer.parts import Where
+from studies.explorer.methods import planned
+from studies.explorer.parts import Where, verdicts, where_of
+from studies.explorer.query import design_of
+from studies.explorer.question import question_of
+from studies.explorer.resolved import resolved
+from studies.explorer.schedule import timeline
+from studies.explorer.within import keeping
 from studies.selection.conditions import conditions_of
 from studies.selection.outputs import outputs_of
 from studies.selection.question import Question
@@ -81,3 +89,19 @@ def questions(draw: st.DrawFn) -> Question:
         hr_hz=draw(st.sampled_from([None, RATE[model], 20 * RATE[model]])),
         options=draw(options()),
     )
+
+
+def found_of(query: str, given: Given = GIVEN) -> Found:
+    """All that is known of the design of a query."""
+    design = design_of(query, given)
+    asked = resolved(design, given)
+    plan, question = planned(asked, design.method), question_of(asked)
+    line = timeline(plan.costs, plan.timing, plan.speed, design.cycles, design.options, asked.tasks, None)
+    at, _ = where_of(asked)
+    if question is None:
+        parts = () if at is None else verdicts(at, plan.method, plan.timing, lambda _: None)
+        return Found(asked, plan, line, parts=parts)
+    figures = accuracy(question, plan.method, whole=True, last=plan.timing.L)
+    kept = None if design.within is None else keeping(question, asked.methods, plan.method, at)
+    parts = () if at is None else verdicts(at, plan.method, plan.timing, figures.at)
+    return Found(asked, plan, line, figures, kept, parts)
