@@ -1,0 +1,173 @@
+"""The Gantt chart in a browser: what it draws and says."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from itertools import pairwise
+from typing import Any
+
+import pytest
+from axe_playwright_python.sync_playwright import Axe
+
+from reports.drawing.style import FILLS, RED, TASK_FILLS
+from sched_sim.design.options import Options
+from sched_sim.design.timing import Timing
+from sched_sim.schedule.tasks import Task
+from tests.browser import Visit
+from tests.reports.explorer.drawn import Chart, by_hand, late, nothing, schedule
+from tests.reports.explorer.scripts import asked
+
+BLUE = FILLS["HRP"].colour
+TASKS = [Task("control", "2", "0.3", 5, "0"), Task("<b>telemetry</b>", "5", "0.7", 15, "1")]
+
+
+def rgb(colour: str) -> tuple[int, int, int]:
+    return int(colour[1:3], 16), int(colour[3:5], 16), int(colour[5:7], 16)
+
+
+def test_its_hatches_are_those_of_print(visit: Visit) -> None:
+    colours = asked(visit, "colours")
+    assert colours("return of.HATCHES;") == {label: fill.hatch[0] for label, fill in FILLS.items() if fill.hatch}
+    assert colours("return of.TASK_HATCHES;") == [fill.hatch[:1] for fill in TASK_FILLS]
+
+
+def test_tasks_have_their_fills_in_turn_by_name_as_in_print(visit: Visit) -> None:
+    labels = ["task:z", "HRP", "task:a", "task:b", "task:c", "task:d"]
+    names = asked(visit, "colours")("return of.fillNames(a);", [{"label": label} for label in labels])
+    assert names == ["task0", "HRP", "task0", "task1", "task2", "task3"]
+
+
+def test_work_is_drawn_where_it_is_done_and_nowhere_else(visit: Visit) -> None:
+    bars = [(0.0, 1.5, 2), (3.0, 3.25, 4), (7.0, 9.5, 10)]
+    chart = Chart(visit, by_hand(10, bars))
+    drawn = chart.columns(rgb(FILLS["P"].colour))
+    left, right = drawn[0], drawn[-1]
+    per_step = (right - left) / 9.5
+    for at in range(1, 100):
+        step = at / 10 + 0.03
+        if step < 9.5:
+            worked = any(start <= step < end for start, end, _ in bars)
+            assert (round(left + step * per_step) in drawn) == worked
+
+
+@pytest.mark.parametrize("method", ["larsen", "dual-rate"])
+def test_its_legend_says_what_runs_and_what_the_signs_mean(method: str, visit: Visit) -> None:
+    chart = Chart(visit, schedule(method, Timing(10, 4, 4 if method == "larsen" else 8), "1.5"))
+    said = chart.text("legend")
+    wanted = {"larsen": ("P", "U"), "dual-rate": ("HRP", "HRU", "LRP", "LRU")}[method]
+    assert all(f"{label}  {FILLS[label].meaning}" in said for label in wanted)
+    assert "release" in said
+    assert "measurement arrives" in said
+    assert "missed" not in said
+
+
+def test_a_late_schedule_says_so_in_words_and_draws_it_in_red(visit: Visit) -> None:
+    chart = Chart(visit, late())
+    assert chart.text("finding").startswith("✗ 1 of 12 jobs misses its deadline")
+    assert "1 of 12 jobs misses its deadline" in (
+        chart.page.locator(".ss-gantt-frame").get_attribute("aria-label") or ""
+    )
+    assert "missed deadline" in chart.text("legend")
+    assert "work after its deadline" in chart.text("legend")
+    assert len(chart.columns(rgb(RED))) > 15
+
+
+def test_a_schedule_in_time_has_no_red(visit: Visit) -> None:
+    chart = Chart(visit, schedule())
+    assert chart.text("finding").startswith("no deadline missed · 87")
+    assert chart.columns(rgb(RED)) == []
+
+
+def test_no_merging_hides_a_miss(visit: Visit) -> None:
+    misses = (0, 7_777, 19_999)
+    shares = (0.4 if step in misses else 1 for step in range(20_000))
+    chart = Chart(visit, by_hand(20_000, ((step, step + 0.5, step + share) for step, share in enumerate(shares))))
+    red = chart.columns(rgb(RED))
+    groups = [after - before for before, after in pairwise(red) if after - before > 12]
+    assert len(groups) + 1 == len(misses)
+    assert groups[0] / sum(groups) == pytest.approx(7_777 / 20_000, abs=0.02)
+
+
+def test_what_is_under_a_pixel_is_as_dense_as_the_processor_is_busy(visit: Visit) -> None:
+    chart = Chart(visit, by_hand(20_000, ((step, step + 0.5, step + 1) for step in range(20_000))))
+    alpha = chart.page.evaluate(
+        """() => {
+          const canvas = document.querySelector(".ss-gantt-frame canvas");
+          const middle = canvas.getContext("2d").getImageData(500, 64, 1, 1).data;
+          return [...middle];
+        }"""
+    )
+    assert alpha[3] == pytest.approx(127, abs=3)
+    assert alpha[:3] == pytest.approx(rgb(FILLS["P"].colour), abs=2)
+
+
+def test_rows_of_several_processors_and_tasks_are_named_and_no_name_is_markup(visit: Visit) -> None:
+    chart = Chart(visit, schedule(timing=Timing(20, 8, 16), speed="1.3", tasks=TASKS, options=Options(cpus=2)))
+    assert "<b>telemetry</b>" in chart.text("legend")
+    assert chart.page.locator(".ss-gantt-legend b").count() == 0
+
+
+@pytest.mark.parametrize("of", [nothing, lambda: by_hand(1, [(0, 0.4, 1)]), lambda: by_hand(3, [(0, None, 1)])])
+def test_a_schedule_of_almost_nothing_is_drawn_too(of: Callable[[], dict[str, Any]], visit: Visit) -> None:
+    chart = Chart(visit, of())
+    assert chart.text("finding")
+    chart.press("ArrowRight", "ArrowDown", "End", "+", "+", "0")
+    chart.click("zoom in")
+
+
+def test_another_schedule_with_as_many_steps_keeps_the_stretch_and_makes_no_elements_anew(visit: Visit) -> None:
+    chart = Chart(visit, schedule())
+    chart.click("zoom in")
+    zoomed = chart.range
+    assert zoomed != "10 steps"
+    chart.page.evaluate("window.before = [...document.querySelectorAll('.ss-gantt *')]")
+    chart.show(schedule(speed="0.78"))
+    assert chart.range == zoomed
+    assert chart.page.evaluate("before.every(element => element.isConnected)")
+    chart.show(schedule(timing=Timing(20, 8, 16)))
+    assert chart.range == "20 steps"
+
+
+def test_it_is_as_wide_as_its_place(visit: Visit) -> None:
+    chart = Chart(visit, schedule(), width=1000)
+    for width in (360, 1400):
+        chart.page.set_viewport_size({"width": width, "height": 700})
+        chart.settle()
+        chart.settle()
+        assert chart.page.evaluate("document.querySelector('canvas').clientWidth") == pytest.approx(width, abs=20)
+        assert chart.page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+
+
+def test_in_the_dark_and_back_it_has_other_colours(visit: Visit) -> None:
+    chart = Chart(visit, schedule())
+    chart.page.evaluate("document.body.dataset.theme = 'dark'")
+    chart.settle()
+    assert chart.columns(rgb(BLUE)) == []
+    chart.page.evaluate("document.body.dataset.theme = 'light'")
+    chart.settle()
+    assert chart.columns(rgb(BLUE))
+
+
+def test_on_paper_it_is_light(visit: Visit) -> None:
+    visit.page.emulate_media(color_scheme="dark")
+    chart = Chart(visit, schedule())
+    assert chart.columns(rgb(BLUE)) == []
+    chart.page.evaluate("window.dispatchEvent(new Event('beforeprint'))")
+    assert chart.columns(rgb(BLUE))
+    chart.page.evaluate("window.dispatchEvent(new Event('afterprint'))")
+    assert chart.columns(rgb(BLUE)) == []
+
+
+def test_destroyed_it_leaves_nothing(visit: Visit) -> None:
+    chart = Chart(visit, schedule())
+    chart.page.evaluate("chart.destroy()")
+    assert chart.page.evaluate("document.querySelector('#host').childElementCount") == 0
+
+
+@pytest.mark.parametrize(("of", "scheme"), [(schedule, "light"), (late, "dark"), (nothing, "light")])
+def test_it_breaks_no_rule_of_accessible_pages(of: Callable[[], dict[str, Any]], scheme: Any, visit: Visit) -> None:
+    visit.page.emulate_media(color_scheme=scheme)
+    chart = Chart(visit, of())
+    chart.press("ArrowRight", "ArrowDown")
+    found = Axe().run(chart.page).response["violations"]
+    assert [(each["id"], [node["html"] for node in each["nodes"]]) for each in found] == []

@@ -1,0 +1,83 @@
+"""The stretch of steps that a chart shows."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from math import isclose
+from typing import Any
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from tests.browser import Visit
+from tests.reports.explorer.scripts import asked
+
+Ask = Callable[..., Any]
+in_browser = settings(deadline=None, max_examples=40, suppress_health_check=[HealthCheck.function_scoped_fixture])
+share = st.floats(0, 1)
+
+
+@pytest.fixture
+def ask(visit: Visit) -> Ask:
+    return asked(visit, "stretch")
+
+
+@st.composite
+def stretches(draw: st.DrawFn) -> tuple[dict[str, float], int]:
+    steps = draw(st.integers(1, 100_000))
+    length = draw(st.floats(0.02, steps))
+    first = draw(share) * (steps - length)
+    return {"first": first, "end": first + length}, steps
+
+
+def within(stretch: dict[str, float], steps: int) -> bool:
+    return 0 <= stretch["first"] < stretch["end"] <= steps * (1 + 1e-12)
+
+
+@in_browser
+@given(stretches(), st.floats(0.01, 100), share)
+def test_zooming_keeps_the_step_under_the_pointer_where_it_can(
+    ask: Ask, given: tuple[dict[str, float], int], factor: float, where: float
+) -> None:
+    stretch, steps = given
+    at = stretch["first"] + where * (stretch["end"] - stretch["first"])
+    zoomed = ask("return of.zoomedStretch(a[0], b, c, a[1]);", given, factor, at)
+    assert within(zoomed, steps)
+    if zoomed["first"] > 0 and zoomed["end"] < steps:
+        got = (at - zoomed["first"]) / (zoomed["end"] - zoomed["first"])
+        assert isclose(got, where, abs_tol=1e-5)
+
+
+@in_browser
+@given(stretches(), st.floats(-1e5, 1e5))
+def test_moving_keeps_its_length_and_stays_within_the_schedule(
+    ask: Ask, given: tuple[dict[str, float], int], by: float
+) -> None:
+    stretch, steps = given
+    moved = ask("return of.movedStretch(a[0], b, a[1]);", given, by)
+    assert within(moved, steps)
+    assert isclose(moved["end"] - moved["first"], stretch["end"] - stretch["first"], rel_tol=1e-6)
+
+
+@in_browser
+@given(stretches(), share, share)
+def test_it_moves_no_farther_than_to_show_a_job(
+    ask: Ask, given: tuple[dict[str, float], int], one: float, other: float
+) -> None:
+    stretch, steps = given
+    start, end = sorted((one * steps, other * steps))
+    shown = ask("return of.stretchWith(a[0], b[0], b[1], a[1]);", given, [start, end])
+    assert within(shown, steps)
+    length = stretch["end"] - stretch["first"]
+    slack = 1e-9 * steps
+    assert shown["first"] - slack <= start
+    if end - start <= length:
+        assert end <= shown["end"] + slack
+    if stretch["first"] <= start and end <= stretch["end"]:
+        assert shown == stretch
+
+
+def test_all_steps_are_whole_and_no_fewer(ask: Ask) -> None:
+    assert ask("return of.isWhole(of.wholeStretch(80), 80);")
+    assert not ask("return of.isWhole(of.zoomedStretch(of.wholeStretch(80), 0.5, 40, 80), 80);")
