@@ -129,6 +129,7 @@ function noteAt(line, at) {
 }
 
 function spokenPlot({ title, x, y, points, limit }) {
-  const designs = points.map((each) => `${each.label}: ${saidOf(x.label, each.x)}, ${saidOf(y.label, each.y)}`);
+  const at = (each) => `${saidOf(x.label, each.x)}, ${saidOf(y.label, each.y)}`;
+  const designs = points.map((each) => `${each.label || "this design"}: ${at(each)}`);
   return [`${title}. ${y.label} against ${x.label}`, ...designs, ...(limit === null ? [] : [limit.label])].join("; ");
 }

@@ -18,10 +18,11 @@ export function lineSample(look) {
   return sampleOf(line, marker);
 }
 
-/** A piece of a path of this class: a line with these dashes, or a box. */
-export function pathSample({ class: name, dashes, box }) {
+/** A piece of a path of this class: a line with these dashes, a box, or a marker. */
+export function pathSample({ class: name, dashes, box, marker }) {
   const middle = SAMPLE_HEIGHT / 2;
-  const shape = box ? `M8 1H${SAMPLE_WIDTH - 8}V${SAMPLE_HEIGHT - 1}H8z` : `M0 ${middle}H${SAMPLE_WIDTH}`;
+  const line = box ? `M8 1H${SAMPLE_WIDTH - 8}V${SAMPLE_HEIGHT - 1}H8z` : `M0 ${middle}H${SAMPLE_WIDTH}`;
+  const shape = marker ? `M${SAMPLE_WIDTH / 2} ${middle}${markerPath(marker)}` : line;
   return sampleOf(svg("path", { class: name, "stroke-dasharray": dashes || "none", d: shape }));
 }
 

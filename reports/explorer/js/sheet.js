@@ -2,9 +2,9 @@
 
 import { digits, html, svg } from "./svg.js";
 
-/** The quantity and the unit of an axis label such as "least speed (% of rp2040)". */
+/** The quantity and the unit of an axis label such as "least speed (% of rp2040)" or "L, where it lands (steps)". */
 export function quantity(label) {
-  const [, name, unit] = label.match(/^(.*?)(?: \(([^()]*)\))?$/);
+  const [, name, unit] = label.match(/^(.*?)(?:, .*?)?(?: \(([^()]*)\))?$/);
   return { name, unit: unit ?? "" };
 }
 

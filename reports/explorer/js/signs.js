@@ -62,7 +62,8 @@ export function plotSigns() {
   }
 
   function layLabels({ placed, box, font, boxes, lines }) {
-    const first = [...placed].sort((one, other) => Number(other.current) - Number(one.current));
+    const named = placed.filter((point) => point.label !== "");
+    const first = named.sort((one, other) => Number(other.current) - Number(one.current));
     const widthOf = (point) => textWidth(point.label, `bold ${font}`);
     const sized = first.map((point) => ({ ...point, width: widthOf(point), height: LABEL_HEIGHT }));
     const bounds = { ...box, top: box.top - 8, right: box.right + 8 };

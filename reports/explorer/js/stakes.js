@@ -1,6 +1,6 @@
 // Lines across a histogram with their names above it: a deadline, quantiles.
 
-import { digits, svg } from "./svg.js";
+import { svg } from "./svg.js";
 import { reusedChildren } from "./frame.js";
 import { doOverlap, textWidth } from "./beside.js";
 
@@ -9,8 +9,8 @@ const STAKE_ROW_PX = 15;
 /** What has to be free above the frame. */
 export const STAKES_TOP_PX = STAKE_ROWS * STAKE_ROW_PX + 4;
 
-/** Lines in an element of their own. `lay({stakes, x, box, font})` draws those of [{x, label, red}], and names each
- *  with its value, in as many rows as keep the names apart. Of one that lies outside the frame an arrow at its edge says
+/** Lines in an element of their own. `lay({stakes, x, box, font})` draws those of [{x, label, red}], and their labels
+ *  above them, in as many rows as keep these apart. Of one that lies outside the frame an arrow at its edge says
  *  so. */
 export function plotStakes() {
   const [lines, names] = [svg("g"), svg("g")];
@@ -41,8 +41,7 @@ function placedNames(stakes, x, box, font) {
     const at = x(stake.x);
     if (at === null) return [];
     const outside = at < box.left - 1 ? "← " : at > box.right + 1 ? " →" : "";
-    const said = `${stake.label} ${digits(stake.x, 3)}`;
-    const text = outside === "← " ? outside + said : said + outside;
+    const text = outside === "← " ? outside + stake.label : stake.label + outside;
     const width = textWidth(text, font);
     const left = Math.min(Math.max(at - width / 2, 0), box.right + 12 - width);
     const rows = Array.from({ length: STAKE_ROWS }, (_, row) => box.top - (row + 1) * STAKE_ROW_PX - 2);

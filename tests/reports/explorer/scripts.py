@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import Any
+
+from playwright.sync_api import Browser
 
 from reports.explorer.module import asset, module
 from tests.browser import Visit
 
+Ask = Callable[..., Any]
 LOADED = """async ([name, text]) => {
   const url = URL.createObjectURL(new Blob([text], {type: "text/javascript"}));
   window[name] = await import(url);
@@ -24,12 +28,18 @@ def loaded(visit: Visit, *names: str, styles: tuple[str, ...] = ()) -> None:
         visit.page.evaluate(LOADED, [name, module(name)])
 
 
-def asked(visit: Visit, name: str) -> Callable[..., Any]:
-    """A function that evaluates a body in which the exports are `of`, and the arguments a, b, c."""
+@contextmanager
+def asking(browser: Browser, name: str) -> Iterator[Ask]:
+    """A function that evaluates a body in which the exports are `of`, and the arguments a, b, c: for pure functions,
+    which leave nothing behind on the page."""
+    context = browser.new_context()
+    visit = Visit(context)
     loaded(visit, name)
 
     def ask(body: str, *arguments: object) -> Any:
         given = [*arguments, None, None, None][:3]
         return visit.page.evaluate(f"([a, b, c]) => {{ const of = window.{name}; {body} }}", given)
 
-    return ask
+    yield ask
+    context.close()
+    assert visit.errors == []

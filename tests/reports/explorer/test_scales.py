@@ -3,29 +3,28 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
+from collections.abc import Iterator
 from fractions import Fraction
 from itertools import pairwise
 from math import isclose, log10
 from typing import Any
 
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
+from playwright.sync_api import Browser
 
-from tests.browser import Visit
-from tests.reports.explorer.scripts import asked
-
-Ask = Callable[..., Any]
+from tests.reports.explorer.scripts import Ask, asking
 
 number = st.floats(-1e9, 1e9, allow_nan=False, width=32)
 positive = st.floats(1e-9, 1e9, allow_nan=False)
-in_browser = settings(deadline=None, max_examples=40, suppress_health_check=[HealthCheck.function_scoped_fixture])
+in_browser = settings(deadline=None, max_examples=40)
 
 
-@pytest.fixture
-def ask(visit: Visit) -> Ask:
-    return asked(visit, "scales")
+@pytest.fixture(scope="module")
+def ask(browser: Browser) -> Iterator[Ask]:
+    with asking(browser, "scales") as ask:
+        yield ask
 
 
 def lead_and_power(value: Fraction) -> tuple[int, int]:
