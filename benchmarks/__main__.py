@@ -10,6 +10,7 @@ from benchmarks import (
     cluster,
     factored,
     filter_step,
+    gantt,
     in_c,
     probability,
     processor,
@@ -36,6 +37,7 @@ for part in (
     probability,
     processor,
     cluster,
+    gantt,
     start_up,
 ):
     for result in part.results():

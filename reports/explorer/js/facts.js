@@ -10,7 +10,8 @@ const KINDS = {
   lr_gain: "covariance and gain",
   lr_step: "robust step",
 };
-const PLACES = 6;
+/** Of the numbers that are told: digits at the least, and places behind the point. */
+const [FEWEST, PLACES] = [3, 4];
 
 /** The kind of a job in words. */
 export function kindWords(kind) {
@@ -18,8 +19,8 @@ export function kindWords(kind) {
   return KINDS[kind] ?? kind.replaceAll("_", " ");
 }
 
-/** A job's {kind, row, step, work, release, start, finish, response, deadline, preemptions, missed, verdict}: times in
- *  steps, null where there is none. */
+/** A job's {kind, row, step, work, release, start, finish, response, deadline, spare, preemptions, missed, verdict}:
+ *  times in steps, null where there is none; spare: from finish to deadline. */
 export function jobFacts(line, job) {
   const { jobs, bars, styles, rows } = line.schedule;
   const [release, start, finish, deadline] = ["release", "start", "finish", "deadline"].map((name) => jobs[name][job]);
@@ -35,6 +36,7 @@ export function jobFacts(line, job) {
     finish,
     response: finish === null ? null : finish - release,
     deadline,
+    spare: finish === null ? null : deadline - finish,
     preemptions: jobs.preemptions[job],
     missed: jobs.missed[job],
     verdict: verdictOf(line, { missed: jobs.missed[job], start, finish, deadline }),
@@ -43,7 +45,7 @@ export function jobFacts(line, job) {
 
 /** By how much a job met its deadline or missed it. */
 function verdictOf(line, { missed, start, finish, deadline }) {
-  if (!missed && finish === null) return "not yet finished, and not yet due";
+  if (!missed && finish === null) return "is not finished, and not yet due";
   if (finish === deadline) return "meets its deadline, with nothing to spare";
   if (!missed) return `meets its deadline, ${bothUnits(line, deadline - finish)} to spare`;
   if (finish !== null) return `misses its deadline by ${bothUnits(line, finish - deadline)}`;
@@ -58,11 +60,11 @@ export function bothUnits(line, steps) {
 }
 
 export function inSteps(steps) {
-  return steps === null ? "never" : digits(steps, PLACES);
+  return steps === null ? "never" : digits(steps, Math.max(FEWEST, Math.ceil(Math.log10(Math.abs(steps))) + PLACES));
 }
 
 export function inMs(line, steps) {
-  return steps === null ? "never" : digits(steps * line.periodMs, PLACES);
+  return inSteps(steps === null ? null : steps * line.periodMs);
 }
 
 /** A job in one sentence, to be read out. */

@@ -6,7 +6,14 @@ import { table } from "./table.js";
 import { timeline } from "./timeline.js";
 
 const PAGE = 100;
-const TIMES = { release: "release", start: "start", finish: "finish", response: "response time", deadline: "deadline" };
+const TIMES = {
+  release: "release",
+  start: "start",
+  finish: "finish",
+  response: "response time",
+  deadline: "deadline",
+  spare: "to spare",
+};
 
 const opened = new WeakMap();
 
@@ -32,13 +39,15 @@ class Jobs {
     this.missed = html("input", { type: "checkbox" });
     this.missed.addEventListener("change", () => this.draw());
     this.choice = html("label", {}, this.missed, " only missed deadlines");
+    this.finding = html("p");
     this.rows = html("div");
     const tools = html("div", { class: "ss-jobs-tools" }, this.turning, this.choice);
-    host.replaceChildren(html("div", { class: "ss-jobs" }, tools, this.rows));
+    host.replaceChildren(html("div", { class: "ss-jobs" }, this.finding, tools, this.rows));
   }
 
   show(schedule) {
     this.line = timeline(schedule);
+    this.finding.textContent = missesSentence(schedule);
     this.choice.hidden = !this.line.misses.length;
     if (this.choice.hidden) this.missed.checked = false;
     this.draw();
@@ -60,23 +69,31 @@ class Jobs {
     this.range.textContent = `jobs ${grouped(from + 1)} to ${grouped(from + shown.length)} of ${grouped(jobs.length)}`;
     for (const button of this.back) button.setAttribute("aria-disabled", this.page === 0);
     for (const button of this.on) button.setAttribute("aria-disabled", this.page === last);
-    const caption = `Jobs by ${missed.checked ? "deadline" : "release"}: ${missesSentence(line.schedule)}`;
+    const caption = `Jobs, with times in ${line.periodMs === null ? "steps" : "steps (ms)"}`;
     table(this.rows, { caption, columns: jobColumns(line), rows: shown.map((job) => jobFacts(line, job)) });
   }
 }
 
 function jobColumns(line) {
-  const units = line.periodMs === null ? "steps" : "steps (ms)";
-  const instant = ([key, label]) => {
-    return { key, label: `${label}, ${units}`, numeric: true, text: (job) => instantText(line, job[key]) };
-  };
+  const instant = ([key, label]) => ({ key, label, numeric: true, text: (job) => instantText(line, job[key]) });
   return [
     { key: "job", label: "job", text: ({ kind, step }) => `${kind} of step ${grouped(step)}` },
+    { key: "missed", label: "verdict", text: shortVerdict, holds: meetsDeadline },
     { key: "row", label: "row" },
     ...Object.entries(TIMES).map(instant),
     { key: "preemptions", label: "preempted", text: ({ preemptions }) => (preemptions ? times(preemptions) : "never") },
-    { key: "verdict", label: "verdict", holds: ({ missed, finish }) => (missed || finish !== null ? !missed : null) },
   ];
+}
+
+/** Whether the deadline is met; null: not known yet. */
+function meetsDeadline({ missed, finish }) {
+  return missed || finish !== null ? !missed : null;
+}
+
+function shortVerdict({ missed, start, finish }) {
+  if (!missed) return finish === null ? "not yet due" : "met";
+  if (finish !== null) return "missed";
+  return start === null ? "missed, never runs" : "missed, never finishes";
 }
 
 function instantText(line, steps) {
