@@ -1,6 +1,6 @@
 // What is said of one job and of a whole schedule, in words: for the tip, the table, and who cannot see the chart.
 
-import { digits } from "./svg.js";
+import { tickText } from "./scales.js";
 
 const KINDS = {
   hr: "high-rate job",
@@ -10,8 +10,7 @@ const KINDS = {
   lr_gain: "covariance and gain",
   lr_step: "robust step",
 };
-/** Of the numbers that are told: digits at the least, and places behind the point. */
-const [FEWEST, PLACES] = [3, 4];
+const PLACES = 4;
 
 /** The kind of a job in words. */
 export function kindWords(kind) {
@@ -59,12 +58,18 @@ export function bothUnits(line, steps) {
   return `${inSteps(steps)} ${Math.abs(steps - 1) < 1e-9 ? "step" : "steps"}${ms}`;
 }
 
-export function inSteps(steps) {
-  return steps === null ? "never" : digits(steps, Math.max(FEWEST, Math.ceil(Math.log10(Math.abs(steps))) + PLACES));
+export function inSteps(steps, places = PLACES) {
+  return steps === null ? "never" : rounded(steps, places);
 }
 
 export function inMs(line, steps) {
   return inSteps(steps === null ? null : steps * line.periodMs);
+}
+
+/** To so many places, or three digits, with commas. */
+function rounded(value, places) {
+  const before = Math.ceil(Math.log10(Math.abs(value) || 1));
+  return tickText(Number(value.toPrecision(Math.min(Math.max(3, before + places), 15))));
 }
 
 /** A job in one sentence, to be read out. */

@@ -1,8 +1,8 @@
 // The Gantt chart of a schedule, to be zoomed, panned and asked about its jobs by mouse, touch or keys.
 
-import { digits, html } from "./svg.js";
+import { html } from "./svg.js";
 import { coloursOf } from "./colours.js";
-import { grouped, jobSentence, missesSentence } from "./facts.js";
+import { grouped, inSteps, jobSentence, missesSentence } from "./facts.js";
 import { listen } from "./gestures.js";
 import { ganttLegend, showLegend } from "./legend.js";
 import { drawGantt } from "./picture.js";
@@ -232,8 +232,8 @@ function ganttParts(press) {
 }
 
 function stretchWords({ first, end }, steps) {
-  const places = Math.max(3, Math.ceil(Math.log10(end / (end - first))) + 2);
-  return `${digits(first, places)} to ${digits(end, places)} of ${stepsWords(steps)}`;
+  const places = Math.max(0, 2 - Math.floor(Math.log10(end - first)));
+  return `${inSteps(first, places)} to ${inSteps(end, places)} of ${stepsWords(steps)}`;
 }
 
 function stepsWords(steps) {

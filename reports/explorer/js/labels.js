@@ -81,10 +81,7 @@ function calloutsOf({ scale, layout, line, measure }, lane) {
     const needed = measure(text) + 2 * PADDING_PX;
     const outside = [];
     for (let at = from; at < until; at += 1) {
-      const inside = works.pieces[at].some(([start, end]) => {
-        const [x, toX] = visible(scale, layout, start, end);
-        return toX - x >= needed;
-      });
+      const inside = works.pieces[at].some(([start, end]) => scale(end) - scale(start) >= needed);
       const [start, end] = visible(scale, layout, works.start[at], works.end[at]);
       if (!inside && start <= end) outside.push({ text, start, end });
     }

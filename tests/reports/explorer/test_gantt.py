@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 from axe_playwright_python.sync_playwright import Axe
+from playwright.sync_api import Browser
 
 from reports.drawing.style import FILLS, RED, TASK_FILLS
 from sched_sim.design.options import Options
@@ -15,7 +16,7 @@ from sched_sim.design.timing import Timing
 from sched_sim.schedule.tasks import Task
 from tests.browser import Visit
 from tests.reports.explorer.drawn import Chart, by_hand, late, nothing, schedule
-from tests.reports.explorer.scripts import asked
+from tests.reports.explorer.scripts import asking
 
 BLUE = FILLS["HRP"].colour
 TASKS = [Task("control", "2", "0.3", 5, "0"), Task("<b>telemetry</b>", "5", "0.7", 15, "1")]
@@ -25,15 +26,16 @@ def rgb(colour: str) -> tuple[int, int, int]:
     return int(colour[1:3], 16), int(colour[3:5], 16), int(colour[5:7], 16)
 
 
-def test_its_hatches_are_those_of_print(visit: Visit) -> None:
-    colours = asked(visit, "colours")
-    assert colours("return of.HATCHES;") == {label: fill.hatch[0] for label, fill in FILLS.items() if fill.hatch}
-    assert colours("return of.TASK_HATCHES;") == [fill.hatch[:1] for fill in TASK_FILLS]
+def test_its_hatches_are_those_of_print(browser: Browser) -> None:
+    with asking(browser, "colours") as colours:
+        assert colours("return of.HATCHES;") == {label: fill.hatch[0] for label, fill in FILLS.items() if fill.hatch}
+        assert colours("return of.TASK_HATCHES;") == [fill.hatch[:1] for fill in TASK_FILLS]
 
 
-def test_tasks_have_their_fills_in_turn_by_name_as_in_print(visit: Visit) -> None:
+def test_tasks_have_their_fills_in_turn_by_name_as_in_print(browser: Browser) -> None:
     labels = ["task:z", "HRP", "task:a", "task:b", "task:c", "task:d"]
-    names = asked(visit, "colours")("return of.fillNames(a);", [{"label": label} for label in labels])
+    with asking(browser, "colours") as colours:
+        names = colours("return of.fillNames(a);", [{"label": label} for label in labels])
     assert names == ["task0", "HRP", "task0", "task1", "task2", "task3"]
 
 

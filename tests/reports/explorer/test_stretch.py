@@ -2,25 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Iterator
 from math import isclose
-from typing import Any
 
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from playwright.sync_api import Browser
 
-from tests.browser import Visit
-from tests.reports.explorer.scripts import asked
+from tests.reports.explorer.scripts import Ask, asking
 
-Ask = Callable[..., Any]
 in_browser = settings(deadline=None, max_examples=40, suppress_health_check=[HealthCheck.function_scoped_fixture])
 share = st.floats(0, 1)
 
 
-@pytest.fixture
-def ask(visit: Visit) -> Ask:
-    return asked(visit, "stretch")
+@pytest.fixture(scope="module")
+def ask(browser: Browser) -> Iterator[Ask]:
+    with asking(browser, "stretch") as ask:
+        yield ask
 
 
 @st.composite

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import asdict
 from fractions import Fraction
 from typing import Any
 
 import pytest
+from playwright.sync_api import Browser
 
 from sched_sim.costs.table_file import load_costs
 from sched_sim.design.methods import select
@@ -16,8 +18,7 @@ from sched_sim.design.timing import Timing
 from sched_sim.schedule import intervals
 from sched_sim.schedule.outcome import Schedule
 from studies.explorer.schedule import shown
-from tests.browser import Visit
-from tests.reports.explorer.scripts import asked
+from tests.reports.explorer.scripts import Ask, asking
 
 CASES = {
     "it fits": (Timing(10, 4, 8), "0.77", Options()),
@@ -32,12 +33,18 @@ def simulated(timing: Timing, speed: str, options: Options) -> Schedule:
     return simulate(costs, timing, Fraction(speed), 2, options, keep_slices=True)
 
 
+@pytest.fixture(scope="module")
+def ask(browser: Browser) -> Iterator[Ask]:
+    with asking(browser, "timeline") as ask:
+        yield ask
+
+
 @pytest.mark.parametrize("case", CASES)
-def test_jobs_wait_and_work_late_where_the_printed_chart_says(case: str, visit: Visit) -> None:
+def test_jobs_wait_and_work_late_where_the_printed_chart_says(case: str, ask: Ask) -> None:
     schedule = simulated(*CASES[case])
     steps = schedule.horizon // schedule.period
     document = asdict(shown(schedule, steps, [], "", None))
-    line = asked(visit, "timeline")(
+    line = ask(
         """const { rows } = of.timeline(a);
         return rows.map(({ waits, start, end, late, arrows }) => ({
           waits: waits.start.map((from, at) => [from, waits.end[at]]),
