@@ -3,7 +3,7 @@
 import { svg } from "./svg.js";
 import { reusedChildren } from "./frame.js";
 import { markerPath } from "./looks.js";
-import { linePath, markedIndices } from "./paths.js";
+import { linePath, markerPlaces } from "./paths.js";
 
 const MARKERS_APART_PX = 76;
 
@@ -22,8 +22,8 @@ export function drawCurves(group, lines, { x, y, box }) {
     markers.setAttribute("fill", line.look.colour);
     const from = ((lines.indexOf(line) + 0.5) / lines.length) * apart;
     const shape = markerPath(line.look.marker);
-    const places = markedIndices(line.x, line.y, x, y, apart, from);
-    const data = places.map((at) => `M${x(line.x[at]).toFixed(1)} ${y(line.y[at]).toFixed(1)}${shape}`);
+    const places = markerPlaces(line, { x, y }, apart, from);
+    const data = places.map(([across, down]) => `M${across.toFixed(1)} ${down.toFixed(1)}${shape}`);
     markers.setAttribute("d", data.join(""));
   });
 }

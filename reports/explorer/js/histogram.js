@@ -163,7 +163,7 @@ function areWhole(edges) {
 }
 
 function tailAt({ x, y }, at) {
-  return valueAt(x, y, at, true) ?? (at > x.at(-1) && y.at(-1) === 0 ? 0 : null);
+  return at > x.at(-1) && y.at(-1) > 0 ? null : valueAt(x, y, at, true);
 }
 
 function binsTable({ title, x, y, edges, bars, tails }) {

@@ -44,32 +44,49 @@ function tenthOfPixel(pixel) {
   return pixel === null ? null : Math.round(pixel * 10) / 10;
 }
 
-/** Indices of the points that get a marker: each that is at least `apart` pixels from the one before, the first of them
- *  about `from` pixels behind the start of the line, so that lines which lie on each other differ; and all that stand
- *  alone. */
-export function markedIndices(xs, ys, x, y, apart, from = 0) {
+/** Pixels [across, down] at which a line, {x, y, step, whole}, gets a marker: some `apart` from the one before, the
+ *  first about `from` behind its start, so that lines which lie on each other differ. A step line has them wherever it
+ *  holds, at whole x where all of its own are; another one at its points, and at each that stands alone. */
+export function markerPlaces(line, { x, y }, apart, from) {
+  const points = line.x.map((at, index) => [x(at), y(line.y[index])]);
+  const known = points.map((point) => !point.includes(null));
+  const drawn = points.filter((_, index) => known[index]);
+  if (drawn.length === 0) return [];
+  const held = line.step ? heldPlaces(line, { x, y }, drawn[0][0] + from, apart) : [];
+  if (line.step) return held.length > 0 ? held : drawn.slice(0, 1);
+  let next = drawn[0][0] + from;
+  return points.filter((point, index) => {
+    const alone = !known[index - 1] && !known[index + 1];
+    if (!known[index] || (!alone && point[0] < next)) return false;
+    next = Math.max(next, point[0]) + apart;
+    return true;
+  });
+}
+
+function heldPlaces(line, { x, y }, first, apart) {
   const found = [];
-  const here = (index) => index >= 0 && index < xs.length && x(xs[index]) !== null && y(ys[index]) !== null;
-  let next = null;
-  for (let index = 0; index < xs.length; index += 1) {
-    if (!here(index)) continue;
-    const across = x(xs[index]);
-    if (next === null) next = across + from;
-    const alone = !here(index - 1) && !here(index + 1);
-    if (!alone && across < next) continue;
-    found.push(index);
-    next = Math.max(next, across) + apart;
+  const end = x(line.x[line.x.length - 1]);
+  for (let across = first; across <= end; across += apart) {
+    const at = line.whole ? Math.round(x.invert(across)) : x.invert(across);
+    const place = [x(at), y(valueAt(line.x, line.y, at, true))];
+    if (!place.includes(null)) found.push(place);
   }
   return found;
 }
 
-/** The value of a line at x: of a step line what holds there, of another one what is at that very x; null where there
- *  is nothing. xs ascend. */
+/** The value of a line at x: of a step line what holds there, behind its last point too; of another one what is at that
+ *  very x; null where there is nothing. xs ascend. */
 export function valueAt(xs, ys, at, step) {
   const index = indexAt(xs, at);
   if (index < 0) return null;
-  const exact = xs[index] === at;
-  return exact || (step && index < xs.length - 1) ? ys[index] : null;
+  return step || xs[index] === at ? ys[index] : null;
+}
+
+/** A step line with one more point, at which it still holds its last value. */
+export function heldUntil(line, end) {
+  const last = line.x.length - 1;
+  if (!line.step || last < 0 || line.x[last] >= end) return line;
+  return { ...line, x: [...line.x, end], y: [...line.y, line.y[last]] };
 }
 
 /** The last index whose x is no more than this; −1 before the first. */

@@ -5,7 +5,7 @@ import { drawCurves } from "./curves.js";
 import { acrossDomain, downDomain } from "./domains.js";
 import { plotFrame } from "./frame.js";
 import { looksOf } from "./looks.js";
-import { indexAt, pointsAlong, valueAt } from "./paths.js";
+import { heldUntil, indexAt, pointsAlong, valueAt } from "./paths.js";
 import { nearestPoint, plotReader } from "./reading.js";
 import { lineSample, plotLegend } from "./samples.js";
 import { plotSheet, quantity, saidOf } from "./sheet.js";
@@ -14,9 +14,10 @@ import { valuesOf, valuesTable } from "./values.js";
 
 /** A plot in `host`. `show({title, x: {label, log}, y: {label, log}, lines, points, limit})` draws it and may be called
  *  as often as there is a new picture. lines: [{name, x, y, step, current, notes}], x ascending, null where there is no
- *  value, notes (may be left out) a text for each point; points: [{x, y, label, current}] are designs; limit:
- *  {y, label} or null, what lies above it is shaded. `onPick(x, line)`, where it is given, is called with a point that
- *  is clicked, or that Enter is pressed on. `destroy()` takes the plot away. */
+ *  value; a step line holds each value until the next x, and the last one to the end; notes (may be left out) are texts
+ *  for its points. points: [{x, y, label, current}] are designs; limit: {y, label} or null, what lies above it is
+ *  shaded. `onPick(x, line)`, where it is given, is called with a point that is clicked, or that Enter is pressed on.
+ *  `destroy()` takes the plot away. */
 export function plot(host, { onPick = null } = {}) {
   const hidden = new Set();
   const [axes, marks, curves] = [plotFrame(), plotSigns(), svg("g")];
@@ -67,8 +68,9 @@ export function plot(host, { onPick = null } = {}) {
     if (given === null) return;
     const shown = seen();
     laid = axes.lay({ ...size, x: acrossDomain(given, shown), y: downDomain(given, shown) });
-    drawCurves(curves, shown, laid);
-    const along = shown.flatMap((line) => pointsAlong(line, laid));
+    const held = shown.map((line) => heldUntil(line, laid.x.domain[1]));
+    drawCurves(curves, held, laid);
+    const along = held.flatMap((line) => pointsAlong(line, laid));
     marks.lay({ ...laid, points: given.points, limit: given.limit, lines: along, font: size.font });
     hold();
     const line = shown.find((one) => one.name === reading?.line.name);
@@ -82,8 +84,7 @@ export function plot(host, { onPick = null } = {}) {
     const told = toldAt(found.x);
     const rows = told.map(({ look, name, text }) => ({ sign: lineSample(look), name, text }));
     const dots = told.map(({ value, look }) => ({ y: laid.y(value), look })).filter((dot) => dot.y !== null);
-    const all = told.map(({ name, text }) => `${name} ${text}`).join(", ") || "no values";
-    const heard = aloud ? `${quantity(given.y.label).name}: ${all}` : null;
+    const heard = aloud ? spokenValues(given.y.label, told, found.line.name) : null;
     read.tell({ x: laid.x(found.x), box: laid.box, heading: saidOf(given.x.label, found.x), rows, dots, aloud: heard });
   }
 
@@ -126,6 +127,11 @@ export function plot(host, { onPick = null } = {}) {
 function noteAt(line, at) {
   const text = line.notes?.[indexAt(line.x, at)];
   return text ? ` (${text})` : "";
+}
+
+function spokenValues(label, told, first) {
+  const ordered = [...told].sort((one, other) => Number(other.name === first) - Number(one.name === first));
+  return `${quantity(label).name}: ${ordered.map(({ name, text }) => `${name} ${text}`).join(", ") || "no values"}`;
 }
 
 function spokenPlot({ title, x, y, points, limit }) {

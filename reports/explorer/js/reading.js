@@ -2,12 +2,12 @@
 
 import { html, svg } from "./svg.js";
 import { reusedChildren } from "./frame.js";
-import { indexAt } from "./paths.js";
+import { valueAt } from "./paths.js";
 
 const TIP_AWAY_PX = 14;
 
-/** The point {line, x} of these lines that is nearest to a pixel: one of a line's own, or of a step line whose x are
- *  not whole any x that it holds for. Null where nothing is drawn. */
+/** The point {line, x} of these lines that is nearest to a pixel: one of a line's own, or of a step line any x that it
+ *  holds for, a whole one where all of its own are. Null where nothing is drawn. */
 export function nearestPoint(lines, x, y, across, down) {
   let best = null;
   const offer = (line, at, value) => {
@@ -18,10 +18,10 @@ export function nearestPoint(lines, x, y, across, down) {
   };
   for (const line of lines) {
     line.x.forEach((at, index) => offer(line, at, line.y[index]));
-    if (!line.step || line.whole) continue;
-    const at = Number(x.invert(across).toPrecision(4));
-    const index = indexAt(line.x, at);
-    if (index >= 0 && index < line.x.length - 1) offer(line, at, line.y[index]);
+    if (!line.step) continue;
+    const there = Math.min(Math.max(x.invert(across), x.domain[0]), x.domain[1]);
+    const at = line.whole ? Math.round(there) : Number(there.toPrecision(4));
+    if (at <= x.domain[1]) offer(line, at, valueAt(line.x, line.y, at, true));
   }
   return best === null ? null : { line: best.line, x: best.x };
 }

@@ -103,27 +103,32 @@ def test_a_value_is_that_of_the_point_or_that_which_holds(
 ) -> None:
     xs, ys = line
     index = bisect_right(xs, at) - 1
-    holds = index >= 0 and (xs[index] == at or (step and index < len(xs) - 1))
+    holds = index >= 0 and (step or xs[index] == at)
     assert ask("return of.valueAt(...a)", [xs, ys, at, step]) == (ys[index] if holds else None)
 
 
 @in_browser
-@given(line=lines(), apart=st.integers(1, 80), start=st.integers(0, 40))
-def test_markers_are_apart_and_none_that_stands_alone_is_left_out(
-    ask: Ask, line: tuple[list[float], list[Value]], apart: int, start: int
+@given(line=lines(), apart=st.integers(1, 80), start=st.integers(0, 40), step=st.booleans())
+def test_markers_are_apart_and_on_the_line_and_none_that_stands_alone_is_left_out(
+    ask: Ask, line: tuple[list[float], list[Value]], apart: int, start: int, step: bool
 ) -> None:
     xs, ys = line
-    body = "const at = (value) => value; return of.markedIndices(...a.slice(0, 2), at, at, ...a.slice(2))"
-    found = ask(body, [xs, ys, apart, start])
-    alone = {
-        index
-        for index, y in enumerate(ys)
-        if y is not None and all(not 0 <= near < len(ys) or ys[near] is None for near in (index - 1, index + 1))
-    }
-    assert alone <= set(found)
-    assert all(ys[index] is not None for index in found)
-    others = [xs[index] for index in found if index not in alone]
+    scale = "const at = (value) => value; at.invert = at;"
+    found = ask(
+        f"{scale} return of.markerPlaces(a, {{x: at, y: at}}, ...b)", {"x": xs, "y": ys, "step": step}, [apart, start]
+    )
+    known = [y is not None for y in ys]
+    alone = [
+        [x, y] for x, y, before, after in zip(xs, ys, [False, *known], [*known[1:], False], strict=False)
+        if y is not None and not before and not after
+    ]  # fmt: skip
+    assert bool(found) is any(known)
+    for x, y in found:
+        assert ys[bisect_right(xs, x) - 1] == y
+    others = [x for x, y in found if step or [x, y] not in alone]
     assert all(after - before >= apart for before, after in pairwise(others))
+    if not step:
+        assert all(place in found for place in alone)
 
 
 @in_browser
@@ -140,3 +145,11 @@ def test_points_along_a_line_are_on_it_and_leave_no_room_for_a_label(
             if y is not None and right - left > 16 and ys[xs.index(right)] is not None:
                 here = [x for x, down in along if down == y and left <= x <= right]
                 assert here
+
+
+def test_a_step_line_is_held_until_the_end_and_another_is_not(ask: Ask) -> None:
+    held = ask("return of.heldUntil({x: [4], y: [0.5], step: true}, 20)")
+    assert (held["x"], held["y"]) == ([4, 20], [0.5, 0.5])
+    line = {"x": [4], "y": [0.5], "step": False}
+    assert ask("return of.heldUntil(a, 20)", line) == line
+    assert ask("return of.heldUntil({x: [], y: [], step: true}, 20)")["x"] == []
