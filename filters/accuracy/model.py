@@ -77,9 +77,9 @@ def output_rows(outputs: ArrayLike, states: int) -> FloatArray:
     """C (outputs, n). outputs: that matrix, or the numbers of the states that are the outputs, each once."""
     array = as_array("outputs", outputs)
     if array.ndim == 1:
-        chosen = array.astype(int)
-        if not len(array) or (chosen != array).any() or (chosen < 0).any() or (chosen >= states).any():
+        if not len(array) or not np.isin(array, np.arange(states)).all():
             raise ValueError(f"outputs {outputs!r}: give numbers of states, from 0 to {states - 1}")
+        chosen = array.astype(int)
         if repeated := [int(state) for state in dict.fromkeys(chosen) if (chosen == state).sum() > 1]:
             raise ValueError(f"outputs {outputs!r}: state {repeated[0]} is there twice: give each state once")
         rows: FloatArray = np.eye(states)[chosen]

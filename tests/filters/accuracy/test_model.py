@@ -85,6 +85,12 @@ def test_outputs_by_number_are_rows() -> None:
         output_rows([0, 2, 0], 3)
 
 
+@pytest.mark.parametrize("state", [-1, 3, 0.5, 1e20, float("nan"), float("inf")])
+def test_what_is_no_number_of_a_state_is_refused(state: float) -> None:
+    with pytest.raises(ValueError, match="give numbers of states, from 0 to 2"):
+        output_rows([0, state], 3)
+
+
 def test_a_system_is_taken_as_it_is_in_step_0() -> None:
     system = linear_system(np.array([CV.Phi, 2 * CV.Phi]), [[0], [1]], CV.H, CV.Q, CV.R)
     found = linearised(system)
