@@ -6,6 +6,7 @@ import asyncio
 from collections.abc import Awaitable, Callable, Mapping
 from contextlib import suppress
 from functools import partial
+from typing import NamedTuple
 
 from starlette.applications import Starlette
 from starlette.requests import Request
@@ -26,8 +27,24 @@ GONE = 499
 """The status of an answer that nobody waits for; it is not sent."""
 
 
+class Page(NamedTuple):
+    """frame: its HTML; script: the path that it has its script from, which begins with the module `entry`."""
+
+    path: str
+    frame: str
+    script: str
+    entry: str
+
+    def is_asked_by(self, path: str) -> bool:
+        return path.startswith(f"{self.path.rstrip('/')}/")
+
+
+DESIGNS = Page("/", "index.html", "/explorer.js", "page")
+SCENARIO = Page("/scenario", "scenario.html", "/scenario.js", "scenario")
+
+
 def application(port: int, questions: Mapping[str, Question], asked: Asked) -> App:
-    """port: where it will listen; questions: by path."""
+    """port: where it will listen; questions: by path, with the page of a scenario if some are below its."""
     worker = Worker()
     waiting: set[asyncio.Task[Answer]] = set()
 
@@ -50,14 +67,16 @@ def application(port: int, questions: Mapping[str, Question], asked: Asked) -> A
                 with suppress(asyncio.CancelledError):
                     await pending
 
+    pages = [page for page in (DESIGNS, SCENARIO) if any(map(page.is_asked_by, questions))]
     routes = [
-        Route("/", _text(partial(asset, "index.html"), "text/html")),
-        Route("/explorer.js", _text(partial(module, "page"), "text/javascript")),
+        *(Route(page.path, _text(partial(asset, page.frame), "text/html")) for page in pages),
+        *(Route(page.script, _text(partial(module, page.entry), "text/javascript")) for page in pages),
         Route("/explorer.css", _text(stylesheet, "text/css")),
         Route("/favicon.ico", _no_icon),
         *(Route(path, ask) for path in questions),
     ]
-    return guarded(Starlette(routes=routes, exception_handlers={404: _not_there}), port, frozenset({"/"}))
+    app = Starlette(routes=routes, exception_handlers={404: _not_there})
+    return guarded(app, port, frozenset(page.path for page in pages))
 
 
 async def _gone(request: Request) -> None:
