@@ -30,6 +30,12 @@ class _Server(uvicorn.Server):
     def handle_exit(self, _number: int, _frame: FrameType | None) -> None:
         self.should_exit = self.force_exit = True
 
+    async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
+        """Browsers see at once that nobody answers any more."""
+        for connection in list(self.server_state.connections):
+            connection.transport.abort()
+        await super().shutdown(sockets)
+
 
 def serve(app: App, there: socket.socket) -> None:
     """Answer at the socket until SIGINT or SIGTERM."""

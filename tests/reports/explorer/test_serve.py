@@ -92,11 +92,13 @@ def running(ignoring: str = "") -> Iterator[Server]:
 def test_a_signal_ends_it_quietly_while_it_computes_and_browsers_are_connected(number: int) -> None:
     with running() as server:
         assert server.get("one") == (200, b"one")
-        with closing(server.asked("two")) as idle, closing(server.asked("forever")):
+        with closing(server.asked("two")) as idle, closing(server.asked("forever")) as computing:
             assert idle.getresponse().read() == b"two"
             assert server.line() == "computing"
             with closing(server.asked("three")):
                 assert server.end(number) == (0, "", "ended\n")
+            with pytest.raises(ConnectionError):  # so that its page says that nobody answers any more
+                computing.getresponse()
 
 
 def test_nothing_is_left_of_its_session() -> None:
