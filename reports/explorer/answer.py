@@ -12,6 +12,8 @@ from sched_sim.errors import InputError
 from sched_sim.text import json_text
 
 JSON = "application/json"
+VIEW = "/view"
+"""Where the view of a design is asked for."""
 SLOW_S = 5.0
 """After so many seconds the terminal says what is still being computed."""
 
@@ -44,7 +46,7 @@ def document(value: object, status: int = 200) -> Answer:
 class Asked:
     """Questions asked, one at a time: what came of them, and what a person at the terminal is told meanwhile.
 
-    tell: says something there. last: the query that was answered last.
+    tell: says something there. last: the query of the design that was viewed last.
     """
 
     last: str | None = None
@@ -64,7 +66,7 @@ class Asked:
         try:
             answer = question(query)
             self.answered += 1
-            self.last = query
+            self.last = query if path == VIEW else self.last
         except InputError as error:
             answer = document({"error": str(error)}, 422)
             self.refused += 1

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from reports.explorer.answer import Answer, Question, document
+from reports.explorer.answer import VIEW, Answer, Question, document
 from sched_sim.errors import InputError
 from sched_sim.text import csv_cell
 from studies.explorer.given import Given
@@ -27,7 +27,7 @@ def questions(given: Given) -> dict[str, Question]:
         return explore(design_of(query, given), given).document()
 
     asked: dict[str, Question] = {
-        "/view": lambda query: document(view(query)),
+        VIEW: lambda query: document(view(query)),
         "/schedule.svg": lambda query: schedule_picture(query, given),
         "/methods.csv": lambda query: table(method_rows(view(query)), "methods"),
         "/parts.csv": lambda query: table(part_rows(view(query)), "parts"),
