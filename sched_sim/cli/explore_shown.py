@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import sys
-import webbrowser
 from collections.abc import Mapping
 from threading import Thread
 from typing import TYPE_CHECKING
@@ -17,6 +16,8 @@ if TYPE_CHECKING:
 
 def open_browser(address: str) -> None:
     """In the background, as some browsers return only when they are closed."""
+    import webbrowser
+
     try:
         webbrowser.get()
     except webbrowser.Error:
