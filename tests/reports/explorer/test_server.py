@@ -49,7 +49,7 @@ def test_memory_that_ran_out_is_said() -> None:
     assert client(lambda _query: raising(MemoryError())).get("/view").json() == {"error": NO_MEMORY}
 
 
-@pytest.mark.parametrize("error", [ZeroDivisionError("/home/me/secret.py"), SystemExit("secret"), RecursionError()])
+@pytest.mark.parametrize("error", [ZeroDivisionError("/etc/secret.py"), SystemExit("secret"), RecursionError()])
 def test_what_nobody_thought_of_is_shown_at_the_terminal_alone_and_the_server_goes_on(error: BaseException) -> None:
     said: list[str] = []
     asked = client(lambda query: raising(error) if query == "bad" else Answer(b"good"), said.append)
