@@ -16,12 +16,12 @@ export function answerBox(box, beside, id, { onPin, onStop, onBack }) {
   pin.classList.add("ss-pin");
   const stop = button("Stop", onStop);
   const back = button("Back to the last design", onBack);
-  const line = html("div", { class: "ss-line" }, telling, seconds, stop, back, pin);
+  const line = html("div", { class: "ss-line" }, telling, seconds, stop, back);
   const warnings = html("ul", { class: "ss-warnings", "aria-label": "Warnings" });
   const notes = html("ul", { id: `${id}-notes` });
   const noted = html("details", { class: "ss-notes" }, html("summary", {}, "How this was computed"), notes);
   box.append(sentence, line);
-  beside.append(warnings, noted);
+  beside.append(warnings, pin, noted);
   let settling = null;
 
   const tell = (text, { stopping = false, backing = false } = {}) => {
@@ -29,6 +29,7 @@ export function answerBox(box, beside, id, { onPin, onStop, onBack }) {
     seconds.textContent = "";
     stop.hidden = !stopping;
     back.hidden = !backing;
+    line.hidden = text === "";
   };
   const listed = (list, texts) => {
     list.replaceChildren(...texts.map((text) => html("li", {}, text)));

@@ -37,7 +37,7 @@ export function explorer(host, { ask, query = "", pins = "", onQuery = () => {},
 
   const box = answerBox(top, beside, id, { onPin: () => board.add(view), onStop: () => asking.stop(), onBack: back });
   const form = controls(side, id, { onChange: change, onMode: (next) => turn(next) });
-  const drawn = pictures(results, id, { onTake: take, onLand: (L) => change({ L: String(L), land_within_ms: null }, { key: "L", settled: true }) });
+  const drawn = pictures(results, id, { onTake: take });
   const board = pinboard(drawn.pinned, id, { ask: (text) => asking.aside(text), onTake: take, onPins: pinned });
   const save = saving(results, id, files);
   const asking = asker(ask, {

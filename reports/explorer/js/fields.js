@@ -118,12 +118,12 @@ const DESIGN = [
 
 const FURTHER_OPTIONS = [
   {
-    key: "speed", label: "Speed", help: "standard steps per HR period",
+    key: "speed", label: "Speed", help: ({ view }) => `of the processor, in ${view.power.unit}`,
     empty: { place: "first", words: "least" },
     shown: ({ view }) => view.design.processor === null,
     value: ({ query }) => query.get("speed") ?? "",
     unit: () => "",
-    stops: () => roundStops(0.1, 20, 2),
+    stops: ({ view }) => roundStops(...[0.5, 10].map((times) => Number((times * view.current.power).toPrecision(2)))),
     write: (text) => ({ speed: text }),
   },
   optionChoice("lr_propagate_by", "Low-rate propagation", "due when the measurement arrives, or when its correction lands",

@@ -37,11 +37,19 @@ async function fetched(query, signal) {
   } catch {
     throw Object.assign(new Error(gone()), { gone: true });
   }
-  const answer = await response.json().catch(() => ({}));
-  if (!response.ok || answer.error || !answer.query) {
-    throw new Error(answer.error ?? `sched-sim explore failed to answer (HTTP ${response.status}); its terminal says more.`);
+  const text = await response.text();
+  const view = parsed(text);
+  if (response.ok && view.query) return view;
+  const why = view.error ?? (response.ok ? "" : text.trim());
+  throw new Error(why || `sched-sim explore failed to answer (HTTP ${response.status}); its terminal says more.`);
+}
+
+function parsed(text) {
+  try {
+    return JSON.parse(text) ?? {};
+  } catch {
+    return {};
   }
-  return answer;
 }
 
 function gone() {

@@ -22,17 +22,23 @@ PARTS = {"rp2040": ("RP2040 at 133 MHz", 0.2), "cortex-m4f": ("Arm Cortex-M4F at
 OUTPUTS = [{"name": "position", "unit": "m"}, {"name": "attitude", "unit": "rad"}]
 
 
-class Refused(ValueError):
+class RefusedError(ValueError):
     """What a server answers with 422."""
 
 
 def made_view(query: str) -> dict[str, Any]:
-    """The view of a query. Raises Refused for a landing before the measurement arrives, and for an unknown key."""
+    """The view of a query. Raises RefusedError for a landing before the measurement arrives, and for an unknown key."""
     given = dict(parse_qsl(query)) or START
     design = _design(given)
     N, M, L = design["N"], design["M"], design["L"]
     period_ms = None if design["hr_hz"] is None else 1000 / float(Fraction(design["hr_hz"]))
     methods = [_method(name, work, design, given) for name, work in METHODS.items()]
+    cannot = {
+        **dict.fromkeys(methods[0]),
+        "method": "augmentation",
+        "reason": "no memory of so many steps",
+        "query": "",
+    }
     now = next(row for row in methods if row["method"] == design["method"])
     misses = 1 if design["speed"] is not None and float(design["speed"]) < now["power"] else 0
     return {
@@ -47,7 +53,9 @@ def made_view(query: str) -> dict[str, Any]:
             "statistic": ["minimum", "median", "p95"],
             **OPTIONS,
         },
-        "limits": {"N": [L + 1 if "L" in given else M + 1, 2000], "M": [0, (L if "L" in given else N) - 1], "L": [M + 1, N]},
+        "limits": {
+            "N": [(L if "L" in given else M) + 1, 2000], "M": [0, (L if "L" in given else N) - 1], "L": [M + 1, N],
+        },
         "period_ms": period_ms,
         "power": {"unit": "standard steps per HR period", "short": "speed"},
         "answer": {
@@ -63,7 +71,7 @@ def made_view(query: str) -> dict[str, Any]:
             "unit": "m" if design["model"] else None, "load": _quantity(0.8), "misses": misses, "fits": None,
         },
         "schedule": _schedule(N, M, L, period_ms),
-        "methods": methods,
+        "methods": [*methods, cannot],
         "parts": [] if period_ms is None else [_part(name, given) for name in PARTS],
         "commands": {"shell": f"sched-sim minimum -N {N} -M {M}", "python": f"N = {N}\nM = {M}\nL = {L}"},
     }  # fmt: skip
@@ -71,10 +79,11 @@ def made_view(query: str) -> dict[str, Any]:
 
 def _design(given: Mapping[str, str]) -> dict[str, Any]:
     known = ["N", "M", "L", "hr_hz", "measurement_hz", "delay_ms", "land_within_ms", "method", "costs", "statistic",
-             "processor", "speed", "model", "output", "within", "metric", "cycles", "context_switch", *OPTIONS]  # fmt: skip
+             "processor", "speed", "model", "output", "within", "metric", "cycles", "context_switch",
+             *OPTIONS]  # fmt: skip
     for key in given:
         if key not in known:
-            raise Refused(f"{key} is unknown: leave it out")
+            raise RefusedError(f"{key} is unknown: leave it out")
     try:
         numbers = {
             key: Fraction(given[key])
@@ -82,13 +91,13 @@ def _design(given: Mapping[str, str]) -> dict[str, Any]:
             if key in given
         }
     except ValueError:
-        raise Refused("hr_hz is no number: give a finite number such as 400") from None
+        raise RefusedError("hr_hz is no number: give a finite number such as 400") from None
     hr = numbers.get("hr_hz", Fraction(1))
     N = int(given.get("N") or floor(hr / numbers.get("measurement_hz", Fraction(1))))
     M = int(given.get("M") or ceil(numbers.get("delay_ms", Fraction(0)) * hr / 1000))
     L = int(given.get("L") or floor(numbers.get("land_within_ms", N * 1000 / hr) * hr / 1000))
     if not M < L <= N:
-        raise Refused(
+        raise RefusedError(
             f"L={L} must be > M={M} and at most N={N}: the correction cannot land before the measurement arrives"
         )
     return {
@@ -147,14 +156,16 @@ def _schedule(N: int, M: int, L: int, period_ms: float | None) -> dict[str, Any]
     pieces = range(M, L)
     bars = {
         "row": [0] * len(steps) + [1] * len(pieces), "style": [0] * len(steps) + [1] * len(pieces),
-        "start": [*steps, *(step + 0.5 for step in pieces)], "end": [*(step + 0.5 for step in steps), *(step + 0.9 for step in pieces)],
+        "start": [*steps, *(step + 0.5 for step in pieces)],
+        "end": [*(step + 0.5 for step in steps), *(step + 0.9 for step in pieces)],
         "job": [*steps, *[len(steps)] * len(pieces)],
     }  # fmt: skip
     return {
         "steps": N, "period_ms": period_ms, "cut": "", "rows": [{"name": "HR", "cpu": 0}, {"name": "LR", "cpu": 0}],
         "styles": [{"label": "HRP", "meaning": "high-rate propagate"}, {"label": "LRU", "meaning": "low-rate update"}],
         "jobs": jobs, "bars": bars,
-        "marks": [{"step": 0, "label": "k", "meaning": "measurement taken"}, {"step": M, "label": "m", "meaning": "measurement arrives"},
+        "marks": [{"step": 0, "label": "k", "meaning": "measurement taken"},
+                  {"step": M, "label": "m", "meaning": "measurement arrives"},
                   {"step": L, "label": "l", "meaning": "correction landed"}],
         "misses": 0, "busy": 0.8,
     }  # fmt: skip

@@ -10,7 +10,7 @@ from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from typing import Any
 
 from reports.explorer.module import asset, module, stylesheet
-from tests.reports.explorer.made_view import Refused, made_view
+from tests.reports.explorer.made_view import RefusedError, made_view
 
 POLICY = "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; img-src 'self' data:"
 
@@ -46,7 +46,7 @@ class SmallServer:
         self.open.wait(20)
         try:
             return 200, "application/json", json.dumps(self.view(query))
-        except Refused as error:
+        except RefusedError as error:
             return 422, "application/json", json.dumps({"error": str(error)})
 
     @contextmanager

@@ -40,7 +40,10 @@ def test_what_is_nothing_is_left_out(visit: Visit) -> None:
 def test_steps_become_exactly_these_steps_again(visit: Visit, designs: list[tuple[Fraction, int, int]]) -> None:
     """By the rule of `Times`: N rounded down, M up."""
     ask = asked(visit, "address")
-    turn = "return a.map(([hr, N, M]) => Object.fromEntries(of.asTimes(new Map([['N', N]]), {hr_hz: hr, N, M, measurement_hz: null, delay_ms: null})));"
+    turn = """return a.map(([hr, N, M]) => {
+      const design = {hr_hz: hr, N, M, measurement_hz: null, delay_ms: null};
+      return Object.fromEntries(of.asTimes(new Map([["N", N]]), design));
+    });"""
     for (hr, N, M), times in zip(designs, ask(turn, [(str(hr), N, M) for hr, N, M in designs]), strict=True):
         assert "N" not in times
         assert floor(hr / Fraction(times["measurement_hz"])) == N

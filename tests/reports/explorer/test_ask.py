@@ -13,7 +13,8 @@ START = """() => {
   window.heard = [];
   window.calls = [];
   const hear = (kind) => (...what) => heard.push([kind, ...what]);
-  const told = Object.fromEntries(["answered", "refused", "waiting", "gone", "stopped"].map((kind) => [kind, hear(kind)]));
+  const kinds = ["answered", "refused", "waiting", "gone", "stopped"];
+  const told = Object.fromEntries(kinds.map((kind) => [kind, hear(kind)]));
   window.asking = ask.asker((query) => new Promise((resolve, reject) => calls.push({query, resolve, reject})), told);
 }"""
 

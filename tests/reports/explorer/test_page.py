@@ -84,6 +84,22 @@ def test_of_a_design_that_is_picked_the_controls_and_the_address_tell(visit: Vis
     assert field(page, "Processor").input_value() == "rp2040"
 
 
+def test_methods_that_cannot_be_are_no_rows_but_reasons(visit: Visit, server: SmallServer) -> None:
+    page = opened(visit, server, f"?{DESIGN}&within=0.3")
+    methods = page.get_by_role("region", name="Designs that keep")
+    expect(methods.get_by_role("rowheader")).to_have_text(["recalculate", "dual-rate", "clone"])
+    expect(methods.get_by_role("list", name="Why not").get_by_role("listitem")).to_have_text(
+        ["recalculate, dual-rate, clone: 0.373 m at best", "augmentation: no memory of so many steps"]
+    )
+
+
+def test_of_the_designs_that_do_the_least_is_named(visit: Visit, server: SmallServer) -> None:
+    page = opened(visit, server, f"?{DESIGN}&within=0.38")
+    methods = page.get_by_role("region", name="Designs that keep")
+    expect(methods).to_contain_text("The least will do: dual-rate, landed by step 66 (165 ms), on rp2040.")
+    expect(methods.get_by_role("rowheader")).to_have_text(["dual-rate", "clone", "recalculate"])
+
+
 def drag(page: Page, label: str, *shares: float) -> None:
     slider(page, label).scroll_into_view_if_needed()
     box = slider(page, label).bounding_box()
@@ -329,9 +345,10 @@ def test_the_answer_is_read_out_when_it_stands_still(visit: Visit, server: Small
     page.evaluate("""() => {
       window.busy = [];
       const answer = document.querySelector("[role=status]");
-      new MutationObserver(() => busy.push(answer.getAttribute("aria-busy"))).observe(answer, {subtree: true, characterData: true, childList: true});
+      const heard = new MutationObserver(() => busy.push(answer.getAttribute("aria-busy")));
+      heard.observe(answer, {subtree: true, characterData: true, childList: true});
     }""")
-    drag(page, "Land by", 1, 0.3, 0.6)
+    drag(page, "Land by", 0.9, 0.3, 0.6)
     expect(page.locator(".ss-explorer")).to_have_attribute("data-shown", re.compile("L="))
     expect(answer).not_to_have_attribute("aria-busy", "true")
     said = page.evaluate("window.busy")
