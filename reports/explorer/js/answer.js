@@ -62,7 +62,7 @@ export function answerBox(box, beside, id, { onPin, onStop, onBack }) {
       tell("Still computing", { stopping: true });
       seconds.textContent = `(${count} s)`;
     },
-    stopped: () => tell("Stopped. What is shown is the design before.", { backing: true }),
+    stopped: () => tell("Stopped. Shown is the design before.", { backing: true }),
     gone: (text) => tell(text),
     refused: (text) => tell(text, { backing: true }),
     destroy: () => clearTimeout(settling),

@@ -9,7 +9,7 @@ import { pinboard } from "./pins.js";
 import { saving } from "./save.js";
 import { html } from "./svg.js";
 
-const SAID_BESIDE = "That cannot be: why is said beside what was changed.";
+const SAID_BESIDE = "That cannot be; why is said beside what was changed.";
 
 /**
  * The explorer of the design that `query` says, a text. `ask(query, signal)` promises its view; what it rejects with is
@@ -83,7 +83,7 @@ export function explorer(host, { ask, query = "", pins = "", onQuery = () => {},
 
   function refuse() {
     const said = form.refuse(refusal, changes);
-    box.refused(said ? `${SAID_BESIDE} What is shown is the design before.` : refusal);
+    box.refused(said ? `${SAID_BESIDE} Shown is the design before.` : refusal);
     stale(true);
   }
 

@@ -226,7 +226,7 @@ def test_what_takes_long_says_so_and_can_be_stopped(visit: Visit, server: SmallS
     field(page, "Method").select_option("clone")
     expect(page.get_by_text("Still computing")).to_be_visible()
     page.get_by_role("button", name="Stop").click()
-    expect(page.get_by_text("Stopped. What is shown is the design before.")).to_be_visible()
+    expect(page.get_by_text("Stopped. Shown is the design before.")).to_be_visible()
     expect(page.locator(".ss-stale")).to_have_count(1)
     server.open.set()
     field(page, "Processor").select_option("rp2040")
