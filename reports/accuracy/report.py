@@ -9,8 +9,8 @@ from reports.accuracy import tables
 from reports.accuracy.figures import front_figure, landing_figure, slow_figure
 from reports.accuracy.results import EXAMPLE, Results
 from reports.accuracy.words import MODELS, deviation, percents, plain_name, unbroken
-from reports.charts.chart import image
 from reports.pages.numbers import significant
+from reports.pages.pictures import files, pictures
 from reports.pages.render import csv_bytes, render
 from studies.accuracy.approximations import TAU_S
 from studies.accuracy.given import MOTIONS
@@ -35,11 +35,13 @@ def build(results: Results) -> dict[str, bytes]:
         "in-flight": tables.in_flight(results),
         "slow-processor": tables.slow_processor(results),
     }
-    figures = {
-        "landing.svg": image(landing_figure([*results.landings.values()]), "svg"),
-        "front.svg": image(front_figure(results.placed), "svg"),
-        "slow-processor.svg": image(slow_figure(results.choices), "svg"),
-    }
+    figures = pictures(
+        {
+            "landing.svg": landing_figure([*results.landings.values()]),
+            "front.svg": front_figure(results.placed),
+            "slow-processor.svg": slow_figure(results.choices),
+        }
+    )
     pages = render(
         "accuracy",
         TITLE,
@@ -52,7 +54,7 @@ def build(results: Results) -> dict[str, bytes]:
     )
     return {
         **pages,
-        **figures,
+        **files(figures),
         **{f"{name}.csv": csv_bytes(table) for name, table in rows.items()},
         "all-landings.csv": csv_bytes(tables.all_landings(results)),
         "all-designs.csv": csv_bytes(tables.all_designs(results)),

@@ -19,7 +19,7 @@ from matplotlib.lines import Line2D
 from filters.arrays import FloatArray
 from sched_sim.text import visible
 
-MOST_POINTS = 120
+MOST_POINTS = 100
 """Of a curve: of more, so many evenly among them."""
 DIGITS = 4
 INTERVALS = 32

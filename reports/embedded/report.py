@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from reports.drawing.picture import image
 from reports.embedded import board_tables, tables
 from reports.embedded.compared import compared
 from reports.embedded.instructions_figure import instructions_figure
@@ -14,6 +13,7 @@ from reports.embedded.results import Results
 from reports.embedded.said import ASSUMED, about_boards, about_jobs, about_memory, about_speeds, provenance
 from reports.embedded.words import SHOWN, on_page
 from reports.live.staircase import staircase_figure
+from reports.pages.pictures import files, pictures
 from reports.pages.render import csv_bytes, render
 from studies.embedded.sources import FORMS
 
@@ -39,13 +39,15 @@ def build(results: Results) -> dict[str, bytes]:
     }
     boards = about_boards(results)
     memory = {core: board_tables.memory_bytes(results, core, "textbook") for core in board_tables.IN_PRECISION.values()}
-    figures = {
-        "least-speed.svg": image(least_speed_figure(found), "svg"),
-        "instructions.svg": image(instructions_figure(tables.per_operation(results), ASSUMED), "svg"),
-        "published.svg": image(published_figure(board_tables.timings(), boards["within"]), "svg"),
-        "memory.svg": image(memory_figure(memory), "svg"),
-        "staircase.svg": image(staircase_figure(live.runs), "svg"),
-    }
+    figures = pictures(
+        {
+            "least-speed.svg": least_speed_figure(found),
+            "instructions.svg": instructions_figure(tables.per_operation(results), ASSUMED),
+            "published.svg": published_figure(board_tables.timings(), boards["within"]),
+            "memory.svg": memory_figure(memory),
+            "staircase.svg": staircase_figure(live.runs),
+        }
+    )
     shown = {
         **rows,
         "published": board_tables.published(results),
@@ -64,4 +66,9 @@ def build(results: Results) -> dict[str, bytes]:
         live={**about_live(live), "not_run": results.said["live"]},
         made=provenance(results),
     )
-    return {**pages, **figures, **results.files(), **{f"{name}.csv": csv_bytes(table) for name, table in rows.items()}}
+    return {
+        **pages,
+        **files(figures),
+        **results.files(),
+        **{f"{name}.csv": csv_bytes(table) for name, table in rows.items()},
+    }

@@ -9,7 +9,7 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
-from reports.charts.chart import gantt, image
+from reports.charts.panels import Panel
 from reports.erkf import counts as ways
 from reports.erkf import tables
 from reports.erkf.cost_figure import Way, cost_figure
@@ -21,6 +21,7 @@ from reports.erkf.schedule import millions, one_period, speed_figure, two_rates
 from reports.erkf.singular import singular_figure
 from reports.pages.machine import legend, residue, timed_on
 from reports.pages.numbers import percent, span
+from reports.pages.pictures import files, pictures
 from reports.pages.render import csv_bytes, render
 from sched_sim.costs.methods import ROBUST_METHODS, RobustMethod
 from sched_sim.costs.table import CostTable
@@ -57,7 +58,7 @@ def build(results: Results) -> dict[str, bytes]:
         "processors": tables.processor_rows(counted, parts),
         "device": tables.device_rows(slowest),
     }
-    figures = {name: image(figure, "svg") for name, figure in _figures(results, counted, devices, slowest).items()}
+    figures = pictures(_figures(results, counted, devices, slowest))
     pages = render(
         "erkf",
         TITLE,
@@ -79,7 +80,12 @@ def build(results: Results) -> dict[str, bytes]:
         large=LARGE,
         device_last=rows["device"][-1],
     )
-    return {**pages, **figures, **results.files(), **{f"{name}.csv": csv_bytes(table) for name, table in rows.items()}}
+    return {
+        **pages,
+        **files(figures),
+        **results.files(),
+        **{f"{name}.csv": csv_bytes(table) for name, table in rows.items()},
+    }
 
 
 def _figures(
@@ -87,7 +93,7 @@ def _figures(
     counted: Mapping[SystemName, CostTable],
     devices: Mapping[SystemName, Parallel],
     slowest: Part,
-) -> dict[str, Figure]:
+) -> dict[str, Figure | Sequence[Panel]]:
     course = results.columns("drive")
     return {
         "costs.svg": cost_figure(_ways(results), 1 / HR_HZ),
@@ -109,8 +115,8 @@ def _figures(
             N,
             HR_HZ,
         ),
-        "ways.svg": _ways_gantt(counted["position"], slowest),
-        "deadlines.svg": _deadlines_gantt(counted["position"]),
+        "ways.svg": _ways_panels(counted["position"], slowest),
+        "deadlines.svg": _deadlines_panels(counted["position"]),
     }
 
 
@@ -129,7 +135,7 @@ def _ways(results: Results) -> list[Way]:
     return [way_of(way) for way in ways.ALL_WAYS]
 
 
-def _ways_gantt(table: CostTable, part: Part) -> Figure:
+def _ways_panels(table: CostTable, part: Part) -> list[Panel]:
     """Every way on one processor."""
     pace, panels = Fraction(1, HR_HZ), []
     for method in ROBUST_METHODS:
@@ -141,10 +147,10 @@ def _ways_gantt(table: CostTable, part: Part) -> Figure:
                 costs, Timing(N, 0, N), pace, title[0].upper() + title[1:], f"HR period {float(1000 * pace):g} ms"
             )
         )
-    return gantt(panels)
+    return panels
 
 
-def _deadlines_gantt(table: CostTable) -> Figure:
+def _deadlines_panels(table: CostTable) -> list[Panel]:
     """Givens at the least speeds for two L, and in one period at the faster of them."""
     costs = tables.robust_costs_of(table, "robust-givens")
     timings = [Timing(N, 0, L) for L in (N, SOON)]
@@ -153,7 +159,7 @@ def _deadlines_gantt(table: CostTable) -> Figure:
         two_rates(costs, timing, speed, f"Two rates, L = {timing.L}", _pace(speed))
         for timing, speed in zip(timings, speeds, strict=True)
     ]
-    return gantt([*panels, one_period(costs, N, speeds[-1], "In one period", _pace(speeds[-1]))])
+    return [*panels, one_period(costs, N, speeds[-1], "In one period", _pace(speeds[-1]))]
 
 
 def _pace(speed: Fraction) -> str:

@@ -3,18 +3,20 @@ what its filter bears of dropout, delay and ignorance, what it costs, and when i
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from matplotlib.figure import Figure
 
 from filters.systems.rocket import BURN_S
 from filters.systems.spring_mass import period_s
-from reports.charts.chart import gantt
-from reports.drawing.picture import image
+from reports.charts.panels import Panel
 from reports.modular import oscillator, rocket, schedule, tables, words
 from reports.modular.costs import cost_figure
 from reports.modular.late import late_figure
 from reports.modular.results import OWN_MODEL, SHOWN_PERIODS, Results
 from reports.modular.rocket_rows import READINGS
 from reports.modular.schedule_gantt import fix_panels
+from reports.pages.pictures import files, pictures
 from reports.pages.render import csv_bytes, render
 from studies.modular import oscillator as spring_mass
 from studies.modular.late_measurements import SENSORS
@@ -42,7 +44,7 @@ def build(results: Results) -> dict[str, bytes]:
         "processors": tables.verdict_on_processors(results),
         "spent": tables.spent_on(results),
     }
-    figures = {name: image(figure, "svg") for name, figure in _figures(results).items()}
+    figures = pictures(_figures(results))
     pages = render(
         "modular",
         TITLE,
@@ -55,10 +57,15 @@ def build(results: Results) -> dict[str, bytes]:
         cost=words.cost_words(results),
         schedule=words.schedule_words(results),
     )
-    return {**pages, **figures, **results.files(), **{f"{name}.csv": csv_bytes(table) for name, table in rows.items()}}
+    return {
+        **pages,
+        **files(figures),
+        **results.files(),
+        **{f"{name}.csv": csv_bytes(table) for name, table in rows.items()},
+    }
 
 
-def _figures(results: Results) -> dict[str, Figure]:
+def _figures(results: Results) -> dict[str, Figure | Sequence[Panel]]:
     misses = schedule.miss_rows_of(results.records("schedule-misses"))
     half = {name: results.records("dropout", group=name, dropout="0.5")[0] for name in (OWN_MODEL, "usual")}
     return {
@@ -82,7 +89,7 @@ def _figures(results: Results) -> dict[str, Figure]:
         "misses.svg": schedule.miss_figure(misses),
         "responses.svg": schedule.response_figure(results.columns("schedule-responses")),
         "landings.svg": schedule.landing_figure(results.columns("schedule-landings")),
-        "one-fix.svg": gantt(fix_panels(counted(), compared_at(misses))),
+        "one-fix.svg": fix_panels(counted(), compared_at(misses)),
     }
 
 

@@ -41,12 +41,12 @@ def _panel(costs: Costs, way: Way, urgency: str, clock_mhz: int) -> Panel:
     steps = DELAY + AFTER
     workload = scenario(costs, way, urgency, clock_mhz, steps=steps, seed=_seed())
     outcome = run_scenario(workload, on_slice=slices.append)
-    marks = [Mark(DELAY, "m", 0, False)]
+    marks = [Mark(DELAY, "m", 0, False, "the fix arrives")]
     landed = list(outcome.sensors[GPS].achieved)
     if landed == [DELAY]:
-        marks = [Mark(DELAY, "m = l", 0, False)]
+        marks = [Mark(DELAY, "m = l", 0, False, "the fix arrives, and its correction lands")]
     elif landed:
-        marks.append(Mark(landed[0], "l", 0, False))
+        marks.append(Mark(landed[0], "l", 0, False, "its correction lands"))
     first = DELAY - BEFORE
     merged = [_merged(piece) for piece in slices]
     shown = tuple(piece for piece in merged if piece.end > first * piece.period)

@@ -11,7 +11,6 @@ from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
-from reports.charts.chart import gantt
 from reports.charts.panels import Panel, method_panel
 from reports.drawing.legend import draw_legend, legend_height, line_entry
 from reports.drawing.style import INK, PALE, SMALL_PT, SOURCE_LINES, WIDTH_MM, Line, axes_at, drawing, page
@@ -45,8 +44,8 @@ def load_figure(
             name: [100 * float(utilization(of_form, Timing(n, 0, n), Fraction(1))) for n in periods]
             for name, of_form in costs.items()
         }
-        for number, (percents, line) in enumerate(zip(shares.values(), SOURCE_LINES, strict=False)):
-            _curve(axes, periods, percents, line, first_marker=number % MARKER_EVERY)
+        for number, ((name, percents), line) in enumerate(zip(shares.items(), SOURCE_LINES, strict=False)):
+            _curve(axes, periods, percents, line, name, first_marker=number % MARKER_EVERY)
         for n, texts in printed.items():
             for text in texts:
                 axes.plot([n], [float(text)], "o", ms=9, mfc="none", mec=INK, mew=0.9, zorder=4)
@@ -68,7 +67,9 @@ def load_figure(
         return figure
 
 
-def _curve(axes: Axes, periods: Sequence[int], percents: Sequence[float], line: Line, first_marker: int) -> None:
+def _curve(
+    axes: Axes, periods: Sequence[int], percents: Sequence[float], line: Line, name: str, first_marker: int
+) -> None:
     """With a marker on every third n, each curve on others, as some lie on one another."""
     axes.plot(
         periods,
@@ -79,6 +80,7 @@ def _curve(axes: Axes, periods: Sequence[int], percents: Sequence[float], line: 
         mew=1.3 if line.marker == "|" else 0,
         ls=line.dashes,
         lw=1.0,
+        label=name,
         markevery=(first_marker, MARKER_EVERY),
     )
 
@@ -94,13 +96,11 @@ def _percent_axis(axes: Axes, low: float, high: float, *, of_rate: bool = False)
     axes.spines["top"].set_visible(False)
 
 
-def rates_figure(table: CostTable, n: int, hr_hz: Fraction, cycles: int = 2) -> Figure:
-    """The same work in one loop and at two rates. table: costs in seconds of the method "multirate"."""
-    return gantt([one_loop_panel(table, n, hr_hz, cycles), two_rates_panel(table, n, hr_hz, cycles)])
-
-
 def two_rates_panel(table: CostTable, n: int, hr_hz: Fraction, cycles: int = 2) -> Panel:
-    """Covariance and gain in what the state updates leave of n steps."""
+    """Covariance and gain in what the state updates leave of n steps.
+
+    table: costs in seconds of the method "multirate".
+    """
     return method_panel(table, "multirate", Timing(n, 0, n), 1 / hr_hz, cycles, title="Two rates")
 
 

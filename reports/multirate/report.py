@@ -7,14 +7,14 @@ from fractions import Fraction
 from math import ceil, floor
 from typing import Any
 
-from reports.charts.chart import image
 from reports.multirate import tables
 from reports.multirate.accuracy import Curve, Family, start_figure, steady_figure
 from reports.multirate.costs import Form, every, least_time_of, our_forms, patents_form, time_of
-from reports.multirate.figures import load_figure, rates_figure, two_rates_panel
+from reports.multirate.figures import load_figure, one_loop_panel, two_rates_panel
 from reports.multirate.results import PERIODS, RECEIVER, SHOWN, Results
 from reports.multirate.words import ratio_text, scenario_text
 from reports.pages.numbers import decimal, percent, significant
+from reports.pages.pictures import files, pictures
 from reports.pages.render import csv_bytes, render
 from sched_sim.design.fit import fit
 from sched_sim.design.load import utilization
@@ -56,12 +56,14 @@ def build(results: Results) -> dict[str, bytes]:
         "processors": tables.processor_rows(asked, parts),
     }
     on_patents = on_part(own.table, patents)
-    figures = {
-        "load.svg": image(_load_figure([own, *forms.values()], patents, cases), "svg"),
-        "steady.svg": image(steady_figure(_families(results), READING_NAMES), "svg"),
-        "start.svg": image(start_figure(results.courses, results.starts), "svg"),
-        "rates.svg": image(rates_figure(on_patents, N, GANTT_HZ), "svg"),
-    }
+    figures = pictures(
+        {
+            "load.svg": _load_figure([own, *forms.values()], patents, cases),
+            "steady.svg": steady_figure(_families(results), READING_NAMES),
+            "start.svg": start_figure(results.courses, results.starts),
+            "rates.svg": [one_loop_panel(on_patents, N, GANTT_HZ), two_rates_panel(on_patents, N, GANTT_HZ)],
+        }
+    )
     pages = render(
         "patent-multirate",
         TITLE,
@@ -80,7 +82,7 @@ def build(results: Results) -> dict[str, bytes]:
     )
     return {
         **pages,
-        **figures,
+        **files(figures),
         **{f"{name}.csv": csv_bytes(table) for name, table in rows.items()},
         "accuracy.csv": csv_bytes(tables.accuracy_rows(results)),
     }

@@ -1,6 +1,7 @@
 """A report as files: one Markdown template gives the Markdown file and one self-contained HTML page.
 
-Figures stand in the Markdown as links to SVG files; in the HTML page they are the SVG itself, so that it opens offline.
+Figures stand in the Markdown as links to SVG files; in the HTML page they are the SVG itself, so that it opens offline,
+and beside it the data from which the page's script makes it alive.
 """
 
 from __future__ import annotations
@@ -16,15 +17,20 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from markdown_it import MarkdownIt
 from markupsafe import Markup
 
+from reports.pages import alive
 from reports.pages.data_uri import data_uri
+from reports.pages.pictures import Picture
 from sched_sim.errors import InputError
 from sched_sim.files.writable import check_writable, write
 
 Row = Sequence[Any]
 
 
-def render(template: str, title: str, figures: Mapping[str, bytes], **values: Any) -> dict[str, bytes]:
-    """The files "index.md" and "index.html" from templates/TEMPLATE.md.j2; `figures` are SVGs by file name."""
+FIGURE = re.compile(r'<p><img src="([^":]+\.svg)"([^>]*)></p>')
+
+
+def render(template: str, title: str, figures: Mapping[str, Picture], **values: Any) -> dict[str, bytes]:
+    """The files "index.md" and "index.html" from templates/TEMPLATE.md.j2; figures: by file name."""
     environment = Environment(
         loader=PackageLoader("reports"), undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
     )
@@ -32,13 +38,18 @@ def render(template: str, title: str, figures: Mapping[str, bytes], **values: An
     markdown = environment.get_template(f"{template}.md.j2").render(title=title, **values)
     body = MarkdownIt("commonmark", {"html": True}).enable("table").render(markdown)
     page = Environment(loader=PackageLoader("reports"), undefined=StrictUndefined, autoescape=True)
-    html = page.get_template("page.html.j2").render(title=title, body=Markup(_inlined(body, figures)))
+    html = page.get_template("page.html.j2").render(
+        title=title,
+        body=Markup(FIGURE.sub(lambda match: _figure(figures[match[1]], match[2]), body)),
+        style=Markup(alive.style()),
+        script=Markup(alive.script()),
+    )
     return {"index.md": markdown.encode(), "index.html": html.encode()}
 
 
-def _inlined(body: str, figures: Mapping[str, bytes]) -> str:
-    """Each <img src="NAME"> as the SVG itself, as a data URI: identifiers in one SVG cannot meet those of another."""
-    return re.sub(r'src="([^":]+\.svg)"', lambda match: f'src="{data_uri(figures[match[1]])}"', body)
+def _figure(picture: Picture, attributes: str) -> str:
+    """The SVG itself, as a data URI: identifiers in one SVG cannot meet those of another."""
+    return alive.figure(f'<img src="{data_uri(picture.svg)}"{attributes}>', picture.alive)
 
 
 def markdown_table(rows: Sequence[Row]) -> str:

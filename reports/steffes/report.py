@@ -5,8 +5,9 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import Any
 
-from reports.charts.chart import gantt, image, method_panel
+from reports.charts.panels import method_panel
 from reports.pages.machine import legend, marked, timed_on
+from reports.pages.pictures import files, pictures
 from reports.pages.render import csv_bytes, render
 from reports.steffes.comparisons import Speeds, cost_figure, table4_figure
 from reports.steffes.figures import achieved_figure, least_speed_figure
@@ -36,7 +37,7 @@ def build(measured: CostTable) -> dict[str, bytes]:
     paper, counted = load_costs("steffes2014"), load_costs("counted-9-3-3")
     tables = {"paper": paper, "counted": counted.normalised(), "measured": measured.normalised()}
     entry_rows, table4_rows, simulated_rows = _entries(tables), _table4(tables), _simulated(paper)
-    figures = {name: image(figure, "svg") for name, figure in _figures(tables).items()}
+    figures = pictures(_figures(tables))
     cells = steffes.cells(paper)
     waste = least_speed(select(paper, "dual-rate", Options()), WASTE)
     serial = serial_costs(paper)
@@ -74,7 +75,7 @@ def build(measured: CostTable) -> dict[str, bytes]:
     )
     return {
         **pages,
-        **figures,
+        **files(figures),
         "measured.toml": costs_text(measured).encode(),
         "tables-1-3.csv": csv_bytes(entry_rows),
         "table-4.csv": csv_bytes(table4_rows),
@@ -224,7 +225,7 @@ def _figures(tables: dict[str, CostTable]) -> dict[str, Any]:
         "table4.svg": table4_figure(table4),
         "fig1.svg": serial_timeline(paper, FIGURE_3, least_speed(serial_costs(paper), FIGURE_3).speed),
         "fig2.svg": dual_rate_timeline(paper, FIGURE_3, _least(paper, "dual-rate", FIGURE_3)),
-        "fig3.svg": gantt(panels),
+        "fig3.svg": panels,
         "least-speed.svg": least_speed_figure(paper),
         "achieved-l.svg": achieved_figure(paper),
     }

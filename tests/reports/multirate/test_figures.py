@@ -7,9 +7,10 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
+from reports.charts.chart import gantt
 from reports.multirate.accuracy import Curve, Family, start_figure, steady_figure
 from reports.multirate.costs import least_time_of, our_forms, patents_form
-from reports.multirate.figures import load_figure, one_loop_panel, rates_figure, two_rates_panel
+from reports.multirate.figures import load_figure, one_loop_panel, two_rates_panel
 from sched_sim.design.load import utilization
 from sched_sim.design.timing import Timing
 from sched_sim.processors.part import on_part
@@ -89,4 +90,4 @@ def test_one_loop_overruns_where_two_rates_do_not() -> None:
     assert loop.schedule.utilization == rates.schedule.utilization == Fraction(5 * 7626 + 166870, 250_000)
     for panel in (loop, rates):
         assert {bar.style for bar in bars(panel.schedule)} == {"SU", "CG"}
-    assert flaws(rates_figure(TABLE, 5, Fraction(20))) == []
+    assert flaws(gantt([one_loop_panel(TABLE, 5, Fraction(20)), two_rates_panel(TABLE, 5, Fraction(20))])) == []

@@ -1,0 +1,35 @@
+"""Figures that a script makes alive, and stay as they are where none runs: elements of HTML, and the script."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from functools import cache
+from typing import Any
+
+from reports.explorer.compact import compact
+from reports.explorer.module import asset, module
+
+STYLES = ("palette.css", "gantt.css", "report.css")
+
+
+def figure(still: str, data: Mapping[str, Any] | None, attributes: str = "") -> str:
+    """still: an <img> or a <table>; data: "plots", see `reports.drawing.readout`, or "panels", see
+    `reports.charts.told`; None where nothing is to be told."""
+    if data is None:
+        return f'<figure class="ss-figure"{attributes}>{still}</figure>'
+    text = json.dumps(data, ensure_ascii=False, separators=(",", ":")).replace("<", r"\u003c")
+    script = f'<script type="application/json">{text}</script>'
+    return f'<figure class="ss-figure" data-alive{attributes}>{still}{script}</figure>'
+
+
+@cache
+def style() -> str:
+    """The style sheet of such figures."""
+    return compact("".join(map(asset, STYLES)))
+
+
+@cache
+def script() -> str:
+    """The module that makes all of a page alive, to stand behind them."""
+    return compact(module("report"))
