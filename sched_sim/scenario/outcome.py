@@ -10,7 +10,7 @@ from fractions import Fraction
 from sched_sim.html_table import html_table
 from sched_sim.scenario.distribution import below_which_unresolved, finished_or_not, wilson
 from sched_sim.scenario.scenario import Sensor
-from sched_sim.schedule.outcome import Schedule
+from sched_sim.schedule.outcome import HINT, Schedule, with_chart
 
 
 @dataclass(frozen=True)
@@ -96,6 +96,10 @@ class Outcome:
         """How many deadlines were missed, of all kinds of job."""
         return sum(figures.misses for figures in self.jobs.values())
 
+    def _repr_mimebundle_(self, include: object = None, exclude: object = None) -> dict[str, str]:  # noqa: ARG002
+        """For a notebook, as of a `Schedule`."""
+        return with_chart(self.schedule, self._repr_html_())
+
     def _repr_html_(self) -> str:
         """Quantiles of the responses are of all that were released, and those of l of all that arrived."""
         jobs = [
@@ -106,12 +110,16 @@ class Outcome:
             (name, *_counts(sensor), *_quantiles(list(sensor.achieved.elements()), sensor.arrived))
             for name, sensor in self.sensors.items()
         ]
-        return html_table(
-            "Response times, in HR periods", ("job", "released", "finished", *QUANTILES, "deadlines missed"), jobs
-        ) + html_table(
-            "Measurements, and the l - k at which their corrections landed",
-            ("sensor", *COUNTS, *QUANTILES),
-            sensors,
+        return (
+            html_table(
+                "Response times, in HR periods", ("job", "released", "finished", *QUANTILES, "deadlines missed"), jobs
+            )
+            + html_table(
+                "Measurements, and the l - k at which their corrections landed",
+                ("sensor", *COUNTS, *QUANTILES),
+                sensors,
+            )
+            + ("" if self.schedule.slices else HINT)
         )
 
 

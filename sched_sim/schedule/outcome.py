@@ -113,6 +113,10 @@ class Schedule:
         """The busy share of the processors' time, between 0 and 1."""
         return Fraction(self.busy, self.horizon * self.cpus)
 
+    def _repr_mimebundle_(self, include: object = None, exclude: object = None) -> dict[str, str]:  # noqa: ARG002
+        """For a notebook: a Gantt chart above the table, if slices were kept and there is what draws them."""
+        return with_chart(self, self._repr_html_())
+
     def _repr_html_(self) -> str:
         from sched_sim.html_table import html_table
 
@@ -136,4 +140,15 @@ class Schedule:
             f"periods",
             headings,
             rows,
-        )
+        ) + ("" if self.slices else HINT)
+
+
+HINT = "<p>Simulated with <code>keep_slices=True</code> it is shown as a Gantt chart.</p>"
+
+
+def with_chart(schedule: Schedule, table: str) -> dict[str, str]:
+    """By media type, as a notebook asks for it; nothing where there is no chart. table: what stands below, as HTML."""
+    from sched_sim.shown import drawing
+
+    draw = drawing("Schedule") if schedule.slices else None
+    return {} if draw is None else {"text/html": draw(schedule, table)}
