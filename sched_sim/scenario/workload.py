@@ -27,20 +27,24 @@ class Workload:
 
     @property
     def kinds(self) -> list[str]:
-        """Of jobs: the filter's, then the tasks'."""
-        scenario = self.scenario
-        dual_rate = scenario.late == "dual-rate"
-        of_sensors = []
-        for sensor in scenario.sensors:
-            if dual_rate:
-                of_sensors.append(gain_kind(sensor))
-            of_sensors.append(correct_kind(sensor))
-            if dual_rate and sensor.dropout:
-                of_sensors.append(loss_kind(sensor))
-        return ["predict", *of_sensors, *(f"task:{task.name}" for task in scenario.tasks)]
+        """Of jobs."""
+        return kinds_of_jobs(self.scenario)
 
     def tasks(self) -> list[TaskSource]:
         return [TaskSource(task, self.scenario.speed, self.resolution) for task in self.scenario.tasks]
+
+
+def kinds_of_jobs(scenario: Scenario) -> list[str]:
+    """The filter's, then the tasks'."""
+    dual_rate = scenario.late == "dual-rate"
+    of_sensors = []
+    for sensor in scenario.sensors:
+        if dual_rate:
+            of_sensors.append(gain_kind(sensor))
+        of_sensors.append(correct_kind(sensor))
+        if dual_rate and sensor.dropout:
+            of_sensors.append(loss_kind(sensor))
+    return ["predict", *of_sensors, *(f"task:{task.name}" for task in scenario.tasks)]
 
 
 def workload(scenario: Scenario) -> Workload:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import fields
 from fractions import Fraction
 from typing import Any
@@ -38,7 +38,7 @@ def design_of(query: str, given: Given = Given()) -> Design:
     text = query.removeprefix("?")
     if not text:
         return given.start
-    values = _values(text)
+    values = pairs_of(text, KEYS)
     said = {name: _value(name, values[name]) for name in values}
     chosen = {name: said.pop(name) for name in OF_OPTIONS if name in said}
     return Design(**said, options=Options(**chosen))
@@ -77,7 +77,10 @@ def _text(value: Any) -> str:
     return number_text(value) if isinstance(value, Fraction) else str(value)
 
 
-def _values(text: str) -> dict[str, str]:
+def pairs_of(text: str, keys: Sequence[str]) -> dict[str, str]:
+    """Of a query that may have these keys. Raises InputError for another, and for one that is there twice."""
+    if not text:
+        return {}
     if len(text) > LONGEST:
         raise InputError(f"the query has {len(text):,} letters: at most {LONGEST:,} are read")
     try:
@@ -86,9 +89,9 @@ def _values(text: str) -> dict[str, str]:
         raise InputError(f"the query is {short(repr(text))}: give key=value pairs with & between them") from None
     values: dict[str, str] = {}
     for key, value in pairs:
-        if key not in KEYS:
+        if key not in keys:
             raise InputError(
-                f"the query's key {short(repr(key))} is unknown: {did_you_mean(key, KEYS)}choose from {', '.join(KEYS)}"
+                f"the query's key {short(repr(key))} is unknown: {did_you_mean(key, keys)}choose from {', '.join(keys)}"
             )
         if key in values:
             raise InputError(
@@ -100,9 +103,7 @@ def _values(text: str) -> dict[str, str]:
 
 def _value(key: str, text: str) -> Any:
     if key in WHOLE:
-        if not _DIGITS.fullmatch(text):
-            raise InputError(f"{option(key)} is {short(repr(text))}: give a whole number")
-        return int(text)
+        return whole_number(key, text)
     if key == "context_switch":
         return exact(text, option(key))
     if known := choices().get(key):
@@ -110,6 +111,13 @@ def _value(key: str, text: str) -> Any:
             raise InputError(f"{option(key)} is {short(repr(text))}: choose from {', '.join(map(str, known))}")
         return text
     return text
+
+
+def whole_number(key: str, text: str) -> int:
+    """Raises InputError for a text that is none."""
+    if not _DIGITS.fullmatch(text):
+        raise InputError(f"{option(key)} is {short(repr(text))}: give a whole number")
+    return int(text)
 
 
 DEFAULTS = texts(Design())

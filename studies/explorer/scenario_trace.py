@@ -5,6 +5,7 @@ from __future__ import annotations
 from array import array
 from bisect import bisect_left, bisect_right
 from math import inf, nan
+from typing import Any
 
 import numpy as np
 
@@ -119,8 +120,20 @@ class Trace:
             self.advance(STRIDE)
         return self.knows(until)
 
-    def next_miss(self, after: float, kinds: set[str] | None = None) -> int | None:
-        """The number, among the misses that are known, of the first of these kinds whose deadline is later."""
+    def search(self, after: int, kinds: set[str] | None, most: int) -> dict[str, Any] | None:
+        """The first miss of a job of these kinds, or of any, whose deadline is after the start of step `after`; goes on
+        by so many steps at most, until it is known."""
+        end = self.reached + most
+        while (found := self._next_miss(after, kinds)) is None and self.reached < min(end, self.scenario.steps):
+            self.advance(STRIDE)
+        if found is None:
+            return None
+        job = self.misses.job[found]
+        kind = list(self.kinds)[self.jobs.kind[job]]
+        return {"deadline": self.misses.deadline[found], "kind": kind, "step": self.jobs.step[job]}
+
+    def _next_miss(self, after: float, kinds: set[str] | None) -> int | None:
+        """Its number among those that are known."""
         deadlines = np.frombuffer(self.misses.deadline) if self.misses.deadline else np.zeros(0)
         wanted = deadlines > after
         if kinds is not None and wanted.any():

@@ -20,8 +20,6 @@ Floats: TypeAlias = npt.NDArray[np.float64]
 Columns: TypeAlias = dict[str, npt.NDArray[Any]]
 Document: TypeAlias = dict[str, Any]
 
-MOST_STEPS = 2_000
-"""Of one window."""
 MOST_JOBS = 5_000
 """Of one window. Where work piles up, more wait: then those are left out that were released last and did not run."""
 MOST_MARKS = 60

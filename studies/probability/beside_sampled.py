@@ -14,7 +14,7 @@ from sched_sim.scenario.load import loads
 from sched_sim.scenario.scenario import Scenario, Sensor
 from sched_sim.shares import percent
 from studies.probability.answer import exactly, mean
-from studies.probability.of_scenario import as_designs
+from studies.probability.of_scenario import AsDesigns, as_designs
 from studies.probability.unseen import resolution
 
 MOST_LOAD = 0.9
@@ -47,14 +47,20 @@ class Beside(NamedTuple):
     landing: Mapping[int, Exact] = {}
 
 
+def followed(scenario: Scenario) -> AsDesigns | str:
+    """The designs that are followed exactly, or why there are none, in words."""
+    designs = as_designs(scenario)
+    if not isinstance(designs, str) and (load := sum(one.share for one in loads(scenario))) > MOST_LOAD:
+        return f"the load is {percent(load)}, and what is left to do would be followed for long"
+    return designs
+
+
 def beside_sampled(scenario: Scenario) -> Beside:
     """Of the first cycles of the scenario, at most a thousand. Raises InputError where its costs are more than can be
     followed."""
-    designs = as_designs(scenario)
+    designs = followed(scenario)
     if isinstance(designs, str):
         return Beside({}, 0, designs)
-    if (load := sum(one.share for one in loads(scenario))) > MOST_LOAD:
-        return Beside({}, 0, f"the load is {percent(load)}, and what is left to do would be followed for long")
     (sensor,) = scenario.sensors
     predict = exactly(designs.predict)
     own, cycles = resolution(designs.predict), designs.predict.cycles
