@@ -10,7 +10,8 @@ from typing import Literal
 from sched_sim.errors import option
 from sched_sim.rounding import no_less
 from studies.explorer.accuracy import Accuracy
-from studies.explorer.methods import Planned, binding_words
+from studies.explorer.methods import binding_words
+from studies.explorer.planned import Planned
 from studies.explorer.query import number_text
 from studies.explorer.resolved import Resolved
 from studies.explorer.schedule import Timeline

@@ -13,8 +13,8 @@ from sched_sim.processors.part_file import load_part, shipped_parts
 from studies.explorer.accuracy import accuracy
 from studies.explorer.answer import Found
 from studies.explorer.given import Given
-from studies.explorer.methods import planned
 from studies.explorer.parts import Where, verdicts, where_of
+from studies.explorer.planned import planned
 from studies.explorer.query import design_of
 from studies.explorer.question import question_of
 from studies.explorer.resolved import resolved
