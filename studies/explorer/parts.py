@@ -6,7 +6,6 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import lru_cache
-from pathlib import Path
 
 from sched_sim.costs.table import COUNTED, INSTRUCTION, SECONDS, CostTable
 from sched_sim.design.options import Options
@@ -60,7 +59,7 @@ def where_of(asked: Resolved) -> tuple[Where | None, str]:
         return None, f"no parts: {table.name} has no counted operations: choose other costs, such as {COUNTED}"
     if asked.part is None and asked.design.options.context_switch:
         return None, f"no parts: {option('context_switch')} is no time beside counts: choose a processor, for seconds"
-    if asked.part is None and given.tasks and not isinstance(given.tasks, Path):
+    if asked.part is None and asked.tasks:
         return None, "no parts: the costs of the tasks are no times: choose a processor"
     tasks = given.tasks_in("second", Fraction(1), rate)
     return Where(table, parts, rate, asked.design.options, asked.design.statistic, tasks), ""
