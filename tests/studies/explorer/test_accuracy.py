@@ -19,7 +19,7 @@ from tests.studies.explorer.questions import question, questions
 LOSSY = ("px4-predictor", "fuse-as-fresh")
 
 
-@settings(max_examples=20)
+@settings(max_examples=8)
 @given(questions())
 def test_it_is_that_of_a_comparison_at_each_landing(asked: Question) -> None:
     for method in METHODS:

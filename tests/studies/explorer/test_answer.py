@@ -119,7 +119,7 @@ def test_in_words(query: str, state: str, sentence: str) -> None:
     assert (said.state, said.sentence) == (state, sentence)
 
 
-@settings(max_examples=30)
+@settings(max_examples=12)
 @given(
     st.sampled_from(["dual-rate", "larsen", "clone", "delayed-horizon"]),
     st.integers(1, 9),

@@ -88,8 +88,8 @@ def test_where_no_part_is_fast_enough_the_nearest_is_told() -> None:
 @pytest.mark.parametrize("rate", [400, 2800])
 def test_the_first_place_is_that_of_all_of_them_by_cost(rate: int) -> None:
     """Also for a landing after the next measurement, whose least speed may take a search."""
-    asked = question(N=10, M=4, hr_hz=rate)
-    timing = asked.sampling.timing(4, 13)
+    asked = question(N=4, M=1, hr_hz=rate, parts=PARTS[::3])
+    timing = asked.sampling.timing(1, 5)
     for options in (Options(), Options(cpus=2), Options(feedback="same-step", lr_propagate_by="l")):
         at = where(replace(asked, options=options))
         assert at is not None
