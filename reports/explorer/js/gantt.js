@@ -17,8 +17,8 @@ const BUTTON_ZOOM = 2;
 const KEY_PAN = 0.2;
 const PRINT_RATIO = 3;
 
-/** A chart in `host`: {show(schedule), destroy()}. `show`: a view's schedule; of one with as many steps, the stretch
- *  that is shown and the job in focus stay. */
+/** A chart in `host`, empty until it is shown a schedule: {show(schedule), destroy()}. `show`: a view's schedule; of
+ *  one with as many steps, the stretch that is shown and the job in focus stay. */
 export function ganttChart(host) {
   const chart = new Gantt(host);
   return { show: (schedule) => chart.show(schedule), destroy: () => chart.destroy() };
@@ -49,6 +49,7 @@ class Gantt {
   show(schedule) {
     const before = this.line;
     this.line = timeline(schedule);
+    this.parts.root.hidden = false;
     if (before?.steps !== this.line.steps) this.stretch = wholeStretch(this.line.steps);
     const of = before?.schedule.jobs;
     this.job = this.job === null ? null : sameJob(this.line, of.kind[this.job], of.step[this.job]);
@@ -227,7 +228,7 @@ function ganttParts(press) {
   const keys = html("p", { class: "ss-gantt-keys", "aria-hidden": "true" }, KEYS);
   const live = html("p", { class: "ss-gantt-live", "aria-live": "polite" });
   const legend = html("ul", { class: "ss-gantt-legend", "aria-label": "Legend" });
-  const root = html("div", { class: "ss-gantt" }, head, frame, keys, live, legend);
+  const root = html("div", { class: "ss-gantt", hidden: true }, head, frame, keys, live, legend);
   return { root, finding, range, tools, frame, canvas, live, legend };
 }
 

@@ -47,7 +47,8 @@ export function showLegend(list, entries, look) {
 function markEntries(marks) {
   const of = new Map();
   for (const { label, meaning } of marks) {
-    if (!of.has(label[0])) of.set(label[0], meaning.split(",")[0].replace(/ \d+/, ""));
+    const symbols = label.split(" = ");
+    meaning.split(", ").forEach((each, index) => of.set(symbols[index][0], each.replace(/ \d+/, "")));
   }
   return [...of].map(([symbol, text]) => ({ symbol, text }));
 }

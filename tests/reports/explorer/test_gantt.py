@@ -60,6 +60,7 @@ def test_its_legend_says_what_runs_and_what_the_signs_mean(method: str, visit: V
     assert all(f"{label}  {FILLS[label].meaning}" in said for label in wanted)
     assert "release" in said
     assert "measurement arrives" in said
+    assert "correction lands" in said
     assert "missed" not in said
 
 
