@@ -98,9 +98,9 @@ function airy(label) {
   return label.replaceAll("+", " + ");
 }
 
-/** "l = k+29" as symbols in italics and the rest upright. */
+/** "l = k+29" as symbols, which are single letters, in italics and the rest upright. */
 function symbolsOf(label) {
-  return airy(label).split(/([A-Za-z]+)/).map((text, index) => [text, index % 2 === 1]);
+  return airy(label).split(/(?<![A-Za-z])([A-Za-z])(?![A-Za-z])/).map((text, index) => [text, index % 2 === 1]);
 }
 
 /** Dashed lines down the rows and their labels above. */

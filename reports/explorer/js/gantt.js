@@ -6,7 +6,7 @@ import { grouped, inSteps, jobSentence, missesSentence } from "./facts.js";
 import { listen } from "./gestures.js";
 import { ganttLegend, showLegend } from "./legend.js";
 import { drawGantt } from "./picture.js";
-import { isWhole, movedStretch, stretchWith, wholeStretch, zoomedStretch } from "./stretch.js";
+import { movedStretch, sameStretch, stretchWith, zoomedStretch } from "./stretch.js";
 import { themeOf, watchTheme } from "./theme.js";
 import { timeline } from "./timeline.js";
 import { jobTip } from "./tip.js";
@@ -17,8 +17,8 @@ const BUTTON_ZOOM = 2;
 const KEY_PAN = 0.2;
 const PRINT_RATIO = 3;
 
-/** A chart in `host`, empty until it is shown a schedule: {show(schedule), destroy()}. `show`: a view's schedule; of
- *  one with as many steps, the stretch that is shown and the job in focus stay. */
+/** A chart in `host`, empty until it is shown a schedule: {show(schedule), destroy()}. `show`: a view's schedule; with
+ *  `first` and `last`, a part of it to begin with. Of one with the same steps, the stretch that is shown stays. */
 export function ganttChart(host) {
   const chart = new Gantt(host);
   return { show: (schedule) => chart.show(schedule), destroy: () => chart.destroy() };
@@ -50,7 +50,10 @@ class Gantt {
     const before = this.line;
     this.line = timeline(schedule);
     this.parts.root.hidden = false;
-    if (before?.steps !== this.line.steps) this.stretch = wholeStretch(this.line.steps);
+    const { whole } = this.line;
+    if (!sameStretch(before?.whole, whole)) {
+      this.stretch = { first: schedule.first ?? whole.first, end: schedule.last ?? whole.end };
+    }
     const of = before?.schedule.jobs;
     this.job = this.job === null ? null : sameJob(this.line, of.kind[this.job], of.step[this.job]);
     this.hovered = null;
@@ -70,7 +73,7 @@ class Gantt {
     return {
       zoom: (factor, x) => this.zoom(factor, x),
       pan: (px) => this.pan(px),
-      whole: () => this.to(wholeStretch(this.line.steps)),
+      whole: () => this.to(this.line.whole),
       hover: (point) => this.hover(point && jobAt(this.line, this.drawn.layout, this.drawn.scale, point)),
       pick: (point) => this.pick(jobAt(this.line, this.drawn.layout, this.drawn.scale, point)),
       key: (key) => this.key(key),
@@ -81,7 +84,7 @@ class Gantt {
     const { line, job, stretch } = this;
     if (name === "out") this.zoom(BUTTON_ZOOM, null);
     if (name === "in") this.zoom(1 / BUTTON_ZOOM, null);
-    if (name === "whole") this.to(wholeStretch(line.steps));
+    if (name === "whole") this.to(line.whole);
     if (name === "previous") this.walk(jobBeside(line, job, -1, stretch));
     if (name === "next") this.walk(jobBeside(line, job, 1, stretch));
     if (name === "miss") this.walk(nextMiss(line, job));
@@ -99,8 +102,8 @@ class Gantt {
       End: () => jobAtEnd(line, job, true, stretch),
     };
     if (key in walks) return line.schedule.jobs.row.length > 0 && this.walk(walks[key]());
-    if (key === "ShiftArrowLeft") return this.to(movedStretch(stretch, -KEY_PAN * length, line.steps));
-    if (key === "ShiftArrowRight") return this.to(movedStretch(stretch, KEY_PAN * length, line.steps));
+    if (key === "ShiftArrowLeft") return this.to(movedStretch(stretch, -KEY_PAN * length, line.whole));
+    if (key === "ShiftArrowRight") return this.to(movedStretch(stretch, KEY_PAN * length, line.whole));
     if (key === "Escape" && job !== null) return this.pick(null);
     return false;
   }
@@ -111,18 +114,17 @@ class Gantt {
     const around = this.job === null ? null : spanOf(this.line, this.job)[0];
     const middle = around === null || around < first || around > end ? (first + end) / 2 : around;
     const at = x === null ? middle : this.drawn.scale.invert(x);
-    return this.to(zoomedStretch(this.stretch, factor, at, this.line.steps));
+    return this.to(zoomedStretch(this.stretch, factor, at, this.line.whole));
   }
 
   pan(px) {
     const { scale } = this.drawn;
-    return this.to(movedStretch(this.stretch, scale.invert(px) - scale.invert(0), this.line.steps));
+    return this.to(movedStretch(this.stretch, scale.invert(px) - scale.invert(0), this.line.whole));
   }
 
   /** Shows another stretch; whether it is another. */
   to(stretch) {
-    const { first, end } = this.stretch;
-    if (stretch.first === first && stretch.end === end) return false;
+    if (sameStretch(this.stretch, stretch)) return false;
     this.stretch = stretch;
     this.drawSoon();
     return true;
@@ -146,7 +148,7 @@ class Gantt {
   walk(job) {
     if (job === null) return false;
     this.hovered = null;
-    this.stretch = stretchWith(this.stretch, ...spanOf(this.line, job), this.line.steps);
+    this.stretch = stretchWith(this.stretch, ...spanOf(this.line, job), this.line.whole);
     this.pick(job);
     this.drawSoon();
     return true;
@@ -166,8 +168,8 @@ class Gantt {
     this.look = look;
     this.drawn = drawGantt(canvas, this.line, this.stretch, this.width, this.colours, ratio);
     showLegend(legend, ganttLegend({ line: this.line, colours: this.colours }, this.drawn.every), look);
-    const whole = isWhole(this.stretch, this.line.steps);
-    range.textContent = whole ? stepsWords(this.line.steps) : stretchWords(this.stretch, this.line.steps);
+    const whole = sameStretch(this.stretch, this.line.whole);
+    range.textContent = stretchWords(this.stretch, this.line.whole);
     for (const name of ["out", "whole"]) tools[name].setAttribute("aria-disabled", whole);
     this.tell();
   }
@@ -193,7 +195,7 @@ class Gantt {
     const notes = [`${Math.round(100 * schedule.busy)}\u00a0%\u00a0busy`, schedule.cut].filter(Boolean);
     const verdict = misses.length ? html("strong", { class: "ss-gantt-missed" }, `✗ ${said}`) : said;
     finding.replaceChildren(verdict, ...notes.map((text) => ` · ${text}`));
-    frame.setAttribute("aria-label", `Gantt chart of ${stepsWords(schedule.steps)}: ${[said, ...notes].join("; ")}`);
+    frame.setAttribute("aria-label", `Gantt chart of ${stretchWords(this.line.whole, this.line.whole)}: ${[said, ...notes].join("; ")}`);
     tools.miss.hidden = !misses.length;
     tools.previous.hidden = tools.next.hidden = !schedule.jobs.row.length;
   }
@@ -232,11 +234,11 @@ function ganttParts(press) {
   return { root, finding, range, tools, frame, canvas, live, legend };
 }
 
-function stretchWords({ first, end }, steps) {
-  const places = Math.max(0, 2 - Math.floor(Math.log10(end - first)));
-  return `${inSteps(first, places)} to ${inSteps(end, places)} of ${stepsWords(steps)}`;
-}
-
-function stepsWords(steps) {
-  return `${grouped(steps)} ${steps === 1 ? "step" : "steps"}`;
+/** "steps 18 to 31 of 80", "80 steps". */
+function stretchWords({ first, end }, whole) {
+  const shown = end - first;
+  const places = Math.max(0, 2 - Math.floor(Math.log10(shown)));
+  const part = `steps ${inSteps(first, places)} to ${inSteps(end, places)}`;
+  if (shown < whole.end - whole.first) return whole.first ? part : `${part} of ${grouped(whole.end)}`;
+  return whole.first ? part : `${grouped(whole.end)} ${whole.end === 1 ? "step" : "steps"}`;
 }

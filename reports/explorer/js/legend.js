@@ -43,12 +43,13 @@ export function showLegend(list, entries, look) {
   list.replaceChildren(...items);
 }
 
-/** One for each letter, with what it means in any cycle. */
+/** One for each symbol, with what it means in any cycle. */
 function markEntries(marks) {
   const of = new Map();
-  for (const { label, meaning } of marks) {
+  for (const { label, meaning } of marks.filter((mark) => mark.meaning)) {
     const symbols = label.split(" = ");
-    meaning.split(", ").forEach((each, index) => of.set(symbols[index][0], each.replace(/ \d+/, "")));
+    const meanings = symbols.length > 1 ? meaning.split(", ") : [meaning];
+    meanings.forEach((each, index) => of.set(symbols[index].split("+")[0], each.replace(/ \d+/, "")));
   }
   return [...of].map(([symbol, text]) => ({ symbol, text }));
 }

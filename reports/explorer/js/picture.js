@@ -66,12 +66,13 @@ function measured(context, font) {
 /** Which part of all steps is shown, where that is not all. */
 function drawTrack({ context, scale, layout, colours, line }) {
   const [first, end] = scale.domain;
-  if (first <= 0 && end >= line.steps) return;
+  const steps = line.whole.end - line.whole.first;
+  if (end - first >= steps) return;
   const across = layout.right - layout.left;
   const y = layout.height - TRACK_PX;
   context.fillStyle = colours.pale;
   context.fillRect(layout.left, y, across, TRACK_PX);
   context.fillStyle = colours.accent;
-  const length = Math.max(((end - first) / line.steps) * across, 6);
-  context.fillRect(layout.left + Math.min((first / line.steps) * across, across - length), y, length, TRACK_PX);
+  const length = Math.max(((end - first) / steps) * across, 6);
+  context.fillRect(layout.left + Math.min(((first - line.whole.first) / steps) * across, across - length), y, length, TRACK_PX);
 }

@@ -1,7 +1,10 @@
 // A schedule made ready for drawing: by row, in order of time, to be found by halving.
 
-/** {steps, periodMs, styles, marks, rows, pieces, misses, schedule}. Of each row: its bars and work, when a job waits,
- *  releases and deadlines; `pieces`: of each job, as indices of bars; `misses`: the jobs that miss, by deadline. */
+import { wholeStretch } from "./stretch.js";
+
+/** {steps, whole, periodMs, styles, marks, rows, pieces, misses, schedule}; whole: the steps there are, from the
+ *  schedule's `origin`, where it has one, to `steps`. Of each row: its bars and work, when a job waits, releases and
+ *  deadlines; `pieces`: of each job, as indices of bars; `misses`: the jobs that miss, by deadline. */
 export function timeline(schedule) {
   const { jobs, bars } = schedule;
   const barsOf = indicesBy(bars.row, schedule.rows.length, (one, other) => bars.start[one] - bars.start[other]);
@@ -21,11 +24,8 @@ export function timeline(schedule) {
   for (const row of rows) row.calls = row.works.some((works) => works !== null);
   const missed = [...jobs.missed.keys()].filter((job) => jobs.missed[job]);
   const misses = missed.sort((one, other) => jobs.deadline[one] - jobs.deadline[other]);
-  return { ...named(schedule), rows, pieces, misses, schedule };
-}
-
-function named({ steps, period_ms: periodMs, styles, marks }) {
-  return { steps, periodMs, styles, marks };
+  const { steps, period_ms: periodMs, styles, marks, origin = 0 } = schedule;
+  return { steps, whole: wholeStretch(origin, steps), periodMs, styles, marks, rows, pieces, misses, schedule };
 }
 
 /** The first index in ascending `values` of one that is greater than `value`. */

@@ -131,6 +131,27 @@ def test_another_schedule_with_as_many_steps_keeps_the_stretch_and_makes_no_elem
     assert chart.range == "20 steps"
 
 
+def test_a_window_of_a_run_begins_where_it_says(visit: Visit) -> None:
+    marks = [{"step": 203, "label": f"{letter} {name}", "meaning": f"{name} {does}"}
+             for name in ("gps", "camera") for letter, does in (("k", "measures"), ("l", "has landed"))]  # fmt: skip
+    window = by_hand(220, ((step, step + 0.5, step + 1) for step in range(200, 220)))
+    chart = Chart(visit, {**window, "origin": 200, "marks": marks})
+    assert chart.range == "steps 200 to 220"
+    assert min(chart.columns(rgb(FILLS["P"].colour))) < 60
+    assert all(f"{mark['label']}{mark['meaning']}" in chart.text("legend").replace("\n", "") for mark in marks)
+    chart.press("-")
+    assert chart.range == "steps 200 to 220"
+    chart.press("+")
+    assert chart.range == "steps 203.3 to 216.7"
+
+
+def test_it_begins_with_a_part_where_one_is_given(visit: Visit) -> None:
+    chart = Chart(visit, {**schedule(), "first": 3, "last": 7})
+    assert chart.range == "steps 3 to 7 of 10"
+    chart.click("show all steps")
+    assert chart.range == "10 steps"
+
+
 def test_it_is_as_wide_as_its_place(visit: Visit) -> None:
     chart = Chart(visit, schedule(), width=1000)
     for width in (360, 1400):

@@ -20,7 +20,7 @@ def middle(chart: Chart) -> tuple[float, float]:
 def stretch(chart: Chart) -> tuple[float, float]:
     """The first step and the end of those that are shown."""
     words = chart.range.split()
-    return (0.0, float(words[0])) if words[1] == "steps" else (float(words[0]), float(words[2]))
+    return (0.0, float(words[0])) if words[1] == "steps" else (float(words[1]), float(words[3]))
 
 
 def test_what_is_hovered_tells_of_itself(visit: Visit) -> None:

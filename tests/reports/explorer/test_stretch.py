@@ -22,28 +22,32 @@ def ask(browser: Browser) -> Iterator[Ask]:
         yield ask
 
 
+Stretch = dict[str, float]
+
+
 @st.composite
-def stretches(draw: st.DrawFn) -> tuple[dict[str, float], int]:
-    steps = draw(st.integers(1, 100_000))
+def stretches(draw: st.DrawFn) -> tuple[Stretch, Stretch]:
+    """A stretch and the whole that it is of."""
+    origin, steps = draw(st.integers(0, 10_000)), draw(st.integers(1, 100_000))
     length = draw(st.floats(0.02, steps))
-    first = draw(share) * (steps - length)
-    return {"first": first, "end": first + length}, steps
+    first = origin + draw(share) * (steps - length)
+    return {"first": first, "end": first + length}, {"first": origin, "end": origin + steps}
 
 
-def within(stretch: dict[str, float], steps: int) -> bool:
-    return 0 <= stretch["first"] < stretch["end"] <= steps * (1 + 1e-12)
+def within(stretch: Stretch, whole: Stretch) -> bool:
+    return whole["first"] <= stretch["first"] < stretch["end"] <= whole["end"] * (1 + 1e-12)
 
 
 @in_browser
 @given(stretches(), st.floats(0.01, 100), share)
 def test_zooming_keeps_the_step_under_the_pointer_where_it_can(
-    ask: Ask, given: tuple[dict[str, float], int], factor: float, where: float
+    ask: Ask, given: tuple[Stretch, Stretch], factor: float, where: float
 ) -> None:
-    stretch, steps = given
+    stretch, whole = given
     at = stretch["first"] + where * (stretch["end"] - stretch["first"])
     zoomed = ask("return of.zoomedStretch(a[0], b, c, a[1]);", given, factor, at)
-    assert within(zoomed, steps)
-    if zoomed["first"] > 0 and zoomed["end"] < steps:
+    assert within(zoomed, whole)
+    if whole["first"] < zoomed["first"] and zoomed["end"] < whole["end"]:
         got = (at - zoomed["first"]) / (zoomed["end"] - zoomed["first"])
         assert isclose(got, where, abs_tol=1e-5)
 
@@ -51,25 +55,25 @@ def test_zooming_keeps_the_step_under_the_pointer_where_it_can(
 @in_browser
 @given(stretches(), st.floats(-1e5, 1e5))
 def test_moving_keeps_its_length_and_stays_within_the_schedule(
-    ask: Ask, given: tuple[dict[str, float], int], by: float
+    ask: Ask, given: tuple[Stretch, Stretch], by: float
 ) -> None:
-    stretch, steps = given
+    stretch, whole = given
     moved = ask("return of.movedStretch(a[0], b, a[1]);", given, by)
-    assert within(moved, steps)
+    assert within(moved, whole)
     assert isclose(moved["end"] - moved["first"], stretch["end"] - stretch["first"], rel_tol=1e-6)
 
 
 @in_browser
 @given(stretches(), share, share)
 def test_it_moves_no_farther_than_to_show_a_job(
-    ask: Ask, given: tuple[dict[str, float], int], one: float, other: float
+    ask: Ask, given: tuple[Stretch, Stretch], one: float, other: float
 ) -> None:
-    stretch, steps = given
-    start, end = sorted((one * steps, other * steps))
+    stretch, whole = given
+    start, end = sorted(whole["first"] + each * (whole["end"] - whole["first"]) for each in (one, other))
     shown = ask("return of.stretchWith(a[0], b[0], b[1], a[1]);", given, [start, end])
-    assert within(shown, steps)
+    assert within(shown, whole)
     length = stretch["end"] - stretch["first"]
-    slack = 1e-9 * steps
+    slack = 1e-9 * whole["end"]
     assert shown["first"] - slack <= start
     if end - start <= length:
         assert end <= shown["end"] + slack
@@ -77,6 +81,9 @@ def test_it_moves_no_farther_than_to_show_a_job(
         assert shown == stretch
 
 
-def test_all_steps_are_whole_and_no_fewer(ask: Ask) -> None:
-    assert ask("return of.isWhole(of.wholeStretch(80), 80);")
-    assert not ask("return of.isWhole(of.zoomedStretch(of.wholeStretch(80), 0.5, 40, 80), 80);")
+def test_zoomed_out_it_is_the_whole(ask: Ask) -> None:
+    assert ask(
+        """const whole = of.wholeStretch(3, 80);
+        const part = of.zoomedStretch(whole, 0.3, 50, whole);
+        return of.sameStretch(of.zoomedStretch(part, 4, 50, whole), whole) && !of.sameStretch(part, whole);"""
+    )
