@@ -55,7 +55,7 @@ function markEntries(marks) {
 }
 
 function workWords({ label, meaning }) {
-  return label === "switch" || label.includes(":") ? meaning : `${label}  ${meaning}`;
+  return label === "switch" || label.startsWith("task:") ? meaning : `${label}  ${meaning}`;
 }
 
 function drawn(text, box, draw) {

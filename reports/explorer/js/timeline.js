@@ -3,8 +3,8 @@
 import { wholeStretch } from "./stretch.js";
 
 /** {steps, whole, periodMs, styles, marks, rows, pieces, misses, schedule}; whole: the steps there are, from the
- *  schedule's `origin`, where it has one, to `steps`. Of each row: its bars and work, when a job waits, releases and
- *  deadlines; `pieces`: of each job, as indices of bars; `misses`: the jobs that miss, by deadline. */
+ *  schedule's `origin`, where it has one, to `steps`. Of each row: its bars and work, whether there are callouts above
+ *  it, when a job waits, releases and deadlines; `pieces`: of each job, as indices of bars; `misses`: the jobs that miss, by deadline. */
 export function timeline(schedule) {
   const { jobs, bars } = schedule;
   const barsOf = indicesBy(bars.row, schedule.rows.length, (one, other) => bars.start[one] - bars.start[other]);
@@ -20,12 +20,16 @@ export function timeline(schedule) {
     waits: united(jobsOf[index].flatMap((job) => waitsOf(schedule, job, pieces[job]))),
     arrows: arrowsOf(jobs, jobsOf[index]),
     works: worksOf(schedule, jobsOf[index], pieces),
+    calls: jobsOf[index].length ? jobsOf[index].some((job) => !isTask(jobs.kind[job])) : row.name !== "idle",
   }));
-  for (const row of rows) row.calls = row.works.some((works) => works !== null);
   const missed = [...jobs.missed.keys()].filter((job) => jobs.missed[job]);
   const misses = missed.sort((one, other) => jobs.deadline[one] - jobs.deadline[other]);
   const { steps, period_ms: periodMs, styles, marks, origin = 0 } = schedule;
   return { steps, whole: wholeStretch(origin, steps), periodMs, styles, marks, rows, pieces, misses, schedule };
+}
+
+function isTask(name) {
+  return name.startsWith("task:");
 }
 
 /** The first index in ascending `values` of one that is greater than `value`. */
@@ -86,7 +90,7 @@ function barColumns(bars, indices, deadlines) {
 /** By style, the work of the row's jobs in it: {start, end, pieces: [[start, end]]}; null for what is not called out,
  *  which are context switches and a user's tasks, whose row is their label. */
 function worksOf({ styles, bars }, indices, pieces) {
-  const called = ({ label }) => label !== "switch" && !label.includes(":");
+  const called = ({ label }) => label !== "switch" && !isTask(label);
   const works = styles.map((style) => (called(style) ? { start: [], end: [], pieces: [] } : null));
   for (const job of indices) {
     for (const piece of pieces[job]) {
