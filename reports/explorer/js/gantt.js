@@ -43,7 +43,9 @@ class Gantt {
     ];
     this.sizes = new ResizeObserver(() => frame.clientWidth !== this.width && this.drawSoon());
     this.sizes.observe(frame);
-    root.addEventListener("focusout", (event) => root.contains(event.relatedTarget) || this.pick(null));
+    root.addEventListener("focusout", ({ relatedTarget }) => {
+      if (!root.contains(relatedTarget) && !root.contains(document.activeElement)) this.pick(null);
+    });
   }
 
   show(schedule) {
@@ -193,9 +195,10 @@ class Gantt {
     const { schedule, misses } = this.line;
     const said = missesSentence(schedule);
     const notes = [`${Math.round(100 * schedule.busy)}\u00a0%\u00a0busy`, schedule.cut].filter(Boolean);
+    const whole = stretchWords(this.line.whole, this.line.whole);
     const verdict = misses.length ? html("strong", { class: "ss-gantt-missed" }, `✗ ${said}`) : said;
     finding.replaceChildren(verdict, ...notes.map((text) => ` · ${text}`));
-    frame.setAttribute("aria-label", `Gantt chart of ${stretchWords(this.line.whole, this.line.whole)}: ${[said, ...notes].join("; ")}`);
+    frame.setAttribute("aria-label", `Gantt chart of ${whole}: ${[said, ...notes].join("; ")}`);
     tools.miss.hidden = !misses.length;
     tools.previous.hidden = tools.next.hidden = !schedule.jobs.row.length;
   }

@@ -3,6 +3,7 @@
 import { html } from "./svg.js";
 import { arrowRow, drawMissed } from "./arrows.js";
 import { hatchPattern } from "./colours.js";
+import { grouped, inMs } from "./facts.js";
 
 const SWATCH = { width: 28, height: 14 };
 const SIGN = { width: 10, height: 16 };
@@ -29,7 +30,7 @@ export function ganttLegend({ line, colours }, every) {
       pen.fillStyle = hatchPattern(pen, "x", colours.red);
       pen.fillRect(0, 0, box.width, box.height);
     }),
-    ...markEntries(line.marks),
+    ...markEntries(line),
   ].filter(Boolean);
 }
 
@@ -43,15 +44,20 @@ export function showLegend(list, entries, look) {
   list.replaceChildren(...items);
 }
 
-/** One for each symbol, with what it means in any cycle. */
-function markEntries(marks) {
+/** One for each symbol, with what it means in any cycle, and when it is where it is but once. */
+function markEntries(line) {
   const of = new Map();
-  for (const { label, meaning } of marks.filter((mark) => mark.meaning)) {
+  for (const { step, label, meaning } of line.marks.filter((mark) => mark.meaning)) {
     const symbols = label.split(" = ");
     const meanings = symbols.length > 1 ? meaning.split(", ") : [meaning];
-    meanings.forEach((each, index) => of.set(symbols[index].split("+")[0], each.replace(/ \d+/, "")));
+    meanings.forEach((each, index) => {
+      const symbol = symbols[index].split("+")[0];
+      of.set(symbol, { text: each.replace(/ \d+/, ""), steps: [...(of.get(symbol)?.steps ?? []), step] });
+    });
   }
-  return [...of].map(([symbol, text]) => ({ symbol, text }));
+  const when = (step) => (line.periodMs === null ? "" : ` (${inMs(line, step)} ms)`);
+  const once = ([step, ...others]) => (others.length ? "" : `, step ${grouped(step)}${when(step)}`);
+  return [...of].map(([symbol, { text, steps }]) => ({ symbol, text: text + once(steps) }));
 }
 
 function workWords({ label, meaning }) {

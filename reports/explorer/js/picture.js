@@ -10,6 +10,7 @@ import { drawNames, lanesOf } from "./lanes.js";
 const FONT_PX = 12.5;
 const MOST_RATIO = 3;
 const TRACK_PX = 3;
+const MOST_WIDTHS = 5000;
 
 /** Draws `stretch` of a timeline into `canvas`, `width` wide; {layout, scale, every}: what it then shows where, and of
  *  how many jobs of a crowded row one has its arrows. */
@@ -56,6 +57,7 @@ function measured(context, font) {
   return (text) => {
     const key = `${font} ${text}`;
     if (!widths.has(key)) {
+      if (widths.size > MOST_WIDTHS) widths.clear();
       context.font = font;
       widths.set(key, context.measureText(text).width);
     }
@@ -74,5 +76,6 @@ function drawTrack({ context, scale, layout, colours, line }) {
   context.fillRect(layout.left, y, across, TRACK_PX);
   context.fillStyle = colours.accent;
   const length = Math.max(((end - first) / steps) * across, 6);
-  context.fillRect(layout.left + Math.min(((first - line.whole.first) / steps) * across, across - length), y, length, TRACK_PX);
+  const shift = Math.min(((first - line.whole.first) / steps) * across, across - length);
+  context.fillRect(layout.left + shift, y, length, TRACK_PX);
 }

@@ -4,7 +4,8 @@ import { wholeStretch } from "./stretch.js";
 
 /** {steps, whole, periodMs, styles, marks, rows, pieces, misses, schedule}; whole: the steps there are, from the
  *  schedule's `origin`, where it has one, to `steps`. Of each row: its bars and work, whether there are callouts above
- *  it, when a job waits, releases and deadlines; `pieces`: of each job, as indices of bars; `misses`: the jobs that miss, by deadline. */
+ *  it, when a job waits, releases and deadlines; `pieces`: of each job, as indices of bars; `misses`: the jobs that
+ *  miss, by deadline. */
 export function timeline(schedule) {
   const { jobs, bars } = schedule;
   const barsOf = indicesBy(bars.row, schedule.rows.length, (one, other) => bars.start[one] - bars.start[other]);

@@ -60,7 +60,7 @@ def test_its_legend_says_what_runs_and_what_the_signs_mean(method: str, visit: V
     assert all(f"{label}  {FILLS[label].meaning}" in said for label in wanted)
     assert "release" in said
     assert "measurement arrives" in said
-    assert "correction lands" in said
+    assert f"correction lands, step {4 if method == 'larsen' else 5} ({10 if method == 'larsen' else 12.5} ms)" in said
     assert "missed" not in said
 
 
