@@ -82,6 +82,13 @@ export function valueAt(xs, ys, at, step) {
   return step || xs[index] === at ? ys[index] : null;
 }
 
+/** A line with its points from the least x to the greatest, where they are the other way round. */
+export function ascending(line) {
+  if (line.x.length === 0 || line.x[0] <= line.x[line.x.length - 1]) return line;
+  const turned = (values) => values && [...values].reverse();
+  return { ...line, x: turned(line.x), y: turned(line.y), notes: turned(line.notes) };
+}
+
 /** A step line with one more point, at which it still holds its last value. */
 export function heldUntil(line, end) {
   const last = line.x.length - 1;

@@ -5,7 +5,7 @@ import { drawCurves } from "./curves.js";
 import { acrossDomain, downDomain } from "./domains.js";
 import { plotFrame } from "./frame.js";
 import { looksOf } from "./looks.js";
-import { heldUntil, indexAt, pointsAlong, valueAt } from "./paths.js";
+import { ascending, heldUntil, indexAt, pointsAlong, valueAt } from "./paths.js";
 import { nearestPoint, plotReader } from "./reading.js";
 import { lineSample, plotLegend } from "./samples.js";
 import { plotSheet, quantity, saidOf } from "./sheet.js";
@@ -13,7 +13,7 @@ import { plotSigns } from "./signs.js";
 import { valuesOf, valuesTable } from "./values.js";
 
 /** A plot in `host`. `show({title, x: {label, log}, y: {label, log}, lines, points, limit})` draws it and may be called
- *  as often as there is a new picture. lines: [{name, x, y, step, current, notes}], x ascending, null where there is no
+ *  as often as there is a new picture. lines: [{name, x, y, step, current, notes}], x in order, null where there is no
  *  value; a step line holds each value until the next x, and the last one to the end; notes (may be left out) are texts
  *  for its points. points: [{x, y, label, current}] are designs; limit: {y, label} or null, what lies above it is
  *  shaded. `onPick(x, line)`, where it is given, is called with a point that is clicked, or that Enter is pressed on.
@@ -43,7 +43,8 @@ export function plot(host, { onPick = null } = {}) {
   function show(next) {
     given = next;
     const looks = looksOf(next.lines.map((line) => line.name));
-    lines = next.lines.map((line, index) => ({ ...line, look: looks[index], whole: line.x.every(Number.isInteger) }));
+    const whole = (line) => line.x.every(Number.isInteger);
+    lines = next.lines.map((line, index) => ({ ...ascending(line), look: looks[index], whole: whole(line) }));
     sheet.name({ title: next.title, x: next.x.label, y: next.y.label, spoken: spokenPlot(next) });
     values.show(() => valuesOf(next));
     redraw();

@@ -21,13 +21,15 @@ export function table(host, { caption, columns, rows, onPick = null, current = -
   const heads = columns.map((column) => html("th", { scope: "col", class: cellClass(column) }, column.label));
   const picked = (row, index) => (onPick === null ? null : () => onPick(row, index));
   const body = rows.map((row, index) => tableRow(columns, row, picked(row, index), index === current));
-  const parts = [html("caption", {}, caption), html("thead", {}, html("tr", {}, ...heads)), html("tbody", {}, ...body)];
-  region.replaceChildren(html("table", { class: "ss-table" }, ...parts));
+  const head = html("thead", {}, html("tr", {}, ...heads));
+  const above = html("caption", {}, html("span", {}, caption));
+  region.replaceChildren(html("table", { class: "ss-table" }, above, head, html("tbody", {}, ...body)));
   region.querySelectorAll(".ss-table-pick")[focused]?.focus({ preventScroll: true });
 }
 
 function tableRow([first, ...others], row, pick, current) {
-  const name = pick === null ? html("span", {}) : html("button", { type: "button", class: "ss-table-pick" });
+  const named = { class: pick === null ? "ss-table-name" : "ss-table-name ss-table-pick" };
+  const name = pick === null ? html("span", named) : html("button", { type: "button", ...named });
   if (pick !== null) name.addEventListener("click", pick);
   if (current) name.setAttribute("aria-current", "true");
   name.append(cellText(first, row));
@@ -37,11 +39,12 @@ function tableRow([first, ...others], row, pick, current) {
 }
 
 function tableCell(column, row) {
-  if (column.holds === undefined) return cellText(column, row);
+  const text = cellText(column, row);
+  if (column.holds === undefined) return column.numeric ? text : html("span", { class: "ss-table-text" }, text);
   const holds = column.holds(row);
   const verdict = holds === true ? HOLDING : holds === false ? FAILING : UNKNOWN;
   const sign = html("span", { "aria-hidden": "true" }, `${verdict.sign} `);
-  return html("span", { class: verdict.class }, sign, cellText(column, row));
+  return html("span", { class: verdict.class }, sign, text);
 }
 
 function cellText(column, row) {

@@ -1,7 +1,7 @@
 // The values of a plot as a table, behind a `details`.
 
 import { digits, html } from "./svg.js";
-import { valueAt } from "./paths.js";
+import { ascending, valueAt } from "./paths.js";
 import { table } from "./table.js";
 
 const MOST_VALUE_ROWS = 60;
@@ -26,7 +26,8 @@ export function valuesTable() {
 
 /** The table of a plot of lines: a row for each x at which a line has another value than in the row before; of long
  *  lines every so manieth; and always those of designs. */
-export function valuesOf({ title, x, y, lines, points }) {
+export function valuesOf({ title, x, y, lines: given, points }) {
+  const lines = given.map(ascending);
   const every = [...new Set(lines.flatMap((line) => line.x))].sort((one, other) => one - other);
   const all = every.map((at) => [at, ...lines.map((line) => valueText(valueAt(line.x, line.y, at, line.step)))]);
   const designs = new Set(points.map((point) => point.x));

@@ -153,3 +153,10 @@ def test_a_step_line_is_held_until_the_end_and_another_is_not(ask: Ask) -> None:
     line = {"x": [4], "y": [0.5], "step": False}
     assert ask("return of.heldUntil(a, 20)", line) == line
     assert ask("return of.heldUntil({x: [], y: [], step: true}, 20)")["x"] == []
+
+
+def test_a_line_that_comes_from_the_right_is_turned_round(ask: Ask) -> None:
+    line = {"x": [3, 2, 2, 1], "y": [5, 6, 7, 8], "notes": ["a", "b", "c", "d"]}
+    turned = ask("return of.ascending(a)", line)
+    assert turned == {"x": [1, 2, 2, 3], "y": [8, 7, 6, 5], "notes": ["d", "c", "b", "a"]}
+    assert ask("return of.ascending(a)", turned) == turned
