@@ -12,6 +12,7 @@ from benchmarks import (
     filter_step,
     gantt,
     in_c,
+    plots,
     probability,
     processor,
     robust,
@@ -38,6 +39,7 @@ for part in (
     processor,
     cluster,
     gantt,
+    plots,
     start_up,
 ):
     for result in part.results():
