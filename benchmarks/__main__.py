@@ -8,6 +8,7 @@ from benchmarks import (
     accuracy,
     analysis,
     cluster,
+    explorer_page,
     factored,
     filter_step,
     gantt,
@@ -40,6 +41,7 @@ for part in (
     cluster,
     gantt,
     plots,
+    explorer_page,
     start_up,
 ):
     for result in part.results():

@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Awaitable, Callable, Mapping
 from contextlib import suppress
-from functools import partial
+from functools import cache, partial
 from typing import NamedTuple
 
 from starlette.applications import Starlette
@@ -14,6 +14,7 @@ from starlette.responses import PlainTextResponse, Response
 from starlette.routing import Route
 
 from reports.explorer.answer import Answer, Asked, Question, document
+from reports.explorer.compact import compact
 from reports.explorer.guard import App, guarded
 from reports.explorer.module import asset, module, stylesheet
 from reports.explorer.worker import Worker
@@ -70,13 +71,23 @@ def application(port: int, questions: Mapping[str, Question], asked: Asked) -> A
     pages = [page for page in (DESIGNS, SCENARIO) if any(map(page.is_asked_by, questions))]
     routes = [
         *(Route(page.path, _text(partial(asset, page.frame), "text/html")) for page in pages),
-        *(Route(page.script, _text(partial(module, page.entry), "text/javascript")) for page in pages),
-        Route("/explorer.css", _text(stylesheet, "text/css")),
+        *(Route(page.script, _text(partial(_script, page.entry), "text/javascript")) for page in pages),
+        Route("/explorer.css", _text(_style, "text/css")),
         Route("/favicon.ico", _no_icon),
         *(Route(path, ask) for path in questions),
     ]
     app = Starlette(routes=routes, exception_handlers={404: _not_there})
     return guarded(app, port, frozenset(page.path for page in pages))
+
+
+@cache
+def _script(entry: str) -> str:
+    return compact(module(entry))
+
+
+@cache
+def _style() -> str:
+    return compact(stylesheet())
 
 
 async def _gone(request: Request) -> None:

@@ -8,6 +8,7 @@ import pytest
 
 from reports.explorer import answer as answers
 from reports.explorer.answer import NO_MEMORY, UNEXPECTED, Answer
+from reports.explorer.compact import compact
 from reports.explorer.module import asset, module, stylesheet
 from sched_sim.errors import InputError
 from tests.reports.explorer.serving import client
@@ -20,8 +21,8 @@ def raising(error: BaseException) -> Answer:
 def test_the_page_its_script_and_its_style() -> None:
     for path, text, media in [
         ("/", asset("index.html"), "text/html"),
-        ("/explorer.js", module("page"), "text/javascript"),
-        ("/explorer.css", stylesheet(), "text/css"),
+        ("/explorer.js", compact(module("page")), "text/javascript"),
+        ("/explorer.css", compact(stylesheet()), "text/css"),
     ]:
         answer = client().get(path)
         assert (answer.status_code, answer.text) == (200, text)

@@ -1,0 +1,122 @@
+"""`sched-sim explore` in a process of its own, and its page in a browser: the whole, from a control to a picture."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+from urllib.error import HTTPError
+from urllib.request import urlopen
+
+from playwright.sync_api import Locator, Page, expect
+
+from tests.browser import Visit
+
+expect.set_options(timeout=60_000)  # of a busy machine
+
+ROOT = Path(__file__).parents[3]
+
+
+class Explorer:
+    """first: the address that the command says."""
+
+    def __init__(self, process: subprocess.Popen[str]) -> None:
+        self._process = process
+        assert process.stdout is not None
+        self.first = process.stdout.readline().split()[-1]
+        self.base = self.first.partition("?")[0]
+        self.port = int(self.base.rstrip("/").rpartition(":")[2])
+
+    def view(self, query: str) -> Any:
+        """Raises AssertionError, with what is said, for a query that is refused."""
+        try:
+            with urlopen(f"{self.base}view?{query}") as answer:
+                return json.load(answer)
+        except HTTPError as error:
+            raise AssertionError(f"{query}: {error.read().decode()}") from None
+
+    def end(self) -> str:
+        """By Ctrl-C; what is said on standard error."""
+        os.killpg(self._process.pid, signal.SIGINT)
+        return self._process.communicate(timeout=60)[1]
+
+    def kill(self) -> None:
+        self._process.kill()
+        self._process.wait()
+
+    def pause(self) -> None:
+        """Nothing is answered until it goes on."""
+        self._process.send_signal(signal.SIGSTOP)
+
+    def go_on(self) -> None:
+        self._process.send_signal(signal.SIGCONT)
+
+
+@contextmanager
+def exploring(*options: str) -> Iterator[Explorer]:
+    process = subprocess.Popen(
+        [sys.executable, "-m", "sched_sim", "explore", "--no-browser", *options],
+        cwd=ROOT,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    )
+    try:
+        yield Explorer(process)
+    finally:
+        process.kill()
+        process.communicate()
+
+
+def opened(visit: Visit, explorer: Explorer, query: str | None = None) -> Page:
+    """The page with its first picture; query: by default that of the command."""
+    visit.page.goto(explorer.first if query is None else f"{explorer.base}?{query}")
+    expect(visit.page.locator(".ss-explorer")).to_have_attribute("data-shown", re.compile("."))
+    return visit.page
+
+
+def shown(page: Page, explorer: Explorer) -> Mapping[str, Any]:
+    """The view of the address, once it is drawn."""
+    view: Mapping[str, Any] = explorer.view(page.url.partition("?")[2].partition("#")[0])
+    expect(page.locator(".ss-explorer:not(.ss-stale)")).to_have_attribute("data-shown", view["query"])
+    return view
+
+
+def field(page: Page, label: str) -> Locator:
+    return page.get_by_label(label, exact=True).filter(visible=True)
+
+
+def slider(page: Page, label: str) -> Locator:
+    return field(page, f"{label}, slider")
+
+
+def give(page: Page, label: str, text: str) -> None:
+    field(page, label).fill(text)
+    field(page, label).press("Enter")
+
+
+def drag(page: Page, dragged: Locator, *shares: float) -> None:
+    """With the mouse, from a share of its length to the others."""
+    dragged.scroll_into_view_if_needed()
+    box = dragged.bounding_box()
+    assert box is not None
+    middle = box["y"] + box["height"] / 2
+    page.mouse.move(box["x"] + shares[0] * box["width"], middle)
+    page.mouse.down()
+    for share in shares[1:]:
+        page.mouse.move(box["x"] + share * box["width"], middle, steps=4)
+    page.mouse.up()
+
+
+def unfold(page: Page) -> None:
+    """All that is folded in the form."""
+    for summary in page.locator("form details:not([open]) > summary").all():
+        summary.click()
