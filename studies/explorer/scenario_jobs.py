@@ -198,6 +198,8 @@ def _said(scenario: Scenario, figures: JobFigures) -> tuple[str, str]:
 def sentence(scenario: Scenario, kind: str, figures: JobFigures) -> str:
     """Such as "3 of 20,000 corrections of gps landed late, 0.015 %, 95 % interval 0.0051 % to 0.045 %"."""
     many, late = nouns(kind)
+    if figures.decided > len(figures.responses):
+        late += " or not at all"
     if not figures.decided:
         return f"of {many} none has finished, and none was due"
     if not figures.misses:
@@ -210,7 +212,8 @@ def sentence(scenario: Scenario, kind: str, figures: JobFigures) -> str:
     if scenario.harness or figures.miss_probability is None or figures.miss_interval is None:
         return said
     least, most = map(as_percent, shares.interval(*figures.miss_interval).split(" to "))
-    return f"{said}, {as_percent(shares.probability(figures.miss_probability))}, 95 % interval {least} to {most}"
+    share = as_percent(shares.probability(figures.miss_probability))
+    return f"{said}, {share}, 95 % interval {least} to {most}"
 
 
 def as_percent(share: str) -> str:

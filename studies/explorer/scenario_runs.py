@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import lru_cache
-from threading import Lock
 from typing import NamedTuple
 
 from sched_sim.bounds import short
@@ -13,6 +12,7 @@ from sched_sim.scenario.kinds import correct_kind
 from sched_sim.scenario.outcome import Outcome
 from sched_sim.scenario.run import run_scenario
 from sched_sim.scenario.scenario import Scenario
+from sched_sim.ticks import exact as exact_number
 from studies.explorer.query import whole_number
 from studies.explorer.scenario import scenario_view
 from studies.explorer.scenario_asked import ScenarioAsked, asked_of
@@ -43,7 +43,7 @@ class Run(NamedTuple):
 
 
 class Runs:
-    """The answers of a scenario's page to its queries, as documents for JSON; several threads may ask.
+    """The answers of a scenario's page to its queries, as documents for JSON; one at a time is to be asked for.
 
     scenario: as its file says; question: of the accuracy at its output, None if no model is stated. All raise
     InputError for what a query says wrongly, or what cannot be.
@@ -52,7 +52,6 @@ class Runs:
     def __init__(self, scenario: Scenario, question: Question | None = None) -> None:
         self.scenario = scenario
         self.question = question
-        self._views, self._traces = Lock(), Lock()
         self._outcome = lru_cache(KEPT)(self._run)
         self._exact = lru_cache(KEPT)(self._exactly)
         self._accuracy = lru_cache(KEPT)(self._accurately)
@@ -62,14 +61,8 @@ class Runs:
         """`explore_scenario` of what the query asks."""
         asked, _ = asked_of(query)
         meant, run = asked.of(self.scenario), Run.of(asked)
-        with self._views:
-            found = Found(
-                meant,
-                self._outcome(run),
-                self._exact(run, asked.exact),
-                self._accuracy(run, asked.accuracy),
-            )
-            return scenario_view(self.scenario, asked, found).document()
+        found = Found(meant, self._outcome(run), self._exact(run, asked.exact), self._accuracy(run, asked.accuracy))
+        return scenario_view(self.scenario, asked, found).document()
 
     def schedule(self, query: str) -> Document:
         """The schedule of the steps from `first` to the start of `until`; None while it has not been simulated so far:
@@ -77,23 +70,22 @@ class Runs:
         asked, more = asked_of(query, ("first", "until"))
         meant = asked.of(self.scenario)
         first, until = _window(more, meant.steps)
-        with self._traces:
-            trace = self._trace(Run.of(asked))
-            shown = window(trace, first, until) if trace.learn(until, AT_ONCE) else None
-            return {"schedule": shown, "simulated": trace.reached, "steps": meant.steps}
+        trace = self._trace(Run.of(asked))
+        shown = window(trace, first, until) if trace.learn(until, AT_ONCE) else None
+        return {"schedule": shown, "simulated": trace.reached, "steps": meant.steps}
 
     def next(self, query: str) -> Document:
-        """The first deadline after step `after` that was missed, `of` any job ("miss") or of a correction ("landing");
-        None while it has not been simulated so far, or, where all has been, if there is none."""
+        """The first deadline after the instant `after`, in steps, that was missed, `of` any job ("miss") or of a
+        correction ("landing"); None while it has not been simulated so far, or, where all has been, if there is
+        none."""
         asked, more = asked_of(query, ("after", "of"))
-        meant, after, of = asked.of(self.scenario), whole_number("after", more.get("after", "0")), more.get("of", OF[0])
+        meant, after, of = asked.of(self.scenario), exact_number(more.get("after", "0"), "after"), more.get("of", OF[0])
         if of not in OF:
             raise InputError(f"{option('of')} is {short(repr(of))}: choose from {', '.join(OF)}")
         kinds = {correct_kind(sensor) for sensor in meant.sensors} if of == "landing" else None
-        with self._traces:
-            trace = self._trace(Run.of(asked))
-            found = trace.search(after, kinds, AT_ONCE)
-            return {"found": found, "simulated": trace.reached, "steps": meant.steps}
+        trace = self._trace(Run.of(asked))
+        found = trace.search(float(after), kinds, AT_ONCE)
+        return {"found": found, "simulated": trace.reached, "steps": meant.steps}
 
     def _run(self, run: Run) -> Outcome:
         return run_scenario(self._of(run))

@@ -120,8 +120,8 @@ class Trace:
             self.advance(STRIDE)
         return self.knows(until)
 
-    def search(self, after: int, kinds: set[str] | None, most: int) -> dict[str, Any] | None:
-        """The first miss of a job of these kinds, or of any, whose deadline is after the start of step `after`; goes on
+    def search(self, after: float, kinds: set[str] | None, most: int) -> dict[str, Any] | None:
+        """The first miss of a job of these kinds, or of any, whose deadline is later than `after`, in steps; goes on
         by so many steps at most, until it is known."""
         end = self.reached + most
         while (found := self._next_miss(after, kinds)) is None and self.reached < min(end, self.scenario.steps):

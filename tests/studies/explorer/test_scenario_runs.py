@@ -35,10 +35,10 @@ def test_a_late_window_is_asked_for_until_it_is_there(monkeypatch: pytest.Monkey
 
 @pytest.mark.parametrize(("of", "kinds"), [("miss", {"predict", "correct gps"}), ("landing", {"correct gps"})])
 def test_going_from_miss_to_miss_finds_all(of: str, kinds: set[str]) -> None:
-    runs, found, after = Runs(LATE), [], 0
+    runs, found, after = Runs(LATE), [], 0.0
     while (miss := runs.next(f"after={after}&of={of}")["found"]) is not None:
         found.append(miss["deadline"])
-        after = int(miss["deadline"])
+        after = miss["deadline"]
     trace = Trace(LATE)
     trace.learn(LATE.steps, LATE.steps)
     names = list(trace.kinds)

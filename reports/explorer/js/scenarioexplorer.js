@@ -1,0 +1,98 @@
+// A scenario in one element: what is asked of it, the answer, how its times are spread, and its trace.
+
+import { changedQuery, queryOf, textOf } from "./address.js";
+import { answerBox } from "./answer.js";
+import { asker } from "./ask.js";
+import { scenarioForm } from "./scenarioform.js";
+import { scenarioResults } from "./scenarioresults.js";
+import { scenarioTrace } from "./scenariotrace.js";
+import { html } from "./svg.js";
+
+/**
+ * The scenario's page in `host`, as `query` says. `ask(path, query, signal)` promises what the server answers at "view",
+ * "schedule" and "next". `onQuery(query, stepOn)` hears of each change, and whether it is one to be gone back from.
+ */
+export function scenarioExplorer(host, { ask, query = "", onQuery = () => {} }) {
+  const id = `ss-${Math.random().toString(36).slice(2, 10)}`;
+  const top = html("section", { class: "ss-answer", "aria-label": "Answer" });
+  const [side, beside] = [html("div", { class: "ss-side" }), html("div", { class: "ss-beside" })];
+  const results = html("div", { class: "ss-results" });
+  const root = html("div", { class: "ss-explorer ss-scenario ss-ground" }, html("div", { class: "ss-frame" }, top, side, beside, results));
+  host.append(root);
+  let asked = queryOf(query);
+  let [view, frame, force] = [null, null, true];
+
+  const box = answerBox(top, beside, id, { onPin: null, onStop: () => asking.stop(), onBack: back });
+  const form = scenarioForm(side, id, change);
+  const drawn = scenarioResults(results, id, (changes) => change(changes, true));
+  const trace = scenarioTrace(drawn.trace, id, ask, (changes) => {
+    asked = changedQuery(asked, changes);
+    onQuery(textOf(asked), false);
+  });
+  const asking = asker((text, signal) => ask("view", text, signal), {
+    answered(answered) {
+      view = answered;
+      frame ??= requestAnimationFrame(draw);
+    },
+    refused(text) {
+      box.refused(text);
+      stale(true);
+    },
+    waiting: (seconds) => box.waiting(seconds),
+    gone(text) {
+      box.gone(text);
+      stale(true);
+    },
+    stopped() {
+      box.stopped();
+      stale(true);
+    },
+  });
+  asking.want(textOf(asked));
+
+  function draw() {
+    frame = null;
+    box.show(view);
+    form.show(view, force);
+    drawn.show(view);
+    trace.show(view);
+    force = false;
+    stale(false);
+    root.dataset.shown = view.query;
+  }
+
+  function stale(is) {
+    root.classList.toggle("ss-stale", is);
+  }
+
+  /** Another run is looked at from where its own first miss is. */
+  function change(changes, stepOn) {
+    const sameRun = Object.keys(changes).every((key) => ["shown", "exact", "accuracy"].includes(key));
+    asked = changedQuery(asked, sameRun ? changes : { ...changes, at: null });
+    onQuery(textOf(asked), stepOn);
+    asking.want(textOf(asked));
+  }
+
+  function back() {
+    if (view !== null) show(view.query);
+    onQuery(textOf(asked), false);
+  }
+
+  /** Shows what another link says, and tells nobody. */
+  function show(text) {
+    asked = queryOf(text);
+    force = true;
+    asking.want(text);
+  }
+
+  function destroy() {
+    cancelAnimationFrame(frame);
+    asking.destroy();
+    box.destroy();
+    drawn.destroy();
+    trace.destroy();
+    root.remove();
+  }
+
+  return { show, destroy };
+}
