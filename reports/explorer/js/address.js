@@ -30,7 +30,8 @@ const TIME_KEYS = ["measurement_hz", "delay_ms", "land_within_ms"];
 
 /** In what a query speaks: "times" or "steps". */
 export function modeOf(query) {
-  return query.size === 0 || TIME_KEYS.some((key) => query.has(key)) || !(query.has("N") || query.has("M")) ? "times" : "steps";
+  if (TIME_KEYS.some((key) => query.has(key))) return "times";
+  return query.has("N") || query.has("M") ? "steps" : "times";
 }
 
 /** The same design in steps. `design`: that of the view, in which steps are known. */

@@ -5,11 +5,13 @@ import { html } from "./svg.js";
 const SETTLED_MS = 600;
 const STATE_SIGNS = { holds: "✓", misses: "✗", inaccurate: "✗", unknown: "?" };
 
-/** The answer in `box`, warnings and notes in `beside`. `onPin`, `onStop` and `onBack` hear of its buttons. Each of its methods shows a state. */
+/** The answer in `box`, warnings and notes in `beside`. `onPin`, `onStop` and `onBack` hear of its buttons. Each of its
+ *  methods shows a state. */
 export function answerBox(box, beside, id, { onPin, onStop, onBack }) {
   const sign = html("span", { class: "ss-sign", "aria-hidden": "true" });
   const words = html("span", {}, "One moment …");
-  const sentence = html("p", { class: "ss-sentence", role: "status", "aria-live": "polite", "aria-atomic": "true" }, sign, words);
+  const live = { role: "status", "aria-live": "polite", "aria-atomic": "true" };
+  const sentence = html("p", { class: "ss-sentence", ...live }, sign, words);
   const telling = html("p", { class: "ss-telling", "aria-live": "polite" });
   const seconds = html("span", { class: "ss-seconds", "aria-hidden": "true" });
   const pin = button("Pin this design", onPin);

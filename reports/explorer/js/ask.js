@@ -4,9 +4,9 @@ const AGAIN_MS = 1000;
 
 /**
  * Asks for views. `ask(query, signal)` gives a promise; an error that is `gone` says that nobody answers, and is tried
- * again until somebody does. `told` hears `answered(view, query)`, `refused(text, query)`, `waiting(seconds)`, `gone(text)`
- * and `stopped()`. After `stop` or `destroy` an answer that was on its way is not heard. `aside(query)` promises a view
- * that is asked for when nothing else is.
+ * again until somebody does. `told` hears `answered(view, query)`, `refused(text, query)`, `waiting(seconds)`,
+ * `gone(text)` and `stopped()`. After `stop` or `destroy` an answer that was on its way is not heard. `aside(query)`
+ * promises a view that is asked for when nothing else is.
  */
 export function asker(ask, told) {
   let wanted = null;

@@ -7,8 +7,8 @@ import { html } from "./svg.js";
 const MODES = [{ value: "times", words: "Hz and ms" }, { value: "steps", words: "steps" }];
 
 /**
- * The form in `host`; its elements' ids begin with `id`. `onChange(changes, {key, settled})` hears what a control writes
- * into the query, `onMode(mode)` in what the design is to be given.
+ * The form in `host`; its elements' ids begin with `id`. `onChange(changes, {key, settled})` hears what a control
+ * writes into the query, `onMode(mode)` in what the design is to be given.
  */
 export function controls(host, id, { onChange, onMode }) {
   let context = null;

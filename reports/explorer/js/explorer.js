@@ -15,9 +15,10 @@ const SAID_BESIDE = "That cannot be; why is said beside what was changed.";
  * The explorer of the design that `query` says, a text. `ask(query, signal)` promises its view; what it rejects with is
  * shown, and asked again where it is `gone`. `onQuery(query, {settled, key})` hears of each change: of which control,
  * and whether it is still being dragged; `onPins(text)` of the pinned designs, which `pins` gives.
- * `files(kind, query, pins)`, with kind schedule.svg, methods.csv, parts.csv, jobs.csv or link, gives an address or null.
+ * `files(kind, query, pins)`, with kind schedule.svg, methods.csv, parts.csv, jobs.csv or link, gives an address or
+ * null.
  */
-export function explorer(host, { ask, query = "", pins = "", onQuery = () => {}, onPins = () => {}, files = () => null }) {
+export function explorer(host, { ask, query = "", pins = "", onQuery = unheard, onPins = unheard, files = noFile }) {
   const id = `ss-${Math.random().toString(36).slice(2, 10)}`;
   const root = html("div", { class: "ss-explorer ss-ground" });
   const top = html("section", { class: "ss-answer", "aria-label": "Answer" });
@@ -110,7 +111,8 @@ export function explorer(host, { ask, query = "", pins = "", onQuery = () => {},
     mode = next;
     const turned = next === "steps" ? asSteps(asked, view.design) : asTimes(asked, view.design);
     force = true;
-    change(Object.fromEntries([...keysOf(asked, turned)].map((key) => [key, turned.get(key) ?? null])), { key: "mode", settled: true });
+    const keys = [...new Set([...asked.keys(), ...turned.keys()])];
+    change(Object.fromEntries(keys.map((key) => [key, turned.get(key) ?? null])), { key: "mode", settled: true });
   }
 
   function pinned(text) {
@@ -152,4 +154,8 @@ function skip(results) {
   return link;
 }
 
-const keysOf = (...queries) => new Set(queries.flatMap((query) => [...query.keys()]));
+function unheard() {}
+
+function noFile() {
+  return null;
+}

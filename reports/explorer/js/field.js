@@ -29,7 +29,8 @@ export function numberField({ id, label, help, empty }, onChange) {
   };
   const slide = () => {
     range.value = place(number.value);
-    range.setAttribute("aria-valuetext", number.value === "" ? empty?.words ?? "" : `${number.value} ${unit.textContent}`);
+    const words = number.value === "" ? empty?.words ?? "" : `${number.value} ${unit.textContent}`;
+    range.setAttribute("aria-valuetext", words);
   };
   const slid = (settled) => {
     const stop = stops[Number(range.value) - (empty?.place === "first" ? 1 : 0)];
@@ -60,7 +61,7 @@ export function numberField({ id, label, help, empty }, onChange) {
   return {
     ...frame,
     number,
-    /** Shows a value and its unit, and where the slider stops. What is typed or dragged stays as it is, unless forced. */
+    /** Shows a value and its unit, and where the slider stops. What is typed or dragged stays, unless forced. */
     set(text, unitText, newStops, force = false) {
       if (dragging && !force) return;
       stops = newStops;
@@ -82,7 +83,8 @@ export function choiceField({ id, label, help }, onChange) {
     ...framed(id, label, help, select, select),
     set(value, options) {
       const key = JSON.stringify(options);
-      if (key !== shown) select.replaceChildren(...options.map((each) => html("option", { value: each.value }, each.words)));
+      const option = (each) => html("option", { value: each.value }, each.words);
+      if (key !== shown) select.replaceChildren(...options.map(option));
       shown = key;
       select.value = value;
     },

@@ -57,7 +57,7 @@ function gone() {
   return `sched-sim explore is not running any more: start it again${again}, then this page goes on by itself.`;
 }
 
-/* The address follows the design. What is dragged replaces what was there, now and then: browsers bear only so many changes.
+/* The address follows the design. What is dragged replaces what was there, now and then: browsers bear only so many.
 Any other change can be gone back from. */
 function addressed() {
   let last = null;

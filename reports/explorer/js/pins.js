@@ -49,18 +49,25 @@ export function pinboard(host, id, { ask, onTake, onPins }) {
     if (pins.length === 0 || now === null) return scroll.replaceChildren();
     const held = scroll.contains(document.activeElement) ? document.activeElement.dataset.key : null;
     const head = html("tr", {}, html("td", {}), html("th", { scope: "col" }, "now"), ...pins.map(heads));
-    const rows = ROWS.map(([label, cell]) => html("tr", {}, html("th", { scope: "row" }, label),
-      ...[{ view: now }, ...pins].map((pin) => html("td", {}, pin.view ? cell(pin.view) : pin.refused ? "–" : "…"))));
-    const refused = pins.filter((pin) => pin.refused).map((pin) => html("p", { class: "ss-refusal" }, `${pin.letter}: ${pin.refused}`));
-    scroll.replaceChildren(html("table", { class: "ss-compared" }, html("thead", {}, head), html("tbody", {}, ...rows)), ...refused);
+    const text = (cell, { view, refused }) => (view ? cell(view) : refused ? "–" : "…");
+    const cells = (cell) => [{ view: now }, ...pins].map((pin) => html("td", {}, text(cell, pin)));
+    const rows = ROWS.map(([label, cell]) => html("tr", {}, html("th", { scope: "row" }, label), ...cells(cell)));
+    const refused = pins.filter((pin) => pin.refused).map((pin) => `${pin.letter}: ${pin.refused}`);
+    scroll.replaceChildren(
+      html("table", { class: "ss-compared" }, html("thead", {}, head), html("tbody", {}, ...rows)),
+      ...refused.map((why) => html("p", { class: "ss-refusal" }, why)),
+    );
     if (held) scroll.querySelector(`[data-key="${held}"]`)?.focus();
   }
 
   function heads({ letter, query }) {
-    const take = html("button", { type: "button", class: "ss-button", "data-key": `take${letter}`, "aria-label": `Show design ${letter}` }, "Show");
-    const drop = html("button", { type: "button", class: "ss-button", "data-key": `drop${letter}`, "aria-label": `Remove design ${letter}` }, "Remove");
-    take.addEventListener("click", () => onTake(query));
-    drop.addEventListener("click", () => remove(letter));
+    const button = (word, onClick) => {
+      const named = { "data-key": `${word} ${letter}`, "aria-label": `${word} design ${letter}` };
+      const element = html("button", { type: "button", class: "ss-button", ...named }, word);
+      element.addEventListener("click", onClick);
+      return element;
+    };
+    const [take, drop] = [button("Show", () => onTake(query)), button("Remove", () => remove(letter))];
     return html("th", { scope: "col" }, html("span", { class: "ss-letter" }, letter), " ", take, " ", drop);
   }
 
@@ -81,7 +88,7 @@ export function pinboard(host, id, { ask, onTake, onPins }) {
     /** Pins what the fragment of a link says, and asks for what is not known of it. */
     show(fragment) {
       const known = new Map(pins.map((pin) => [`${pin.letter}${pin.query}`, pin]));
-      const given = [...new Map(new URLSearchParams(fragment))].filter(([letter]) => LETTERS.includes(letter) && letter.length === 1);
+      const given = [...new Map(new URLSearchParams(fragment))].filter(([letter]) => [...LETTERS].includes(letter));
       pins = given.slice(0, MOST).map(([letter, query]) => known.get(letter + query) ?? { letter, query });
       draw();
       fill();
@@ -102,7 +109,7 @@ export function pinboard(host, id, { ask, onTake, onPins }) {
 const ROWS = [
   ["method", ({ design }) => design.method],
   ["N, M, L", ({ design }) => [design.N, design.M ?? "–", design.L ?? "–"].join(", ")],
-  ["least speed", ({ current, power }) => `${digits(current.power)}${power.short === "speed" ? "" : ` ${power.short}`}`],
+  ["least speed", ({ current, power }) => `${digits(current.power)} ${power.short === "speed" ? "" : power.short}`],
   ["lands at", ({ current }) => landing(current)],
   ["accuracy", ({ current }) => (current.std === null ? "–" : `${digits(current.std)} ${current.unit ?? ""}`)],
   ["part", ({ design, parts }) => design.processor ?? parts.find(({ fits }) => fits)?.name ?? "–"],

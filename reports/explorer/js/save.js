@@ -13,18 +13,20 @@ const COPIED_MS = 2000;
 /** The section in `host`; `files(kind, query, pins)` gives addresses, or null for what there is not. */
 export function saving(host, id, files) {
   const downloads = html("p", { class: "ss-downloads" });
-  const [shell, python] = [copied("Command", `${id}-shell`), copied("Python", `${id}-python`)];
-  const link = copied("Link", `${id}-link`);
+  const [shell, python] = [copied("command", `${id}-shell`), copied("Python", `${id}-python`)];
+  const address = copied("link", `${id}-link`);
   host.append(html("section", { class: "ss-section ss-save", "aria-labelledby": `${id}-save` },
-    html("h2", { id: `${id}-save` }, "Save"), downloads, link.element, shell.element, python.element));
+    html("h2", { id: `${id}-save` }, "Save"), downloads, address.element, shell.element, python.element));
 
   return {
     show({ query, commands }, pins) {
-      const offered = FILES.map(([kind, words]) => [files(kind, query, pins), words]).filter(([address]) => address !== null);
+      const all = FILES.map(([kind, words]) => [files(kind, query, pins), words]);
+      const offered = all.filter(([address]) => address !== null);
       const held = [...downloads.children].indexOf(document.activeElement);
-      downloads.replaceChildren(...offered.flatMap(([href, words]) => [html("a", { href, download: "", class: "ss-button" }, words), " "]));
+      const link = ([href, words]) => html("a", { href, download: "", class: "ss-button" }, words);
+      downloads.replaceChildren(...offered.flatMap((each) => [link(each), " "]));
       if (held >= 0) downloads.children[held]?.focus();
-      link.show(files("link", query, pins));
+      address.show(files("link", query, pins));
       shell.show(commands.shell);
       python.show(commands.python);
     },
@@ -33,9 +35,10 @@ export function saving(host, id, files) {
 
 function copied(label, id) {
   const text = html("textarea", { id, readonly: true, rows: 1, spellcheck: "false", class: "ss-copied", wrap: "off" });
-  const copy = html("button", { type: "button", class: "ss-button", "aria-describedby": id }, `Copy ${label.toLowerCase()}`);
+  const copy = html("button", { type: "button", class: "ss-button" }, `Copy the ${label}`);
   const said = html("span", { class: "ss-said", role: "status" });
-  const element = html("div", { class: "ss-copy" }, html("label", { for: id }, label), text, html("p", {}, copy, " ", said));
+  const told = html("p", {}, copy, " ", said);
+  const element = html("div", { class: "ss-copy" }, html("label", { for: id }, capital(label)), text, told);
   let timer = null;
   copy.addEventListener("click", async () => {
     clearTimeout(timer);
@@ -63,4 +66,8 @@ async function intoClipboard(text) {
     text.select();
     return false;
   }
+}
+
+function capital(text) {
+  return text[0].toUpperCase() + text.slice(1);
 }

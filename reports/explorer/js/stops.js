@@ -18,7 +18,7 @@ export function roundStops(first, last, count = 2) {
   return last > first ? [...found, last] : found;
 }
 
-/** Evenly spaced from first to last, at multiples of 1, 2 or 5 times a power of ten, two hundred or so; and these two. */
+/** Some two hundred from first to last, evenly spaced at multiples of 1, 2 or 5 times a power of ten; and these two. */
 export function evenStops(first, last) {
   if (last <= first) return [first];
   const rough = (last - first) / 200;

@@ -1,0 +1,110 @@
+// The methods and the parts side by side, and why some do not.
+
+import { digits, html } from "./svg.js";
+import { table } from "./table.js";
+
+/** The table of methods in `host`: with an accuracy that is needed, at the latest landing that keeps it. */
+export function methodsTable({ host, least, why }, view, onTake) {
+  const asked = view.design.within !== null;
+  const can = view.methods.filter(({ reason }) => !reason);
+  const rows = asked ? [...can.filter(keeps).sort(byPower), ...can.filter((row) => !keeps(row))] : can;
+  const pick = asked ? "Pick a method: it is shown with that landing, on that part" : "Pick a method to see it";
+  table(host, {
+    caption: `${pick}. Least speed: ${view.power.unit}`,
+    columns: [{ key: "method", label: "method" }, ...(asked ? keepingColumns(view) : methodColumns(view))],
+    rows,
+    onPick: (row) => onTake(asked && keeps(row) ? row.within.query : row.query),
+    current: rows.findIndex(({ method }) => method === view.design.method),
+  });
+  const best = asked ? rows.find((row) => keeps(row) && row.method !== "standard") : undefined;
+  least.textContent = best === undefined ? "" : leastWords(best, view.period_ms);
+  least.hidden = best === undefined;
+  reasons(why, view.methods.map(({ method, reason, within }) => [method, reason || within?.reason]));
+}
+
+/** The table of parts in `host`. */
+export function partsTable({ host, why }, view, onTake) {
+  const share = (value) => (value === null ? "–" : `${digits(100 * value.value, 3)} %`);
+  table(host, {
+    caption: `Pick a part to see ${view.design.method} on it. Those that do it come first, cheapest first`,
+    columns: [
+      { key: "title", label: "part", text: ({ title }) => briefTitle(title) },
+      verdict("does it"),
+      { key: "needed", label: "of its speed", numeric: true, text: ({ needed }) => share(needed) },
+      { key: "load", label: "load", numeric: true, text: ({ load }) => share(load) },
+      { key: "landed", label: "lands at", numeric: true, text: ({ landed, landed_ms: ms }) => stepText(landed, ms) },
+      ...accuracyColumn(view, ({ std }) => std),
+    ],
+    rows: view.parts,
+    onPick: (row) => onTake(row.query),
+    current: view.parts.findIndex(({ name }) => name === view.design.processor),
+  });
+  reasons(why, view.parts.map(({ title, reason }) => [briefTitle(title), reason]));
+}
+
+function keepingColumns(view) {
+  const step = (L) => stepText(L, inTime(L, view.period_ms));
+  return [
+    { key: "land", label: "land by step", numeric: true, text: ({ within }) => step(within?.L) },
+    { key: "power", label: "least speed", numeric: true, text: ({ within }) => digits(within?.power) },
+    { key: "part", label: "cheapest part", text: ({ within }) => within?.part ?? "–" },
+    { key: "landed", label: "lands there at", numeric: true, text: ({ within }) => step(within?.landed) },
+    ...accuracyColumn(view, ({ within }) => within?.landed_std ?? within?.std),
+  ];
+}
+
+function methodColumns(view) {
+  return [
+    { key: "L", label: "land by step", numeric: true, text: ({ L }) => stepText(L, inTime(L, view.period_ms)) },
+    { key: "power", label: "least speed", numeric: true, text: ({ power }) => digits(power) },
+    { key: "binding", label: "fixed by", text: ({ binding }) => binding ?? "–" },
+    ...(view.methods.some(({ fits }) => typeof fits === "boolean") ? [verdict("fits")] : []),
+    { key: "landed", label: "lands at", numeric: true, text: (row) => stepText(row.achieved_l, row.landed_ms) },
+    ...accuracyColumn(view, ({ std }) => std),
+  ];
+}
+
+function verdict(label) {
+  const words = new Map([[true, "yes"], [false, "no"]]);
+  return { key: "fits", label, holds: ({ fits }) => fits, text: ({ fits }) => words.get(fits) ?? "" };
+}
+
+function accuracyColumn({ current: { unit } }, std) {
+  return unit ? [{ key: "std", label: `accuracy, ${unit}`, numeric: true, text: (row) => digits(std(row)) }] : [];
+}
+
+function keeps({ within }) {
+  return within !== null && !within.reason;
+}
+
+function byPower(one, other) {
+  return one.within.power - other.within.power;
+}
+
+function leastWords({ method, within: { L, part } }, period) {
+  return `The least will do: ${method}, landed by step ${stepText(L, inTime(L, period))}${part ? `, on ${part}` : ""}.`;
+}
+
+/* Why some do not, those with one reason together. */
+function reasons(list, pairs) {
+  const by = new Map();
+  for (const [name, reason] of pairs) if (reason) by.set(reason, [...(by.get(reason) ?? []), name]);
+  const item = ([reason, names]) => html("li", {}, html("b", {}, names.join(", ")), `: ${reason}`);
+  list.replaceChildren(...[...by].map(item));
+  list.hidden = by.size === 0;
+}
+
+/* A part's title without what is special about it: "Arm Cortex-M4F at 168 MHz, e.g. STM32F407". */
+function briefTitle(title) {
+  const [name, example = ""] = title.split(", ");
+  return example.startsWith("e.g.") ? `${name}, ${example}` : name;
+}
+
+function stepText(L, ms) {
+  if (L === null || L === undefined) return "–";
+  return ms === null || ms === undefined ? String(L) : `${L} (${digits(ms)} ms)`;
+}
+
+function inTime(L, period) {
+  return L === null || L === undefined || period === null ? null : L * period;
+}
