@@ -5,9 +5,9 @@ import { html } from "./svg.js";
 const SETTLED_MS = 600;
 const STATE_SIGNS = { holds: "✓", misses: "✗", inaccurate: "✗", unknown: "?" };
 
-/** The answer in `box`, warnings and notes in `beside`. `onPin`, `onStop` and `onBack` hear of its buttons. Each of its
- *  methods shows a state. */
-export function answerBox(box, beside, id, { onPin, onStop, onBack }) {
+/** The answer in `box`, warnings and notes in `beside`. `onStop`, `onBack` and, where designs can be pinned, `onPin`
+ *  hear of its buttons. Each of its methods shows a state. */
+export function answerBox(box, beside, id, { onStop, onBack, onPin = null }) {
   const sign = html("span", { class: "ss-sign", "aria-hidden": "true" });
   const words = html("span", {}, "One moment …");
   const live = { role: "status", "aria-live": "polite", "aria-atomic": "true" };
@@ -44,6 +44,7 @@ export function answerBox(box, beside, id, { onPin, onStop, onBack }) {
   };
   tell("");
   pin.disabled = true;
+  pin.hidden = onPin === null;
 
   return {
     /** The answer of a view. It is read out when no other has followed for a while. */
@@ -73,6 +74,6 @@ export function answerBox(box, beside, id, { onPin, onStop, onBack }) {
 
 function button(text, onClick) {
   const element = html("button", { type: "button", class: "ss-button" }, text);
-  element.addEventListener("click", onClick);
+  element.addEventListener("click", () => onClick());
   return element;
 }

@@ -35,16 +35,16 @@ export function pictures(host, id, { onTake }) {
   const chart = ganttChart(drawn);
   const places = TRADEOFFS.map(place);
   section("curves", "What it would take otherwise", html("div", { class: "ss-plots" }, ...places));
-  const curves = TRADEOFFS.map(({ picks }, index) => plot(places[index], picks ? { onPick: land } : {}));
+  const land = (landing) => (x, line) => {
+    const L = String(landing(x, line));
+    onTake(textOf(changedQuery(queryOf(line.query), { L, land_within_ms: null })));
+  };
+  const curves = TRADEOFFS.map(({ landing }, index) => plot(places[index], landing ? { onPick: land(landing) } : {}));
   const parts = { host: place(), why: reasons() };
   const none = html("p", {});
   section("parts", "Parts", parts.host, parts.why, none);
   let shown = null;
   jobs.addEventListener("toggle", () => jobs.open && shown !== null && jobsTable(listed, shown.schedule));
-
-  function land(x, { x: xs, L, query }) {
-    onTake(textOf(changedQuery(queryOf(query), { L: String(L[xs.indexOf(x)]), land_within_ms: null })));
-  }
 
   return {
     pinned,

@@ -1,43 +1,43 @@
 // The four curves: what it would take to land earlier or later, on a slower or a faster processor.
 
 /** What a plot shows of a view and the pinned designs {letter, view}; null where there is nothing to show. A line has
- *  the query of its method, and the step L of each point. */
+ *  the query of its method; `landing(x, line)` is the step L of what is picked, where picking is of use. */
 export const TRADEOFFS = [
   {
-    picks: true,
+    landing: (x) => x,
     of: (view, pins) => ({
       title: "Land later, and a slower processor will do",
       x: { label: "L, step by which the correction has landed", log: false },
       y: powerAxis("least speed", view),
-      lines: linesOf(view, true, ({ staircase: { L, power } }) => ({ x: L, y: power, L })),
+      lines: linesOf(view, true, ({ staircase: { L, power } }) => ({ x: L, y: power })),
       points: pointsOf(view, pins, ({ design, current }) => ({ x: design.L, y: current.power })),
       limit: null,
     }),
   },
   {
-    picks: false,
+    landing: null,
     of: (view, pins) => ({
       title: "Where it lands on a faster processor",
       x: powerAxis("speed", view),
       y: { label: "l, step in which it lands", log: false },
-      lines: linesOf(view, true, ({ landing: { power, L } }) => ({ x: power, y: L, L })),
+      lines: linesOf(view, true, ({ landing: { power, L } }) => ({ x: power, y: L })),
       points: pointsOf(view, pins, ({ current }) => ({ x: current.pace, y: current.achieved_l })),
       limit: null,
     }),
   },
   {
-    picks: true,
+    landing: (x) => x,
     of: (view, pins) => (view.design.model === null ? null : {
       title: "What landing later costs in accuracy",
       x: { label: "step in which the correction lands", log: false },
       y: accuracyAxis(view),
-      lines: linesOf(view, false, ({ accuracy }) => accuracy && { x: accuracy.L, y: accuracy.std, L: accuracy.L }),
+      lines: linesOf(view, false, ({ accuracy }) => accuracy && { x: accuracy.L, y: accuracy.std }),
       points: pointsOf(view, pins, ({ current }) => ({ x: current.achieved_l, y: current.std })),
       limit: limitOf(view),
     }),
   },
   {
-    picks: true,
+    landing: (x, { x: xs, L }) => L[Math.max(0, xs.findLastIndex((power) => power <= x))],
     of: (view, pins) => (view.design.model === null ? null : {
       title: "What a faster processor buys in accuracy",
       x: powerAxis("least speed", view),
@@ -51,11 +51,12 @@ export const TRADEOFFS = [
   },
 ];
 
+/* Nothing is late to the standard filter: at L = 0 it would take half of the width. */
 function linesOf(view, step, of) {
   return view.methods.flatMap((row) => {
-    const line = row.reason ? null : of(row);
-    if (line === null || line.x.length === 0) return [];
-    return [{ name: row.method, query: row.query, step, current: row.method === view.design.method, ...line }];
+    const current = row.method === view.design.method;
+    const line = row.reason || (row.method === "standard" && !current) ? null : of(row);
+    return line === null || line.x.length === 0 ? [] : [{ name: row.method, query: row.query, step, current, ...line }];
   });
 }
 

@@ -220,6 +220,19 @@ def test_pins_are_marked_in_the_plots(visit: Visit, server: SmallServer) -> None
     expect(plot).to_have_attribute("aria-label", re.compile("A: L 50, "))
 
 
+@pytest.mark.parametrize(
+    ("plot", "landing"),
+    [("Land later", 46), ("What landing later", 46), ("What a faster processor buys", 79)],
+)
+def test_a_point_of_a_curve_is_taken(visit: Visit, server: SmallServer, plot: str, landing: int) -> None:
+    """By the keys: the first point and one more; with power L falls."""
+    page = opened(visit, server, f"?{DESIGN}&method=clone")
+    page.get_by_role("slider", name=re.compile(plot)).focus()
+    for key in ("Home", "ArrowRight", "Enter"):
+        page.keyboard.press(key)
+    expect(page.locator(".ss-explorer")).to_have_attribute("data-shown", f"{DESIGN}&method=clone&L={landing}")
+
+
 def test_what_takes_long_says_so_and_can_be_stopped(visit: Visit, server: SmallServer) -> None:
     page = opened(visit, server)
     server.open.clear()
