@@ -42,9 +42,7 @@ export const TRADEOFFS = [
       title: "What a faster processor buys in accuracy",
       x: powerAxis("least speed", view),
       y: accuracyAxis(view),
-      lines: linesOf(view, true, ({ front }) => front && {
-        x: front.power, y: front.std, L: front.L, notes: front.L.map((L) => `L ${L}`),
-      }),
+      lines: linesOf(view, true, ({ front }) => front && frontLine(front)),
       points: pointsOf(view, pins, ({ current }) => ({ x: current.power, y: current.std_at_L })),
       limit: limitOf(view),
     }),
@@ -58,6 +56,14 @@ function linesOf(view, step, of) {
     const line = row.reason || (row.method === "standard" && !current) ? null : of(row);
     return line === null || line.x.length === 0 ? [] : [{ name: row.method, query: row.query, step, current, ...line }];
   });
+}
+
+/* By power; of landings that need the same, the most accurate. */
+function frontLine({ L, power, std }) {
+  const by = [...power.keys()].sort((one, other) => power[one] - power[other] || std[one] - std[other]);
+  const kept = by.filter((at, index) => index === 0 || power[at] > power[by[index - 1]]);
+  const [x, y, landings] = [power, std, L].map((column) => kept.map((at) => column[at]));
+  return { x, y, L: landings, notes: landings.map((landing) => `L ${landing}`) };
 }
 
 function pointsOf(view, pins, of) {

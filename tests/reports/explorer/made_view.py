@@ -121,7 +121,7 @@ def _method(name: str, work: float, design: Mapping[str, Any], given: Mapping[st
         "staircase": {"L": steps, "power": list(power.values()), "achieved": steps},
         "landing": {"power": sorted(power.values()), "L": steps[::-1]},
         "accuracy": {"L": list(std), "std": list(std.values())} if std else None,
-        "front": {"L": steps[::-1], "power": list(power.values())[::-1], "std": list(std.values())[::-1]} if std else None,
+        "front": {"L": steps, "power": list(power.values()), "std": list(std.values())} if std else None,
     }  # fmt: skip
     if design["within"] is not None and std:
         kept = [step for step in steps if std[step] <= float(design["within"])]
