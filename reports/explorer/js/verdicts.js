@@ -7,26 +7,27 @@ import { table } from "./table.js";
 export function methodsTable({ host, least, why }, view, onTake) {
   const asked = view.design.within !== null;
   const can = view.methods.filter(({ reason }) => !reason);
-  const rows = asked ? [...can.filter(keeps).sort(byPower), ...can.filter((row) => !keeps(row))] : can;
+  const rows = asked ? [...can].sort(keepingFirst) : can;
   const pick = asked ? "Pick a method: it is shown with that landing, on that part" : "Pick a method to see it";
   table(host, {
     caption: `${pick}. Least speed: ${view.power.unit}`,
-    columns: [{ key: "method", label: "method" }, ...(asked ? keepingColumns(view) : methodColumns(view))],
+    columns: [{ key: "method", label: "method", text: methodName }, ...(asked ? keepingColumns(view) : methodColumns(view))],
     rows,
     onPick: (row) => onTake(asked && keeps(row) ? row.within.query : row.query),
     current: rows.findIndex(({ method }) => method === view.design.method),
   });
-  const best = asked ? rows.find((row) => keeps(row) && row.method !== "standard") : undefined;
-  least.textContent = best === undefined ? "" : leastWords(best, view.period_ms);
-  least.hidden = best === undefined;
+  const [best] = rows;
+  least.hidden = !asked || !keeps(best);
+  least.textContent = least.hidden ? "" : leastWords(best, view.period_ms);
   reasons(why, view.methods.map(({ method, reason, within }) => [method, reason || within?.reason]));
 }
 
 /** The table of parts in `host`. */
 export function partsTable({ host, why }, view, onTake) {
   const share = (value) => (value === null ? "–" : `${digits(100 * value.value, 3)} %`);
+  const order = "The first of those that do is the cheapest, or, without prices, has the least to spare";
   table(host, {
-    caption: `Pick a part to see ${view.design.method} on it. Those that do it come first, cheapest first`,
+    caption: `Pick a part to see ${view.design.method} on it. ${order}`,
     columns: [
       { key: "title", label: "part", text: ({ title }) => briefTitle(title) },
       verdict("does it"),
@@ -47,7 +48,7 @@ function keepingColumns(view) {
   return [
     { key: "land", label: "land by step", numeric: true, text: ({ within }) => step(within?.L) },
     { key: "power", label: "least speed", numeric: true, text: ({ within }) => digits(within?.power) },
-    { key: "part", label: "cheapest part", text: ({ within }) => within?.part ?? "–" },
+    { key: "part", label: "part", text: ({ within }) => within?.part ?? "–" },
     { key: "landed", label: "lands there at", numeric: true, text: ({ within }) => step(within?.landed) },
     ...accuracyColumn(view, ({ within }) => within?.landed_std ?? within?.std),
   ];
@@ -77,8 +78,14 @@ function keeps({ within }) {
   return within !== null && !within.reason;
 }
 
-function byPower(one, other) {
-  return one.within.power - other.within.power;
+/* Those that keep the accuracy by what they need; then what cannot, and the reference, which nothing reaches. */
+function keepingFirst(one, other) {
+  const rank = (row) => (row.method === "standard" ? 2 : keeps(row) ? 0 : 1);
+  return rank(one) - rank(other) || (rank(one) === 0 ? one.within.power - other.within.power : 0);
+}
+
+function methodName({ method }) {
+  return method === "standard" ? "standard (no delay)" : method;
 }
 
 function leastWords({ method, within: { L, part } }, period) {
