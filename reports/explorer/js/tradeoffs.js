@@ -40,10 +40,10 @@ export const TRADEOFFS = [
     landing: (x, { x: xs, L }) => L[Math.max(0, xs.findLastIndex((power) => power <= x))],
     of: (view, pins) => (view.design.model === null ? null : {
       title: "What a faster processor buys in accuracy",
-      x: powerAxis("least speed", view),
+      x: powerAxis("speed", view),
       y: accuracyAxis(view),
       lines: linesOf(view, true, ({ front }) => front && frontLine(front)),
-      points: pointsOf(view, pins, ({ current }) => ({ x: current.power, y: current.std_at_L })),
+      points: pointsOf(view, pins, ({ current }) => ({ x: current.pace, y: current.std })),
       limit: limitOf(view),
     }),
   },

@@ -3,6 +3,8 @@
 import { digits, html } from "./svg.js";
 import { table } from "./table.js";
 
+const MOST_LETTERS = 50;
+
 /** The table of methods in `host`: with an accuracy that is needed, at the latest landing that keeps it. */
 export function methodsTable({ host, least, why }, view, onTake) {
   const asked = view.design.within !== null;
@@ -25,7 +27,7 @@ export function methodsTable({ host, least, why }, view, onTake) {
 /** The table of parts in `host`. */
 export function partsTable({ host, why }, view, onTake) {
   const share = (value) => (value === null ? "–" : `${digits(100 * value.value, 3)} %`);
-  const order = "The first of those that do is the cheapest, or, without prices, has the least to spare";
+  const order = "Those that do come first, by price; without one, by how little they have to spare";
   table(host, {
     caption: `Pick a part to see ${view.design.method} on it. ${order}`,
     columns: [
@@ -89,7 +91,7 @@ function methodName({ method }) {
 }
 
 function leastWords({ method, within: { L, part } }, period) {
-  return `The least will do: ${method}, landed by step ${stepText(L, inTime(L, period))}${part ? `, on ${part}` : ""}.`;
+  return `Needs least: ${method}${part ? ` on ${part}` : ""}, landing by step ${stepText(L, inTime(L, period))}.`;
 }
 
 /* Why some do not, those with one reason together. */
@@ -104,7 +106,8 @@ function reasons(list, pairs) {
 /* A part's title without what is special about it: "Arm Cortex-M4F at 168 MHz, e.g. STM32F407". */
 function briefTitle(title) {
   const [name, example = ""] = title.split(", ");
-  return example.startsWith("e.g.") ? `${name}, ${example}` : name;
+  const both = `${name}, ${example}`;
+  return example.startsWith("e.g.") && both.length <= MOST_LETTERS ? both : name;
 }
 
 function stepText(L, ms) {

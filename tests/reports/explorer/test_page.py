@@ -96,7 +96,7 @@ def test_methods_that_cannot_be_are_no_rows_but_reasons(visit: Visit, server: Sm
 def test_of_the_designs_that_do_the_least_is_named(visit: Visit, server: SmallServer) -> None:
     page = opened(visit, server, f"?{DESIGN}&within=0.38")
     methods = page.get_by_role("region", name="Designs that keep")
-    expect(methods).to_contain_text("The least will do: dual-rate, landed by step 66 (165 ms), on rp2040.")
+    expect(methods).to_contain_text("Needs least: dual-rate on rp2040, landing by step 66 (165 ms).")
     expect(methods.get_by_role("rowheader")).to_have_text(["dual-rate", "clone", "recalculate"])
 
 
