@@ -67,7 +67,7 @@ export function answerBox(box, beside, id, { onStop, onBack, onPin = null }) {
     },
     stopped: () => tell("Stopped. Shown is the design before.", { backing: true }),
     gone: (text) => tell(text),
-    refused: (text) => tell(text, { backing: true }),
+    refused: (text, backing) => tell(text, { backing }),
     destroy: () => clearTimeout(settling),
   };
 }

@@ -10,6 +10,7 @@ import { saving } from "./save.js";
 import { html } from "./svg.js";
 
 const SAID_BESIDE = "That cannot be; why is said beside what was changed.";
+const SHOWN_BEFORE = "Shown is another design.";
 
 /**
  * The explorer of the design that `query` says, a text. `ask(query, signal)` promises its view; what it rejects with is
@@ -83,9 +84,15 @@ export function explorer(host, { ask, query = "", pins = "", onQuery = unheard, 
   }
 
   function refuse() {
-    const said = form.refuse(refusal, changes);
-    box.refused(said ? `${SAID_BESIDE} Shown is the design before.` : refusal);
-    stale(true);
+    if (form.refuse(refusal, changes)) {
+      box.refused(`${SAID_BESIDE} ${SHOWN_BEFORE}`, true);
+      stale(true);
+    } else {
+      box.refused(`${refusal}. ${SHOWN_BEFORE}`, false);
+      asked = queryOf(view.query);
+      mode = modeOf(asked);
+      form.set({ query: asked, view, mode }, true);
+    }
   }
 
   function stale(is) {

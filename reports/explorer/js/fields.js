@@ -135,9 +135,10 @@ export const GROUPS = [
 ];
 
 /** The field that a refusal is about, by its key and that of its twin: the one changed last, if it is mentioned or
- *  nothing is; else what is mentioned first. Null where it is about none. */
+ *  nothing is; else what is mentioned first, before the remedy. Null where it is about none. */
 export function fieldRefused(text, changes, fields) {
-  const first = ({ key, twin = key }) => Math.min(placeOf(text, key), placeOf(text, twin));
+  const [fault] = text.split(": ");
+  const first = ({ key, twin = key }) => Math.min(placeOf(fault, key), placeOf(fault, twin));
   const places = fields.map((field) => [field, first(field)]);
   const said = places.filter(([, at]) => at < Infinity).sort((a, b) => a[1] - b[1]).map(([field]) => field);
   const last = fields.find((field) => changes.includes(field.key) || changes.includes(field.twin));

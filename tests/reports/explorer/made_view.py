@@ -83,7 +83,7 @@ def _design(given: Mapping[str, str]) -> dict[str, Any]:
              *OPTIONS]  # fmt: skip
     for key in given:
         if key not in known:
-            raise RefusedError(f"{key} is unknown: leave it out")
+            raise RefusedError(f"the query's key '{key}' is unknown: choose from {', '.join(known)}")
     try:
         numbers = {
             key: Fraction(given[key])

@@ -182,6 +182,16 @@ def test_a_link_that_is_refused_says_why_and_can_be_mended(visit: Visit, server:
     visit.errors.remove(*(error for error in visit.errors if "422" in error))
 
 
+def test_a_link_that_no_control_can_mend_leaves_the_design_to_begin_with(visit: Visit, server: SmallServer) -> None:
+    page = opened(visit, server, "?colour=red")
+    expect(page.get_by_text("'colour' is unknown: choose from N, M, L")).to_be_visible()
+    expect(page.locator(".ss-stale")).to_have_count(0)
+    give(page, "Delay", "100")
+    shows(page, DESIGN.replace("110", "100"))
+    assert page.url == f"{server.url}?{DESIGN.replace('110', '100')}"
+    visit.errors.remove(*(error for error in visit.errors if "422" in error))
+
+
 def test_in_steps_and_back(visit: Visit, server: SmallServer) -> None:
     page = opened(visit, server)
     page.get_by_role("radio", name="steps").check()
