@@ -23,7 +23,7 @@ export function answerBox(box, beside, id, { onStop, onBack, onPin = null }) {
   const notes = html("ul", { id: `${id}-notes` });
   const noted = html("details", { class: "ss-notes" }, html("summary", {}, "How this was computed"), notes);
   box.append(sentence, line);
-  beside.append(warnings, pin, noted);
+  beside.append(warnings, noted, pin);
   let settling = null;
 
   const tell = (text, { stopping = false, backing = false } = {}) => {

@@ -1,6 +1,7 @@
 // The methods and the parts side by side, and why some do not.
 
 import { digits, html } from "./svg.js";
+import { grouped } from "./facts.js";
 import { table } from "./table.js";
 
 const MOST_LETTERS = 50;
@@ -48,9 +49,9 @@ export function partsTable({ host, why }, view, onTake) {
 function keepingColumns(view) {
   const step = (L) => stepText(L, inTime(L, view.period_ms));
   return [
-    { key: "land", label: "land by step", numeric: true, text: ({ within }) => step(within?.L) },
-    { key: "power", label: "least speed", numeric: true, text: ({ within }) => digits(within?.power) },
     { key: "part", label: "part", text: ({ within }) => within?.part ?? "–" },
+    { key: "land", label: "land by step", numeric: true, text: ({ within }) => step(within?.L) },
+    { key: "power", label: "least speed", numeric: true, text: ({ within }) => powerText(within?.power) },
     { key: "landed", label: "lands there at", numeric: true, text: ({ within }) => step(within?.landed) },
     ...accuracyColumn(view, ({ within }) => within?.landed_std ?? within?.std),
   ];
@@ -59,7 +60,7 @@ function keepingColumns(view) {
 function methodColumns(view) {
   return [
     { key: "L", label: "land by step", numeric: true, text: ({ L }) => stepText(L, inTime(L, view.period_ms)) },
-    { key: "power", label: "least speed", numeric: true, text: ({ power }) => digits(power) },
+    { key: "power", label: "least speed", numeric: true, text: ({ power }) => powerText(power) },
     { key: "binding", label: "fixed by", text: ({ binding }) => binding ?? "–" },
     ...(view.methods.some(({ fits }) => typeof fits === "boolean") ? [verdict("fits")] : []),
     { key: "landed", label: "lands at", numeric: true, text: (row) => stepText(row.achieved_l, row.landed_ms) },
@@ -108,6 +109,10 @@ function briefTitle(title) {
   const [name, example = ""] = title.split(", ");
   const both = `${name}, ${example}`;
   return example.startsWith("e.g.") && both.length <= MOST_LETTERS ? both : name;
+}
+
+function powerText(power) {
+  return power >= 1e4 ? grouped(Number(power.toPrecision(4))) : digits(power);
 }
 
 function stepText(L, ms) {
