@@ -51,7 +51,7 @@ export function answerBox(box, beside, id, { onStop, onBack, onPin = null }) {
     show({ answer, warnings: warned, notes: said }) {
       if (words.textContent !== answer.sentence) {
         settle();
-        words.textContent = answer.sentence;
+        words.replaceChildren(...verdictFirst(answer.sentence));
       }
       sign.textContent = STATE_SIGNS[answer.state] ?? "";
       box.dataset.state = answer.state;
@@ -70,6 +70,12 @@ export function answerBox(box, beside, id, { onStop, onBack, onPin = null }) {
     refused: (text, backing) => tell(text, { backing }),
     destroy: () => clearTimeout(settling),
   };
+}
+
+/* What stands before a colon is the verdict. */
+function verdictFirst(sentence) {
+  const at = sentence.indexOf(": ");
+  return at < 0 ? [html("strong", {}, sentence)] : [html("strong", {}, sentence.slice(0, at)), sentence.slice(at)];
 }
 
 function button(text, onClick) {
