@@ -19,15 +19,14 @@ export function traceControls(id, { onMove, onFind, onStop }) {
   const [previous, next] = [button("‹ Previous steps", () => shift(-1)), button("Next steps ›", () => shift(1))];
   const [miss, landing] = [button("To the next miss", () => onFind("miss")), button("To the next late landing", () => onFind("landing"))];
   const stop = button("Stop", onStop);
-  const line = html("div", { class: "ss-trace-line" },
-    html("label", { for: `${id}-first` }, "First step"), first, html("label", { for: `${id}-span` }, "Steps shown"), span, previous, next, miss, landing);
+  const labelled = (input, text) => html("span", { class: "ss-trace-field" }, html("label", { for: input.id }, text), input);
+  const fields = [labelled(first, "First step"), labelled(span, "Steps shown")];
+  const line = html("div", { class: "ss-trace-line" }, ...fields, previous, next, miss, landing);
   const element = html("div", { class: "ss-trace-steps" }, range, line, html("div", { class: "ss-trace-line" }, said, stop));
   let total = 1;
   range.addEventListener("input", () => jump(Number(range.value)));
   first.addEventListener("change", () => jump(Math.round(Number(first.value.replaceAll(",", ""))) || 0));
-  span.addEventListener("change", () => {
-    jump(Number(range.value));
-  });
+  span.addEventListener("change", () => jump(Number(range.value)));
   stop.hidden = true;
 
   function jump(at) {
