@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from sched_sim.design.binding import BINDING_WORDS
+from sched_sim.design.methods import METHODS
 from studies.explorer.accuracy import Accuracy
 from studies.explorer.front import Front
 from studies.explorer.planned import Planned
@@ -137,13 +138,15 @@ def within_of(asked: Resolved, method: str, kept: Candidate, power: Power) -> Wi
     on = kept.parts[0] if kept.parts else None
     part = None if on is None or not on.fits else on.name
     named = asked.design.processor if on is None or not on.fits or on.part is None else on.part.name
+    design = asked.design
+    if kept.L is not None:
+        only_first = METHODS[method].law(design.options.feedback).only_first
+        design = replace(design, L=None if only_first else kept.L, land_within_ms=None)
     at_L = replace(
-        asked.design,
+        design,
         method=method,
-        L=kept.L,
-        land_within_ms=None,
         processor=named,
-        speed=None if named else asked.design.speed,
+        speed=None if named else design.speed,
     )
     least = None if kept.least is None else kept.least.speed
     return Within(
