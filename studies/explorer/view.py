@@ -9,12 +9,15 @@ from typing import Any
 
 from sched_sim.errors import InputError
 from studies.explorer.accuracy import Accuracy, accuracy
+from studies.explorer.answer import Answer, Found, answer
 from studies.explorer.choices import Choices, choices_of
+from studies.explorer.commands import Commands, commands
 from studies.explorer.current import Current, current_of, said_of
 from studies.explorer.design import Design
 from studies.explorer.document import document
 from studies.explorer.front import Front, front
 from studies.explorer.given import Given
+from studies.explorer.grounds import grounds
 from studies.explorer.limits import Limits, limits
 from studies.explorer.methods import MethodView, method_view, refused_view
 from studies.explorer.part_views import PartView, part_view
@@ -26,6 +29,7 @@ from studies.explorer.question import question_of
 from studies.explorer.resolved import Resolved, resolved
 from studies.explorer.schedule import Timeline, timeline
 from studies.explorer.searched import MOST_BESIDE, searched
+from studies.explorer.warnings import warnings
 from studies.explorer.within import keeping
 from studies.selection.choice import Candidate
 from studies.selection.question import Question
@@ -46,14 +50,14 @@ class View:
     limits: Limits
     period_ms: float | None
     power: Power
-    answer: Any
+    answer: Answer
     warnings: tuple[str, ...]
     notes: tuple[str, ...]
     current: Current
     schedule: Timeline
     methods: tuple[MethodView, ...]
     parts: tuple[PartView, ...]
-    commands: Any
+    commands: Commands
 
     def document(self) -> dict[str, Any]:
         """Plain data: objects, lists, numbers, text and None."""
@@ -86,6 +90,7 @@ def explore(design: Design, given: Given = Given()) -> View:
         current.costs, current.timing, current.speed, design.cycles, design.options, asked.tasks, period_ms
     )
     fronts = _fronts(plans, figures, power)
+    found = Found(asked, current, shown, own, kept, looked)
     return View(
         query_of(design),
         said_of(asked, current),
@@ -93,9 +98,9 @@ def explore(design: Design, given: Given = Given()) -> View:
         limits(asked),
         period_ms,
         power,
-        None,
-        (),
-        tuple(filter(None, [*asked.stated.words.split("\n"), why_nowhere])),
+        answer(found),
+        warnings(found),
+        tuple(filter(None, [*asked.stated.words.split("\n"), *grounds(found), why_nowhere])),
         current_of(asked, current, power, own, shown.misses),
         shown,
         tuple(
@@ -105,7 +110,7 @@ def explore(design: Design, given: Given = Given()) -> View:
             for method in asked.methods
         ),
         tuple(part_view(asked, on) for on in looked),
-        None,
+        commands(asked, current),
     )
 
 
