@@ -1,4 +1,5 @@
-"""What is asked: cost measurement, sweeps, which filter is accurate enough, and the declared studies."""
+"""What is asked: cost measurement, sweeps, which filter is accurate enough, all of one design, and the declared
+studies."""
 
 from __future__ import annotations
 
@@ -7,6 +8,8 @@ from typing import TYPE_CHECKING
 from sched_sim.lazy import lazily
 
 if TYPE_CHECKING:
+    from studies.explorer.design import Design
+    from studies.explorer.view import View, explore
     from studies.measurement.described import describe_filter
     from studies.measurement.methods import measure
     from studies.measurement.samples import measure_filter
@@ -14,11 +17,23 @@ if TYPE_CHECKING:
     from studies.selection.compare import compare_accuracy
     from studies.sweep.library import run_sweep
 
-__all__ = ["choose_filter", "compare_accuracy", "describe_filter", "measure", "measure_filter", "run_sweep"]
+__all__ = [
+    "Design",
+    "View",
+    "choose_filter",
+    "compare_accuracy",
+    "describe_filter",
+    "explore",
+    "measure",
+    "measure_filter",
+    "run_sweep",
+]
 
 __getattr__, __dir__ = lazily(
     __name__,
     {
+        "studies.explorer.design": "Design",
+        "studies.explorer.view": "View explore",
         "studies.measurement.described": "describe_filter",
         "studies.measurement.methods": "measure",
         "studies.measurement.samples": "measure_filter",

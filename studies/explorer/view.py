@@ -37,8 +37,8 @@ from studies.selection.question import Question
 
 @dataclass(frozen=True, slots=True)
 class View:
-    """What `explore` returns; `document` makes JSON of it. Fractions are exact; powers are floats in `power.unit`;
-    lists are columns; None is what is not known or not there.
+    """What `explore` returns; `document` makes JSON of it. Fractions are exact; powers are floats, in the unit of
+    `power`; lists are columns; None is what is not known or not there.
 
     query: the link; design: every key of it, with what the design comes to. limits: how far N, M and L may go. current:
     the design itself, schedule: what its processor does; methods: beside it all others, parts: where it may run.
