@@ -172,6 +172,7 @@ class Gantt {
     showLegend(legend, ganttLegend({ line: this.line, colours: this.colours }, this.drawn.every), look);
     const whole = sameStretch(this.stretch, this.line.whole);
     range.textContent = stretchWords(this.stretch, this.line.whole);
+    canvas.classList.toggle("ss-gantt-part", !whole);
     for (const name of ["out", "whole"]) tools[name].setAttribute("aria-disabled", whole);
     this.tell();
   }

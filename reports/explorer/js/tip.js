@@ -24,12 +24,19 @@ export function jobTip(frame) {
       ring.style.width = `${toX - x + 2 * RING_PX}px`;
       ring.style.height = `${BAR_PX + 2 * RING_PX}px`;
       const left = Math.min(Math.max((x + toX) / 2 - tip.offsetWidth / 2, 0), Math.max(width - tip.offsetWidth, 0));
-      tip.style.transform = `translate(${left}px, ${lane.foot + GAP_PX}px)`;
+      tip.style.transform = `translate(${left}px, ${tipTop(frame, tip, lane)}px)`;
     },
     hide() {
       ring.hidden = tip.hidden = true;
     },
   };
+}
+
+/** Below the row; above it, where only there the window has room. */
+function tipTop(frame, tip, lane) {
+  const { top } = frame.getBoundingClientRect();
+  const [below, above] = [lane.foot + GAP_PX, lane.head - GAP_PX - tip.offsetHeight];
+  return top + below + tip.offsetHeight > innerHeight && top + above > 0 ? above : below;
 }
 
 function tipParts(line, facts) {

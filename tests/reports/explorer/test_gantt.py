@@ -8,6 +8,8 @@ from typing import Any
 
 import pytest
 from axe_playwright_python.sync_playwright import Axe
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
 from playwright.sync_api import Browser
 
 from reports.drawing.style import FILLS, RED, TASK_FILLS
@@ -89,6 +91,28 @@ def test_no_merging_hides_a_miss(visit: Visit) -> None:
     groups = [after - before for before, after in pairwise(red) if after - before > 12]
     assert len(groups) + 1 == len(misses)
     assert groups[0] / sum(groups) == pytest.approx(7_777 / 20_000, abs=0.02)
+
+
+@st.composite
+def stretches_of_jobs(draw: st.DrawFn) -> tuple[int, list[tuple[float, float, float]], float, float]:
+    """Steps, jobs that run one after another, some beyond their deadlines, and the ends of what is shown."""
+    steps = draw(st.integers(1, 3000))
+    longest = draw(st.floats(0.05, 0.99))
+    late = draw(st.sets(st.integers(0, steps - 1), max_size=3))
+    jobs = [(step, step + longest, step + (longest / 2 if step in late else 1)) for step in range(steps)]
+    first = draw(st.floats(0, 0.95)) * steps
+    return steps, jobs, first, first + draw(st.floats(0.02, 1)) * (steps - first)
+
+
+@settings(deadline=None, max_examples=25, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(stretches_of_jobs())
+def test_there_is_red_where_and_only_where_a_deadline_is_missed(
+    visit: Visit, given: tuple[int, list[tuple[float, float, float]], float, float]
+) -> None:
+    steps, jobs, first, end = given
+    chart = Chart(visit, {**by_hand(steps, jobs), "first": first, "last": end})
+    shown = [finish > deadline and first < finish and deadline < end for _, finish, deadline in jobs]
+    assert bool(chart.columns(rgb(RED))) == any(shown)
 
 
 def test_what_is_under_a_pixel_is_as_dense_as_the_processor_is_busy(visit: Visit) -> None:
