@@ -34,6 +34,16 @@ def test_what_is_hovered_tells_of_itself(visit: Visit) -> None:
     assert not chart.page.locator(".ss-gantt-tip").is_visible()
 
 
+def test_what_it_tells_stays_in_the_window(visit: Visit) -> None:
+    chart = Chart(visit, schedule(), around="body { padding-top: 480px; }")
+    x, row = middle(chart)
+    chart.page.mouse.move(x + 20, row)
+    tip = chart.page.locator(".ss-gantt-tip").bounding_box()
+    assert tip is not None
+    assert tip["y"] > 0
+    assert tip["y"] + tip["height"] < row < 700
+
+
 def test_arrow_keys_walk_the_jobs_and_each_is_said(visit: Visit) -> None:
     chart = Chart(visit, late())
     chart.press("ArrowRight")
