@@ -26,7 +26,7 @@ function isLimitNear(limit, [low, high]) {
 }
 
 /** A domain with a margin of this share of its length at both ends. */
-export function roomyDomain(domain, log, margin) {
+function roomyDomain(domain, log, margin) {
   if (domain === null || domain[0] === domain[1] || (log && domain[0] <= 0)) return domain;
   const [low, high] = domain;
   const ratio = log ? (high / low) ** margin : margin * (high - low);

@@ -7,7 +7,7 @@ import { linePath, valueAt } from "./paths.js";
 import { plotReader } from "./reading.js";
 import { pathSample } from "./samples.js";
 import { extent } from "./scales.js";
-import { plotSheet, quantity, saidOf } from "./sheet.js";
+import { plotSheet, quantity } from "./sheet.js";
 import { plotStakes, STAKES_TOP_PX } from "./stakes.js";
 import { valuesTable } from "./values.js";
 
@@ -35,10 +35,7 @@ export function histogram(host) {
   const read = plotReader(sheet.area, {
     onPoint: (across) => laid && point(binAt(given.edges, laid.x.invert(across)), false),
     onLeave: () => point(null, false),
-    onClick: () => null,
     onWalk: (bin) => laid && point(bin, true),
-    onTurn: () => null,
-    onEnter: () => null,
   });
   sheet.picture.append(axes.element, bars, shade, ...lines, circles, stakes.element, read.element);
   let [given, laid, reading] = [null, null, null];
@@ -112,7 +109,7 @@ export function histogram(host) {
 }
 
 /** The bin that a value is in, or null. */
-export function binAt(edges, value) {
+function binAt(edges, value) {
   const bin = edges.findIndex((edge, index) => value >= edge && value < edges[index + 1]);
   return bin < 0 ? null : bin;
 }

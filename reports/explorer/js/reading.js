@@ -29,8 +29,9 @@ export function nearestPoint(lines, x, y, across, down) {
 /** What is laid over the area of a plot: an input of type range, which keys move along a line, a cross line with dots,
  *  a tip, and a text that is read aloud when keys were used.
  *
- *  `onPoint(across, down)` and `onLeave()`: of a pointer, in pixels of the area; `onClick(across, down)`;
- *  `onWalk(index)`; `onTurn(by)`: to the next line or the one before; `onEnter()`.
+ *  `onPoint(across, down)` and `onLeave()`: of a pointer, in pixels of the area; `onWalk(index)`; and where there is
+ *  something to pick, or several lines, `onClick(across, down)`, `onEnter()`, and `onTurn(by)` to the next line or the
+ *  one before.
  *  `hold({label, count, index, text})` is what the input says; `tell({x, box, heading, rows, dots, aloud})` shows the
  *  values, a row being {sign, name, text}, a dot {y, look}; `quiet()` hides them. */
 export function plotReader(area, { onPoint, onLeave, onClick, onWalk, onTurn, onEnter }) {
@@ -42,6 +43,8 @@ export function plotReader(area, { onPoint, onLeave, onClick, onWalk, onTurn, on
   const said = html("p", { class: "ss-plot-said", "aria-live": "polite" });
   area.append(walk, tip, said);
 
+  const turns = onTurn === undefined ? {} : { ArrowUp: () => onTurn(-1), ArrowDown: () => onTurn(1) };
+  const keys = { ...turns, Enter: onEnter, Escape: onLeave };
   const isWalked = () => walk.matches(":focus");
   const at = (event) => {
     const { left, top } = area.getBoundingClientRect();
@@ -50,14 +53,15 @@ export function plotReader(area, { onPoint, onLeave, onClick, onWalk, onTurn, on
   area.addEventListener("pointermove", (event) => onPoint(...at(event)));
   area.addEventListener("pointerdown", (event) => onPoint(...at(event)));
   area.addEventListener("pointerleave", (event) => event.pointerType !== "touch" && onLeave());
-  area.addEventListener("click", (event) => onClick(...at(event)));
-  const elsewhere = (event) => !area.contains(event.target) && !tip.hidden && !isWalked() && onLeave();
+  area.addEventListener("click", (event) => onClick?.(...at(event)));
+  const isElsewhere = (event) => !event.composedPath().includes(area);
+  const elsewhere = (event) => isElsewhere(event) && !tip.hidden && !isWalked() && onLeave();
   document.addEventListener("pointerdown", elsewhere);
   walk.addEventListener("input", () => onWalk(Number(walk.value)));
   walk.addEventListener("focus", () => onWalk(Number(walk.value)));
   walk.addEventListener("blur", onLeave);
   walk.addEventListener("keydown", (event) => {
-    const does = { ArrowUp: () => onTurn(-1), ArrowDown: () => onTurn(1), Enter: onEnter, Escape: onLeave }[event.key];
+    const does = keys[event.key];
     if (does === undefined || event.altKey || event.ctrlKey || event.metaKey) return;
     event.preventDefault();
     does();

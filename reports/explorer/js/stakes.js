@@ -25,7 +25,7 @@ export function plotStakes() {
     });
     reusedChildren(names, placed.length, () => svg("text")).forEach((name, index) => {
       const { left, top, text, red } = placed[index];
-      name.setAttribute("class", red ? "ss-plot-limit-label" : "ss-plot-number");
+      name.setAttribute("class", red ? "ss-plot-limit-label" : "ss-histogram-name");
       name.setAttribute("x", left.toFixed(1));
       name.setAttribute("y", (top + STAKE_ROW_PX * 0.75).toFixed(1));
       name.textContent = text;
