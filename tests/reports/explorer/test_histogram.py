@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import combinations
 from typing import Any
 
 import numpy as np
@@ -84,10 +85,16 @@ def test_a_deadline_is_a_line_or_where_it_is_far_off_an_arrow(visit: Visit, at: 
 def test_names_of_quantiles_are_apart_and_none_is_cut(visit: Visit) -> None:
     visit.page.set_viewport_size({"width": 360, "height": 700})
     page = shown(visit, spread())
-    boxes = [text.bounding_box() for text in page.get_by_text("median 0.8").or_(page.get_by_text("mean 0.85")).all()]
-    first, second = (box for box in boxes if box is not None)
-    assert first["y"] + first["height"] <= second["y"] + 3 or second["y"] + second["height"] <= first["y"] + 3
-    assert all(box is not None and box["x"] >= 0 and box["x"] + box["width"] <= 360 for box in boxes)
+    names = page.locator(".ss-histogram-name, .ss-plot-limit-label")
+    boxes = names.evaluate_all(
+        "(all) => all.map((one) => one.getBBox()).map((box) => [box.x, box.y, box.width, box.height])"
+    )
+    assert len(boxes) == 3
+    for (x, y, width, height), (left, top, wide, high) in combinations(boxes, 2):
+        assert x + width <= left or left + wide <= x or y + height <= top + 1 or top + high <= y + 1
+    area = page.locator(".ss-plot-area").bounding_box()
+    assert area is not None
+    assert all(x >= 0 and x + width <= area["width"] for x, _, width, _ in boxes)
 
 
 def test_what_is_not_resolved_is_shaded_and_named(visit: Visit) -> None:
