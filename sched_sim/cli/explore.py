@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from importlib.util import find_spec
+from pathlib import Path
 from time import monotonic
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -17,6 +19,9 @@ from sched_sim.cli.output import say
 from sched_sim.costs.methods import DELAYED_METHODS
 from sched_sim.design.options import Options
 from sched_sim.errors import InputError
+
+if TYPE_CHECKING:
+    from reports.explorer.answer import Question
 
 PAGE = "Page"
 
@@ -36,6 +41,15 @@ FirstCosts = Annotated[
         help="Cost table: a shipped one by name, or your own TOML file by path; by default operations of filters of "
         "the model's size are counted, without a model steffes2014, with --processor counted-9-3-3.",
         rich_help_panel=opt.DESIGN,
+    ),
+]
+OneScenario = Annotated[
+    Path | None,
+    typer.Option(
+        "--scenario",
+        help="TOML file of a predictor and several sensors: a page on its simulation, instead of designs. With --model "
+        "and --output of the accuracy, if its file does not state them; without other options of designs.",
+        rich_help_panel=PAGE,
     ),
 ]
 Port = Annotated[
@@ -62,6 +76,7 @@ def port_number(text: str) -> int:
 
 @with_options
 def explore(
+    context: typer.Context,
     N: opt.StepsOrNone = None,
     M: opt.AnyDelay = None,
     L: opt.FeedbackStep = None,
@@ -81,6 +96,7 @@ def explore(
     options: Options = Options(),
     tasks: opt.Tasks = None,
     cycles: opt.Cycles = 1,
+    scenario: OneScenario = None,
     port: Port = None,
     no_browser: NoBrowser = False,
 ) -> None:
@@ -93,13 +109,22 @@ def explore(
     sched-sim explore --hr-hz 400 --measurement-hz 5 --delay-ms 110 --model ins-gps --within 0.4
     sched-sim explore -N 10 -M 4 --costs my-costs.toml --tasks tasks.toml
     sched-sim explore --hr-hz 200 --measurement-hz 10 --delay-ms 60 --processor my-part.toml --port 8500 --no-browser
+    sched-sim explore --scenario rocket.toml
     """
     _check_extra()
-    from reports.explorer.answer import Asked
     from reports.explorer.exports import questions
-    from reports.explorer.port import HOST, USUAL, listening
-    from reports.explorer.serve import serve
-    from reports.explorer.server import application
+
+    if scenario is not None:
+        if given := opt.given_options(context, lambda name: name not in OF_SCENARIOS):
+            raise InputError(
+                f"{', '.join(given)} and --scenario {scenario} exclude each other: the file says what is simulated"
+            )
+        from reports.explorer.scenario_routes import scenario_questions
+        from sched_sim.cli.explore_start import begun
+        from studies.explorer.given import Given
+
+        _serve(port, "scenario", questions(Given()) | scenario_questions(begun(scenario, model, output)), no_browser)
+        return
     from sched_sim.cli.explore_start import started
     from studies.explorer.query import query_of
     from studies.explorer.view import explore
@@ -123,20 +148,32 @@ def explore(
         "cycles": cycles,
     }
     said = {name: value for name, value in values.items() if value is not None}
-    given = started(said, costs, processor, tasks)
-    explore(given.start, given)
+    own = started(said, costs, processor, tasks)
+    explore(own.start, own)
+    _serve(port, f"?{query_of(own.start)}", questions(own), no_browser)
+
+
+OF_SCENARIOS = ("scenario", "model", "output", "port", "no_browser")
+
+
+def _serve(port: int | None, page: str, questions: Mapping[str, Question], no_browser: bool) -> None:
+    """Until Ctrl-C. page: the address that is said and opened, behind that of the server."""
+    from reports.explorer.answer import Asked
+    from reports.explorer.port import HOST, USUAL, listening
+    from reports.explorer.serve import serve
+    from reports.explorer.server import application
+
     with listening(port) as there:
         number = there.getsockname()[1]
         address = f"http://{HOST}:{number}/"
-        first = f"{address}?{query_of(given.start)}"
         asked = Asked(say)
-        app = application(number, questions(given), asked)
-        print(f"The explorer is at {first}", flush=True)
+        app = application(number, questions, asked)
+        print(f"The explorer is at {address}{page}", flush=True)
         if port is None and number != USUAL:
             say(f"Port {USUAL} is in use, so it is at {number}")
         say("It answers this machine alone, until Ctrl-C")
         if not no_browser and has_screen():
-            open_browser(first)
+            open_browser(f"{address}{page}")
         elif not no_browser:
             say(no_screen_words(number))
         start = monotonic()

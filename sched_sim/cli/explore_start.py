@@ -9,6 +9,23 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from studies.explorer.given import Given
+    from studies.explorer.scenario_runs import Runs
+
+
+def begun(path: Path, model: str | None, output: str | None) -> Runs:
+    """The runs of a scenario, of which the first is made. model, output: of the accuracy, where its file does not say
+    them. Raises InputError for what cannot be simulated."""
+    from sched_sim.cli.scenario import describe
+    from sched_sim.cli.scenario_accuracy import question
+    from sched_sim.cli.scenario_flags import NOTHING_ASKED
+    from sched_sim.scenario.scenario_file import read_scenario
+    from studies.explorer.scenario_runs import Runs
+
+    scenario = read_scenario(path, describe)
+    runs = Runs(scenario, question(scenario, path, NOTHING_ASKED._replace(model=model, output=output)))
+    runs.view("")
+    return runs
+
 
 TIMES = ("N", "M", "hr_hz", "measurement_hz", "delay_ms")
 

@@ -23,7 +23,9 @@ pytest.importorskip("uvicorn", reason="the extra explore is not installed")
 
 from reports.explorer import serve
 from reports.explorer.answer import Answer, Asked
+from reports.explorer.module import asset
 from tests.reports.explorer.serving import Client
+from tests.scenarios import ROCKET
 
 MODEL = """
 from filters.accuracy.shipped import SHIPPED_MODELS
@@ -43,7 +45,7 @@ def started(sched_sim: Run, monkeypatch: pytest.MonkeyPatch) -> Any:
     def start(line: str) -> tuple[str, Client]:
         result = sched_sim(f"explore --no-browser --port 0 {line}")
         assert result.code == 0, result.err
-        (query,) = re.findall(r"^The explorer is at http://127\.0\.0\.1:\d+/\?(.*)$", result.out, re.M)
+        (query,) = re.findall(r"^The explorer is at http://127\.0\.0\.1:\d+/\??(.*)$", result.out, re.M)
         return query, served.pop()
 
     return start
@@ -93,6 +95,33 @@ def test_ones_own_are_offered_by_name_and_no_link_names_a_file(
     refused = client.get("/view?N=10&M=4").json()["error"]
     assert "'tasks.toml'" in refused
     assert "secret" not in refused
+
+
+def test_a_scenario_has_a_page_beside_that_of_designs(started: Any) -> None:
+    page, client = started(f"--scenario {ROCKET}")
+    assert page == "scenario"
+    view = client.get("/scenario/view").json()
+    steps = client.get("/scenario/schedule?first=0&until=10").json()
+    assert steps["steps"] == view["steps"]
+    assert client.get("/scenario").text == asset("scenario.html")
+    assert client.get("/scenario.js").status_code == client.get("/view").status_code == 200
+
+
+def test_without_a_scenario_there_is_no_page_of_it(started: Any) -> None:
+    _, client = started("-N 10 -M 4")
+    assert [client.get(path).status_code for path in ("/scenario", "/scenario.js", "/scenario/view")] == [404] * 3
+
+
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        ("--scenario none.toml", ["--scenario 'none.toml'"]),
+        (f"--scenario {ROCKET} -N 10 --cpus 2", ["-N, --cpus and --scenario", "exclude each other"]),
+        (f"--scenario {ROCKET} --model ins-gps", ["--model"]),
+    ],
+)
+def test_a_scenario_that_cannot_be_is_refused(sched_sim: Run, line: str, said: list[str]) -> None:
+    is_refused(sched_sim(f"explore --no-browser {line}"), said)
 
 
 @pytest.mark.parametrize(
