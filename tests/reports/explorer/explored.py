@@ -13,6 +13,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 from urllib.error import HTTPError
+from urllib.parse import urlsplit
 from urllib.request import urlopen
 
 from playwright.sync_api import Locator, Page, expect
@@ -31,13 +32,14 @@ class Explorer:
         self._process = process
         assert process.stdout is not None
         self.first = process.stdout.readline().split()[-1]
-        self.base = self.first.partition("?")[0]
-        self.port = int(self.base.rstrip("/").rpartition(":")[2])
+        address = urlsplit(self.first)
+        self.base = f"{address.scheme}://{address.netloc}/"
+        self.port = address.port
 
-    def view(self, query: str) -> Any:
+    def view(self, query: str, path: str = "view") -> Any:
         """Raises AssertionError, with what is said, for a query that is refused."""
         try:
-            with urlopen(f"{self.base}view?{query}") as answer:
+            with urlopen(f"{self.base}{path}?{query}") as answer:
                 return json.load(answer)
         except HTTPError as error:
             raise AssertionError(f"{query}: {error.read().decode()}") from None

@@ -1,0 +1,32 @@
+"""A scenario's page of the whole explorer, as the command serves it."""
+
+from __future__ import annotations
+
+import pytest
+from axe_playwright_python.sync_playwright import Axe
+from playwright.sync_api import expect
+
+from tests.browser import Visit
+from tests.reports.explorer.explored import drag, exploring
+from tests.scenarios import ROCKET
+
+pytest.importorskip("uvicorn", reason="the extra explore is not installed")
+
+
+def test_it_is_opened_changed_and_come_back_to(visit: Visit) -> None:
+    with exploring("--port", "0", "--scenario", str(ROCKET)) as explorer:
+        page = visit.page
+        page.goto(explorer.first)
+        expect(page.locator("[data-first]").first).to_be_visible()
+        assert Axe().run(page).violations_count == 0
+        sliders = page.locator("form input[type=range]:visible")
+        for number in range(sliders.count()):
+            drag(page, sliders.nth(number), 0.5, 0.3, 0.6)
+        link = page.url
+        query = explorer.view(link.partition("?")[2], "scenario/view")["query"]
+        shown = page.locator(".ss-scenario")
+        expect(shown).to_have_attribute("data-shown", query)
+        page.goto(explorer.base)
+        page.goto(link)
+        expect(shown).to_have_attribute("data-shown", query)
+        page.goto("about:blank")  # it asks no more
