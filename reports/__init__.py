@@ -10,9 +10,11 @@ if TYPE_CHECKING:
     from reports.charts.chart import gantt
     from reports.charts.panels import method_panel
     from reports.drawing.picture import save
+    from reports.explorer.widget import Explorer
     from reports.scenario.panel import scenario_panel
 
 __all__ = [
+    "Explorer",
     "gantt",
     "method_panel",
     "save",
@@ -25,6 +27,7 @@ __getattr__, __dir__ = lazily(
         "reports.charts.chart": "gantt",
         "reports.charts.panels": "method_panel",
         "reports.drawing.picture": "save",
+        "reports.explorer.widget": "Explorer",
         "reports.scenario.panel": "scenario_panel",
     },
 )

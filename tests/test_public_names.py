@@ -19,7 +19,7 @@ PUBLIC = {
     "px4_predictor augmentation fuse_as_fresh clone clone_split carried_gain multirate_gain History "
     "true_covariance modular count Operations accuracy",
     "studies": "Design View choose_filter compare_accuracy describe_filter explore measure measure_filter run_sweep",
-    "reports": "gantt method_panel scenario_panel save",
+    "reports": "Explorer gantt method_panel scenario_panel save",
 }
 
 

@@ -4,13 +4,14 @@ import { readout } from "./readout.js";
 import { html } from "./svg.js";
 
 // The figures of a report, and schedules in a notebook: Gantt charts to move about in, curves that tell their values.
-// Printed, a figure is its picture.
+// Printed, a figure is its picture. Keys that are pressed in one are no shortcuts of a notebook.
 
 for (const figure of document.querySelectorAll("figure[data-alive]")) enliven(figure);
 
 function enliven(figure) {
   figure.removeAttribute("data-alive");
   themed(figure);
+  figure.addEventListener("keydown", (event) => event.stopPropagation());
   const shown = JSON.parse(figure.querySelector('script[type="application/json"]').textContent);
   const still = figure.querySelector("img, table");
   const picture = html("div", { class: "ss-picture" });

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 from IPython.core.formatters import DisplayFormatter
-from playwright.sync_api import Page
+from playwright.sync_api import Page, expect
 
 from reports.explorer import notebook
 from reports.explorer.notebook import schedule_html
@@ -117,3 +117,12 @@ def test_a_dark_notebook_has_a_dark_chart(visit: Visit) -> None:
     assert page.locator("figure").get_attribute("data-theme") == "dark"
     page.evaluate("document.body.style.background = 'white'")
     page.wait_for_selector("figure[data-theme=light]")
+
+
+def test_keys_that_are_pressed_in_it_are_no_shortcuts_of_the_notebook(visit: Visit) -> None:
+    page = opened(visit, schedule_html(schedule(), "<table></table>"))
+    page.evaluate("document.addEventListener('keydown', (event) => event.preventDefault())")
+    shown = page.locator(".ss-gantt-range")
+    before = shown.inner_text()
+    page.get_by_role("button", name="zoom in").press("Enter")
+    expect(shown).not_to_have_text(before)
