@@ -22,7 +22,7 @@ export function scenarioExplorer(host, { ask, query = "", onQuery = () => {} }) 
   let asked = queryOf(query);
   let [view, frame, force] = [null, null, true];
 
-  const box = answerBox(top, beside, id, { onPin: null, onStop: () => asking.stop(), onBack: back });
+  const box = answerBox(top, beside, id, { onStop: () => asking.stop(), onBack: back });
   const form = scenarioForm(side, id, change);
   const drawn = scenarioResults(results, id, (changes) => change(changes, true));
   const trace = scenarioTrace(drawn.trace, id, ask, (changes) => {
