@@ -20,7 +20,7 @@ export function scenarioExplorer(host, { ask, query = "", onQuery = () => {} }) 
   const root = html("div", { class: "ss-explorer ss-scenario ss-ground" }, html("div", { class: "ss-frame" }, top, side, beside, results));
   host.append(root);
   let asked = queryOf(query);
-  let [view, frame, force] = [null, null, true];
+  let [view, frame, force, refusal] = [null, null, true, null];
 
   const box = answerBox(top, beside, id, { onStop: () => asking.stop(), onBack: back });
   const form = scenarioForm(side, id, change);
@@ -30,13 +30,16 @@ export function scenarioExplorer(host, { ask, query = "", onQuery = () => {} }) 
     onQuery(textOf(asked), false);
   });
   const asking = asker((text, signal) => ask("view", text, signal), {
-    answered(answered) {
+    answered(answered, text) {
+      const instead = view === null && refusal !== null;
       view = answered;
+      if (!instead || text !== "") refusal = null;
       frame ??= requestAnimationFrame(draw);
     },
     refused(text) {
-      box.refused(text);
-      stale(true);
+      refusal = text;
+      if (view === null) asking.want("");
+      else refuse();
     },
     waiting: (seconds) => box.waiting(seconds),
     gone(text) {
@@ -57,8 +60,17 @@ export function scenarioExplorer(host, { ask, query = "", onQuery = () => {} }) 
     drawn.show(view);
     trace.show(view);
     force = false;
+    form.refuse("");
     stale(false);
+    if (refusal !== null) refuse();
     root.dataset.shown = view.query;
+  }
+
+  /** A link that is refused leaves the scenario as its file says it. */
+  function refuse() {
+    const beside = form.refuse(refusal);
+    box.refused(beside ? "That cannot be: why is said beside what was changed." : refusal, true);
+    stale(true);
   }
 
   function stale(is) {

@@ -15,7 +15,8 @@ export function scenarioForm(host, id, onChange) {
   const steps = number("steps", "Steps", "More steps resolve rarer misses, and take longer.");
   const seed = number("seed", "Seed", "Other draws of costs, delays and losses.");
   const shown = choiceField({ id: `${id}-shown`, label: "Distribution of", help: "Also by its name in the table." }, (kind) => onChange({ shown: kind }, true));
-  const fields = [slower, steps, seed, shown].map(({ element }) => element);
+  const parts = { times_slower: slower, steps, seed, shown };
+  const fields = Object.values(parts).map(({ element }) => element);
   const group = html("fieldset", { class: "ss-group" }, html("legend", {}, "The run"), ...fields);
   const form = html("form", { class: "ss-controls", "aria-label": "Scenario", novalidate: true }, group);
   form.addEventListener("submit", (event) => event.preventDefault());
@@ -31,6 +32,12 @@ export function scenarioForm(host, id, onChange) {
       seed.set(String(view.seed), "", wholeStops(0, Math.max(SEEDS, view.own.seed)), force);
       shown.set(view.shown, view.kinds.map((kind) => ({ value: kind, words: kind })));
       about.textContent = aboutScenario(view);
+    },
+    /** Shows a refusal at the control that it begins with the key of; whether there is one. No text: none. */
+    refuse(text) {
+      const about = Object.keys(parts).find((key) => text.startsWith(`${key} `));
+      for (const [key, part] of Object.entries(parts)) part.refuse(key === about ? text : "");
+      return about !== undefined;
     },
   };
 }

@@ -91,8 +91,16 @@ def test_another_seed_is_another_run(page_of: Opened) -> None:
 def test_a_refusal_is_told_and_the_page_goes_on(page_of: Opened, visit: Visit) -> None:
     page = page_of(LATE)
     page.get_by_label("Steps", exact=True).fill("99999999")
-    expect(page.get_by_text("steps is 99999999: give at most 1,000,000")).to_be_visible()
+    expect(page.get_by_role("alert")).to_have_text(["", "steps is 99999999: give at most 1,000,000", "", ""])
+    expect(page.get_by_label("Steps", exact=True)).to_have_attribute("aria-invalid", "true")
     page.get_by_role("button", name="Back to the last design").click()
+    expect(page.get_by_label("Steps", exact=True)).to_have_value("2000")
+    visit.errors.clear()  # the browser's, of an answer with status 422
+
+
+def test_of_a_link_that_is_refused_the_scenario_itself_is_shown(page_of: Opened, visit: Visit) -> None:
+    page = page_of(LATE, "file=vehicle.toml")
+    expect(page.get_by_text("the query's key 'file' is unknown")).to_be_visible()
     expect(page.get_by_label("Steps", exact=True)).to_have_value("2000")
     visit.errors.clear()  # the browser's, of an answer with status 422
 
