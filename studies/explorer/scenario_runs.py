@@ -23,8 +23,8 @@ from studies.selection.in_scenario import Question
 
 KEPT = 4
 """Runs; of traces one."""
-AT_ONCE = 20_000
-"""HR steps that one answer simulates for the trace, at most: some half a second."""
+AT_ONCE = 10_000
+"""HR steps that one answer simulates for the trace, at most: a quarter of a second, and more on a busy machine."""
 MOST_SHOWN = 2_000
 """HR steps of one window."""
 OF = ("miss", "landing")
