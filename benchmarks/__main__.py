@@ -8,6 +8,7 @@ from benchmarks import (
     accuracy,
     analysis,
     cluster,
+    explorer,
     explorer_page,
     factored,
     filter_step,
@@ -43,6 +44,7 @@ for part in (
     cluster,
     gantt,
     plots,
+    explorer,
     explorer_page,
     start_up,
 ):

@@ -46,15 +46,19 @@ def design_of(query: str, given: Given = Given()) -> Design:
 
 def query_of(design: Design) -> str:
     """The query that `design_of` makes this design of: only what is not as by default, always in the same order."""
-    said = {name: text for name, text in texts(design).items() if text != DEFAULTS[name] and text is not None}
+    values = _said(design)
+    said = {name: _text(value) for name, value in values.items() if value is not None and value != DEFAULTS[name]}
     return urlencode(said, quote_via=quote, safe="/,:")
 
 
 def texts(design: Design) -> Mapping[str, str | None]:
     """Every key of a query, with what the design has: numbers as exact text, None for what was not said."""
+    return {name: None if value is None else _text(value) for name, value in _said(design).items()}
+
+
+def _said(design: Design) -> dict[str, Any]:
     values = {name: getattr(design, name) for name in OF_DESIGN}
-    values |= {name: getattr(design.options, name) for name in OF_OPTIONS}
-    return {name: None if value is None else _text(value) for name, value in values.items()}
+    return values | {name: getattr(design.options, name) for name in OF_OPTIONS}
 
 
 def number_text(value: Fraction) -> str:
@@ -120,4 +124,4 @@ def whole_number(key: str, text: str) -> int:
     return int(text)
 
 
-DEFAULTS = texts(Design())
+DEFAULTS = _said(Design())

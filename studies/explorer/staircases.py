@@ -11,7 +11,7 @@ from sched_sim.design.landing import landing
 from sched_sim.design.least_speed import LeastSpeed, Stair, achieved_l, has_closed_form, least_speed, staircase
 from sched_sim.design.methods import method_of
 from sched_sim.design.options import Options
-from sched_sim.design.pieces import Costs
+from sched_sim.design.pieces import Costs, DualRateCosts
 from sched_sim.design.timing import Timing
 from sched_sim.schedule.tasks import Task
 from studies.explorer.searched import MOST_BESIDE, searched
@@ -30,9 +30,10 @@ def stairs(
     """Of some legal L, all where there are no more than MOST_STAIRS, and of the timing's own, whose least speed is
     known; without a closed form of MOST_SIMULATED others, or of none where each takes long or none is wanted `beside`.
     Raises InputError as `least_speed` does."""
-    legal = method_of(costs).law(options.feedback).legal(timing.N, timing.M)
-    if len(legal) == 1:
-        timing = replace(timing, L=max(legal[0], timing.M))
+    law = method_of(costs).law(options.feedback)
+    legal = law.legal(timing.N, timing.M)
+    if law.only_first:
+        return [Stair(legal[0], own.speed, own.binding, legal[0])]
     if in_closed_form(costs, timing, options, tasks):
         at = {*some_landings(legal[0], legal[-1], MOST_STAIRS), timing.L}
         found = staircase(costs, timing.N, timing.M, options, only=frozenset(at))
@@ -66,7 +67,7 @@ def landings(
     step m; and None where they would land earlier, but the HR job that they are part of overruns its step: where that
     begins is known to 1 / FINENESS of a tread.
     """
-    closed = in_closed_form(costs, timing, options, tasks)
+    closed = isinstance(costs, DualRateCosts) and in_closed_form(costs, timing, options, tasks)
     if closed and options.lr_propagate_by == "m":
         at = frozenset(stair.L for stair in known)
         known = staircase(costs, timing.N, timing.M, replace(options, lr_propagate_by="l"), only=at)
