@@ -28,6 +28,16 @@ MOST_INNOVATIONS = 50
 """Of a repetition: what each leaves is a sum of its own."""
 
 
+def predictor_multiplications(model: LinearModel, outputs: ArrayLike, N: Interval, D: int, g: float) -> float:
+    """About so many `px4_predictor` takes, of some three nanoseconds each: very many in a fast loop with a short delay.
+    Arguments and errors as there."""
+    left, _ = visible(model, output_rows(outputs, model.states))
+    step_radius = predictor_response.radius(left.Phi, D, g)
+    if not below_one(step_radius):
+        return 0.0
+    return Fraction(N).denominator * predictor_response.multiplications(left.Phi, D, step_radius)
+
+
 def px4_predictor(model: LinearModel, outputs: ArrayLike, N: Interval, D: int, g: float) -> Accuracy:
     """D: steps by which the horizon is behind, at least the delay of the measurements; L = D. g: dt / tau of the
     complementary filter, 0 < g; PX4's tau is 0.25 s. Other arguments and errors as `lossless`."""

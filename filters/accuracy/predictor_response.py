@@ -17,6 +17,8 @@ SETTLED = 1e-15
 """So little of the variance is still to come where nothing more is added."""
 MOST_CHUNKS = 1_000_000
 MOST_DOUBLINGS = 60
+PRODUCTS = 5
+"""Of matrices, as slow as to walk: so many doubling takes, about."""
 WORTH = 40_000
 """Multiplications that take as long as to walk D steps: d^3 of them, for d numbers kept, are a product of matrices."""
 
@@ -34,11 +36,26 @@ def variances(
 ) -> tuple[FloatArray, FloatArray]:
     """Of o less the exact replay, and of its moves, in each step of a cycle (N,), (N,): the sum over all innovations
     (n, p) of unit covariance before, one in every N steps. C (outputs, n); step_radius: less than 1, `radius`."""
-    kept = (D + 2) * len(Phi)
-    chunks = log(SETTLED) / (2.0 * log(step_radius)) / D if D and step_radius > 0.0 else 0.0
-    if D == 0 or kept**3 < WORTH * chunks:
+    kept, walk = _doubling(Phi, D), _walking(D, step_radius)
+    if D == 0 or kept < walk:
         return _doubled(Phi, C, N, D, g, innovation)
     return _walked(Phi, C, N, D, g, innovation)
+
+
+def multiplications(Phi: FloatArray, D: int, step_radius: float) -> float:
+    """About so many are done by `variances`."""
+    kept, walk = _doubling(Phi, D), _walking(D, step_radius)
+    return PRODUCTS * kept if D == 0 or kept < walk else walk
+
+
+def _doubling(Phi: FloatArray, D: int) -> float:
+    """Multiplications of one product of matrices of all that is kept."""
+    return float((D + 2) * len(Phi)) ** 3
+
+
+def _walking(D: int, step_radius: float) -> float:
+    """What takes as long as to walk until nothing more comes."""
+    return WORTH * log(SETTLED) / (2.0 * log(step_radius)) / D if D and step_radius > 0.0 else 0.0
 
 
 def _step(D: int, g: float) -> tuple[FloatArray, FloatArray]:

@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from filters.accuracy.pattern import Interval
+from filters.accuracy.predictor import predictor_multiplications
 from filters.delayed.low_rate_noise import LowRateNoise
 from sched_sim.design.methods import METHODS as SCHEDULED
 from sched_sim.errors import option
@@ -25,6 +26,10 @@ from studies.selection.waiting import too_irregular, too_late
 
 KEPT = 64
 """Curves, at most."""
+
+MOST, MOST_BESIDE = 1e8, 2e7
+"""Multiplications of a long sum, of the method that is looked at and of another: some tenths of a second, some
+hundredths."""
 
 
 class Accuracy(NamedTuple):
@@ -82,6 +87,8 @@ def curve_of(question: Question, method: str, *, whole: bool = False, last: int 
         lossless = curve_of(question, "recalculate").at(sampling.M)
         if lossless > question.within:
             return Curve(sampling.M, np.array([lossless]))
+    if METHODS[method].floored:
+        _check_effort(question, method, MOST if whole else MOST_BESIDE)
     return _at_arrival(
         _same_model(question.model),
         _same_outputs(question.outputs),
@@ -91,6 +98,14 @@ def curve_of(question: Question, method: str, *, whole: bool = False, last: int 
         Same(question.conditions, contents(question.conditions)),
         question.metric,
     )
+
+
+def _check_effort(question: Question, method: str, most: float) -> None:
+    """Raises ValueError for a sum of more multiplications."""
+    sampling, model, outputs = question.sampling, _same_model(question.model), _same_outputs(question.outputs)
+    pull = question.conditions.pull
+    if pull is not None and _multiplications(model, outputs, sampling.between, sampling.M, pull) > most:
+        raise ValueError(f"its accuracy is a sum over too many steps: `sched-sim accuracy --method {method}` takes it")
 
 
 def lacks(question: Question, method: str) -> str:
@@ -139,6 +154,11 @@ def _by_landing(
     model: Same[Model], outputs: Same[Outputs], between: Interval, most: int, noise: LowRateNoise, metric: Metric
 ) -> Curve:
     return by_landing(model.value.linear, outputs.value.rows, between, most, noise, metric)
+
+
+@lru_cache(maxsize=KEPT)
+def _multiplications(model: Same[Model], outputs: Same[Outputs], between: Interval, M: int, pull: float) -> float:
+    return predictor_multiplications(model.value.linear, outputs.value.rows, between, M, pull)
 
 
 @lru_cache(maxsize=KEPT)

@@ -147,25 +147,32 @@ def _best(found: Found, std: float) -> str:
 
 def _others(found: Found) -> str:
     """Which methods keep the accuracy, or how near they come to it."""
-    others = {method: of for method, of in (found.kept or {}).items() if method not in ("standard", found.plan.method)}
-    does = sorted((of.least.speed, method) for method, of in others.items() if of.least is not None)
+    kept = {method: of for method, of in (found.kept or {}).items() if method != "standard"}
+    does = sorted((of.least.speed, method) for method, of in kept.items() if of.least is not None)
     if does:
         return f"{listed([method for _, method in does])} can"
-    known = {method: of.best for method, of in (found.kept or {}).items() if _is_known(method, of)}
+    if enough := [method for method, of in kept.items() if of.allowed is not None]:
+        return f"{listed(enough)} would be accurate enough"
+    known = {method: of.best for method, of in kept.items() if _is_known(method, of)}
     if not known:
         return "no other method is known to"
     best = min(known.values())
     names = listed([method for method, std in known.items() if std == best])
-    reference = (found.kept or {}).get("standard")
-    without = "" if reference is None else f" (without delay {figure(found.asked, reference.best)})"
     return (
-        f"no method can, the best is {figure(found.asked, best)}, by {names}{without}: allow more, measure more often, "
-        f"or shorten the delay"
+        f"no method can, the best is {figure(found.asked, best)}, by {names}{_without_delay(found)}: allow more, "
+        f"measure more often, or shorten the delay"
     )
 
 
+def _without_delay(found: Found) -> str:
+    reference = (found.kept or {}).get("standard")
+    if reference is None or not isfinite(reference.best):
+        return ""
+    return f" (without delay {figure(found.asked, reference.best)})"
+
+
 def _is_known(method: str, of: Candidate) -> bool:
-    return method != "standard" and isfinite(of.best) and not METHODS[method].floored
+    return isfinite(of.best) and not METHODS[method].floored
 
 
 def _not_known(found: Found) -> str:

@@ -7,12 +7,15 @@ from dataclasses import replace
 from functools import lru_cache
 
 from sched_sim.design.least_speed import has_closed_form
-from studies.explorer.accuracy import curve_of, lacks
+from sched_sim.design.methods import METHODS as SCHEDULED
+from studies.explorer.accuracy import accuracy, curve_of, lacks
 from studies.explorer.cheapest import cheapest
 from studies.explorer.parts import Where
 from studies.explorer.same import Same, contents, itself
+from studies.explorer.searched import MOST
 from studies.selection.choice import Candidate
-from studies.selection.considered import considered
+from studies.selection.considered import considered, too_coarse
+from studies.selection.curve import Curve
 from studies.selection.landing import earliest
 from studies.selection.methods import METHODS
 from studies.selection.parts import too_slow
@@ -29,11 +32,9 @@ def keeping(question: Question, methods: Sequence[str], current: str, where: Whe
     """
     simulated, same = not has_closed_form(question.options, question.tasks), _same(question)
     place = None if where is None else Same(where, _contents(where))
+    looked = [current] if simulated else methods
     return {
-        method: _none(question, method, OF_CURRENT)
-        if simulated and method != current
-        else _keeping(same, method, place)
-        for method in methods
+        method: _keeping(same, method, place) if method in looked else _accurate(question, method) for method in methods
     }
 
 
@@ -73,8 +74,28 @@ def _keeping(same: Same[Question], method: str, where: Same[Where] | None) -> Ca
     variant = next(variants([method], (1,), question.tables, question.options, question.ways), None)
     if variant is None:
         return _none(question, method, f"the cost table {question.tables[0].name} has no costs of it")
-    found = considered(question, lambda of: curve_of(question, of.method), variant)
+    found = considered(question, lambda of: _in_reach(question, of.method), variant)
     return found if where is None or found.L is None else _on_cheapest(question, found, where.value)
+
+
+def _in_reach(question: Question, method: str) -> Curve:
+    """By the landings that are looked at: in a long cycle those before the next measurement, for of others the least
+    speed may take a long search."""
+    sampling, curve = question.sampling, curve_of(question, method)
+    last = SCHEDULED[method].law(question.options.feedback).last_alone(sampling.N, sampling.M)
+    if last is None or sampling.N + sampling.M <= MOST:
+        return curve
+    return Curve(curve.first, curve.figures[: last + 1 - curve.first])
+
+
+def _accurate(question: Question, method: str) -> Candidate:
+    """Of a method whose schedule is not looked at: whether it is accurate enough."""
+    figures = accuracy(question, method)
+    if figures.curve is None:
+        return _none(question, method, figures.reason)
+    best, allowed = float(figures.curve.figures[0]), figures.curve.latest(question.within)
+    found = replace(_none(question, method, OF_CURRENT), best=best, allowed=allowed)
+    return found if allowed is not None else replace(found, reason=too_coarse(question, found))
 
 
 def _none(question: Question, method: str, reason: str) -> Candidate:

@@ -38,7 +38,7 @@ def considered(question: Question, curve_of: Callable[[Variant], Curve], variant
     curve = Curve(first, curve.figures[first - curve.first :])
     found = Candidate(variant, using.N, first, curve.at(first), curve.latest(question.within))
     if found.allowed is None:
-        return replace(found, reason=_too_coarse(question, found))
+        return replace(found, reason=too_coarse(question, found))
     if late := too_late(variant.method, question.sampling, variant.every, variant.options):
         return replace(found, reason=late)
     law = SCHEDULED[variant.method].law(variant.options.feedback)
@@ -78,7 +78,8 @@ def _last_known(question: Question, law: Law, N: int, M: int) -> int:
     return law.latest(N, M) if by_deadlines else law.last_of_use(N, M)
 
 
-def _too_coarse(question: Question, found: Candidate) -> str:
+def too_coarse(question: Question, found: Candidate) -> str:
+    """What it is at best, which is not enough."""
     measured = "" if found.variant.every == 1 else f" with every {ordinal(found.variant.every)} measurement"
     unit = f" {question.outputs.unit}" if question.outputs.unit else ""
     floor = "more than " if METHODS[found.variant.method].floored and found.variant.every > 1 else ""

@@ -92,6 +92,17 @@ def test_the_long_sum_is_left_out_where_it_says_nothing_more() -> None:
         assert found.at(44) == pytest.approx(0.38236, rel=1e-4)
 
 
+def test_a_sum_that_takes_long_is_not_waited_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of a fast loop with a short delay it is three thousand million multiplications."""
+    monkeypatch.setattr(kept, "at_arrival", lambda *_: pytest.fail("was computed"))
+    fast = question(N=200, M=34, hr_hz=1000, within=0.5)
+    for whole in (False, True):
+        found = accuracy(fast, "px4-predictor", whole=whole)
+        assert found.reason == (
+            "its accuracy is a sum over too many steps: `sched-sim accuracy --method px4-predictor` takes it"
+        )
+
+
 @pytest.mark.parametrize(
     ("method", "hr_hz", "said"),
     [

@@ -154,6 +154,14 @@ def test_a_task_that_is_late_first_is_named() -> None:
     assert "task control is late first" in said.sentence
 
 
+def test_of_methods_whose_schedule_is_not_looked_at_it_says_whether_they_are_accurate_enough() -> None:
+    """Where each takes a simulation."""
+    query = "N=10&M=4&model=camera&costs=counted-9-3-3&method=dual-rate&policy=edf"
+    best = answer(found_of(f"{query}&within=0.0239")).sentence
+    assert "recalculate, larsen, clone and 3 more would be accurate enough" in best
+    assert "the best is 0.02243 m, by recalculate, larsen" in answer(found_of(f"{query}&within=0.01")).sentence
+
+
 def test_long_lists_are_cut() -> None:
     assert listed(["a"]) == "a"
     assert listed(["a", "b"]) == "a and b"

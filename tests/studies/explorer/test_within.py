@@ -103,12 +103,17 @@ def test_where_each_takes_simulations_only_the_current_method_is_looked_at() -> 
     on_parts = replace(asked, tasks=(Task("control", Fraction(1), Fraction(1, 10**6), priority=5),))
     busy = replace(asked, parts=(), tasks=(Task("control", Fraction(1), Fraction(100), priority=5),))
     found = keeping(busy, ["larsen", "clone"], "clone", where(on_parts))
-    assert found["larsen"].reason == OF_CURRENT
+    assert (found["larsen"].reason, found["larsen"].allowed) == (OF_CURRENT, 2)
     alone, expected = all_of(busy, "clone"), all_of(on_parts, "clone")
     assert alone is not None
     assert expected is not None
     assert found["clone"].least == alone.least
     assert found["clone"].parts == expected.parts[:1]
+
+
+def test_in_a_long_cycle_landings_after_the_next_measurement_are_left_alone() -> None:
+    asked = question(N=1500, M=600, hr_hz=None, within=9.0)
+    assert keeping(asked, ["dual-rate"], "dual-rate", None)["dual-rate"].L == 1500
 
 
 def test_moving_l_computes_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
