@@ -1,4 +1,4 @@
-"""Views of the explorer, each of another design, beside the picture of one as `gantt` draws it, and the simulation alone."""
+"""Views of the explorer, each of another design, beside the picture `gantt` draws of one, and its simulation alone."""
 
 from __future__ import annotations
 

@@ -66,7 +66,7 @@ def _runs_at(asked: Resolved, plan: Planned) -> str:
 def said_of(asked: Resolved, plan: Planned) -> dict[str, Any]:
     """Every key of a query, with what the design comes to."""
     times, rate = asked.sampling.times, asked.rate
-    N, M, L = asked.sampling.N, asked.sampling.M, plan.timing.L if asked.stated.L is None else asked.stated.L
+    N, M, L = asked.sampling.N, asked.sampling.M, asked.asked_L(plan.method)
     table = asked.counts.name if asked.counts.name in asked.given.table_names else None
     lands = None if times is None or rate is None else times.landing_ms(L, rate)
     shipped = None if asked.model is None else asked.model.shipped

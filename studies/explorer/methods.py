@@ -109,7 +109,7 @@ def method_view(
         plan.method,
         "",
         query_of(replace(asked.design, method=plan.method)),
-        plan.timing.L,
+        asked.asked_L(plan.method),
         plan.least.speed,
         power.of(plan.least.speed),
         binding_words(plan.least.binding),

@@ -8,7 +8,7 @@ from functools import cached_property
 
 from sched_sim.costs.methods import DELAYED_METHODS
 from sched_sim.costs.table import COUNTED, PAPERS, SECONDS, CostTable
-from sched_sim.design.methods import select
+from sched_sim.design.methods import METHODS, select
 from sched_sim.design.pieces import Costs
 from sched_sim.design.stated import Stated
 from sched_sim.design.timing import Timing
@@ -72,6 +72,12 @@ class Resolved:
     def timing(self, method: str) -> Timing:
         """Raises InputError for times that the method cannot have."""
         return self.stated.timing(method, self.design.options)
+
+    def asked_L(self, method: str) -> int:
+        """The step by which corrections must land: as it was said, else the latest; whatever the method makes of it."""
+        if self.stated.L is not None:
+            return self.stated.L
+        return METHODS[method].law(self.design.options.feedback).latest(self.sampling.N, self.sampling.M)
 
     def costs(self, method: str) -> Costs:
         """Raises InputError for entries that the table lacks."""

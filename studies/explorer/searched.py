@@ -45,5 +45,5 @@ def check_beside(costs: Costs, timing: Timing, options: Options, tasks: Sequence
     periods = searched(costs, timing, options, tasks)
     if periods > MOST_BESIDE:
         raise InputError(
-            f"its least speed takes a search by simulation over {periods:,} HR periods: choose it to see it"
+            f"it takes a search by simulation over {periods:,} HR periods: choose it to see its least speed"
         )

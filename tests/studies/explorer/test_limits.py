@@ -18,9 +18,18 @@ from studies.explorer.view import explore
 from tests.studies.explorer.drawn import designs_in_steps, designs_in_time
 
 
-@settings(max_examples=30)
-@given(designs_in_steps() | designs_in_time(), st.sampled_from("NML"), st.floats(0, 1))
+@given(designs_in_steps(), st.sampled_from("NML"), st.floats(0, 1))
 def test_each_may_be_moved_alone_from_end_to_end(design: Design, name: str, share: float) -> None:
+    _check_moves(design, name, share)
+
+
+@settings(max_examples=3)
+@given(designs_in_time(), st.sampled_from("NML"), st.floats(0, 1))
+def test_also_where_the_design_was_said_in_times(design: Design, name: str, share: float) -> None:
+    _check_moves(replace(design, within=None), name, share)
+
+
+def _check_moves(design: Design, name: str, share: float) -> None:
     view = explore(design)
     first, last = getattr(view.limits, name)
     assert first <= view.design[name] <= last
