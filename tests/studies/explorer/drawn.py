@@ -48,7 +48,7 @@ def designs_in_steps(draw: st.DrawFn) -> Design:
 def designs_in_time(draw: st.DrawFn) -> Design:
     """Of a shipped model, on a part or not."""
     hr_hz = draw(st.sampled_from([100, 200, "333", 400]))
-    delay_ms = draw(st.integers(0, 90))
+    delay_ms = draw(st.integers(0, 80))
     return Design(
         hr_hz=hr_hz,
         measurement_hz=draw(st.sampled_from([5, 7, 10])),

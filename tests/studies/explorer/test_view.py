@@ -71,7 +71,7 @@ def test_every_method_beside_it_is_what_the_library_makes_of_it(design: Design) 
         assert of.achieved_l == achieved_l(costs, timing, speed, design.options)
 
 
-@settings(max_examples=8)
+@settings(max_examples=5)
 @given(designs_in_time())
 def test_parts_are_those_of_fit_and_powers_shares_of_the_part(design: Design) -> None:
     view = explore(design)
@@ -100,7 +100,7 @@ def test_parts_are_those_of_fit_and_powers_shares_of_the_part(design: Design) ->
         assert view.current.power == float(view.current.least)
 
 
-@settings(max_examples=8)
+@settings(max_examples=5)
 @given(designs_in_time())
 def test_accuracies_are_those_of_the_comparison(design: Design) -> None:
     view = explore(design)
@@ -117,7 +117,7 @@ def test_accuracies_are_those_of_the_comparison(design: Design) -> None:
             assert of.within.std <= float(design.within or 0)
 
 
-@settings(max_examples=6)
+@settings(max_examples=3)
 @given(designs_in_time())
 def test_every_link_of_a_view_is_a_design_that_can_be_explored(design: Design) -> None:
     view = explore(design)
