@@ -60,7 +60,8 @@ class Gantt {
     this.job = this.job === null ? null : sameJob(this.line, of.kind[this.job], of.step[this.job]);
     this.hovered = null;
     this.say();
-    this.drawSoon();
+    if (before === null) this.draw();
+    else this.drawSoon();
   }
 
   destroy() {
@@ -76,10 +77,16 @@ class Gantt {
       zoom: (factor, x) => this.zoom(factor, x),
       pan: (px) => this.pan(px),
       whole: () => this.to(this.line.whole),
-      hover: (point) => this.hover(point && jobAt(this.line, this.drawn.layout, this.drawn.scale, point)),
-      pick: (point) => this.pick(jobAt(this.line, this.drawn.layout, this.drawn.scale, point)),
+      hover: (point) => this.hover(point && this.jobAt(point)),
+      pick: (point) => this.pick(this.jobAt(point)),
       key: (key) => this.key(key),
     };
+  }
+
+  /** None where what is shown is not drawn yet. */
+  jobAt(point) {
+    const { line, drawn } = this;
+    return drawn?.line === line ? jobAt(line, drawn.layout, drawn.scale, point) : null;
   }
 
   press(name) {
@@ -180,7 +187,7 @@ class Gantt {
   /** Shows what a job says, beside it. */
   tell() {
     const job = this.hovered ?? this.job;
-    if (job === null || !this.drawn) return this.tip.hide();
+    if (job === null || this.drawn?.line !== this.line) return this.tip.hide();
     const { layout, scale } = this.drawn;
     const [start, end] = spanOf(this.line, job);
     const { first, end: last } = this.stretch;

@@ -14,6 +14,7 @@ export function listen(frame, surface, asked) {
   listenToPointers(surface, on, asked);
   on(surface, "dblclick", () => asked.whole());
   on(surface, "wheel", (event) => turned(event, surface, asked) && event.preventDefault());
+  on(document, "keydown", (event) => event.key === "Escape" && asked.hover(null));
   on(frame, "keydown", (event) => pressed(event, asked) && event.preventDefault());
   return () => gone.abort();
 }

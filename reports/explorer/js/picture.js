@@ -12,8 +12,8 @@ const MOST_RATIO = 3;
 const TRACK_PX = 3;
 const MOST_WIDTHS = 5000;
 
-/** Draws `stretch` of a timeline into `canvas`, `width` wide; {layout, scale, every}: what it then shows where, and of
- *  how many jobs of a crowded row one has its arrows. */
+/** Draws `stretch` of a timeline into `canvas`, `width` wide; {line, layout, scale, every}: what it then shows where, and
+ *  of how many jobs of a crowded row one has its arrows. */
 export function drawGantt(canvas, line, stretch, width, colours, ratio = devicePixelRatio) {
   const context = canvas.getContext("2d");
   const sharp = Math.min(ratio, MOST_RATIO);
@@ -39,7 +39,7 @@ export function drawGantt(canvas, line, stretch, width, colours, ratio = deviceP
   }
   drawAxes(sheet);
   drawTrack(sheet);
-  return { layout, scale, every };
+  return { line, layout, scale, every };
 }
 
 function sized(canvas, width, height, ratio) {

@@ -34,6 +34,34 @@ def test_what_is_hovered_tells_of_itself(visit: Visit) -> None:
     assert not chart.page.locator(".ss-gantt-tip").is_visible()
 
 
+def test_escape_takes_away_what_is_hovered(visit: Visit) -> None:
+    chart = Chart(visit, late())
+    chart.page.mouse.move(*middle(chart))
+    assert chart.page.locator(".ss-gantt-tip").is_visible()
+    chart.page.keyboard.press("Escape")
+    assert not chart.page.locator(".ss-gantt-tip").is_visible()
+
+
+def test_a_pointer_that_is_faster_than_the_next_picture_does_no_harm(visit: Visit) -> None:
+    chart = Chart(visit, late())
+    x, y = middle(chart)
+    chart.page.evaluate(
+        """([shown, x, y]) => {
+          const canvas = document.querySelector("canvas");
+          chart.show(shown);
+          for (const type of ["pointermove", "pointerdown", "pointerup"]) {
+            for (const down of [0, 60]) {
+              canvas.dispatchEvent(new PointerEvent(type, { clientX: x + 300, clientY: y + down, bubbles: true }));
+            }
+          }
+          document.querySelector("[aria-label='next job']").click();
+        }""",
+        [schedule("larsen", Timing(10, 4, 4), "2"), x, y],
+    )
+    chart.settle()
+    assert "high-rate job of step 0" in chart.text("tip")
+
+
 def test_what_it_tells_stays_in_the_window(visit: Visit) -> None:
     chart = Chart(visit, schedule(), around="body { padding-top: 480px; }")
     x, row = middle(chart)
