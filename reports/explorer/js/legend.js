@@ -13,6 +13,7 @@ export function ganttLegend({ line, colours }, every) {
   const some = every > 1 ? ` (1 in ${every.toLocaleString("en")} where crowded)` : "";
   const worked = new Set(line.rows.flatMap((row) => [...new Set(row.style)]));
   const styles = line.styles.flatMap((style, index) => (worked.has(index) ? [[style, colours.fills[index]]] : []));
+  styles.sort(([one], [other]) => placeOf(one) - placeOf(other));
   const waiting = line.rows.some(({ waits }) => waits.start.length);
   const missing = line.schedule.jobs.missed.some(Boolean);
   const late = line.rows.some((row) => row.late.some((from) => from < Infinity));
@@ -60,8 +61,13 @@ function markEntries(line) {
   return [...of].map(([symbol, { text, steps }]) => ({ symbol, text: text + once(steps) }));
 }
 
-function workWords({ label, meaning }) {
-  return label === "switch" || label.startsWith("task:") ? meaning : `${label}  ${meaning}`;
+/** The filter's work, then tasks, then context switches. */
+function placeOf({ label }) {
+  return label === "switch" ? 2 : label.startsWith("task:") ? 1 : 0;
+}
+
+function workWords(style) {
+  return placeOf(style) ? style.meaning : `${style.label}  ${style.meaning}`;
 }
 
 function drawn(text, box, draw) {
