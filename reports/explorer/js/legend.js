@@ -13,7 +13,7 @@ export function ganttLegend({ line, colours }, every) {
   const some = every > 1 ? ` (1 in ${every.toLocaleString("en")} where crowded)` : "";
   const worked = new Set(line.rows.flatMap((row) => [...new Set(row.style)]));
   const styles = line.styles.flatMap((style, index) => (worked.has(index) ? [[style, colours.fills[index]]] : []));
-  styles.sort(([one], [other]) => placeOf(one) - placeOf(other));
+  styles.sort(([one], [other]) => legendPlace(one) - legendPlace(other));
   const waiting = line.rows.some(({ waits }) => waits.start.length);
   const missing = line.schedule.jobs.missed.some(Boolean);
   const late = line.rows.some((row) => row.late.some((from) => from < Infinity));
@@ -62,12 +62,12 @@ function markEntries(line) {
 }
 
 /** The filter's work, then tasks, then context switches. */
-function placeOf({ label }) {
+function legendPlace({ label }) {
   return label === "switch" ? 2 : label.startsWith("task:") ? 1 : 0;
 }
 
 function workWords(style) {
-  return placeOf(style) ? style.meaning : `${style.label}  ${style.meaning}`;
+  return legendPlace(style) ? style.meaning : `${style.label}  ${style.meaning}`;
 }
 
 function drawn(text, box, draw) {
