@@ -66,7 +66,7 @@ export function explorer(host, { ask, query = "", pins = "", onQuery = unheard, 
       stale(true);
     },
   });
-  asking.want(textOf(asked));
+  asking.want(query);
 
   function draw() {
     frame = null;
