@@ -88,18 +88,28 @@ def test_back_is_the_design_before(visit: Visit, explorer: Explorer) -> None:
     ("query", "why"),
     [
         ("model=/etc/passwd&N=10&M=4", "model '/etc/passwd' is unknown"),
-        ("colour=red", "the query's key 'colour' is unknown"),
         ("N=10&M=12&L=3", "L=3 is less than M=12"),
     ],
 )
-def test_a_link_that_cannot_be_says_why_and_leaves_a_page_to_use(
+def test_a_link_that_cannot_be_says_so_at_its_control_and_leads_back(
     visit: Visit, explorer: Explorer, query: str, why: str
 ) -> None:
     page = opened(visit, explorer, query)
-    expect(page.get_by_text(why).filter(visible=True)).to_be_visible()
-    assert "status of 422" in visit.errors.pop()  # the browser's own word for it
+    expect(page.get_by_role("alert").filter(has_text=why)).to_be_visible()
     page.get_by_role("button", name="Back to the last design").click()
     shown(page, explorer)
+    assert "status of 422" in visit.errors.pop()  # the browser's own word for it
+
+
+@pytest.mark.parametrize(("query", "why"), [("colour=red", "'colour' is unknown"), ("N=10&N=11&M=4", "N twice")])
+def test_a_link_that_no_control_can_mend_is_told_and_any_change_goes_on(
+    visit: Visit, explorer: Explorer, query: str, why: str
+) -> None:
+    page = opened(visit, explorer, query)
+    expect(page.get_by_text(why)).to_be_visible()
+    field(page, "Method").select_option("larsen")
+    assert shown(page, explorer)["design"]["method"] == "larsen"
+    assert "status of 422" in visit.errors.pop()
 
 
 @pytest.mark.parametrize(
