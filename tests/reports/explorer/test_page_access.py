@@ -20,10 +20,19 @@ LOOKS = {
 }
 
 
-@pytest.mark.parametrize("look", LOOKS)
-@pytest.mark.parametrize("design", DESIGNS)
+@pytest.mark.parametrize(
+    ("design", "look"),
+    [
+        ("flight", "desktop"),
+        ("flight", "phone"),
+        ("flight", "dark"),
+        ("misses", "dark"),
+        ("part", "phone"),
+        ("refused", "desktop"),
+    ],
+)
 def test_no_rule_of_accessible_pages_is_broken(
-    browser: Browser, explorer: Explorer, tmp_path: Path, look: str, design: str
+    browser: Browser, explorer: Explorer, tmp_path: Path, design: str, look: str
 ) -> None:
     """And nothing is wider than the screen."""
     context = browser.new_context(**LOOKS[look])  # type: ignore[arg-type]
