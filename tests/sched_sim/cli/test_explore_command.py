@@ -91,6 +91,7 @@ def test_ones_own_are_offered_by_name_and_no_link_names_a_file(
     assert query == "N=10&M=4&hr_hz=400&costs=mine&processor=rp2040&model=explored:made&output=0"
     assert view["choices"]["costs"][0] == "mine"
     assert "control" in [row["name"] for row in view["schedule"]["rows"]]
+    assert "--costs secret/costs.toml" in view.pop("commands")["shell"]  # as it was given, to go on from there
     assert "secret" not in str(view)
     refused = client.get("/view?N=10&M=4").json()["error"]
     assert "'tasks.toml'" in refused
