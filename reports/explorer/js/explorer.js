@@ -46,7 +46,7 @@ export function explorer(host, { ask, query = "", pins = "", onQuery = unheard, 
     answered(answered, text) {
       const first = view === null;
       view = answered;
-      if (asked.size === 0) asked = queryOf(view.query);
+      if (asked.size === 0) adopt(view.query);
       if (text !== "") refusal = null;
       frame ??= requestAnimationFrame(draw);
       if (first) board.show(pins);
@@ -89,10 +89,14 @@ export function explorer(host, { ask, query = "", pins = "", onQuery = unheard, 
       stale(true);
     } else {
       box.refused(`${refusal}. ${SHOWN_BEFORE}`, false);
-      asked = queryOf(view.query);
-      mode = modeOf(asked);
+      adopt(view.query);
       form.set({ query: asked, view, mode }, true);
     }
+  }
+
+  function adopt(text) {
+    asked = queryOf(text);
+    mode = modeOf(asked);
   }
 
   function stale(is) {
@@ -134,8 +138,7 @@ export function explorer(host, { ask, query = "", pins = "", onQuery = unheard, 
   return {
     /** Shows another design and other pins, as a link gives them, and tells nobody. */
     show(text, pinned) {
-      asked = queryOf(text);
-      mode = modeOf(asked);
+      adopt(text);
       changes = [];
       force = true;
       if (pinned !== undefined) board.show(pinned);

@@ -22,7 +22,8 @@ export function numberField({ id, label, help, empty }, onChange) {
   let dragging = false;
 
   const place = (text) => {
-    const at = Number(text.replace(",", "."));
+    const [over, under = 1] = text.replace(",", ".").split("/").map(Number);
+    const at = over / under;
     const spare = empty?.place === "first" ? 1 : 0;
     if (text === "" || Number.isNaN(at)) return empty?.place === "last" ? stops.length : 0;
     return stopNear(stops, at) + spare;

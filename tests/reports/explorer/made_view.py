@@ -42,7 +42,7 @@ def made_view(query: str) -> dict[str, Any]:
     now = next(row for row in methods if row["method"] == design["method"])
     misses = 1 if design["speed"] is not None and float(design["speed"]) < now["power"] else 0
     return {
-        "query": urlencode(given),
+        "query": urlencode(given, safe="/"),
         "design": design,
         "choices": {
             "method": list(METHODS),

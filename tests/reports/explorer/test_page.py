@@ -11,6 +11,7 @@ from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Locator, Page, expect
 
 from tests.browser import Visit
+from tests.reports.explorer.made_view import made_view
 from tests.reports.explorer.small_server import SmallServer
 
 DESIGN = "hr_hz=400&measurement_hz=5&delay_ms=110&model=ins-gps"
@@ -203,6 +204,24 @@ def test_in_steps_and_back(visit: Visit, server: SmallServer) -> None:
     assert field(page, "Measurement rate").input_value() == "4"
 
 
+def test_a_rate_that_is_no_decimal_is_a_fraction_and_has_its_place_on_the_slider(
+    visit: Visit, server: SmallServer
+) -> None:
+    page = opened(visit, server, "?hr_hz=400&N=70&M=44&model=ins-gps")
+    page.get_by_role("radio", name="Hz and ms").check()
+    shows(page, "hr_hz=400&model=ins-gps&measurement_hz=40/7&delay_ms=110")
+    assert field(page, "Measurement rate").input_value() == "40/7"
+    expect(slider(page, "Measurement rate")).to_have_attribute("aria-valuetext", "40/7 Hz")
+    drag(page, "Measurement rate", 0.5, 0.51)
+    assert 0.2 < float(field(page, "Measurement rate").input_value()) < 8.9
+
+
+def test_what_the_command_was_started_with_in_steps_is_shown_in_steps(visit: Visit, server: SmallServer) -> None:
+    server.view = lambda query: made_view(query or "N=80&M=44&hr_hz=400")
+    page = opened(visit, server)
+    assert [field(page, label).input_value() for label in ("N", "M", "Loop rate")] == ["80", "44", "400"]
+
+
 def test_designs_are_pinned_kept_in_the_link_and_removed(visit: Visit, server: SmallServer) -> None:
     page = opened(visit, server, f"?{DESIGN}")
     page.get_by_role("button", name="Pin this design").click()
@@ -299,8 +318,7 @@ def test_files_are_those_of_the_design(visit: Visit, server: SmallServer) -> Non
 WIDE, NARROW = {"width": 1280, "height": 800}, {"width": 360, "height": 740}
 
 
-@pytest.mark.parametrize("size", [WIDE, NARROW], ids=["desktop", "phone"])
-@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize(("size", "scheme"), [(WIDE, "light"), (NARROW, "dark")], ids=["desktop", "phone"])
 def test_it_is_accessible(visit: Visit, server: SmallServer, size: Any, scheme: Any) -> None:
     visit.page.set_viewport_size(size)
     visit.page.emulate_media(color_scheme=scheme)
