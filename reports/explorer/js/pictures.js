@@ -8,7 +8,7 @@ import { plot } from "./plot.js";
 import { TRADEOFFS } from "./tradeoffs.js";
 import { methodsTable, partsTable } from "./verdicts.js";
 
-const NO_RATE = "Parts need a loop rate: give one above.";
+const NO_RATE = "Which parts do depends on the loop rate: give one.";
 const NO_PARTS = "No part is known to run these costs: How this was computed says why.";
 
 /**

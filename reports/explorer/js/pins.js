@@ -47,7 +47,7 @@ export function pinboard(host, id, { ask, onTake, onPins }) {
   function draw() {
     section.hidden = pins.length === 0;
     if (pins.length === 0 || now === null) return scroll.replaceChildren();
-    const held = scroll.contains(document.activeElement) ? document.activeElement.dataset.key : null;
+    const held = scroll.querySelector(":focus")?.dataset.key;
     const head = html("tr", {}, html("td", {}), html("th", { scope: "col" }, "now"), ...pins.map(heads));
     const text = (cell, { view, refused }) => (view ? cell(view) : refused ? "–" : "…");
     const cells = (cell) => [{ view: now }, ...pins].map((pin) => html("td", {}, text(cell, pin)));

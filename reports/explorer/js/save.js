@@ -22,7 +22,7 @@ export function saving(host, id, files) {
     show({ query, commands }, pins) {
       const all = FILES.map(([kind, words]) => [files(kind, query, pins), words]);
       const offered = all.filter(([address]) => address !== null);
-      const held = [...downloads.children].indexOf(document.activeElement);
+      const held = [...downloads.children].indexOf(downloads.querySelector(":focus"));
       const link = ([href, words]) => html("a", { href, download: "", class: "ss-button" }, words);
       downloads.replaceChildren(...offered.flatMap((each) => [link(each), " "]));
       if (held >= 0) downloads.children[held]?.focus();

@@ -11,10 +11,11 @@ export function methodsTable({ host, least, why }, view, onTake) {
   const asked = view.design.within !== null;
   const can = view.methods.filter(({ reason }) => !reason);
   const rows = asked ? [...can].sort(keepingFirst) : can;
+  const columns = asked ? keepingColumns(view) : methodColumns(view);
   const pick = asked ? "Pick a method: it is shown with that landing, on that part" : "Pick a method to see it";
   table(host, {
     caption: `${pick}. Least speed: ${view.power.unit}`,
-    columns: [{ key: "method", label: "method", text: methodName }, ...(asked ? keepingColumns(view) : methodColumns(view))],
+    columns: [{ key: "method", label: "method", text: methodName }, ...columns],
     rows,
     onPick: (row) => onTake(asked && keeps(row) ? row.within.query : row.query),
     current: rows.findIndex(({ method }) => method === view.design.method),
@@ -73,8 +74,9 @@ function verdict(label) {
   return { key: "fits", label, holds: ({ fits }) => fits, text: ({ fits }) => words.get(fits) ?? "" };
 }
 
-function accuracyColumn({ current: { unit } }, std) {
-  return unit ? [{ key: "std", label: `accuracy, ${unit}`, numeric: true, text: (row) => digits(std(row)) }] : [];
+function accuracyColumn({ design: { model }, current: { unit } }, std) {
+  const label = unit ? `accuracy, ${unit}` : "accuracy";
+  return model === null ? [] : [{ key: "std", label, numeric: true, text: (row) => digits(std(row)) }];
 }
 
 function keeps({ within }) {
