@@ -18,7 +18,7 @@ BUSY = " % busy"
 
 def told(panel: Panel) -> dict[str, Any]:
     """Its "title", "notes" and "schedule": a document of `studies.explorer.schedule`, with instants to `DECIMALS`, and
-    with "first" and "last" where not all steps are shown; of the others it has no jobs."""
+    with its first step as "origin" where the panel begins later than at 0; of steps not shown it has no jobs."""
     schedule, period = panel.schedule, panel.schedule.period
     first, end = panel.first * period, panel.end * period
     alive = {(piece.kind, piece.step) for piece in schedule.slices if piece.end > first and piece.release < end}
@@ -29,7 +29,7 @@ def told(panel: Panel) -> dict[str, Any]:
         "notes": [plain_text(note) for note in panel.notes if not note.endswith(BUSY)],
         "schedule": {
             **rounded(document(shown(seen, panel.end, marks))),
-            **({"first": panel.first, "last": panel.end} if panel.first else {}),
+            **({"origin": panel.first} if panel.first else {}),
         },
     }
 

@@ -44,7 +44,7 @@ def _panel(costs: Costs, way: Way, urgency: str, clock_mhz: int) -> Panel:
     marks = [Mark(DELAY, "m", 0, False, "the fix arrives")]
     landed = list(outcome.sensors[GPS].achieved)
     if landed == [DELAY]:
-        marks = [Mark(DELAY, "m = l", 0, False, "the fix arrives, and its correction lands")]
+        marks = [Mark(DELAY, "m = l", 0, False, "the fix arrives, its correction lands")]
     elif landed:
         marks.append(Mark(landed[0], "l", 0, False, "its correction lands"))
     first = DELAY - BEFORE

@@ -15,7 +15,7 @@ STYLES = ("palette.css", "gantt.css", "report.css")
 
 def figure(still: str, data: Mapping[str, Any] | None, attributes: str = "") -> str:
     """still: an <img> or a <table>; data: "plots", see `reports.drawing.readout`, or "panels", see
-    `reports.charts.told`; None where nothing is to be told."""
+    `reports.charts.told`, with "still" where an image is to be seen first; None where nothing is to be told."""
     if data is None:
         return f'<figure class="ss-figure"{attributes}>{still}</figure>'
     text = json.dumps(data, ensure_ascii=False, separators=(",", ":")).replace("<", r"\u003c")

@@ -15,14 +15,22 @@ from reports.drawing.readout import readout
 
 
 class Picture(NamedTuple):
-    """alive: the panels of a Gantt chart, see `told`, or the curves of a figure, see `readout`; None of any other."""
+    """alive: the panels of a Gantt chart, see `told`, "still" where the picture is to be seen first; or the curves of a
+    figure, see `readout`; None of any other."""
 
     svg: bytes
     alive: Mapping[str, Any] | None
 
 
-def pictures(figures: Mapping[str, Figure | Sequence[Panel]]) -> dict[str, Picture]:
-    """By file name; where there are panels, they are drawn below one another as a Gantt chart."""
+class Annotated(NamedTuple):
+    """A figure that says more than the chart of its panels, so that it is what is seen first."""
+
+    figure: Figure
+    panels: Sequence[Panel]
+
+
+def pictures(figures: Mapping[str, Figure | Annotated | Sequence[Panel]]) -> dict[str, Picture]:
+    """By file name; where there are panels alone, they are drawn below one another as a Gantt chart."""
     return {name: _picture(figure) for name, figure in figures.items()}
 
 
@@ -31,7 +39,9 @@ def files(drawn: Mapping[str, Picture]) -> dict[str, bytes]:
     return {name: picture.svg for name, picture in drawn.items()}
 
 
-def _picture(figure: Figure | Sequence[Panel]) -> Picture:
+def _picture(figure: Figure | Annotated | Sequence[Panel]) -> Picture:
     if isinstance(figure, Figure):
         return Picture(image(figure, "svg"), readout(figure))
+    if isinstance(figure, Annotated):
+        return Picture(image(figure.figure, "svg"), {"panels": [told(panel) for panel in figure.panels], "still": True})
     return Picture(image(gantt(figure), "svg"), {"panels": [told(panel) for panel in figure]})

@@ -7,11 +7,11 @@ from typing import Any
 
 from reports.charts.panels import method_panel
 from reports.pages.machine import legend, marked, timed_on
-from reports.pages.pictures import files, pictures
+from reports.pages.pictures import Annotated, files, pictures
 from reports.pages.render import csv_bytes, render
 from reports.steffes.comparisons import Speeds, cost_figure, table4_figure
 from reports.steffes.figures import achieved_figure, least_speed_figure
-from reports.steffes.timelines import dual_rate_timeline, serial_costs, serial_timeline
+from reports.steffes.timelines import dual_rate_panel, dual_rate_timeline, serial_costs, serial_panel, serial_timeline
 from sched_sim.costs.methods import PAPER_METHODS
 from sched_sim.costs.table import CostTable
 from sched_sim.costs.table_file import costs_text, load_costs
@@ -205,6 +205,8 @@ def _saved_by_l(paper: CostTable) -> dict[str, Any]:
 
 def _figures(tables: dict[str, CostTable]) -> dict[str, Any]:
     paper = tables["paper"]
+    serial = least_speed(serial_costs(paper), FIGURE_3).speed
+    dual_rate = _least(paper, "dual-rate", FIGURE_3)
     panels = [
         method_panel(paper, method, FIGURE_3, _least(paper, method, FIGURE_3)) for method in ("larsen", "dual-rate")
     ]
@@ -223,8 +225,10 @@ def _figures(tables: dict[str, CostTable]) -> dict[str, Any]:
     return {
         "costs.svg": cost_figure(tables),
         "table4.svg": table4_figure(table4),
-        "fig1.svg": serial_timeline(paper, FIGURE_3, least_speed(serial_costs(paper), FIGURE_3).speed),
-        "fig2.svg": dual_rate_timeline(paper, FIGURE_3, _least(paper, "dual-rate", FIGURE_3)),
+        "fig1.svg": Annotated(serial_timeline(paper, FIGURE_3, serial), [serial_panel(paper, FIGURE_3, serial)]),
+        "fig2.svg": Annotated(
+            dual_rate_timeline(paper, FIGURE_3, dual_rate), [dual_rate_panel(paper, FIGURE_3, dual_rate)]
+        ),
         "fig3.svg": panels,
         "least-speed.svg": least_speed_figure(paper),
         "achieved-l.svg": achieved_figure(paper),

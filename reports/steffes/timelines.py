@@ -49,7 +49,7 @@ def serial_timeline(table: CostTable, timing: Timing, speed: Fraction) -> Figure
     As the paper says of it, each step propagates alike; its update is that of Larsen's method.
     Raises InputError if a deadline is missed at `speed`.
     """
-    panel = _second_cycle(serial_costs(table), "larsen", timing, speed, timing.M + 3)
+    panel = serial_panel(table, timing, speed)
     period = panel.schedule.period
     with drawing():
         figure, axes, scale = _sheet(panel, 19.0, timing.N)
@@ -71,7 +71,7 @@ def dual_rate_timeline(table: CostTable, timing: Timing, speed: Fraction) -> Fig
 
     Raises InputError if a deadline is missed at `speed`, and for an L that the method cannot have.
     """
-    panel = _second_cycle(select(table, "dual-rate", Options()), "dual-rate", timing, speed, timing.L + 2)
+    panel = dual_rate_panel(table, timing, speed)
     schedule, k, m = panel.schedule, timing.N, timing.N + timing.M
     with drawing():
         figure, axes, scale = _sheet(panel, 43.0, timing.N, STEPS)
@@ -107,6 +107,16 @@ def dual_rate_timeline(table: CostTable, timing: Timing, speed: Fraction) -> Fig
         _beside(axes, scale, scale.at(scale.mm((done + applied) / 2) + 5.1), 21.1, r"$\delta\hat{x}_{k^+}$")
         _badge(axes, applied, high.head + 3.0, 6)
         return figure
+
+
+def serial_panel(table: CostTable, timing: Timing, speed: Fraction) -> Panel:
+    """The schedule of Fig. 1."""
+    return _second_cycle(serial_costs(table), "larsen", timing, speed, timing.M + 3)
+
+
+def dual_rate_panel(table: CostTable, timing: Timing, speed: Fraction) -> Panel:
+    """The schedule of Fig. 2."""
+    return _second_cycle(select(table, "dual-rate", Options()), "dual-rate", timing, speed, timing.L + 2)
 
 
 def serial_costs(table: CostTable) -> LarsenCosts[Fraction]:

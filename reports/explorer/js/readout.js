@@ -142,12 +142,14 @@ function toldRow({ curve, text }) {
   return html("div", { class: "ss-told-row" }, key, html("span", {}, curve.name), html("b", {}, text));
 }
 
-/** Beside the crosshair, on the side where there is more room. */
+/** Beside the crosshair, on the side where there is more room; where it is narrow, below the picture. */
 function placeTold(host, tip, [left, top, width, height], across, up) {
   tip.hidden = false;
   const at = host.clientWidth * (left + width * across);
-  const aside = at > host.clientWidth / 2 ? at - tip.offsetWidth - 12 : at + 12;
-  const down = host.clientHeight * (top + height * (1 - up)) - tip.offsetHeight / 2;
+  let aside = at > host.clientWidth / 2 ? at - tip.offsetWidth - 12 : at + 12;
+  const wished = host.clientHeight * (top + height * (1 - up)) - tip.offsetHeight / 2;
+  let down = Math.min(Math.max(wished, 0), Math.max(host.clientHeight - tip.offsetHeight, 0));
+  if (tip.offsetWidth > host.clientWidth / 2) [aside, down] = [0, host.clientHeight];
   tip.style.left = `${Math.min(Math.max(aside, 0), Math.max(host.clientWidth - tip.offsetWidth, 0))}px`;
-  tip.style.top = `${Math.min(Math.max(down, 0), Math.max(host.clientHeight - tip.offsetHeight, 0))}px`;
+  tip.style.top = `${down}px`;
 }

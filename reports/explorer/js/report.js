@@ -18,11 +18,11 @@ function enliven(figure) {
   still.replaceWith(picture);
   picture.append(still);
   if (shown.plots) readout(picture, shown);
-  else withCharts(figure, shown.panels, still.localName === "img");
+  else withCharts(figure, shown, still.localName === "img");
 }
 
 /** Charts above what stands still; instead of a picture, which a button brings back. */
-function withCharts(figure, panels, isPicture) {
+function withCharts(figure, { panels, still = false }, isPicture) {
   const charts = html("div", { class: "ss-chart" });
   figure.prepend(charts);
   for (const panel of panels) charts.append(chartOf(panel));
@@ -34,7 +34,7 @@ function withCharts(figure, panels, isPicture) {
   };
   button.addEventListener("click", () => show(figure.dataset.shown === "chart" ? "picture" : "chart"));
   figure.append(button);
-  show("chart");
+  show(still ? "picture" : "chart");
 }
 
 function chartOf({ title, notes, schedule }) {

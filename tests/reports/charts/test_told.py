@@ -23,7 +23,7 @@ def test_every_job_and_every_bar() -> None:
     labels = Counter(schedule["styles"][style]["label"] for style in schedule["bars"]["style"])
     assert labels == Counter(bar.style for bar in bars(PANEL.schedule))
     assert [mark["label"] for mark in schedule["marks"]] == [mark.text for mark in PANEL.marks]
-    assert "first" not in schedule
+    assert "origin" not in schedule
 
 
 def test_its_words_without_what_the_chart_says_itself() -> None:
@@ -35,7 +35,7 @@ def test_its_words_without_what_the_chart_says_itself() -> None:
 
 def test_of_a_part_only_its_jobs_are_told() -> None:
     part, whole = (told(panel)["schedule"] for panel in (zoomed(PANEL, 8, 12), PANEL))
-    assert (part["first"], part["last"], part["steps"]) == (8, 12, 12)
+    assert (part["origin"], part["steps"]) == (8, 12)
     assert 0 < len(part["jobs"]["row"]) < len(whole["jobs"]["row"])
     assert all(release < 12 for release in part["jobs"]["release"])
     assert len(json.dumps(part)) < len(json.dumps(whole))

@@ -41,8 +41,12 @@ def dual_rate() -> list[JobSpan]:
     ]
 
 
+def figure(page: Page, name: str) -> Locator:
+    return page.get_by_role("figure").filter(has=page.get_by_alt_text(re.compile(name)))
+
+
 def chart(page: Page) -> Locator:
-    return page.get_by_role("figure").filter(has=page.get_by_alt_text(re.compile("Fig. 3"))).locator(".ss-gantt").nth(1)
+    return figure(page, "Fig. 3").locator(".ss-gantt").nth(1)
 
 
 @pytest.mark.parametrize("report", REPORTS)
@@ -96,13 +100,23 @@ def test_under_the_pointer_a_job_tells_its_times(visit: Visit, dual_rate: list[J
 
 def test_a_button_brings_the_printed_figure_back(visit: Visit) -> None:
     page = opened(visit)
-    picture = page.get_by_alt_text(re.compile("Fig. 3"))
+    picture, button = page.get_by_alt_text(re.compile("Fig. 3")), figure(page, "Fig. 3").locator(".ss-switch")
     assert picture.is_hidden()
-    page.get_by_role("button", name="Show the printed figure").click()
+    assert button.inner_text() == "Show the printed figure"
+    button.click()
     assert picture.is_visible()
     assert chart(page).is_hidden()
-    page.get_by_role("button", name="Show the chart").click()
+    button.click()
     assert chart(page).is_visible()
+
+
+def test_a_figure_that_says_more_than_its_chart_is_seen_first(visit: Visit) -> None:
+    page = opened(visit)
+    timeline, picture = figure(page, "Fig. 2"), page.get_by_alt_text(re.compile("Fig. 2"))
+    assert picture.is_visible()
+    timeline.get_by_role("button", name="Show the chart").click()
+    assert picture.is_hidden()
+    assert timeline.locator(".ss-gantt-range").inner_text() == "steps 9 to 20"
 
 
 def test_on_paper_a_figure_is_its_picture(visit: Visit) -> None:
