@@ -18,7 +18,7 @@ def figure(still: str, data: Mapping[str, Any] | None, attributes: str = "") -> 
     `reports.charts.told`, with "still" where an image is to be seen first; None where nothing is to be told."""
     if data is None:
         return f'<figure class="ss-figure"{attributes}>{still}</figure>'
-    text = json.dumps(data, ensure_ascii=False, separators=(",", ":")).replace("<", r"\u003c")
+    text = json.dumps(data, allow_nan=False, separators=(",", ":")).replace("<", r"\u003c")
     script = f'<script type="application/json">{text}</script>'
     return f'<figure class="ss-figure" data-alive{attributes}>{still}{script}</figure>'
 

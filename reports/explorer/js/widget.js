@@ -18,7 +18,8 @@ function render({ model, el }) {
   const ask = (query, signal) => new Promise((resolve, reject) => {
     waiting?.end();
     const tell = () => (model.get("error") ? reject(new Error(model.get("error"))) : resolve(model.get("view")));
-    if (query === "" || model.get("answered") === query) return tell();
+    if (query === "") return resolve(model.get("view"));
+    if (model.get("answered") === query) return tell();
     const timer = setTimeout(() => reject(new Error(SILENT)), SILENT_MS);
     waiting = { query, tell, end: () => clearTimeout(timer) };
     signal?.addEventListener("abort", waiting.end);

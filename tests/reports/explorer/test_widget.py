@@ -122,6 +122,14 @@ def test_what_cannot_be_is_said_in_the_cell(visit: Visit) -> None:
     assert explorer.design == STEFFES
 
 
+def test_a_cell_that_is_shown_again_has_the_design_and_what_was_refused(visit: Visit) -> None:
+    explorer = Explorer(STEFFES)
+    explorer.query = "N=10&M=4&L=3"
+    hosted(visit.page, explorer)
+    shows(visit.page, STEFFES)
+    expect(visit.page.locator(".ss-explorer")).to_contain_text("give L from 5 on")
+
+
 def test_a_python_that_does_not_answer_is_said_in_the_cell(visit: Visit) -> None:
     explorer = Explorer(STEFFES)
     assert "SILENT_MS = 20000" in explorer._esm
