@@ -19,6 +19,9 @@ except ImportError:
     raise InputError('reports.Explorer needs the package anywidget: pip install "sched-sim[notebook]"') from None
 
 
+UNEXPECTED = "This could not be computed, for a reason that nobody thought of: {}: {}"
+
+
 def _document(view: View, _widget: Any) -> dict[str, Any]:
     return view.document()
 
@@ -63,15 +66,22 @@ class Explorer(AnyWidget):
         self._show(design, view, query_of(design))
 
     def _answer(self, change: Any) -> None:
-        """To what the page asks."""
-        if change["new"] == self.answered:
+        """To what the page asks: always, for it waits."""
+        text = change["new"]
+        if text == self.answered:
             return
         try:
-            design = design_of(change["new"], self._given)
-            self._show(design, explore(design, self._given), change["new"])
+            design = design_of(text, self._given)
+            self._show(design, explore(design, self._given), text)
         except InputError as error:
-            with self.hold_sync():
-                self.error, self.answered = str(error), change["new"]
+            self._refuse(str(error), text)
+        except Exception as error:
+            self._refuse(UNEXPECTED.format(type(error).__name__, error), text)
+            raise
+
+    def _refuse(self, why: str, text: str) -> None:
+        with self.hold_sync():
+            self.error, self.answered = why, text
 
     def _show(self, design: Design, view: View, text: str) -> None:
         with self.hold_sync():

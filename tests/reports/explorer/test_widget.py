@@ -66,6 +66,16 @@ def test_an_error_of_the_page_is_told_there_and_leaves_the_design() -> None:
     assert (explorer.error, explorer.design.L) == ("", 9)
 
 
+def test_what_nobody_thought_of_is_told_and_raised() -> None:
+    """Here in a function of the user's that hears of the view."""
+    explorer = Explorer(STEFFES)
+    explorer.observe(lambda _change: 1 / 0, "view")
+    with pytest.raises(ZeroDivisionError):
+        explorer.query = "N=10&M=4&L=9"
+    assert explorer.error.endswith("nobody thought of: ZeroDivisionError: division by zero")
+    assert explorer.answered == explorer.query
+
+
 def test_an_error_of_python_is_raised() -> None:
     explorer = Explorer(STEFFES)
     with pytest.raises(InputError, match="give L from 5 on"):
