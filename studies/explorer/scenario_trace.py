@@ -79,9 +79,9 @@ class Alive:
 class Trace:
     """kinds, styles: of jobs, as in `Outcome`, and of bars, by index; a user's task has the style "task:NAME".
 
-    reached: the step up to whose start it has been simulated. Of each sensor, by its kind of job: taken, arrivals, the
-    steps in which measurements are taken, and in which late ones arrive, of the whole run; landings, those in which
-    corrections have landed; all in order.
+    reached: the step up to whose start it has been simulated. Of each sensor, by its kind of job: measured, the steps
+    in which measurements are taken, of the whole run, and in which they arrive, less than 0 if they do not; landings,
+    those in which corrections have landed, in order.
     """
 
     def __init__(self, scenario: Scenario) -> None:
@@ -93,7 +93,7 @@ class Trace:
         self.bars = [Bars() for _ in range(scenario.cpus)]
         self.misses = Misses()
         self.landings = {correct_kind(sensor): array("q") for sensor in scenario.sensors}
-        self.taken, self.arrivals = _measurements(scenario)
+        self.measured = _measured(scenario)
         self.reached = 0
         self._alive: dict[tuple[str, int], Alive] = {}
         self._simulation = Simulation(work, self._take)
@@ -187,11 +187,10 @@ class Trace:
             bars.end.append(end / piece.period)
 
 
-def _measurements(scenario: Scenario) -> tuple[dict[str, Ints], dict[str, Ints]]:
-    taken, arrivals = {}, {}
+def _measured(scenario: Scenario) -> dict[str, tuple[Ints, Ints]]:
     found = measured(scenario, scenario.seed)
-    for number, sensor in enumerate(scenario.sensors):
-        own = found.sensor == number
-        taken[correct_kind(sensor)] = found.step[own]
-        arrivals[correct_kind(sensor)] = np.sort(found.arrives[own & (found.arrives > found.step)])
-    return taken, arrivals
+    of_sensors = [found.sensor == number for number in range(len(scenario.sensors))]
+    return {
+        correct_kind(sensor): (found.step[own], found.arrives[own])
+        for sensor, own in zip(scenario.sensors, of_sensors, strict=True)
+    }

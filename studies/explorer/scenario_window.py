@@ -13,6 +13,7 @@ from sched_sim.scenario.kinds import correct_kind, gain_kind, loss_kind
 from sched_sim.scenario.scenario import Scenario
 from sched_sim.schedule.labels import MEANINGS
 from studies.explorer.scenario_trace import AHEAD, TASK, Bars, Trace
+from studies.explorer.scenario_waiting import Waiting, waiting
 
 Ints: TypeAlias = npt.NDArray[np.int64]
 Floats: TypeAlias = npt.NDArray[np.float64]
@@ -20,17 +21,19 @@ Floats: TypeAlias = npt.NDArray[np.float64]
 Columns: TypeAlias = dict[str, npt.NDArray[Any]]
 Document: TypeAlias = dict[str, Any]
 
-MOST_JOBS = 5_000
-"""Of one window. Where work piles up, more wait: then those are left out that were released last and did not run."""
+MOST_JOBS = 2_000
+"""Of one window. Where work piles up, more wait: then those are left out that neither run in it nor are released or due
+in it, and of these the last."""
 MOST_MARKS = 60
 """More measurements than a chart has room for are not marked."""
 
 
 class Seen(NamedTuple):
-    """Jobs, by their indices in the trace, how many are left out, and the instant before which it is known what they
-    did."""
+    """Jobs, by their indices in the trace, and others that wait and have not run; how many are left out, and the
+    instant before which it is known what they did."""
 
     jobs: Ints
+    waiting: Sequence[Waiting]
     left_out: int
     before: float
 
@@ -94,36 +97,44 @@ def _seen(trace: Trace, first: int, until: int, shown: Sequence[Columns]) -> See
     before = max(float(until + AHEAD), float(np.nextafter(last_end, inf)))
     if before >= trace.scenario.steps:
         before = inf
+    more = [] if before == inf else waiting(trace, until, before)
+    found = _alive(trace, first, until, before)
+    idle = np.setdiff1d(found, np.concatenate([bars["job"] for bars in shown]))
+    release = np.append(np.array(trace.jobs.release)[idle], [job.release for job in more])
+    deadline = np.append(np.array(trace.jobs.deadline)[idle], [job.deadline for job in more])
+    outside = (release < first) & ((deadline <= first) | (deadline > until))
+    kept = np.sort(np.lexsort((release, outside))[: max(MOST_JOBS - (found.size - idle.size), 0)])
+    left_out = np.setdiff1d(idle, idle[kept[kept < idle.size]])
+    waits = [more[index - idle.size] for index in kept[kept >= idle.size]]
+    return Seen(np.setdiff1d(found, left_out), waits, release.size - kept.size, before)
+
+
+def _alive(trace: Trace, first: int, until: int, before: float) -> Ints:
+    """Of the jobs that have run by `before`, those that are in the window."""
     jobs = trace.jobs
-    if not jobs.kind:
-        return Seen(np.zeros(0, np.int64), 0, before)
-    seen, release, finish = (np.frombuffer(column) for column in (jobs.seen, jobs.release, jobs.finish))
+    seen, release, finish = (np.array(column) for column in (jobs.seen, jobs.release, jobs.finish))
     begun = (seen < before) & ((release < until) | (until == trace.scenario.steps))
     ended = (finish < before) & (finish <= first) & (release < first)
-    found = np.flatnonzero(begun & ~ended)
-    idle = np.setdiff1d(found, np.concatenate([bars["job"] for bars in shown]))
-    room = max(MOST_JOBS - (found.size - idle.size), 0)
-    left_out = idle[np.argsort(release[idle], kind="stable")][room:]
-    return Seen(np.setdiff1d(found, left_out), left_out.size, before)
+    return np.flatnonzero(begun & ~ended)
 
 
 def _jobs(trace: Trace, seen: Seen, rows: Sequence[RowKinds]) -> Document:
-    jobs, names = trace.jobs, list(trace.kinds)
+    jobs, names, waits = trace.jobs, list(trace.kinds), seen.waiting
     row_of = {kind: number for number, row in enumerate(rows) for kind in row.kinds}
-    kinds = [names[jobs.kind[job]] for job in seen.jobs]
-    finish = [_known(jobs.finish[job], seen.before) for job in seen.jobs]
-    deadline = [jobs.deadline[job] for job in seen.jobs]
+    kinds = [names[jobs.kind[job]] for job in seen.jobs] + [job.kind for job in waits]
+    finish = [_known(jobs.finish[job], seen.before) for job in seen.jobs] + [None] * len(waits)
+    deadline = [jobs.deadline[job] for job in seen.jobs] + [job.deadline for job in waits]
     late = trace.scenario.steps if seen.before == inf else float(np.nextafter(seen.before, 0))
     return {
         "row": [row_of[kind] for kind in kinds],
         "kind": kinds,
-        "step": [jobs.step[job] for job in seen.jobs],
-        "release": [jobs.release[job] for job in seen.jobs],
-        "start": [_known(jobs.start[job], seen.before) for job in seen.jobs],
+        "step": [jobs.step[job] for job in seen.jobs] + [job.step for job in waits],
+        "release": [jobs.release[job] for job in seen.jobs] + [job.release for job in waits],
+        "start": [_known(jobs.start[job], seen.before) for job in seen.jobs] + [None] * len(waits),
         "finish": finish,
         "deadline": deadline,
         "missed": [due < done if done is not None else due <= late for due, done in zip(deadline, finish, strict=True)],
-        "preemptions": _preemptions(trace, seen),
+        "preemptions": _preemptions(trace, seen) + [0] * len(waits),
     }
 
 
@@ -191,16 +202,11 @@ def _marks(trace: Trace, first: int, until: int) -> Iterator[Document]:
     late = [sensor for sensor in trace.scenario.sensors if sensor.delayed]
     for sensor in late:
         kind, of = correct_kind(sensor), f" {sensor.name}" if len(late) > 1 else ""
+        taken, arrives = trace.measured[kind]
         for letter, meaning, steps in (
-            ("k", f"{sensor.name} measures", trace.taken[kind]),
-            ("m", f"a measurement of {sensor.name} arrives", trace.arrivals[kind]),
+            ("k", f"{sensor.name} measures", taken),
+            ("m", f"a measurement of {sensor.name} arrives", arrives[arrives > taken]),
             ("l", f"a correction of {sensor.name} has landed", np.array(trace.landings[kind], np.int64)),
         ):
-            for step in dict.fromkeys(_within(steps, first, until)):
+            for step in np.unique(steps[(steps >= first) & (steps < until)]).tolist():
                 yield {"step": step, "label": letter + of, "meaning": meaning}
-
-
-def _within(ascending: Ints, first: int, until: int) -> list[int]:
-    low, high = np.searchsorted(ascending, (first, until))
-    found: list[int] = ascending[low:high].tolist()
-    return found

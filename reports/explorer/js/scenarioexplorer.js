@@ -51,7 +51,7 @@ export function scenarioExplorer(host, { ask, query = "", onQuery = () => {} }) 
       stale(true);
     },
   });
-  asking.want(textOf(asked));
+  asking.want(query);
 
   function draw() {
     frame = null;

@@ -98,9 +98,14 @@ def test_a_refusal_is_told_and_the_page_goes_on(page_of: Opened, visit: Visit) -
     visit.errors.clear()  # the browser's, of an answer with status 422
 
 
-def test_of_a_link_that_is_refused_the_scenario_itself_is_shown(page_of: Opened, visit: Visit) -> None:
-    page = page_of(LATE, "file=vehicle.toml")
-    expect(page.get_by_text("the query's key 'file' is unknown")).to_be_visible()
+@pytest.mark.parametrize(
+    ("query", "said"), [("file=vehicle.toml", "the query's key 'file' is unknown"), ("seed=1&seed=2", "seed twice")]
+)
+def test_of_a_link_that_is_refused_the_scenario_itself_is_shown(
+    query: str, said: str, page_of: Opened, visit: Visit
+) -> None:
+    page = page_of(LATE, query)
+    expect(page.get_by_text(said)).to_be_visible()
     expect(page.get_by_label("Steps", exact=True)).to_have_value("2000")
     visit.errors.clear()  # the browser's, of an answer with status 422
 
