@@ -1,5 +1,5 @@
-"""What is asked: cost measurement, sweeps, which filter is accurate enough, all of one design, and the declared
-studies."""
+"""What is asked: cost measurement, sweeps, which filter is accurate enough, all of one design or scenario,
+and the declared studies."""
 
 from __future__ import annotations
 
@@ -9,6 +9,8 @@ from sched_sim.lazy import lazily
 
 if TYPE_CHECKING:
     from studies.explorer.design import Design
+    from studies.explorer.scenario import ScenarioView, explore_scenario
+    from studies.explorer.scenario_asked import ScenarioAsked
     from studies.explorer.view import View, explore
     from studies.measurement.described import describe_filter
     from studies.measurement.methods import measure
@@ -19,11 +21,14 @@ if TYPE_CHECKING:
 
 __all__ = [
     "Design",
+    "ScenarioAsked",
+    "ScenarioView",
     "View",
     "choose_filter",
     "compare_accuracy",
     "describe_filter",
     "explore",
+    "explore_scenario",
     "measure",
     "measure_filter",
     "run_sweep",
@@ -33,6 +38,8 @@ __getattr__, __dir__ = lazily(
     __name__,
     {
         "studies.explorer.design": "Design",
+        "studies.explorer.scenario": "ScenarioView explore_scenario",
+        "studies.explorer.scenario_asked": "ScenarioAsked",
         "studies.explorer.view": "View explore",
         "studies.measurement.described": "describe_filter",
         "studies.measurement.methods": "measure",

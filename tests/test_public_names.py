@@ -18,7 +18,8 @@ PUBLIC = {
     "filters": "System Structure linear_system example_system standard recalculate larsen dual_rate delayed_horizon "
     "px4_predictor augmentation fuse_as_fresh clone clone_split carried_gain multirate_gain History "
     "true_covariance modular count Operations accuracy",
-    "studies": "Design View choose_filter compare_accuracy describe_filter explore measure measure_filter run_sweep",
+    "studies": "Design ScenarioAsked ScenarioView View choose_filter compare_accuracy describe_filter explore "
+    "explore_scenario measure measure_filter run_sweep",
     "reports": "Explorer gantt method_panel scenario_panel save",
 }
 
