@@ -2,19 +2,48 @@
 
 import { scenarioExplorer } from "./scenarioexplorer.js";
 
+const WRITTEN_AFTER_MS = 300;
+
 const scenarioPlace = document.querySelector("[data-scenario]");
 if (scenarioPlace !== null) startScenario(scenarioPlace);
 
 function startScenario(host) {
-  const shown = scenarioExplorer(host, { ask: scenarioAnswer, query: location.search.slice(1), onQuery: scenarioAddress });
-  window.addEventListener("popstate", () => shown.show(location.search.slice(1)));
+  const address = scenarioAddress();
+  const shown = scenarioExplorer(host, { ask: scenarioAnswer, query: location.search.slice(1), onQuery: address.follow });
+  window.addEventListener("popstate", () => {
+    address.forget();
+    shown.show(location.search.slice(1));
+  });
 }
 
-/** A step on is one that can be gone back from. */
-function scenarioAddress(query, stepOn) {
-  const address = `${location.pathname}${query && `?${query}`}`;
-  if (stepOn) history.pushState(null, "", address);
-  else history.replaceState(null, "", address);
+/** The address follows what is asked for. What is dragged is one step to go back, and written now and then: browsers bear
+ *  only so many changes. `key` null: no step. */
+function scenarioAddress() {
+  let [search, dragged, timer] = [location.search, null, null];
+
+  function write() {
+    clearTimeout(timer);
+    timer = null;
+    history.replaceState(null, "", `${location.pathname}${search}`);
+  }
+
+  function follow(query, { key, settled }) {
+    if (key !== null && key !== dragged) {
+      if (timer !== null) write();
+      history.pushState(null, "", location.href);
+    }
+    dragged = settled ? null : key;
+    search = query && `?${query}`;
+    if (settled && key !== null) write();
+    else timer ??= setTimeout(write, WRITTEN_AFTER_MS);
+  }
+
+  function forget() {
+    clearTimeout(timer);
+    [search, dragged, timer] = [location.search, null, null];
+  }
+
+  return { follow, forget };
 }
 
 /** What the server answers at a path, "view", "schedule" or "next". Rejects with its words. */

@@ -10,7 +10,8 @@ import { html } from "./svg.js";
 
 /**
  * The scenario's page in `host`, as `query` says. `ask(path, query, signal)` promises what the server answers at "view",
- * "schedule" and "next". `onQuery(query, stepOn)` hears of each change, and whether it is one to be gone back from.
+ * "schedule" and "next". `onQuery(query, {key, settled})` hears of each change: of which control, null for the steps of
+ * the trace, and whether it is still being dragged.
  */
 export function scenarioExplorer(host, { ask, query = "", onQuery = () => {} }) {
   const id = `ss-${Math.random().toString(36).slice(2, 10)}`;
@@ -24,10 +25,10 @@ export function scenarioExplorer(host, { ask, query = "", onQuery = () => {} }) 
 
   const box = answerBox(top, beside, id, { onStop: () => asking.stop(), onBack: back });
   const form = scenarioForm(side, id, change);
-  const drawn = scenarioResults(results, id, (changes) => change(changes, true));
+  const drawn = scenarioResults(results, id, (changes) => change(changes, { key: "results", settled: true }));
   const trace = scenarioTrace(drawn.trace, id, ask, (changes) => {
     asked = changedQuery(asked, changes);
-    onQuery(textOf(asked), false);
+    onQuery(textOf(asked), { key: null, settled: true });
   });
   const asking = asker((text, signal) => ask("view", text, signal), {
     answered(answered, text) {
@@ -77,17 +78,17 @@ export function scenarioExplorer(host, { ask, query = "", onQuery = () => {} }) 
     root.classList.toggle("ss-stale", is);
   }
 
-  /** Another run is looked at from where its own first miss is. */
-  function change(changes, stepOn) {
+  /** Another run is looked at from where its own first miss is, and what takes long is asked for anew. */
+  function change(changes, how) {
     const sameRun = Object.keys(changes).every((key) => ["shown", "exact", "accuracy"].includes(key));
-    asked = changedQuery(asked, sameRun ? changes : { ...changes, at: null });
-    onQuery(textOf(asked), stepOn);
+    asked = changedQuery(asked, sameRun ? changes : { ...changes, at: null, exact: null, accuracy: null });
+    onQuery(textOf(asked), how);
     asking.want(textOf(asked));
   }
 
   function back() {
     if (view !== null) show(view.query);
-    onQuery(textOf(asked), false);
+    onQuery(textOf(asked), { key: "back", settled: true });
   }
 
   /** Shows what another link says, and tells nobody. */

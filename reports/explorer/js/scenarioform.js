@@ -7,14 +7,15 @@ import { html } from "./svg.js";
 const SLOWEST = 10;
 const SEEDS = 100;
 
-/** The form in `host`; ids begin with `id`. `onChange(changes, stepOn)` hears what a control writes into the query. */
+/** The form in `host`; ids begin with `id`. `onChange(changes, {key, settled})` hears what a control writes into
+ *  the query. */
 export function scenarioForm(host, id, onChange) {
   const number = (key, label, help) =>
-    numberField({ id: `${id}-${key}`, label, help }, (text, _stop, settled) => onChange({ [key]: text }, settled));
+    numberField({ id: `${id}-${key}`, label, help }, (text, _stop, settled) => onChange({ [key]: text }, { key, settled }));
   const slower = number("times_slower", "Processor so many times as slow", "1 is that of the file; 0.5 is twice as fast. The draws stay the same.");
   const steps = number("steps", "Steps", "More steps resolve rarer misses, and take longer.");
   const seed = number("seed", "Seed", "Other draws of costs, delays and losses.");
-  const shown = choiceField({ id: `${id}-shown`, label: "Distribution of", help: "Also by its name in the table." }, (kind) => onChange({ shown: kind }, true));
+  const shown = choiceField({ id: `${id}-shown`, label: "Distribution of", help: "Also by its name in the table." }, (kind) => onChange({ shown: kind }, { key: "shown", settled: true }));
   const parts = { times_slower: slower, steps, seed, shown };
   const fields = Object.values(parts).map(({ element }) => element);
   const group = html("fieldset", { class: "ss-group" }, html("legend", {}, "The run"), ...fields);

@@ -66,6 +66,10 @@ def test_what_is_exact_is_found_when_it_is_asked_for(page_of: Opened) -> None:
     expect(page.get_by_text("takes longer, exactly").first).to_be_visible()
     expect(button).to_be_hidden()
     assert page.url == f"{HOST}/scenario?exact=yes"
+    page.get_by_label("Seed", exact=True).fill("5")
+    expect(button).to_be_visible()
+    page.go_back()
+    expect(button).to_be_hidden()
 
 
 def test_where_nothing_is_exact_it_says_why(page_of: Opened) -> None:
@@ -86,6 +90,23 @@ def test_another_seed_is_another_run(page_of: Opened) -> None:
     page.wait_for_url(f"{HOST}/scenario?seed=5")
     expect(page.get_by_role("status").first).to_contain_text(view.answer["sentence"])
     expect(page.locator("[data-shown]")).to_have_attribute("data-shown", "seed=5")
+
+
+def test_a_drag_is_one_step_to_go_back(page_of: Opened) -> None:
+    page = page_of(LATE)
+    slider = page.get_by_label("Processor so many times as slow, slider")
+    box = slider.bounding_box()
+    assert box is not None
+    middle = box["y"] + box["height"] / 2
+    page.mouse.move(box["x"] + box["width"] / 2, middle)
+    page.mouse.down()
+    for share in (0.55, 0.6, 0.65):
+        page.mouse.move(box["x"] + box["width"] * share, middle)
+    page.mouse.up()
+    page.wait_for_url("**times_slower=**")
+    page.go_back()
+    expect(page.get_by_label("Processor so many times as slow", exact=True)).to_have_value("1")
+    assert page.url == f"{HOST}/scenario"
 
 
 def test_a_refusal_is_told_and_the_page_goes_on(page_of: Opened, visit: Visit) -> None:
@@ -124,7 +145,7 @@ def test_the_trace_is_scrolled_through(page_of: Opened) -> None:
     expect(page.get_by_role("button", name="Next steps")).to_be_disabled()
     page.get_by_label("First step shown").press("Home")
     expect(said).to_have_text("Steps 0 to 40 of 2,000")
-    assert page.url == f"{HOST}/scenario?at=0&span=40"
+    page.wait_for_url(f"{HOST}/scenario?at=0&span=40")
 
 
 def test_the_trace_goes_from_miss_to_miss(page_of: Opened) -> None:
