@@ -48,7 +48,7 @@ export function scenarioResults(host, id, onChange) {
       onPick: ({ kind }) => onChange({ shown: kind }),
     });
     exact.show(view.exact, exactWords(view));
-    told.textContent = `${shown.sentence[0].toUpperCase()}${shown.sentence.slice(1)}.`;
+    told.textContent = sentenceOf(shown);
     job.hidden = shown.histogram === null;
     if (shown.histogram !== null) jobPlot.show(jobHistogram(view, shown));
     landing.hidden = of.L.length === 0;
@@ -78,6 +78,11 @@ export function scenarioResults(host, id, onChange) {
   }
 
   return { trace, show, destroy };
+}
+
+function sentenceOf({ sentence, exact_miss: exact }) {
+  const said = `${sentence[0].toUpperCase()}${sentence.slice(1)}.`;
+  return exact === "" ? said : `${said} Exactly, P(miss): ${exact}.`;
 }
 
 function agePlot(host) {
