@@ -165,14 +165,10 @@ def _trace(found: Found, asked: ScenarioAsked) -> dict[str, int]:
 
 
 def _first_of_interest(found: Found, span: int) -> int:
-    """The first step of a window about the first miss, or the first late measurement."""
+    """The first step of a window about the first miss, or the first late measurement of a sensor."""
     if found.outcome.first_miss is not None:
         return ceil(found.outcome.first_miss) + AFTER_MISS - span
-    arrivals = (
-        step + delay
-        for sensor in found.scenario.sensors
-        for step, delay in sensor.measurements(found.scenario.steps, found.scenario.seed)
-        if delay
-    )
-    first = next(iter(arrivals), 0)
+    scenario = found.scenario
+    measured = [sensor.measurements(scenario.steps, scenario.seed) for sensor in scenario.sensors if sensor.delayed]
+    first = min((next((step + delay for step, delay in own if delay), 0) for own in measured), default=0)
     return first - BEFORE_ARRIVAL if first + BEFORE_ARRIVAL > span else 0

@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 
 from sched_sim.errors import InputError
 from sched_sim.scenario.run import run_scenario
+from sched_sim.scenario.scenario import Scenario
 from sched_sim.scenario.scenario_file import read_scenario
 from studies.explorer.scenario import ScenarioView, explore_scenario
 from studies.explorer.scenario_asked import ScenarioAsked
@@ -135,3 +136,15 @@ def test_of_a_long_file_the_first_steps_are_simulated(monkeypatch: pytest.Monkey
     monkeypatch.setattr("studies.explorer.scenario_asked.MOST_JOBS", 210)
     view = explore_scenario(URGENT)
     assert (view.steps, view.notes[0]) == (200, "200 of the 400 steps of the file are simulated")
+
+
+@pytest.mark.parametrize(
+    ("of", "at"),
+    [
+        (scenario(1000, BY_HAND, sensor("imu", 1), sensor("gps", 100, 70)), 66),  # 4 steps before its first arrival
+        (scenario(100, BY_HAND, sensor("imu", 1)), 0),
+        (scenario(3, BY_HAND, sensor("gps", 100, 70)), 0),  # the first predict job is late
+    ],
+)
+def test_the_trace_begins_where_something_happens(of: Scenario, at: int) -> None:
+    assert explore_scenario(of).trace["at"] == at
