@@ -11,9 +11,9 @@ from sched_sim.design.pieces import Costs
 from sched_sim.design.steady import hyperperiod_steps
 from sched_sim.design.timing import Timing
 from sched_sim.errors import InputError, option
-from sched_sim.schedule.tasks import Task
+from sched_sim.schedule.tasks import Task, phases_matter
 
-MOST = 2_000
+MOST = 5_000
 """HR periods, of the design itself: a second or two."""
 
 MOST_BESIDE = 200
@@ -21,12 +21,15 @@ MOST_BESIDE = 200
 
 
 def searched(costs: Costs, timing: Timing, options: Options, tasks: Sequence[Task]) -> int:
-    """HR periods until measurements and tasks are released together again, and of the longest landing; 0 in closed
-    form."""
+    """HR periods until measurements and tasks are released together again, and of the longest landing; with tasks that
+    may have any phase, those until measurements repeat, for each task. 0 in closed form."""
     costs, timing = of_bound(costs, timing)
     if has_closed_form(options, tasks, costs, timing):
         return 0
-    return hyperperiod_steps(timing, tasks) + max(timing.M, timing.L)
+    landing = max(timing.M, timing.L)
+    if phases_matter(tasks):
+        return len(tasks) * (hyperperiod_steps(timing, ()) + landing)
+    return hyperperiod_steps(timing, tasks) + landing
 
 
 def check_searched(costs: Costs, timing: Timing, options: Options, tasks: Sequence[Task]) -> None:

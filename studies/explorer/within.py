@@ -12,7 +12,7 @@ from studies.explorer.accuracy import accuracy, curve_of, lacks
 from studies.explorer.cheapest import cheapest
 from studies.explorer.parts import Where
 from studies.explorer.same import Same, contents, itself
-from studies.explorer.searched import MOST
+from studies.explorer.searched import MOST_BESIDE
 from studies.selection.choice import Candidate
 from studies.selection.considered import considered, too_coarse
 from studies.selection.curve import Curve
@@ -83,7 +83,7 @@ def _in_reach(question: Question, method: str) -> Curve:
     speed may take a long search."""
     sampling, curve = question.sampling, curve_of(question, method)
     last = SCHEDULED[method].law(question.options.feedback).last_alone(sampling.N, sampling.M)
-    if last is None or sampling.N + sampling.M <= MOST:
+    if last is None or sampling.N + sampling.M <= MOST_BESIDE:
         return curve
     return Curve(curve.first, curve.figures[: last + 1 - curve.first])
 

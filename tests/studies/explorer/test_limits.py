@@ -64,7 +64,7 @@ def _moved(design: Design, said: dict[str, int], name: str, value: int) -> Desig
         ("N=80&M=44", ((45, 200), (0, 79), (45, 80))),
         ("N=5&M=12&costs=counted-9-3-3", ((1, 100), (0, 12), (13, 15))),
         ("N=10&M=4&L=13&costs=counted-9-3-3", ((1, 100), (0, 12), (5, 13))),
-        ("N=400&M=4&policy=edf", ((5, 800), (0, 399), (5, 400))),
+        ("N=400&M=4&policy=edf", ((5, 1000), (0, 399), (5, 400))),
     ],
 )
 def test_limits_are_these(query: str, expected: tuple[tuple[int, int], ...]) -> None:

@@ -205,5 +205,5 @@ def test_other_methods_and_parts_that_take_long_searches_say_so() -> None:
     assert clone.reason == "it takes a search by simulation over 800 HR periods: choose it to see its least speed"
     assert view.parts == ()
     assert "no parts: on each the least speed takes a search by simulation: choose a processor" in view.notes
-    with pytest.raises(InputError, match=r"takes a search by simulation over 4,000 HR periods, .* at most 2,000"):
-        explore(design_of("N=2000&M=40&policy=edf"))
+    with pytest.raises(InputError, match=r"takes a search by simulation over 6,000 HR periods, .* at most 5,000"):
+        explore(design_of("N=3000&M=40&policy=edf"))
