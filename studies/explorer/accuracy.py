@@ -27,9 +27,8 @@ from studies.selection.waiting import too_irregular, too_late
 KEPT = 64
 """Curves, at most."""
 
-MOST, MOST_BESIDE = 1e8, 2e7
-"""Multiplications of a long sum, of the method that is looked at and of another: some tenths of a second, some
-hundredths."""
+MOST = 1e8
+"""Multiplications of a long sum: some tenths of a second."""
 
 
 class Accuracy(NamedTuple):
@@ -58,7 +57,7 @@ class Accuracy(NamedTuple):
 def accuracy(question: Question, method: str, *, whole: bool = False, last: int = 0) -> Accuracy:
     """Up to the last landing of use, or to `last` where that is later.
 
-    whole: of px4-predictor too where it is not needed to say whether it is accurate enough, a long sum.
+    whole: of px4-predictor too, a long sum.
     """
     sampling, options = question.sampling, question.options
     if reason := _why_none(question, method, whole):
@@ -88,7 +87,7 @@ def curve_of(question: Question, method: str, *, whole: bool = False, last: int 
         if lossless > question.within:
             return Curve(sampling.M, np.array([lossless]))
     if METHODS[method].floored:
-        _check_effort(question, method, MOST if whole else MOST_BESIDE)
+        _check_effort(question, method)
     return _at_arrival(
         _same_model(question.model),
         _same_outputs(question.outputs),
@@ -100,11 +99,11 @@ def curve_of(question: Question, method: str, *, whole: bool = False, last: int 
     )
 
 
-def _check_effort(question: Question, method: str, most: float) -> None:
-    """Raises ValueError for a sum of more multiplications."""
+def _check_effort(question: Question, method: str) -> None:
+    """Raises ValueError for a sum of more multiplications than MOST."""
     sampling, model, outputs = question.sampling, _same_model(question.model), _same_outputs(question.outputs)
     pull = question.conditions.pull
-    if pull is not None and _multiplications(model, outputs, sampling.between, sampling.M, pull) > most:
+    if pull is not None and _multiplications(model, outputs, sampling.between, sampling.M, pull) > MOST:
         raise ValueError(f"its accuracy is a sum over too many steps: `sched-sim accuracy --method {method}` takes it")
 
 
@@ -135,8 +134,6 @@ def _why_not_whole(question: Question) -> str:
         lossless = curve_of(question, "recalculate").at(question.sampling.M)
     except ValueError as error:
         return str(error)
-    if isfinite(question.within) and lossless <= question.within:
-        return ""
     unit = f" {question.outputs.unit}" if question.outputs.unit else ""
     return f"more than {lossless:.4g}{unit}: choose it to see how much"
 

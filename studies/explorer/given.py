@@ -22,6 +22,7 @@ from sched_sim.text import did_you_mean
 from studies.explorer.design import Design
 from studies.selection.costs import tables_for
 from studies.selection.model import Model, load_model
+from studies.selection.outputs import Outputs, outputs_of
 
 START = Design(hr_hz=400, measurement_hz=5, delay_ms=110, model="ins-gps")
 """What is looked at first where nothing was asked for."""
@@ -72,6 +73,10 @@ class Given:
         _check_name("model", name, self.model_names)
         return self.models[name] if name in self.models else _shipped_model(name, hr_hz)
 
+    def outputs(self, model: str, hr_hz: Fraction | None, output: str | None) -> Outputs:
+        """Of the model at a rate, by default its first. Raises InputError for what the model does not have."""
+        return _outputs(self, model, hr_hz, output)
+
     def counts(self, model: str, part: str | None = None) -> CostTable:
         """Operations of filters of a model's size, in the textbook form of the covariance update; in seconds on the
         part, if one is named. Raises InputError for a model whose operations cannot be counted."""
@@ -101,6 +106,11 @@ _shipped_table = cache(load_costs)
 _shipped_parts = cache(shipped_parts)
 _shipped_part = cache(load_part)
 _shipped_model = lru_cache(maxsize=64)(load_model)
+
+
+@lru_cache(maxsize=64)
+def _outputs(given: Given, model: str, hr_hz: Fraction | None, output: str | None) -> Outputs:
+    return outputs_of(given.model(model, hr_hz), output)
 
 
 @lru_cache(maxsize=16)

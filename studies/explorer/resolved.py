@@ -20,7 +20,7 @@ from studies.explorer.design import Design
 from studies.explorer.given import Given
 from studies.explorer.query import number_text
 from studies.selection.model import Model
-from studies.selection.outputs import Outputs, outputs_of
+from studies.selection.outputs import Outputs
 from studies.selection.sampling import Sampling, with_defaults
 
 
@@ -105,9 +105,10 @@ def resolved(design: Design, given: Given) -> Resolved:
     part = None if design.processor is None else given.part(design.processor)
     counts = costs_of(design, given)
     table = counts if part is None else costs_of(design, given, design.processor)
+    outputs = None
     if design.model is not None:
         model = given.model(design.model, rate)
-    outputs = None if model is None else outputs_of(model, design.output)
+        outputs = given.outputs(design.model, rate, design.output)
     tasks = given.tasks_in(table.unit, SECONDS.get(table.unit), rate)
     return Resolved(design, given, stated, sampling, counts, table, part, tasks, model, outputs)
 

@@ -12,7 +12,6 @@ from studies.explorer.accuracy import accuracy, curve_of, lacks
 from studies.explorer.cheapest import cheapest
 from studies.explorer.parts import Where
 from studies.explorer.same import Same, contents, itself
-from studies.explorer.searched import MOST_BESIDE
 from studies.selection.choice import Candidate
 from studies.selection.considered import considered, too_coarse
 from studies.selection.curve import Curve
@@ -24,15 +23,16 @@ from studies.selection.variants import Variant, variants
 
 
 def keeping(question: Question, methods: Sequence[str], current: str, where: Where | None) -> dict[str, Candidate]:
-    """As `studies.choose_filter` says of each method, with every measurement and the options of the question alone.
+    """As `studies.choose_filter` says of each method, with every measurement and the options of the question alone, and
+    of landings before the next measurement, where there are any.
 
     question: with the costs that the least speed is of, and the tasks in their unit; its parts are not looked at.
     where: of these only the cheapest that does is looked for, or else the nearest. current: the one method that is
-    looked at where each takes simulations.
+    looked at where each takes simulations, or a long sum.
     """
     simulated, same = not has_closed_form(question.options, question.tasks), _same(question)
     place = None if where is None else Same(where, _contents(where))
-    looked = [current] if simulated else methods
+    looked = [method for method in methods if method == current or not (simulated or METHODS[method].floored)]
     return {
         method: _keeping(same, method, place) if method in looked else _accurate(question, method) for method in methods
     }
@@ -79,13 +79,11 @@ def _keeping(same: Same[Question], method: str, where: Same[Where] | None) -> Ca
 
 
 def _in_reach(question: Question, method: str) -> Curve:
-    """By the landings that are looked at: in a long cycle those before the next measurement, for of others the least
-    speed may take a long search."""
+    """By the landings that are looked at: those before the next measurement, where there are any, for of later ones the
+    least speed may take a search."""
     sampling, curve = question.sampling, curve_of(question, method)
     last = SCHEDULED[method].law(question.options.feedback).last_alone(sampling.N, sampling.M)
-    if last is None or sampling.N + sampling.M <= MOST_BESIDE:
-        return curve
-    return Curve(curve.first, curve.figures[: last + 1 - curve.first])
+    return curve if last is None else Curve(curve.first, curve.figures[: last + 1 - curve.first])
 
 
 def _accurate(question: Question, method: str) -> Candidate:
