@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from sched_sim.bounds import MOST_IN_FLIGHT, MOST_STEPS
+from sched_sim.bounds import MOST_STEPS
 from sched_sim.design.least_speed import has_closed_form
 from sched_sim.design.methods import METHODS
 from studies.explorer.resolved import Resolved
-from studies.explorer.searched import MOST
+from studies.explorer.searched import MOST, in_flight
 
 LADDER = tuple(mantissa * 10**power for power in range(2, 7) for mantissa in (1, 2, 5))
 """Where scales of N end."""
@@ -45,6 +45,12 @@ def limits(asked: Resolved) -> Limits:
         first_N = max(M + beside if said is None else said + law.before, 1)
         last_M = N - beside if said is None else said - law.after
         return Limits((first_N, last_N), (0, last_M), (M + law.after, N - law.before))
-    first_N = max(-(-longest // MOST_IN_FLIGHT), 1)
     last_M = M if said is None else said - law.after
-    return Limits((first_N, last_N), (0, last_M), (M + law.after, max(L, min(law.latest(N, M), MOST - N))))
+    latest = max(law.latest(N, M), L)
+
+    def is_searched(N: int, L: int) -> bool:
+        return (N + L) * in_flight(N, L) <= MOST
+
+    first_N = next((few for few in range(1, N) if is_searched(few, law.latest(few, M) if said is None else L)), N)
+    last_L = next((late for late in range(latest, L, -1) if is_searched(N, late)), L)
+    return Limits((first_N, last_N), (0, last_M), (M + law.after, last_L))

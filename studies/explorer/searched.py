@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from sched_sim.design.least_speed import has_closed_form
 from sched_sim.design.long_pattern import of_bound
 from sched_sim.design.options import Options
-from sched_sim.design.pieces import Costs
+from sched_sim.design.pieces import Costs, DualRateCosts
 from sched_sim.design.steady import hyperperiod_steps
 from sched_sim.design.timing import Timing
 from sched_sim.errors import InputError, option
@@ -22,14 +22,21 @@ MOST_BESIDE = 200
 
 def searched(costs: Costs, timing: Timing, options: Options, tasks: Sequence[Task]) -> int:
     """HR periods until measurements and tasks are released together again, and of the longest landing; with tasks that
-    may have any phase, those until measurements repeat, for each task. 0 in closed form."""
+    may have any phase, those until measurements repeat, for each task; of the dual-rate filter for each correction on
+    its way. 0 in closed form."""
     costs, timing = of_bound(costs, timing)
     if has_closed_form(options, tasks, costs, timing):
         return 0
     landing = max(timing.M, timing.L)
-    if phases_matter(tasks):
-        return len(tasks) * (hyperperiod_steps(timing, ()) + landing)
-    return hyperperiod_steps(timing, tasks) + landing
+    any_phase = phases_matter(tasks)
+    periods = hyperperiod_steps(timing, () if any_phase else tasks) + landing
+    times = len(tasks) if any_phase else 1
+    return times * periods * (in_flight(timing.N, landing) if isinstance(costs, DualRateCosts) else 1)
+
+
+def in_flight(N: int, landing: int) -> int:
+    """Corrections on their way at once, at least one."""
+    return max(landing // N, 1)
 
 
 def check_searched(costs: Costs, timing: Timing, options: Options, tasks: Sequence[Task]) -> None:

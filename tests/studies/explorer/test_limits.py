@@ -29,6 +29,14 @@ def test_also_where_the_design_was_said_in_times(design: Design, name: str, shar
     _check_moves(replace(design, within=None), name, share)
 
 
+@pytest.mark.exhaust
+@pytest.mark.parametrize("query", ["N=5&M=12", "N=10&M=100", "N=10&M=4&L=13", "N=3&M=3", "N=4&M=3&L=30"])
+@pytest.mark.parametrize("name", "NML")
+def test_also_with_several_on_their_way(query: str, name: str) -> None:
+    for share in (0.0, 0.5, 1.0):
+        _check_moves(design_of(f"{query}&costs=counted-9-3-3"), name, share)
+
+
 def _check_moves(design: Design, name: str, share: float) -> None:
     view = explore(design)
     first, last = getattr(view.limits, name)
@@ -64,6 +72,7 @@ def _moved(design: Design, said: dict[str, int], name: str, value: int) -> Desig
         ("N=80&M=44", ((45, 200), (0, 79), (45, 80))),
         ("N=5&M=12&costs=counted-9-3-3", ((1, 100), (0, 12), (13, 15))),
         ("N=10&M=4&L=13&costs=counted-9-3-3", ((1, 100), (0, 12), (5, 13))),
+        ("N=10&M=100&costs=counted-9-3-3", ((3, 200), (0, 100), (101, 110))),
         ("N=400&M=4&policy=edf", ((5, 1000), (0, 399), (5, 400))),
     ],
 )
