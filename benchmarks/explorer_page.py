@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import re
+import shutil
 from collections.abc import Iterator
+from importlib.util import find_spec
 from statistics import median
 from typing import Any
 
@@ -53,6 +55,9 @@ NOTHING = """async (steps) => {
 
 
 def results() -> Iterator[Result]:
+    if shutil.which("chromium") is None or find_spec("uvicorn") is None:
+        print("Not measured: the explorer's page in a browser, for there is no chromium, or not the extra explore.")
+        return
     with exploring("--port", "0") as explorer, started() as browser:
         page = browser.new_page()
         page.goto(f"{explorer.base}nothing")
