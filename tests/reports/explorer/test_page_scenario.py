@@ -13,6 +13,7 @@ from tests.scenarios import ROCKET
 pytest.importorskip("uvicorn", reason="the extra explore is not installed")
 
 
+@pytest.mark.slow
 def test_it_is_opened_changed_and_come_back_to(visit: Visit) -> None:
     with exploring("--port", "0", "--scenario", str(ROCKET)) as explorer:
         page = visit.page
