@@ -18,7 +18,7 @@ from tests.reports.explorer.explored import exploring
 STEPS = 21
 DESIGNS = {
     "N = 80": "hr_hz=400&measurement_hz=5&delay_ms=110&model=ins-gps&within=0.4",
-    "N = 10,000": "hr_hz=400&measurement_hz=0.04&delay_ms=110",
+    "N = 1,000": "hr_hz=1000&measurement_hz=1&delay_ms=110",
 }
 
 SLIDER = """async ([label, steps]) => {
