@@ -41,7 +41,7 @@ class SmallServer:
             kind, text = texts[name]
             return 200, kind, text()
         if name != "/view":
-            return (204, "text/plain", "") if name == "/favicon.ico" else (404, "text/plain", "nothing here")
+            return 404, "text/plain", "nothing here"
         self.asked.append(query)
         self.open.wait(20)
         try:
@@ -60,6 +60,7 @@ class SmallServer:
                 try:
                     self.send_response(status)
                     self.send_header("Content-Type", f"{kind}; charset=utf-8")
+                    self.send_header("Content-Length", str(len(text.encode())))
                     self.send_header("Content-Security-Policy", POLICY)
                     self.end_headers()
                     self.wfile.write(text.encode())
@@ -69,7 +70,10 @@ class SmallServer:
             def log_message(self, *said: object) -> None:
                 pass
 
-        server = ThreadingHTTPServer(("127.0.0.1", self.port), Handler)
+        class Server(ThreadingHTTPServer):
+            request_queue_size = 64
+
+        server = Server(("127.0.0.1", self.port), Handler)
         self.port = server.server_address[1]
         thread = threading.Thread(target=server.serve_forever, daemon=True)
         thread.start()
