@@ -1,7 +1,7 @@
 // The form: all controls, filled from a query and the view of it.
 
 import { choiceField, numberField, radioField } from "./field.js";
-import { fieldRefused, GROUPS } from "./fields.js";
+import { fieldRefused, GROUPS, inPageWords } from "./fields.js";
 import { html } from "./svg.js";
 
 const MODES = [{ value: "times", words: "Hz and ms" }, { value: "steps", words: "steps" }];
@@ -54,7 +54,7 @@ export function controls(host, id, { onChange, onMode }) {
     refuse(text, changes = []) {
       const seen = made.filter(({ part }) => !part.element.hidden);
       const about = text ? fieldRefused(text, changes, seen.map(({ field }) => field)) : null;
-      for (const { field, part } of made) part.refuse(field === about ? text : "");
+      for (const { field, part } of made) part.refuse(field === about ? inPageWords(text) : "");
       const folded = seen.find(({ field }) => field === about)?.part.element.closest("details");
       if (folded) folded.open = true;
       return about !== null;

@@ -145,6 +145,14 @@ export function fieldRefused(text, changes, fields) {
   return said.includes(last) || said.length === 0 ? last ?? null : said[0];
 }
 
+/** A refusal in the words of the page: "Delay 300" for "delay_ms 300". What is meant for a terminal stays. */
+export function inPageWords(text) {
+  const named = GROUPS.flatMap(({ fields }) => fields).filter(({ key }) => key.includes("_"));
+  const labels = new Map([["land_within_ms", "Land by"], ...named.map(({ key, label }) => [key, label])]);
+  const worded = (part) => part.replace(/(?<![\w-])\w+_\w+(?![\w=])/g, (key) => labels.get(key) ?? key);
+  return text.split("`").map((part, index) => (index % 2 ? `\`${part}\`` : worded(part))).join("");
+}
+
 function placeOf(text, key) {
   const at = text.search(new RegExp(`(?<![\\w-])(--?)?${key.replaceAll("_", "[-_]")}(?![\\w-])`));
   return at < 0 ? Infinity : at;

@@ -96,6 +96,8 @@ def _design(given: Mapping[str, str]) -> dict[str, Any]:
     N = int(given.get("N") or floor(hr / numbers.get("measurement_hz", Fraction(1))))
     M = int(given.get("M") or ceil(numbers.get("delay_ms", Fraction(0)) * hr / 1000))
     L = int(given.get("L") or floor(numbers.get("land_within_ms", N * 1000 / hr) * hr / 1000))
+    if M > 3 * N:
+        raise RefusedError("delay_ms is longer than measurement_hz allows: see `sched-sim minimum delay_ms`")
     if not M < L <= N:
         raise RefusedError(
             f"L={L} must be > M={M} and at most N={N}: the correction cannot land before the measurement arrives"

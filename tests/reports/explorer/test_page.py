@@ -172,6 +172,14 @@ def test_what_is_refused_is_said_beside_its_field_and_the_last_picture_stays(vis
     visit.errors.remove(*(error for error in visit.errors if "422" in error))
 
 
+def test_a_refusal_is_in_the_words_of_the_page(visit: Visit, server: SmallServer) -> None:
+    page = opened(visit, server)
+    give(page, "Delay", "1000")
+    said = "Delay is longer than Measurement rate allows: see `sched-sim minimum delay_ms`"
+    expect(page.get_by_role("alert").filter(has_text=said)).to_be_visible()
+    visit.errors.remove(*(error for error in visit.errors if "422" in error))
+
+
 def test_a_link_that_is_refused_says_why_and_can_be_mended(visit: Visit, server: SmallServer) -> None:
     page = opened(visit, server, "?N=10&M=12&L=8")
     expect(page.get_by_role("alert").filter(has_text="must be > M=12")).to_be_visible()
