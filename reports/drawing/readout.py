@@ -57,17 +57,17 @@ def _plot(figure: Figure, axes: Axes) -> dict[str, Any]:
 
 
 def _name(figure: Figure, axes: Axes, which: Literal["x", "y"]) -> str:
-    """Of an axis; where it stands at another plot of the same column or row only, that one."""
+    """Of an axis; where it stands at another plot only, that one: of the same column or row, of x at any."""
 
     def place(of: Axes) -> tuple[float, float]:
         box = of.get_position()
         return (box.x0, box.x1) if which == "x" else (box.y0, box.y1)
 
-    beside = [
-        other for other in figure.axes if np.allclose(place(other), place(axes)) and any(map(_is_told, other.lines))
-    ]
-    names = [(other.get_xlabel() if which == "x" else other.get_ylabel()) for other in (axes, *beside)]
-    return plain_text(next(filter(None, names), which))
+    told = [other for other in figure.axes if any(map(_is_told, other.lines))]
+    beside = [other for other in told if np.allclose(place(other), place(axes))]
+    others = (axes, *beside, *(told if which == "x" else ()))
+    names = [(other.get_xlabel() if which == "x" else other.get_ylabel()) for other in others]
+    return plain_text(next(filter(None, names), ""))
 
 
 def _axis(axis: Axis, name: str) -> dict[str, Any]:

@@ -55,7 +55,8 @@ def least_speed_figure(found: Sequence[Compared]) -> Figure:
                 beside(axes, (y + 0.5) * row_mm, f"{float(_first(of_method).counted):.2f}", left=False)
                 for slot, name in enumerate(sources):
                     at = y * row_mm + BETWEEN_MM / 2 + (slot + 0.5) * SLOT_MM
-                    _range(axes, at, [one for one in of_method if one.source == name], LINES[name])
+                    _range(axes, at, [one for one in of_method if one.source == name], SOURCES[name], LINES[name])
+            axes.fmt_ydata = lambda at: METHOD_NAMES[methods[int(at / row_mm)]]
             axes.set_title(f"{form} update", loc="left", size=TITLE_PT)
             axes.annotate(
                 "counted", (1, 1), (4, 3), xycoords="axes fraction", textcoords="offset points", va="bottom",
@@ -74,8 +75,8 @@ def _first(found: Sequence[Compared]) -> Compared:
     return next(one for one in found if one.timing == FIRST)
 
 
-def _range(axes: Axes, at: float, found: Sequence[Compared], line: Line) -> None:
+def _range(axes: Axes, at: float, found: Sequence[Compared], name: str, line: Line) -> None:
     over = [100 * float(one.deviation) for one in found]
     axes.plot([min(over), max(over)], [at, at], color=line.colour, lw=1.1, zorder=2, solid_capstyle="butt")
     sign = 100 * float(_first(found).deviation)
-    axes.plot([sign], [at], line.marker, color=line.colour, ms=line.size, mew=0, zorder=3)
+    axes.plot([sign], [at], line.marker, color=line.colour, ms=line.size, mew=0, zorder=3, label=name)

@@ -59,6 +59,7 @@ def cost_figure(ways: Sequence[Way], step_s: float) -> Figure:
             micros_of = {system: (1e6 * low, 1e6 * high) for system, (low, high) in way.seconds.items()}
             _row(times, y, micros_of, systems)
         for axes in (counts, times):
+            axes.fmt_ydata = lambda y: ways[round(y) - 1].name
             axes.set(ylim=(len(ways) + 0.6, -0.4), yticks=[])
             axes.spines["left"].set_visible(False)
             plain(axes)
@@ -92,4 +93,4 @@ def _row(axes: Axes, y: int, values: Mapping[str, tuple[float, float]], systems:
             low, high = values[system]
             if high > low:
                 axes.hlines(y, low, high, color=line.colour, lw=0.8, zorder=2)
-            axes.plot([low], [y], line.marker, color=line.colour, ms=line.size + 0.6, mew=0, zorder=3)
+            axes.plot([low], [y], line.marker, color=line.colour, ms=line.size + 0.6, mew=0, zorder=3, label=system)

@@ -101,17 +101,19 @@ def cost_figure(tables: Mapping[str, CostTable]) -> Figure:
         legend = [line_entry(name, line, dashes=False) for name, line in zip(tables, SOURCE_LINES, strict=False)]
         figure = page(EDGE_MM + height + AXIS_MM + legend_height(legend, width) + EDGE_MM)
         axes = axes_at(figure, left, EDGE_MM, width, height)
-        y = 0.0
+        y, rows = 0, {}
         for method in methods:
             axes.text(0.0, y, f" {METHOD_NAMES[method]}", size=FONT_PT, weight="bold", va="center")
             y += 1
             for kind in [kind for of_method, kind in shown if of_method == method]:
+                rows[y] = f"{METHOD_NAMES[method]}, {KIND_NAMES[kind]}"
                 _row_name(axes, y, KIND_NAMES[kind])
-                for number, table in enumerate(normalised.values()):
+                for number, (name, table) in enumerate(normalised.items()):
                     cost = table.costs.get(method, {}).get(kind)
                     if cost is not None:
-                        _dot(axes, float(cost.minimum), y, number, len(tables), until=float(cost.p95))
+                        _dot(axes, float(cost.minimum), y, name, number, len(tables), until=float(cost.p95))
                 y += 1
+        axes.fmt_ydata = lambda at: rows[round(at)]
         axes.set(xlim=(0, axes.get_xlim()[1]), ylim=(y - 0.5, -0.5), yticks=[])
         _finish(axes, "cost (standard filter's propagate + update = 1)")
         draw_legend(figure, legend, left, EDGE_MM + height + AXIS_MM, width)
@@ -143,7 +145,8 @@ def table4_figure(cells: Sequence[Speeds]) -> Figure:
                 row_speeds = [cell.by_source for cell in cells if (cell.timing, cell.method) == (timing, method)]
                 for by_source in row_speeds:
                     for source, speed in by_source.items():
-                        _dot(axes, speed, y, sources.index(source), len(sources))
+                        _dot(axes, speed, y, source, sources.index(source), len(sources))
+            axes.fmt_ydata = lambda at: _design(designs[round(at)])
             speeds = [speed for cell in cells if cell.method == method for speed in cell.by_source.values()]
             low, high = min(speeds), max(speeds)
             room = max(0.06 * (high - low), NARROWEST * low)
@@ -172,14 +175,23 @@ def _row_name(axes: Axes, y: float, name: str) -> None:
     )
 
 
-def _dot(axes: Axes, value: float, y: float, number: int, count: int, *, until: float | None = None) -> None:
-    """The sign of source `number`, a little above or below the others of its row."""
+def _dot(
+    axes: Axes, value: float, y: float, source: str, number: int, count: int, *, until: float | None = None
+) -> None:
+    """The sign of a source, whose number it is, a little above or below the others of its row."""
     line = SOURCE_LINES[number]
     at = y + 0.62 * ((number + 0.5) / count - 0.5)
     if until is not None and until > value:
         axes.plot([value, until], [at, at], color=line.colour, lw=0.8, zorder=2)
     axes.plot(
-        [value], [at], line.marker, color=line.colour, ms=line.size, mew=1.3 if line.marker == "|" else 0, zorder=3
+        [value],
+        [at],
+        line.marker,
+        color=line.colour,
+        ms=line.size,
+        mew=1.3 if line.marker == "|" else 0,
+        zorder=3,
+        label=source,
     )
 
 

@@ -2,7 +2,10 @@ import { digits, html, svg } from "./svg.js";
 
 // Tells the values of the curves of a printed figure: a picture with, over each of its plots, a crosshair.
 
+/** Of the width of a plot: no value is told from farther away. */
 const FAR = 0.12;
+/** How much less it counts that a point of a curve is above or below the pointer. */
+const ALONG = 0.02;
 
 /** Over the picture in `host`, an element that is as large as the picture: what reports/drawing/readout.py wrote of it. */
 export function readout(host, { plots }) {
@@ -14,11 +17,12 @@ export function readout(host, { plots }) {
 
 function plotBox(host, plot, number, tip) {
   const places = { x: shareOf(plot.x), y: shareOf(plot.y) };
+  const quantity = plot.x.name || "value";
   const curves = plot.lines.map((line) => curveOf(line, plot.columns));
   const stops = stopsOfCurves(curves);
   const cross = svg("svg", { class: "ss-cross", "aria-hidden": "true" });
   const box = html("div", {
-    class: "ss-readout", tabindex: 0, role: "slider", "aria-label": `${plot.title || `Plot ${number + 1}`}: values of the curves along ${plot.x.name}`,
+    class: "ss-readout", tabindex: 0, role: "slider", "aria-label": `${plot.title || `Plot ${number + 1}`}: values of the curves along ${quantity}`,
     "aria-valuemin": 0, "aria-valuemax": Math.max(stops.length - 1, 1), "aria-valuenow": 0, "aria-valuetext": "use the arrow keys",
   }, cross);
   ["left", "top", "width", "height"].forEach((side, index) => { box.style[side] = `${100 * plot.box[index]}%`; });
@@ -27,7 +31,7 @@ function plotBox(host, plot, number, tip) {
   const show = (x, y) => {
     const told = curves.map((curve) => ({ curve, at: curve.at(x) })).filter(({ at }) => at !== null);
     stop = nearestStop(stops, x, places.x);
-    const head = `${plot.x.name}: ${told.find(({ at }) => at.x)?.at.x ?? digits(x)}`;
+    const head = `${quantity}: ${told.find(({ at }) => at.x)?.at.x ?? digits(x)}`;
     const rows = told.map(({ curve, at }) => ({ curve, text: at.y, place: places.y(at.value) }));
     box.setAttribute("aria-valuenow", Math.max(stop, 0));
     box.setAttribute("aria-valuetext", [head, ...rows.map(({ curve, text }) => `${curve.name}: ${text}`)].join("; "));
@@ -113,11 +117,12 @@ function nearestX(curves, stops, places, across, up) {
     const x = places.x.invert(across);
     return x < stops[0] || x > stops[stops.length - 1] ? null : Number(x.toPrecision(4));
   }
+  const sideways = points.every((curve) => curve.x.length === 1) ? 1 : ALONG;
   let [best, least] = [null, Infinity];
   for (const curve of points) {
     curve.x.forEach((x, index) => {
       const aside = Math.abs(places.x(x) - across);
-      const far = aside + 0.02 * Math.abs(places.y(curve.y[index]) - up);
+      const far = aside + sideways * Math.abs(places.y(curve.y[index]) - up);
       if (aside < FAR && far < least) [best, least] = [x, far];
     });
   }
@@ -149,7 +154,7 @@ function placeTold(host, tip, [left, top, width, height], across, up) {
   let aside = at > host.clientWidth / 2 ? at - tip.offsetWidth - 12 : at + 12;
   const wished = host.clientHeight * (top + height * (1 - up)) - tip.offsetHeight / 2;
   let down = Math.min(Math.max(wished, 0), Math.max(host.clientHeight - tip.offsetHeight, 0));
-  if (tip.offsetWidth > host.clientWidth / 2) [aside, down] = [0, host.clientHeight];
+  if (tip.offsetWidth > 0.6 * host.clientWidth) [aside, down] = [0, host.clientHeight];
   tip.style.left = `${Math.min(Math.max(aside, 0), Math.max(host.clientWidth - tip.offsetWidth, 0))}px`;
   tip.style.top = `${down}px`;
 }

@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 
 from reports.drawing.readout import INTERVALS, MOST_POINTS, plain_text, readout
 from reports.drawing.style import METHOD_LINES
+from reports.steffes.comparisons import cost_figure
 from reports.steffes.figures import achieved_figure, least_speed_figure
 from sched_sim.costs.table_file import load_costs
 from sched_sim.design.least_speed import achieved_l, staircase
@@ -113,3 +114,27 @@ def test_an_axis_of_another_scale_is_told_by_the_values_at_even_places() -> None
 )
 def test_a_label_without_its_formula_signs(label: str, said: str) -> None:
     assert plain_text(label) == said
+
+
+def test_dots_tell_their_row() -> None:
+    told = readout(cost_figure({"printed": COSTS, "again": COSTS}))
+    assert told is not None
+    (plot,) = told["plots"]
+    assert (plot["x"]["name"], plot["y"]["name"]) == ("cost (standard filter's propagate + update = 1)", "")
+    rows = {
+        (line["name"], plot["columns"][line["said"]["y"]][0]): plot["columns"][line["x"]][0] for line in plot["lines"]
+    }
+    assert rows["printed", "Dual-rate, LR update"] == rows["again", "Dual-rate, LR update"] == 0.56
+    assert rows["printed", "Larsen, update"] == pytest.approx(0.81)
+
+
+def test_a_name_that_stands_at_one_plot_is_that_of_all() -> None:
+    figure = Figure()
+    left, right = figure.subplots(1, 2)
+    for axes in (left, right):
+        axes.plot([0, 1], [0, 1], label="curve")
+    left.set_xlabel("speed")
+    left.set_ylabel("l")
+    told = readout(figure)
+    assert told is not None
+    assert [(plot["x"]["name"], plot["y"]["name"]) for plot in told["plots"]] == [("speed", "l"), ("speed", "l")]
