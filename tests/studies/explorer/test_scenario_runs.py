@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
+import json
+from urllib.parse import urlencode
+
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from sched_sim.errors import InputError
 from studies.explorer.scenario import explore_scenario
@@ -10,6 +15,7 @@ from studies.explorer.scenario_asked import ScenarioAsked
 from studies.explorer.scenario_runs import Runs
 from studies.explorer.scenario_trace import Trace
 from studies.explorer.scenario_window import window
+from tests.random_scenarios import random_scenario
 from tests.scenarios import BY_HAND, scenario, sensor
 
 LATE = scenario(10, BY_HAND | {"correct.gps": [2] * 9 + [60]}, sensor("gps", 20, 8, land_by=10), steps=2_000)
@@ -67,3 +73,31 @@ def test_what_cannot_be_shown_is_refused(query: str, said: str) -> None:
 def test_there_are_misses_and_late_landings_only() -> None:
     with pytest.raises(InputError, match="of is 'x': choose from miss, landing"):
         Runs(LATE).next("of=x")
+
+
+@given(
+    st.integers(0, 10**6),
+    st.fixed_dictionaries(
+        {},
+        optional={
+            "seed": st.integers(0, 9).map(str),
+            "steps": st.integers(1, 90).map(str),
+            "times_slower": st.sampled_from(["0.01", "1/3", "2.5", "40"]),
+            "exact": st.sampled_from(["yes", "no"]),
+            "shown": st.sampled_from(["predict", "correct s0", "nothing"]),
+            "at": st.integers(0, 99).map(str),
+            "span": st.integers(1, 99).map(str),
+        },
+    ),
+)
+def test_any_query_is_answered_or_refused(seed: int, keys: dict[str, str]) -> None:
+    runs, query = Runs(random_scenario(seed)), urlencode(keys)
+    try:
+        view = runs.view(query)
+    except InputError:
+        return
+    at, until = view["trace"]["at"], view["trace"]["at"] + view["trace"]["span"]
+    shown = runs.schedule(f"{query}{query and '&'}first={at}&until={until}")["schedule"]
+    assert json.loads(json.dumps(shown, allow_nan=False)) == shown
+    assert (shown["origin"], shown["steps"]) == (at, until)
+    assert json.dumps(view, allow_nan=False)
