@@ -20,7 +20,7 @@ export function runJobColumns(view) {
     time("maximum", "longest"),
     time("p95", "95 % within"),
     { label: "released", numeric: true, text: ({ released }) => count(released) },
-    { label: "finished", numeric: true, text: ({ finished }) => count(finished) },
+    { label: "finished", numeric: true, text: ({ finished, released }) => (finished === released ? "all" : count(finished)) },
   ];
   return columns.filter(({ text }) => view.jobs.some((job) => text(job) !== ""));
 }
@@ -29,22 +29,23 @@ function missesNone({ misses, decided }) {
   return decided === 0 ? null : misses === 0;
 }
 
-/** Of each sensor. */
-export function sensorColumns() {
+/** Of each sensor; a column of nothing is left out. */
+export function sensorColumns(view) {
   const L = (name, label) => ({ label, numeric: true, text: ({ quantiles }) => digits(quantiles?.[name] ?? null) });
-  return [
+  const some = (key, label) => ({ key, label, numeric: true, text: (sensor) => count(sensor[key]) });
+  const columns = [
     { label: "sensor", text: ({ name }) => name },
     { label: "rate and delay", text: ({ times }) => times },
-    { label: "landed", numeric: true, text: ({ landed }) => count(landed) },
+    { label: "landed", numeric: true, text: ({ landed, taken }) => `${count(landed)} of ${count(taken)}` },
     { label: "landed late", numeric: true, holds: ({ late }) => late === 0, text: ({ late }) => count(late) },
     { label: "land by", numeric: true, text: ({ land_by: step, land_by_ms: ms }) => (ms === null ? String(step) : `${step} (${digits(ms)} ms)`) },
     L("median", "median"),
     L("p95", "95 % within"),
     L("maximum", "latest"),
     { label: "most often", numeric: true, text: ({ most_often: most }) => (most === null ? "–" : `${most[0]} (${share(most[1])})`) },
-    { label: "taken", numeric: true, text: ({ taken }) => count(taken) },
-    { label: "lost", numeric: true, text: ({ dropped }) => count(dropped) },
-    { label: "on the way", numeric: true, text: ({ on_the_way: way }) => count(way) },
-    { label: "not landed", numeric: true, text: ({ not_landed: not }) => count(not) },
+    some("dropped", "lost"),
+    some("on_the_way", "on the way"),
+    some("not_landed", "not landed"),
   ];
+  return columns.filter(({ key }) => key === undefined || view.sensors.some((sensor) => sensor[key] > 0));
 }
