@@ -3,7 +3,7 @@
 import { histogram } from "./histogram.js";
 import { ageHistogram, jobHistogram, landingHistogram, outputHistogram } from "./scenariospread.js";
 import { runJobColumns, sensorColumns } from "./scenariocolumns.js";
-import { html } from "./svg.js";
+import { digits, html } from "./svg.js";
 import { table } from "./table.js";
 
 /** The sections in `host`, and between them `trace`, a place for the trace; ids begin with `id`. `onChange(changes)` hears what their buttons write into the query. */
@@ -17,7 +17,8 @@ export function scenarioResults(host, id, onChange) {
   };
   const exact = slowPart("Find the exact probabilities", () => onChange({ exact: "yes" }));
   const along = slowPart("Find the accuracy along the run", () => onChange({ accuracy: "yes" }));
-  section("deadlines", "Deadlines", jobs, exact.element);
+  const busy = html("p", { class: "ss-scenario-told" });
+  section("deadlines", "Deadlines", busy, jobs, exact.element);
   const told = html("p", { class: "ss-scenario-told" });
   section("spread", "How the times are spread", told, html("div", { class: "ss-plots" }, job, landing));
   const trace = place();
@@ -47,6 +48,7 @@ export function scenarioResults(host, id, onChange) {
       current: view.sensors.indexOf(of),
       onPick: ({ kind }) => onChange({ shown: kind }),
     });
+    busy.textContent = busyWords(view);
     exact.show(view.exact, exactWords(view));
     told.textContent = sentenceOf(shown);
     job.hidden = shown.histogram === null;
@@ -105,6 +107,14 @@ function slowPart(words, onClick) {
       element.hidden = text.textContent === "";
     },
   };
+}
+
+function busyWords({ busy, demand }) {
+  const shares = busy.map((share, cpu) => {
+    const which = busy.length > 1 ? `Processor ${cpu + 1}` : "The processor";
+    return `${which} is busy ${digits(100 * share, 3)} % of the time, for a demand of ${digits(100 * demand[cpu], 3)} %.`;
+  });
+  return shares.join(" ");
 }
 
 function exactWords({ exact, cycles }) {

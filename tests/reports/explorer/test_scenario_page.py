@@ -44,6 +44,7 @@ def test_it_answers_with_the_sentence_and_the_causes(page_of: Opened) -> None:
     expect(page.get_by_role("status").first).to_contain_text(view.answer["sentence"])
     assert page.locator(".ss-answer").get_attribute("data-state") == "misses"
     assert page.locator(".ss-warnings li").all_inner_texts() == list(view.warnings)
+    expect(page.get_by_text(f"The processor is busy {100 * view.busy[0]:.3g} % of the time")).to_be_visible()
 
 
 def test_a_job_is_picked_in_the_table_or_the_form_and_is_in_the_link(page_of: Opened) -> None:
