@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from math import inf
 from typing import Any
 
+from sched_sim.design.methods import method_of
 from sched_sim.errors import InputError
 from studies.explorer.accuracy import Accuracy, accuracy
 from studies.explorer.answer import Answer, Found, answer
@@ -135,8 +136,16 @@ def _figures(question: Question, plans: Mapping[str, Planned], current: str) -> 
 
 
 def _kept(question: Question, plans: Mapping[str, Planned], current: str, where: Where | None) -> dict[str, Candidate]:
-    """What each method needs for the accuracy, if one is asked for."""
-    return {} if question.within == inf else keeping(question, [*plans], current, where)
+    """What each method needs for the accuracy, if one is asked for; on parts where none takes a search."""
+    if question.within == inf:
+        return {}
+    closed = [
+        method
+        for method, plan in plans.items()
+        if not searched(plan.costs, plan.timing, question.options, question.tasks)
+    ]
+    others = [method for method in plans if method not in closed]
+    return keeping(question, closed, current, where) | keeping(question, others, current, None)
 
 
 def _fronts(plans: Mapping[str, Planned], figures: Mapping[str, Accuracy], power: Power) -> dict[str, Front]:
@@ -150,13 +159,13 @@ def _fronts(plans: Mapping[str, Planned], figures: Mapping[str, Accuracy], power
 def _where(asked: Resolved, plan: Planned) -> tuple[Where | None, str]:
     """Where the design may run, and why nothing is known of other places: not where each takes a long search."""
     where, why = where_of(asked)
-    if where is None or searched(plan.costs, plan.timing, asked.design.options, asked.tasks) <= MOST_BESIDE:
+    options, timing = asked.design.options, plan.timing
+    periods = searched(plan.costs, timing, options, asked.tasks)
+    alone = method_of(plan.costs).law(options.feedback).one_in_flight(timing.N, timing.L)
+    if where is None or periods == 0 or (alone and periods <= MOST_BESIDE):
         return where, why
     if asked.part is None:
-        return (
-            None,
-            "no parts: on each the least speed takes a search by simulation: choose a processor",
-        )
+        return None, "no parts: on each the least speed takes a search by simulation: choose a processor"
     return replace(where, parts=(asked.part,)), "other parts: on each the least speed takes a search by simulation"
 
 
