@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from math import isfinite
+from math import ceil, isfinite
 from typing import Literal
 
 from sched_sim.errors import option
@@ -32,6 +32,10 @@ JOBS = {
     "lr_update": "the LR update",
 }
 """By kind."""
+
+
+MANY = 10
+"""Times from which on a need is not told in percent more."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,10 +105,11 @@ def _misses(found: Found) -> str:
     start = f"{_subject(found)} misses deadlines{first}"
     if plan.least.speed <= plan.speed:
         return f"{start}; {needs(asked, plan.least.speed)} would do, for then it lands in another step"
-    more = no_less(100 * (plan.least.speed / plan.speed - 1), 3)
+    times = plan.least.speed / plan.speed
+    more = f"{no_less(100 * (times - 1), 3)} % more" if times < MANY else f"{ceil(times):,} times as much"
     needed = f"it needs {needs(asked, plan.least.speed)}"
     if asked.machine_pace is None or asked.design.speed is not None:
-        needed += f", {more} % more"
+        needed += f", {more}"
     return f"{start}, and {needed}{_on_it(found)}{_cheapest(found)}"
 
 

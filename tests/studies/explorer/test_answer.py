@@ -46,6 +46,12 @@ GPS = "hr_hz=400&measurement_hz=5&delay_ms=110"
             "per HR period, 5 % more",
         ),
         (
+            "N=10&M=4&method=larsen&speed=0.001",
+            "misses",
+            "larsen at speed 0.001 misses deadlines: the HR job of step 0 is late first, and it needs 1.47 standard steps "
+            "per HR period, 1,470 times as much",
+        ),
+        (
             f"{GPS}&processor=leon3",
             "holds",
             "dual-rate on leon3 meets every deadline: its correction lands at L = 45 (112.5 ms) of the 80 allowed, "
