@@ -48,7 +48,8 @@ GPS = "hr_hz=400&measurement_hz=5&delay_ms=110"
         (
             "N=10&M=4&method=larsen&speed=0.001",
             "misses",
-            "larsen at speed 0.001 misses deadlines: the HR job of step 0 is late first, and it needs 1.47 standard steps "
+            "larsen at speed 0.001 misses deadlines: the HR job of step 0 is late first, and it needs 1.47 standard "
+            "steps "
             "per HR period, 1,470 times as much",
         ),
         (
