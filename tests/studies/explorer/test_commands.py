@@ -86,6 +86,8 @@ def check(found: Found) -> None:
             designs = {} if isinstance(got, str) else {of["method"]: of for of in got["designs"]}
             assert (plan.method in designs) == (kept.least is not None)
             for of in designs.values():
+                if of["L"] > plan.timing.N == kept.L:  # the explorer looks no further than the next measurement
+                    continue
                 assert (of["L"], of["std"]) == (kept.L, pytest.approx(kept.std))
                 first = next((on["processor"] for on in of["parts"] if on["fits"]), None)
                 assert first == (None if kept.cheapest is None else kept.cheapest.name)
