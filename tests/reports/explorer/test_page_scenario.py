@@ -24,7 +24,7 @@ def test_it_is_opened_changed_and_come_back_to(visit: Visit) -> None:
         for number in range(sliders.count()):
             drag(page, sliders.nth(number), 0.5, 0.3, 0.6)
         query = settled(page, explorer)
-        link = page.url
+        link = page.evaluate("location.href")
         page.goto(explorer.base)
         page.goto(link)
         assert settled(page, explorer) == query
@@ -32,10 +32,11 @@ def test_it_is_opened_changed_and_come_back_to(visit: Visit) -> None:
 
 
 def settled(page: Page, explorer: Explorer) -> str:
-    """The query that is drawn, once it is that of the address, which follows what is drawn, too."""
+    """The query that is drawn, once it is that of the address, which follows what is drawn, too. The page is asked for
+    its address: what the driver has heard of it may be older."""
     for _ in range(600):
-        asked = explorer.view(page.url.partition("?")[2], "scenario/view")["query"]
+        asked = explorer.view(page.evaluate("location.search.slice(1)"), "scenario/view")["query"]
         if page.locator(".ss-scenario").get_attribute("data-shown") == asked:
             return str(asked)
         page.wait_for_timeout(100)
-    raise AssertionError(f"{page.url} is not drawn")
+    raise AssertionError(f"{page.evaluate('location.href')} is not drawn")
