@@ -29,7 +29,7 @@ def results() -> Iterator[Result]:
     speed = least_speed(COSTS, timing).speed
     alone = seconds(lambda: simulate(COSTS, timing, speed, 1, keep_slices=True))
     yield Result(
-        "explorer: views in the time of a printed Gantt chart, N = 80", times_faster(of_a_model, _picture, 3), 20
+        "explorer: views in the time of a printed Gantt chart, N = 80", times_faster(of_a_model, _picture, 3), 10
     )
     yield Result("explorer: a view over its simulation alone, N = 1000", seconds(of_steps, 15) / alone, 5, higher=False)
 
