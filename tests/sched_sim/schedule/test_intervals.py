@@ -10,7 +10,6 @@ from itertools import pairwise
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from reports.drawing.placing import spread, worst_shift
 from sched_sim.design.least_speed import least_speed
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import DualRateCosts
@@ -111,18 +110,10 @@ def test_a_starved_job_class_has_a_row_of_jobs_that_wait() -> None:
     assert all(waits(job, starved.horizon) == [(job.release, starved.horizon)] for job in waiting)
 
 
-@given(
-    st.lists(st.floats(0, 100), max_size=8),
-    st.lists(st.floats(0.5, 12), min_size=8, max_size=8),
-    st.floats(0, 3),
-)
-def test_spread_labels_neither_overlap_nor_leave_the_line(wished: list[float], sizes: list[float], gap: float) -> None:
-    centres, widths = sorted(wished), sizes[: len(wished)]
-    placed = spread(centres, widths, -10, 140, gap)
-    assert len(placed) == len(centres)
-    edges = [(at - width / 2, at + width / 2) for at, width in zip(placed, widths, strict=True)]
-    assert all(before[1] + gap <= after[0] + 1e-9 for before, after in pairwise(edges))
-    assert all(start >= -10 - 1e-9 and end <= 140 + 1e-9 for start, end in edges)
-    free = all(b - a >= (u + v) / 2 + gap for (a, b), (u, v) in zip(pairwise(centres), pairwise(widths), strict=True))
-    if free and all(w / 2 - 10 <= c <= 140 - w / 2 for c, w in zip(centres, widths, strict=True)):
-        assert worst_shift(centres, placed) < 1e-9
+@example(too_slow)
+@given(schedules())
+def test_jobs_are_preempted_as_often_as_the_processor_counts(schedule: Schedule) -> None:
+    counted = Counter[str]()
+    for job in jobs(schedule):
+        counted[job.kind] += job.preemptions
+    assert counted == Counter({kind: figures.preemptions for kind, figures in schedule.responses.items()})
