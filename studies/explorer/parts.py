@@ -24,7 +24,7 @@ class Where:
     """Where a design may run: the parts, by a table of counts; without parts the machine of a table of times.
 
     table: before a part makes times of it; rate: of the HR loop. tasks, and a context switch of the options: in
-    seconds, without parts in the unit of the table.
+    seconds, without parts in the unit of the table. chosen: one of the parts, or None.
     """
 
     table: CostTable
@@ -33,6 +33,7 @@ class Where:
     options: Options
     statistic: Statistic
     tasks: tuple[Task, ...] = ()
+    chosen: Part | None = None
 
     def places(self, method: str) -> list[Place]:
         """With the costs of the method on each. Raises InputError for a table that lacks them."""
@@ -62,7 +63,7 @@ def where_of(asked: Resolved) -> tuple[Where | None, str]:
     if asked.part is None and asked.tasks:
         return None, "no parts: the costs of the tasks are no times: choose a processor"
     tasks = given.tasks_in("second", Fraction(1), rate)
-    return Where(table, parts, rate, asked.design.options, asked.design.statistic, tasks), ""
+    return Where(table, parts, rate, asked.design.options, asked.design.statistic, tasks, asked.part), ""
 
 
 def verdicts(where: Where, method: str, timing: Timing, at: Callable[[int], float | None]) -> tuple[OnPart, ...]:

@@ -27,7 +27,8 @@ def keeping(question: Question, methods: Sequence[str], current: str, where: Whe
     of landings before the next measurement, where there are any.
 
     question: with the costs that the least speed is of, and the tasks in their unit; its parts are not looked at.
-    where: of these only the cheapest that does is looked for, or else the nearest. current: the one method that is
+    where: of these only the part that is chosen there, where it does, or the cheapest that does is looked for, or else
+    the nearest. current: the one method that is
     looked at where each takes simulations, or a long sum.
     """
     simulated, same = not has_closed_form(question.options, question.tasks), _same(question)
@@ -63,7 +64,7 @@ def _same(question: Question) -> Same[Question]:
 
 def _contents(where: Where) -> Hashable:
     table, parts = itself(where.table), tuple(map(itself, where.parts))
-    return table, parts, where.rate, where.options, where.statistic, where.tasks
+    return table, parts, where.rate, where.options, where.statistic, where.tasks, itself(where.chosen)
 
 
 @lru_cache(maxsize=KEPT)
@@ -108,7 +109,11 @@ def _on_cheapest(question: Question, found: Candidate, where: Where) -> Candidat
     assert found.L is not None
     delay = 0 if METHODS[method].landing == "at once" else question.sampling.M
     timing = question.sampling.timing(delay, found.L)
-    looked = cheapest(where.places(method), timing, found.variant.options, where.tasks)
+    places = where.places(method)
+    chosen = [place for place in places if place.part is not None and place.part is where.chosen]
+    looked = cheapest(chosen, timing, found.variant.options, where.tasks)
+    if not looked or not looked[0].fits:
+        looked = cheapest(places, timing, found.variant.options, where.tasks)
     parts = tuple(
         replace(on, std=None if on.landed is None else curve.at(max(on.landed, found.first))) for on in looked
     )

@@ -84,6 +84,23 @@ def test_prices_come_before_what_is_to_spare() -> None:
     assert found.parts == expected.parts[:1]
 
 
+def test_the_part_that_is_chosen_comes_before_cheaper_ones_where_it_does() -> None:
+    asked = question(within=0.4)
+    at = where(asked)
+    assert at is not None
+    chosen = next(part for part in PARTS if part.name == "cortex-m4f")
+    found = keeping(asked, METHODS, "dual-rate", replace(at, chosen=chosen))
+    others = keeping(asked, METHODS, "dual-rate", at)
+    does = {method: of for method, of in found.items() if of.cheapest is not None}
+    assert {method for method, of in does.items() if of.cheapest and of.cheapest.name == "cortex-m4f"} == {
+        "standard", "larsen", "dual-rate", "clone", "clone-split", "carried-gain", "delayed-horizon",
+    }  # fmt: skip
+    for method in ("recalculate", "augmentation"):
+        assert found[method] == others[method]
+    alone = verdicts(replace(at, parts=(chosen,)), "dual-rate", asked.sampling.timing(44, 80), lambda _: None)
+    assert [replace(on, std=None) for on in found["dual-rate"].parts] == list(alone)
+
+
 def test_where_no_part_is_fast_enough_the_nearest_is_told() -> None:
     slow = question(within=0.4, hr_hz=20_000, parts=PARTS[:3])
     found = keeping(slow, ["recalculate"], "recalculate", where(slow))["recalculate"]
