@@ -9,7 +9,7 @@ import { TRADEOFFS } from "./tradeoffs.js";
 import { methodsTable, partsTable } from "./verdicts.js";
 
 const NO_RATE = "Which parts do depends on the loop rate: give one.";
-const NO_PARTS = "No part is known to run these costs: How this was computed says why.";
+const NO_PARTS = /^no parts: /;
 
 /**
  * The sections in `host`. `onTake(query)` hears of a design to be shown. `pinned` is the place between them for what is
@@ -62,7 +62,7 @@ export function pictures(host, id, { onTake }) {
         if (curve !== null) curves[index].show(curve);
       });
       parts.host.hidden = view.parts.length === 0;
-      none.textContent = view.parts.length > 0 ? "" : view.period_ms === null ? NO_RATE : NO_PARTS;
+      none.textContent = view.parts.length > 0 ? "" : view.period_ms === null ? NO_RATE : whyNone(view);
       partsTable(parts, view, onTake);
     },
     destroy() {
@@ -70,4 +70,10 @@ export function pictures(host, id, { onTake }) {
       for (const curve of curves) curve.destroy();
     },
   };
+}
+
+/* One of the notes says it. */
+function whyNone({ notes }) {
+  const why = notes.find((note) => NO_PARTS.test(note)) ?? "no parts";
+  return `${why[0].toUpperCase()}${why.slice(1)}.`;
 }

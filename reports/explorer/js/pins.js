@@ -1,6 +1,7 @@
 // Designs put aside to compare: a letter each, a column of what they come to, and a mark in the plots.
 
 import { html, digits } from "./svg.js";
+import { accuracyText, powerText } from "./verdicts.js";
 
 const MOST = 8;
 const LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ";
@@ -109,12 +110,23 @@ export function pinboard(host, id, { ask, onTake, onPins }) {
 const ROWS = [
   ["method", ({ design }) => design.method],
   ["N, M, L", ({ design }) => [design.N, design.M ?? "–", design.L ?? "–"].join(", ")],
-  ["least speed", ({ current, power }) => `${digits(current.power)} ${power.short === "speed" ? "" : power.short}`],
+  ["least speed", ({ current, power }) => `${powerText(current.power, power)} ${power.short === "speed" ? "" : power.short}`],
   ["lands at", ({ current }) => landing(current)],
-  ["accuracy", ({ current }) => (current.std === null ? "–" : `${digits(current.std)} ${current.unit ?? ""}`)],
-  ["part", ({ design, parts }) => design.processor ?? parts.find(({ fits }) => fits)?.name ?? "–"],
-  ["load", ({ current }) => (current.load ? `${digits(100 * current.load.value, 3)} %` : "–")],
+  ["accuracy", ({ current }) => (current.std === null ? "–" : `${accuracyText(current.std)} ${current.unit ?? ""}`)],
+  ["part", ({ design, parts }) => design.processor ?? wouldDo(parts)],
+  ["load", ({ design, current }) => loadText(current, design.processor ?? design.speed)],
 ];
+
+/* Of a design that is on no part. */
+function wouldDo(parts) {
+  const part = parts.find(({ fits }) => fits);
+  return part ? `${part.name} would do` : "–";
+}
+
+function loadText({ load }, given) {
+  if (!load) return "–";
+  return `${digits(100 * load.value, 3)} %${given === null ? " at the least speed" : ""}`;
+}
 
 function landing({ achieved_l: steps, landed_ms: after }) {
   if (steps === null) return "never";

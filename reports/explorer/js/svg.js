@@ -26,3 +26,12 @@ export function digits(value, count = 4) {
   const text = Number(value.toPrecision(count));
   return (Math.abs(text) >= 1e7 || (text !== 0 && Math.abs(text) < 1e-4) ? text.toExponential() : String(text)).replace("-", "−");
 }
+
+/** As `digits`, but rounded up, and whole numbers in full: a need never looks smaller than it is. */
+export function noLess(value, count) {
+  if (value === null || value === undefined || !(value > 0)) return digits(value, count);
+  const most = Math.min(Math.max(count, String(Math.trunc(value)).length), 15);
+  const near = Number(value.toPrecision(most));
+  const place = most - 1 - Math.floor(Math.log10(value));
+  return digits(near < value ? near + 10 ** -place : near, most);
+}

@@ -1,10 +1,13 @@
 // The methods and the parts side by side, and why some do not.
 
-import { digits, html } from "./svg.js";
+import { digits, html, noLess } from "./svg.js";
 import { grouped } from "./facts.js";
 import { table } from "./table.js";
 
 const MOST_LETTERS = 50;
+const ACCURACY_DIGITS = 4;
+const SHARE_DIGITS = 3;
+const SPEED_DIGITS = 5;
 
 /** The table of methods in `host`: with an accuracy that is needed, at the latest landing that keeps it. */
 export function methodsTable({ host, least, why }, view, onTake) {
@@ -28,15 +31,15 @@ export function methodsTable({ host, least, why }, view, onTake) {
 
 /** The table of parts in `host`. */
 export function partsTable({ host, why }, view, onTake) {
-  const share = (value) => (value === null ? "–" : `${digits(100 * value.value, 3)} %`);
+  const share = (value, text) => (value === null ? "–" : `${text(100 * value.value, SHARE_DIGITS)} %`);
   const order = "Those that do come first, by price; without one, by how little they have to spare";
   table(host, {
     caption: `Pick a part to see ${view.design.method} on it. ${order}`,
     columns: [
       { key: "title", label: "part", text: ({ title }) => briefTitle(title) },
       verdict("does it"),
-      { key: "needed", label: "of its speed", numeric: true, text: ({ needed }) => share(needed) },
-      { key: "load", label: "load", numeric: true, text: ({ load }) => share(load) },
+      { key: "needed", label: "of its speed", numeric: true, text: ({ needed }) => share(needed, noLess) },
+      { key: "load", label: "load", numeric: true, text: ({ load }) => share(load, digits) },
       { key: "landed", label: "lands at", numeric: true, text: ({ landed, landed_ms: ms }) => stepText(landed, ms) },
       ...accuracyColumn(view, ({ std }) => std),
     ],
@@ -52,7 +55,7 @@ function keepingColumns(view) {
   return [
     { key: "part", label: "part", text: ({ within }) => within?.part ?? "–" },
     { key: "land", label: "land by step", numeric: true, text: ({ within }) => step(within?.L) },
-    { key: "power", label: "least speed", numeric: true, text: ({ within }) => powerText(within?.power) },
+    { key: "power", label: "least speed", numeric: true, text: ({ within }) => powerText(within?.power, view.power) },
     { key: "landed", label: "lands there at", numeric: true, text: ({ within }) => step(within?.landed) },
     ...accuracyColumn(view, ({ within }) => within?.landed_std ?? within?.std),
   ];
@@ -61,7 +64,7 @@ function keepingColumns(view) {
 function methodColumns(view) {
   return [
     { key: "L", label: "land by step", numeric: true, text: ({ L }) => stepText(L, inTime(L, view.period_ms)) },
-    { key: "power", label: "least speed", numeric: true, text: ({ power }) => powerText(power) },
+    { key: "power", label: "least speed", numeric: true, text: ({ power }) => powerText(power, view.power) },
     { key: "binding", label: "fixed by", text: ({ binding }) => binding ?? "–" },
     ...(view.methods.some(({ fits }) => typeof fits === "boolean") ? [verdict("fits")] : []),
     { key: "landed", label: "lands at", numeric: true, text: (row) => stepText(row.achieved_l, row.landed_ms) },
@@ -76,7 +79,7 @@ function verdict(label) {
 
 function accuracyColumn({ design: { model }, current: { unit } }, std) {
   const label = unit ? `accuracy, ${unit}` : "accuracy";
-  return model === null ? [] : [{ key: "std", label, numeric: true, text: (row) => digits(std(row)) }];
+  return model === null ? [] : [{ key: "std", label, numeric: true, text: (row) => accuracyText(std(row)) }];
 }
 
 function keeps({ within }) {
@@ -113,8 +116,15 @@ function briefTitle(title) {
   return example.startsWith("e.g.") && both.length <= MOST_LETTERS ? both : name;
 }
 
-function powerText(power) {
-  return power >= 1e4 ? grouped(Number(power.toPrecision(4))) : digits(power);
+/** A speed in a unit of `power`, as the sentence that answers has it. */
+export function powerText(speed, { short }) {
+  const text = noLess(speed, short.startsWith("%") ? SHARE_DIGITS : SPEED_DIGITS);
+  return speed >= 1e4 ? grouped(Number(text)) : text;
+}
+
+/** A standard deviation, as the sentence that answers has it. */
+export function accuracyText(std) {
+  return noLess(std, ACCURACY_DIGITS);
 }
 
 function stepText(L, ms) {

@@ -85,6 +85,13 @@ def test_of_a_design_that_is_picked_the_controls_and_the_address_tell(visit: Vis
     assert field(page, "Processor").input_value() == "rp2040"
 
 
+def test_why_no_parts_are_compared_is_said_in_their_place(visit: Visit, server: SmallServer) -> None:
+    why = "no parts: on each the least speed takes a search"
+    server.view = lambda query: {**made_view(query), "parts": [], "notes": ["5 Hz: N = 80 steps", why]}
+    page = opened(visit, server, f"?{DESIGN}")
+    expect(page.get_by_role("region", name="Parts")).to_contain_text("No parts: on each the least speed takes a search.")
+
+
 def test_methods_that_cannot_be_are_no_rows_but_reasons(visit: Visit, server: SmallServer) -> None:
     page = opened(visit, server, f"?{DESIGN}&within=0.3")
     methods = page.get_by_role("region", name="Designs that keep")
@@ -238,6 +245,8 @@ def test_designs_are_pinned_kept_in_the_link_and_removed(visit: Visit, server: S
     page.get_by_role("button", name="Pin this design").click()
     pinned = page.get_by_role("region", name="Pinned designs").get_by_role("table")
     expect(pinned.get_by_role("row", name="method")).to_have_text("methodclonedual-rateclone")
+    expect(pinned.get_by_role("row", name="part")).to_contain_text("rp2040 would do")
+    expect(pinned.get_by_role("row", name="load")).to_contain_text("80 % at the least speed")
     expect(page).to_have_url(re.compile("#A=.*&B="))
     link = page.url
     page.goto("about:blank")
