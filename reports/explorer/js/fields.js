@@ -16,7 +16,7 @@ const NO_MODEL = { value: "", words: "none: costs alone, no accuracy" };
 const NO_PROCESSOR = { value: "", words: "none: compare all" };
 
 const LOOP_RATE = {
-  key: "hr_hz", label: "Loop rate", help: "of your IMU: the filter propagates at each tick",
+  key: "hr_hz", label: "Loop rate", help: "of your IMU: at each tick the filter propagates, in a high-rate (HR) job",
   value: ({ query }) => query.get("hr_hz") ?? "",
   unit: () => "Hz",
   stops: loopStops,
@@ -81,7 +81,7 @@ const NEED = [
     write: (text) => ({ within: text }),
   },
   {
-    key: "model", label: "Model", help: "what the filter estimates, from which sensors",
+    key: "model", label: "Model", help: "what the filter estimates, from which sensors; its rates and delay are those above",
     options: ({ view }) => [NO_MODEL, ...titledChoices(view.choices.model)],
     write: (value) => ({ model: value, output: null, ...(value === "" ? { within: null } : {}) }),
   },
@@ -147,14 +147,17 @@ export function fieldRefused(text, changes, fields) {
 
 /** A refusal in the words of the page: "Delay 300" for "delay_ms 300". What is meant for a terminal stays. */
 export function inPageWords(text) {
-  const named = GROUPS.flatMap(({ fields }) => fields).filter(({ key }) => key.includes("_"));
-  const labels = new Map([["land_within_ms", "Land by"], ...named.map(({ key, label }) => [key, label])]);
-  const worded = (part) => part.replace(/(?<![\w-])\w+_\w+(?![\w=])/g, (key) => labels.get(key) ?? key);
+  const named = GROUPS.flatMap(({ fields }) => fields).map(({ key, label }) => [key, label]);
+  const labels = new Map([["land_within_ms", "Land by"], ...named]);
+  const worded = (part) => part.replace(/^\w+(?= is )|(?<![\w-])\w+_\w+(?![\w=])/g, (key) => labels.get(key) ?? key);
   return text.split("`").map((part, index) => (index % 2 ? `\`${part}\`` : worded(part))).join("");
 }
 
+/* A key that is an ordinary word, too, is meant where a text begins with it, or a value follows: the least speed is no
+   field. */
 function placeOf(text, key) {
-  const at = text.search(new RegExp(`(?<![\\w-])(--?)?${key.replaceAll("_", "[-_]")}(?![\\w-])`));
+  const name = `(?<![\\w-])(--?)?${key.replaceAll("_", "[-_]")}(?![\\w-])`;
+  const at = text.search(new RegExp(/^[a-z]+$/.test(key) ? `^${name}|${name}(?=[= ]['\\d])` : name));
   return at < 0 ? Infinity : at;
 }
 
