@@ -89,7 +89,7 @@ def test_why_no_parts_are_compared_is_said_in_their_place(visit: Visit, server: 
     why = "no parts: on each the least speed takes a search"
     server.view = lambda query: {**made_view(query), "parts": [], "notes": ["5 Hz: N = 80 steps", why]}
     page = opened(visit, server, f"?{DESIGN}")
-    expect(page.get_by_role("region", name="Parts")).to_contain_text("No parts: on each the least speed takes a search.")
+    expect(page.get_by_role("region", name="Parts")).to_contain_text(f"{why.capitalize()}.")
 
 
 def test_methods_that_cannot_be_are_no_rows_but_reasons(visit: Visit, server: SmallServer) -> None:
