@@ -73,9 +73,11 @@ def schedule_picture(query: str, given: Given) -> Answer:
 
 
 def table(rows: Sequence[Row], name: str) -> Answer:
-    """CSV with a heading; what a spreadsheet would compute has an apostrophe before it."""
+    """CSV with a heading; what a row does not have is empty; what a spreadsheet would compute has an apostrophe before
+    it."""
     text = io.StringIO()
-    writer = csv.DictWriter(text, fieldnames=list(rows[0]) if rows else [], lineterminator="\n")
+    columns = dict.fromkeys(key for row in sorted(rows, key=len, reverse=True) for key in row)
+    writer = csv.DictWriter(text, fieldnames=list(columns), lineterminator="\n")
     writer.writeheader()
     writer.writerows({key: csv_cell(value) for key, value in row.items()} for row in rows)
     return Answer(text.getvalue().encode(), "text/csv", f"{name}.csv")
@@ -85,8 +87,12 @@ def method_rows(view: Document) -> list[Row]:
     """What each method needs and comes to, without its curves."""
     unit = view["power"]["unit"]
     return [
-        flat(method, ("staircase", "landing", "accuracy", "front")) | {"power_unit": unit} for method in view["methods"]
+        flat(method, CURVES if method["within"] else (*CURVES, "within")) | {"power_unit": unit}
+        for method in view["methods"]
     ]
+
+
+CURVES = ("staircase", "landing", "accuracy", "front")
 
 
 def part_rows(view: Document) -> list[Row]:

@@ -6,6 +6,7 @@ import csv
 import io
 import json
 from contextlib import suppress
+from fractions import Fraction
 from typing import Any
 from urllib.parse import quote, urlencode
 from xml.etree import ElementTree
@@ -60,6 +61,15 @@ def test_methods_and_parts_are_those_of_the_view() -> None:
     (dual,) = (row for row in methods if row["method"] == "dual-rate")
     assert (float(dual["least"]), dual["least_exact"]) == (least["value"], least["exact"])
     assert dual["power_unit"] == shown["power"]["unit"]
+
+
+def test_methods_that_are_refused_are_rows_with_the_reason() -> None:
+    """Also the first, which then has fewer figures than others."""
+    first, *_, last = rows("/methods.csv", "N=400&M=40&policy=edf")
+    assert (first["method"], first["least"], first["least_exact"]) == ("standard", "", "")
+    assert "choose it" in first["reason"]
+    assert (last["method"], last["reason"]) == ("dual-rate", "")
+    assert Fraction(last["least_exact"]) > 0
 
 
 def test_jobs_are_in_periods_and_in_ms() -> None:
