@@ -45,5 +45,6 @@ def planned(asked: Resolved, method: str) -> Planned:
     if held is None and has_closed_form(options, tasks, costs, timing):
         landed = achieved_l(costs, timing, speed, options)
     known = stairs(costs, timing, options, tasks, least, beside=current)
-    turns = landings(costs, timing, options, tasks, known)
+    runs = [] if held is None else [Stair(timing.L, speed, least.binding, held)]
+    turns = landings(costs, timing, options, tasks, [*known, *runs])
     return Planned(method, costs, timing, least, speed, landed, held is not None, known, turns)

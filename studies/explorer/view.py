@@ -157,12 +157,13 @@ def _fronts(plans: Mapping[str, Planned], figures: Mapping[str, Accuracy], power
 
 
 def _where(asked: Resolved, plan: Planned) -> tuple[Where | None, str]:
-    """Where the design may run, and why nothing is known of other places: not where each takes a long search."""
+    """Where the design may run, and why nothing is known of other places: not where each takes a long search,
+    but for the machine whose times the costs are, of which all is known already."""
     where, why = where_of(asked)
     options, timing = asked.design.options, plan.timing
     periods = searched(plan.costs, timing, options, asked.tasks)
     alone = method_of(plan.costs).law(options.feedback).one_in_flight(timing.N, timing.L)
-    if where is None or periods == 0 or (alone and periods <= MOST_BESIDE):
+    if where is None or not where.parts or periods == 0 or (alone and periods <= MOST_BESIDE):
         return where, why
     if asked.part is None:
         return None, "no parts: on each the least speed takes a search by simulation: choose a processor"

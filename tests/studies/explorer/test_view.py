@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 
 from sched_sim.costs.methods import DELAYED_METHODS
-from sched_sim.costs.table import COUNTED, PAPERS
+from sched_sim.costs.table import COUNTED, PAPERS, CostTable
 from sched_sim.costs.table_file import load_costs
 from sched_sim.design.fit import busy_share, fit
 from sched_sim.design.least_speed import achieved_l, least_speed, staircase
@@ -207,3 +207,21 @@ def test_other_methods_and_parts_that_take_long_searches_say_so() -> None:
     assert "no parts: on each the least speed takes a search by simulation: choose a processor" in view.notes
     with pytest.raises(InputError, match=r"takes a search by simulation over 6,000 HR periods, .* at most 5,000"):
         explore(design_of("N=3000&M=40&policy=edf"))
+
+
+def test_beside_tasks_the_machine_of_the_costs_is_judged_and_the_landings_lead_to_its_own() -> None:
+    """As least speeds are searched for then, not all landings are known."""
+    kinds = {"hr_propagate": 290, "hr_restart": 20, "hr_update": 20, "lr_propagate": 200, "lr_update": 260}
+    mine = CostTable("mine", "us", {"dual-rate": kinds})
+    tasks = [
+        Task("control", Fraction(7), Fraction(300), priority=5),
+        Task("telemetry", Fraction(20), Fraction(800), priority=30, preemptive=False),
+    ]
+    design = Design(hr_hz=400, measurement_hz=5, delay_ms=100, land_within_ms=150, costs="mine")
+    view = explore(design, Given(costs={"mine": mine}, tasks=tasks))
+    (machine,) = view.parts
+    assert (machine.fits, machine.needed) == (True, Fraction(view.current.least, 2500))
+    (method,) = view.methods
+    assert method.landing is not None
+    at = max(index for index, power in enumerate(method.landing.power) if power <= 100)
+    assert method.landing.L[at] == view.current.achieved_l == machine.landed
