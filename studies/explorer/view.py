@@ -136,7 +136,8 @@ def _figures(question: Question, plans: Mapping[str, Planned], current: str) -> 
 
 
 def _kept(question: Question, plans: Mapping[str, Planned], current: str, where: Where | None) -> dict[str, Candidate]:
-    """What each method needs for the accuracy, if one is asked for; on parts where none takes a search."""
+    """What each method needs for the accuracy, if one is asked for; on parts where none takes a search, and on the
+    machine whose times the costs are."""
     if question.within == inf:
         return {}
     closed = [
@@ -145,7 +146,8 @@ def _kept(question: Question, plans: Mapping[str, Planned], current: str, where:
         if not searched(plan.costs, plan.timing, question.options, question.tasks)
     ]
     others = [method for method in plans if method not in closed]
-    return keeping(question, closed, current, where) | keeping(question, others, current, None)
+    machine = None if where is None or where.parts else where
+    return keeping(question, closed, current, where) | keeping(question, others, current, machine)
 
 
 def _fronts(plans: Mapping[str, Planned], figures: Mapping[str, Accuracy], power: Power) -> dict[str, Front]:

@@ -217,11 +217,15 @@ def test_beside_tasks_the_machine_of_the_costs_is_judged_and_the_landings_lead_t
         Task("control", Fraction(7), Fraction(300), priority=5),
         Task("telemetry", Fraction(20), Fraction(800), priority=30, preemptive=False),
     ]
-    design = Design(hr_hz=400, measurement_hz=5, delay_ms=100, land_within_ms=150, costs="mine")
-    view = explore(design, Given(costs={"mine": mine}, tasks=tasks))
+    own = Given(costs={"mine": mine}, tasks=tasks)
+    times = "hr_hz=400&measurement_hz=5&delay_ms=100&land_within_ms=150"
+    design = design_of(f"{times}&costs=mine&model=ins-gps&within=0.4", own)
+    view = explore(design, own)
     (machine,) = view.parts
     assert (machine.fits, machine.needed) == (True, Fraction(view.current.least, 2500))
     (method,) = view.methods
     assert method.landing is not None
     at = max(index for index, power in enumerate(method.landing.power) if power <= 100)
     assert method.landing.L[at] == view.current.achieved_l == machine.landed
+    assert method.within is not None
+    assert method.within.landed == machine.landed
