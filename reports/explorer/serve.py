@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import signal
 import socket
 from collections.abc import Iterator
@@ -9,8 +10,33 @@ from contextlib import contextmanager
 from types import FrameType
 
 import uvicorn
+from uvicorn.protocols.http.h11_impl import H11Protocol
 
 from reports.explorer.guard import App
+
+MOST_OPEN = 64
+"""Connections on which nothing is being answered: a browser has about six."""
+
+AT_A_TIME = 32
+"""Connections that are taken on together, so that these and the open ones are fewer than a process may have files."""
+
+
+class _Connection(H11Protocol):
+    """One more than MOST_OPEN, and the one that has waited longest for a request ends, so that neither browsers that
+    went to sleep nor a program that opens connections alone keeps others out."""
+
+    _since = 0.0
+
+    def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
+        super().connection_made(transport)
+        self._since = self.loop.time()
+        waiting = [of for of in self.connections if isinstance(of, _Connection) and of._waits and of is not self]
+        if len(waiting) >= MOST_OPEN:
+            min(waiting, key=lambda of: of._since).transport.abort()
+
+    @property
+    def _waits(self) -> bool:
+        return (self.cycle is None or self.cycle.response_complete) and not self.transport.is_closing()
 
 
 class _Server(uvicorn.Server):
@@ -41,7 +67,8 @@ def serve(app: App, there: socket.socket) -> None:
     """Answer at the socket until SIGINT or SIGTERM."""
     config = uvicorn.Config(
         app,
-        http="h11",
+        http=_Connection,
+        backlog=AT_A_TIME,
         ws="none",
         lifespan="off",
         loop="asyncio",

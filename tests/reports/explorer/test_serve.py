@@ -8,7 +8,7 @@ import socket
 import subprocess
 import sys
 from collections.abc import Iterator
-from contextlib import closing, contextmanager, suppress
+from contextlib import ExitStack, closing, contextmanager, suppress
 from http.client import HTTPConnection
 from pathlib import Path
 
@@ -63,6 +63,12 @@ class Server:
             answer = connection.getresponse()
             return answer.status, answer.read()
 
+    def refused(self) -> int:
+        """The status of what needs no computing."""
+        with closing(HTTPConnection("127.0.0.1", self.port, timeout=60)) as connection:
+            connection.request("GET", "/nothing")
+            return connection.getresponse().status
+
     def end(self, number: int) -> tuple[int, str, str]:
         """A signal to all of its session, as the keyboard sends it; exit code and what is said then."""
         os.killpg(self.process.pid, number)
@@ -115,6 +121,25 @@ def test_a_signal_that_is_ignored_stays_so() -> None:
         os.killpg(server.process.pid, signal.SIGINT)
         assert server.get("one") == (200, b"one")
         assert server.end(signal.SIGTERM)[0] == 0
+
+
+def test_connections_that_ask_nothing_keep_nobody_out() -> None:
+    """More than the process may have files: the first ones are ended, one that is answered is not."""
+    few = "import resource\nresource.setrlimit(resource.RLIMIT_NOFILE, (256, 256))"
+    with running(few) as server, ExitStack() as open_ones, closing(server.asked("forever")) as computing:
+        assert server.line() == "computing"
+        here = ("127.0.0.1", server.port)
+        opened = []
+        for _ in range(12):
+            opened += [open_ones.enter_context(socket.create_connection(here)) for _ in range(25)]
+            opened[-1].sendall(b"GET / HTTP/1.1\r\nHost:")
+            assert server.refused() == 404
+        assert opened[0].recv(1, socket.MSG_DONTWAIT) == b""
+        with pytest.raises(BlockingIOError):
+            opened[-1].recv(1, socket.MSG_DONTWAIT)
+        assert server.end(signal.SIGINT)[2] == "ended\n"
+        with pytest.raises(ConnectionError):
+            computing.getresponse()
 
 
 def test_it_goes_on_after_a_browser_that_has_gone_and_an_error() -> None:
