@@ -63,7 +63,7 @@ def refusal(scope: Scope, port: int, pages: frozenset[str]) -> tuple[int, str]:
     """Status and reason; 0 for a request that is answered."""
     headers = {name: value.decode("latin-1") for name, value in scope["headers"]}
     names = own_names(port)
-    if headers.get(b"host", "") not in names:
+    if headers.get(b"host", "").lower() not in names:
         return 400, f"This server answers as {' and '.join(names)} alone; forward the same port: {forwarding(port)}"
     if scope["method"] not in ("GET", "HEAD"):
         return 405, "This server is only asked: GET or HEAD"

@@ -11,7 +11,7 @@ from tests.reports.explorer.serving import HERE, PORT, client
 PATHS = ["/", "/explorer.js", "/explorer.css", "/favicon.ico", "/view?N=10", "/nothing"]
 
 
-@pytest.mark.parametrize("host", [f"127.0.0.1:{PORT}", f"localhost:{PORT}"])
+@pytest.mark.parametrize("host", [f"127.0.0.1:{PORT}", f"localhost:{PORT}", f"LOCALHOST:{PORT}"])
 def test_it_answers_as_this_machine(host: str) -> None:
     assert client().get("/view?N=10", headers={"Host": host}).json() == {"query": "N=10"}
 
