@@ -10,13 +10,12 @@ from __future__ import annotations
 from collections.abc import Awaitable, Callable, MutableMapping
 from typing import Any
 
+from studies.explorer.query import LONGEST
+
 Scope = MutableMapping[str, Any]
 Receive = Callable[[], Awaitable[MutableMapping[str, Any]]]
 Send = Callable[[MutableMapping[str, Any]], Awaitable[None]]
 App = Callable[[Scope, Receive, Send], Awaitable[None]]
-
-LONGEST_QUERY = 4_000
-"""Characters: a link says a few dozen numbers."""
 
 HEADERS = {
     "Content-Security-Policy": "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; "
@@ -67,8 +66,8 @@ def refusal(scope: Scope, port: int, pages: frozenset[str]) -> tuple[int, str]:
         return 400, f"This server answers as {' and '.join(names)} alone; forward the same port: {forwarding(port)}"
     if scope["method"] not in ("GET", "HEAD"):
         return 405, "This server is only asked: GET or HEAD"
-    if len(scope["query_string"]) > LONGEST_QUERY:
-        return 414, f"This link is too long: {len(scope['query_string'])} characters, of at most {LONGEST_QUERY}"
+    if len(scope["query_string"]) > LONGEST:
+        return 414, f"This link is too long: {len(scope['query_string'])} characters, of at most {LONGEST}"
     if scope["path"] not in pages and _foreign(headers, names):
         return 403, "This is answered to the explorer's own page alone: open that first"
     return 0, ""

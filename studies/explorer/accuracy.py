@@ -47,12 +47,6 @@ class Accuracy(NamedTuple):
         figures = self.curve.figures
         return float(figures[at]) if 0 <= at < len(figures) and isfinite(figures[at]) else None
 
-    @property
-    def columns(self) -> tuple[list[int], list[float | None]]:
-        """Every L, and its standard deviation."""
-        landings = [] if self.curve is None else [self.curve.first + at for at in range(len(self.curve.figures))]
-        return landings, [self.at(L) for L in landings]
-
 
 def accuracy(question: Question, method: str, *, whole: bool = False, last: int = 0) -> Accuracy:
     """Up to the last landing of use, or to `last` where that is later.

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import ceil, isfinite
 from typing import Literal
 
 from sched_sim.errors import option
 from sched_sim.rounding import no_less
+from sched_sim.schedule.intervals import TASK
 from studies.explorer.accuracy import Accuracy
 from studies.explorer.methods import binding_words
 from studies.explorer.planned import Planned
@@ -56,7 +57,7 @@ class Found:
     plan: Planned
     timeline: Timeline
     figures: Accuracy | None = None
-    kept: Kept | None = None
+    kept: Kept = field(default_factory=dict)
     parts: Sequence[OnPart] = ()
 
 
@@ -89,7 +90,7 @@ def _runs(found: Found) -> str:
 
 def _keeps(found: Found) -> str:
     asked, plan = found.asked, found.plan
-    kept = (found.kept or {}).get(plan.method)
+    kept = found.kept.get(plan.method)
     allowed = plan.timing.L if kept is None or kept.L is None else min(plan.timing.L, kept.L)
     keeps = f"{_subject(found)} keeps {bound(asked)}"
     if asked.pace is None:
@@ -115,7 +116,7 @@ def _misses(found: Found) -> str:
 
 def _on_it(found: Found) -> str:
     """The methods that keep the accuracy on the same machine."""
-    pace, kept = found.asked.machine_pace, found.kept or {}
+    pace, kept = found.asked.machine_pace, found.kept
     if pace is None or found.asked.design.speed is not None:
         return ""
     does = sorted(
@@ -127,7 +128,7 @@ def _on_it(found: Found) -> str:
 
 
 def _inaccurate(found: Found, std: float) -> str:
-    asked, plan, kept = found.asked, found.plan, (found.kept or {}).get(found.plan.method)
+    asked, plan, kept = found.asked, found.plan, found.kept.get(found.plan.method)
     assert asked.outputs is not None
     assert plan.landed is not None
     if kept is None or kept.allowed is None:
@@ -144,7 +145,7 @@ def _inaccurate(found: Found, std: float) -> str:
 
 
 def _best(found: Found, std: float) -> str:
-    kept = (found.kept or {}).get(found.plan.method)
+    kept = found.kept.get(found.plan.method)
     best, first = (std, found.plan.landed) if kept is None else (kept.best, kept.first)
     assert first is not None
     return f"at best it is {figure(found.asked, best)}, landing at {lands(found.asked, first)}"
@@ -152,7 +153,7 @@ def _best(found: Found, std: float) -> str:
 
 def _others(found: Found) -> str:
     """Which methods keep the accuracy, or how near they come to it."""
-    kept = {method: of for method, of in (found.kept or {}).items() if method != "standard"}
+    kept = {method: of for method, of in found.kept.items() if method != "standard"}
     does = sorted((of.least.speed, method) for method, of in kept.items() if of.least is not None)
     if does:
         return f"{listed([method for _, method in does])} can"
@@ -170,7 +171,7 @@ def _others(found: Found) -> str:
 
 
 def _without_delay(found: Found) -> str:
-    reference = (found.kept or {}).get("standard")
+    reference = found.kept.get("standard")
     if reference is None or not isfinite(reference.best):
         return ""
     return f" (without delay {figure(found.asked, reference.best)})"
@@ -237,7 +238,7 @@ def _first_late(timeline: Timeline) -> str:
         return ""
     _, at = min(late)
     kind, step = jobs.kind[at], jobs.step[at]
-    if kind.startswith("task:"):
-        return f"task {kind.removeprefix('task:')}"
+    if kind.startswith(TASK):
+        return f"task {kind.removeprefix(TASK)}"
     job = JOBS.get(kind, kind.replace("_", " "))
     return f"{job} of step {step}" if kind == "hr" else f"{job} of the measurement of step {step}"

@@ -8,7 +8,7 @@ from fractions import Fraction
 from sched_sim.design.binding import BINDING_WORDS
 from sched_sim.design.methods import METHODS
 from studies.explorer.accuracy import Accuracy
-from studies.explorer.front import Front
+from studies.explorer.front import FrontLine
 from studies.explorer.planned import Planned
 from studies.explorer.power import Power
 from studies.explorer.query import query_of
@@ -41,17 +41,6 @@ class AccuracyCurve:
 
     L: list[int]
     std: list[float | None]
-
-
-@dataclass(frozen=True, slots=True)
-class FrontLine:
-    """Columns: landings, the power that each takes and the standard deviation of the output; on_front: no other design,
-    of any method, is as accurate with less."""
-
-    L: list[int]
-    power: list[float]
-    std: list[float]
-    on_front: list[bool]
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,7 +92,7 @@ def method_view(
     power: Power,
     figures: Accuracy | None,
     kept: Candidate | None,
-    front: Front | None,
+    front: FrontLine | None,
 ) -> MethodView:
     return MethodView(
         plan.method,
@@ -125,7 +114,7 @@ def method_view(
         ),
         Landing([power.of(speed) for speed, _ in plan.turns], [landed for _, landed in plan.turns]),
         None if figures is None else _curve(figures, plan.timing.L),
-        None if front is None else FrontLine(front.L, list(map(float, front.power)), front.std, front.on_front),
+        front,
     )
 
 

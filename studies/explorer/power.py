@@ -7,6 +7,7 @@ from fractions import Fraction
 
 from sched_sim.costs.table import units
 from studies.explorer.resolved import Resolved
+from studies.explorer.words import machine
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,7 +33,5 @@ def power_of(asked: Resolved) -> Power:
 
 def machine_name(asked: Resolved) -> str:
     """With its clock, where it has one."""
-    if asked.part is None:
-        return f"the machine of {asked.table.name}"
-    clock = asked.part.clock_hz
-    return asked.part.name if clock is None else f"{asked.part.name} at {float(clock / 10**6):g} MHz"
+    clock = None if asked.part is None else asked.part.clock_hz
+    return machine(asked) if clock is None else f"{machine(asked)} at {float(clock / 10**6):g} MHz"

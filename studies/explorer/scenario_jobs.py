@@ -16,6 +16,7 @@ from sched_sim.scenario.distribution import finished_or_not
 from sched_sim.scenario.kinds import correct_kind, gain_kind, loss_kind
 from sched_sim.scenario.outcome import JobFigures
 from sched_sim.scenario.scenario import Scenario
+from sched_sim.schedule.intervals import TASK
 from studies.explorer.scenario_found import Found
 from studies.probability.beside_sampled import Beside, Longer
 
@@ -137,7 +138,7 @@ def _deadline(scenario: Scenario, kind: str) -> float | None:
     if kind == "predict":
         return 1.0
     for task in scenario.tasks:
-        if kind == f"task:{task.name}":
+        if kind == f"{TASK}{task.name}":
             return None if task.jitter else float(task.due)
     for sensor in scenario.sensors:
         if kind == correct_kind(sensor) and sensor.least_delay == sensor.longest_delay:
@@ -224,8 +225,8 @@ def nouns(kind: str) -> tuple[str, str]:
     """What jobs of this kind are, in the plural, and what one does that misses its deadline."""
     if kind == "predict":
         return "predict jobs", "finished late"
-    if kind.startswith("task:"):
-        return f"jobs of {kind.removeprefix('task:')}", "finished late"
+    if kind.startswith(TASK):
+        return f"jobs of {kind.removeprefix(TASK)}", "finished late"
     work, _, sensor = kind.partition(" ")
     plural = {"correct": "corrections", "gain": "gains", "loss": "losses"}[work]
     return f"{plural} of {sensor}", "landed late" if work == "correct" else "finished late"

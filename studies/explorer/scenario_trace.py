@@ -14,9 +14,9 @@ from sched_sim.scenario.kinds import correct_kind
 from sched_sim.scenario.scenario import Scenario
 from sched_sim.scenario.simulated import Simulation
 from sched_sim.scenario.workload import workload
+from sched_sim.schedule.intervals import TASK
 from sched_sim.schedule.outcome import Slice
 
-TASK = "task:"
 AHEAD = 200
 """So many steps behind a window are simulated too, so that it is known when its last jobs finish."""
 STRIDE = 1_000

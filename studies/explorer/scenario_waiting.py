@@ -10,8 +10,9 @@ import numpy as np
 
 from sched_sim.scenario.engine.measured import Ints
 from sched_sim.scenario.kinds import correct_kind
+from sched_sim.schedule.intervals import TASK
 from sched_sim.schedule.tasks import Task
-from studies.explorer.scenario_trace import TASK, Trace
+from studies.explorer.scenario_trace import Trace
 
 
 class Waiting(NamedTuple):

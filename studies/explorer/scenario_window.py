@@ -9,14 +9,14 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
+from sched_sim.scenario.engine.measured import Ints
 from sched_sim.scenario.kinds import correct_kind, gain_kind, loss_kind
 from sched_sim.scenario.scenario import Scenario
+from sched_sim.schedule.intervals import TASK
 from sched_sim.schedule.labels import MEANINGS
-from studies.explorer.scenario_trace import AHEAD, TASK, Bars, Trace
+from studies.explorer.scenario_trace import AHEAD, Bars, Trace
 from studies.explorer.scenario_waiting import Waiting, waiting
-
-Ints: TypeAlias = npt.NDArray[np.int64]
-Floats: TypeAlias = npt.NDArray[np.float64]
+from studies.explorer.schedule import meaning
 
 Columns: TypeAlias = dict[str, npt.NDArray[Any]]
 Document: TypeAlias = dict[str, Any]
@@ -167,7 +167,7 @@ def _bars(trace: Trace, shown: Sequence[Columns], seen: Seen, rows: Sequence[Row
     number = {label: index for index, label in enumerate(used)}
     row_of = {kind: index for index, row in enumerate(rows) for kind in row.kinds}
     return {
-        "styles": [{"label": label, "meaning": _meaning(label)} for label in used],
+        "styles": [{"label": label, "meaning": meaning(label)} for label in used],
         "bars": {
             "row": [row_of[kinds[trace.jobs.kind[index]]] for index in job],
             "style": [number[styles[index]] for index in style],
@@ -183,12 +183,8 @@ def _rank(label: str) -> tuple[int, str]:
     return (known.index(label) if label in MEANINGS else len(known), label)
 
 
-def _meaning(label: str) -> str:
-    return label.removeprefix(TASK) if label.startswith(TASK) else MEANINGS[label]
-
-
 def _busy(columns: Columns, first: int, until: int) -> float:
-    inside: Floats = np.minimum(columns["end"], until) - np.maximum(columns["start"], first)
+    inside = np.minimum(columns["end"], until) - np.maximum(columns["start"], first)
     return float(inside.sum())
 
 
@@ -203,10 +199,10 @@ def _marks(trace: Trace, first: int, until: int) -> Iterator[Document]:
     for sensor in late:
         kind, of = correct_kind(sensor), f" {sensor.name}" if len(late) > 1 else ""
         taken, arrives = trace.measured[kind]
-        for letter, meaning, steps in (
+        for letter, what, steps in (
             ("k", f"{sensor.name} measures", taken),
             ("m", f"a measurement of {sensor.name} arrives", arrives[arrives > taken]),
             ("l", f"a correction of {sensor.name} has landed", np.array(trace.landings[kind], np.int64)),
         ):
             for step in np.unique(steps[(steps >= first) & (steps < until)]).tolist():
-                yield {"step": step, "label": letter + of, "meaning": meaning}
+                yield {"step": step, "label": letter + of, "meaning": what}

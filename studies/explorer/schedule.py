@@ -198,8 +198,9 @@ def _bars(schedule: Schedule, spans: Sequence[JobSpan], number: dict[Row, int]) 
         [bar.end / period for bar in made],
         [of_job[bar.kind, bar.step] for bar in made],
     )
-    return bars, tuple(Style(label, _meaning(label)) for label in labels)
+    return bars, tuple(Style(label, meaning(label)) for label in labels)
 
 
-def _meaning(label: str) -> str:
+def meaning(label: str) -> str:
+    """Of the work that a bar is labelled with."""
     return f"task {label.removeprefix(TASK)}" if label.startswith(TASK) else MEANINGS.get(label, label)

@@ -16,7 +16,7 @@ from studies.explorer.commands import Commands, commands
 from studies.explorer.current import Current, current_of, said_of
 from studies.explorer.design import Design
 from studies.explorer.document import document
-from studies.explorer.front import Front, front
+from studies.explorer.front import FrontLine, front
 from studies.explorer.given import Given
 from studies.explorer.grounds import grounds
 from studies.explorer.limits import Limits, limits
@@ -150,7 +150,7 @@ def _kept(question: Question, plans: Mapping[str, Planned], current: str, where:
     return keeping(question, closed, current, where) | keeping(question, others, current, machine)
 
 
-def _fronts(plans: Mapping[str, Planned], figures: Mapping[str, Accuracy], power: Power) -> dict[str, Front]:
+def _fronts(plans: Mapping[str, Planned], figures: Mapping[str, Accuracy], power: Power) -> dict[str, FrontLine]:
     stairs = {
         method: ([stair.L for stair in plan.stairs], [power.of(stair.speed) for stair in plan.stairs])
         for method, plan in plans.items()

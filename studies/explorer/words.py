@@ -15,8 +15,11 @@ from studies.explorer.resolved import Resolved
 
 def place(asked: Resolved) -> str:
     """What the design runs on, empty where it is no machine."""
-    if asked.machine_pace is None or asked.design.speed is not None:
-        return ""
+    return "" if asked.machine_pace is None or asked.design.speed is not None else machine(asked)
+
+
+def machine(asked: Resolved) -> str:
+    """The part, or that whose times the costs are."""
     return f"the machine of {asked.table.name}" if asked.part is None else asked.part.name
 
 
@@ -28,7 +31,7 @@ def share(value: Fraction) -> str:
 def needs(asked: Resolved, speed: Fraction) -> str:
     """A speed, in percent of the machine if there is one."""
     if asked.machine_pace is not None:
-        return f"{share(speed / asked.machine_pace)} of {_machine(asked)}"
+        return f"{share(speed / asked.machine_pace)} of {machine(asked)}"
     if asked.table.unit == "second":
         return f"{no_less(10**6 * speed, 5)} us per HR period"
     return f"{no_less(speed, 5)} {units(asked.table.unit)} per HR period"
@@ -73,10 +76,6 @@ def listed(names: Sequence[str]) -> str:
 
 MOST_NAMED = 3
 """Before the rest is only counted."""
-
-
-def _machine(asked: Resolved) -> str:
-    return f"the machine of {asked.table.name}" if asked.part is None else asked.part.name
 
 
 def _unit(asked: Resolved) -> str:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 
 from reports.explorer.answer import Answer
-from reports.explorer.guard import HEADERS, LONGEST_QUERY
+from reports.explorer.guard import HEADERS
+from studies.explorer.query import LONGEST
 from tests.reports.explorer.serving import HERE, PORT, client
 
 PATHS = ["/", "/explorer.js", "/explorer.css", "/favicon.ico", "/view?N=10", "/nothing"]
@@ -79,7 +80,7 @@ def test_the_page_itself_and_an_address_that_was_typed_are_answered(headers: dic
 
 
 def test_a_link_has_a_bound() -> None:
-    assert client().get("/view?" + "x" * LONGEST_QUERY).status_code == 200
-    answer = client().get("/view?" + "x" * (LONGEST_QUERY + 1))
+    assert client().get("/view?" + "x" * LONGEST).status_code == 200
+    answer = client().get("/view?" + "x" * (LONGEST + 1))
     assert answer.status_code == 414
-    assert str(LONGEST_QUERY) in answer.text
+    assert str(LONGEST) in answer.text

@@ -102,6 +102,6 @@ def found_of(query: str, given: Given = GIVEN) -> Found:
         parts = () if at is None else verdicts(at, plan.method, plan.timing, lambda _: None)
         return Found(asked, plan, line, parts=parts)
     figures = accuracy(question, plan.method, whole=True, last=plan.timing.L)
-    kept = None if design.within is None else keeping(question, asked.methods, plan.method, at)
+    kept = {} if design.within is None else keeping(question, asked.methods, plan.method, at)
     parts = () if at is None else verdicts(at, plan.method, plan.timing, figures.at)
     return Found(asked, plan, line, figures, kept, parts)

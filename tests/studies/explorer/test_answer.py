@@ -141,7 +141,7 @@ def test_what_it_says_is_so(method: str, M: int, within: float, processor: str) 
     accurate = std is not None and std <= float(f"{within:.4f}")
     assert said.state == ("misses" if not plan.fits else "holds" if accurate else "inaccurate")
     assert (found.timeline.misses > 0) <= (said.state == "misses")
-    least = [plan.least, *(of.least for of in (found.kept or {}).values() if of.least is not None)]
+    least = [plan.least, *(of.least for of in found.kept.values() if of.least is not None)]
     shares = [on.needed for on in found.parts if on.needed is not None]
     shares += [of.speed / found.asked.pace for of in least if found.asked.pace is not None]
     for number in re.findall(r"([\d.]+) % of", said.sentence):

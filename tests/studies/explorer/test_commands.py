@@ -67,7 +67,7 @@ def check(found: Found) -> None:
     """Runs all that is said of a design."""
     said, plan, asked = commands(found.asked, found.plan), found.plan, found.asked
     std = None if found.figures is None else found.figures.at(plan.landed)
-    kept = (found.kept or {}).get(plan.method)
+    kept = found.kept.get(plan.method)
     for line in said.shell.split("\n"):
         command, got = shlex.split(line)[1], run(line)
         if command == "minimum":
