@@ -20,12 +20,6 @@ export function changedQuery(query, changes) {
   return next;
 }
 
-/** Whether two texts say the same of a design. */
-export function sameQuery(one, other) {
-  const sorted = (text) => JSON.stringify([...queryOf(text)].sort());
-  return sorted(one) === sorted(other);
-}
-
 const TIME_KEYS = ["measurement_hz", "delay_ms", "land_within_ms"];
 
 /** In what a query speaks: "times" or "steps". */

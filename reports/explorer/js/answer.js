@@ -13,7 +13,7 @@ export function answerBox(box, beside, id, { onStop, onBack, onPin = null }) {
   const live = { role: "status", "aria-live": "polite", "aria-atomic": "true" };
   const sentence = html("p", { class: "ss-sentence", ...live }, sign, words);
   const telling = html("p", { class: "ss-telling", "aria-live": "polite" });
-  const seconds = html("span", { class: "ss-seconds", "aria-hidden": "true" });
+  const seconds = html("span", { "aria-hidden": "true" });
   const pin = button("Pin this design", onPin);
   pin.classList.add("ss-pin");
   const stop = button("Stop", onStop);
@@ -69,6 +69,22 @@ export function answerBox(box, beside, id, { onStop, onBack, onPin = null }) {
     gone: (text) => tell(text),
     refused: (text, backing) => tell(text, { backing }),
     destroy: () => clearTimeout(settling),
+  };
+}
+
+/** What an `asker` tells while there is no answer, said in the box; `stale(true)` hears that the picture is of another
+ *  design. */
+export function unanswered(box, stale) {
+  return {
+    waiting: box.waiting,
+    gone(text) {
+      box.gone(text);
+      stale(true);
+    },
+    stopped() {
+      box.stopped();
+      stale(true);
+    },
   };
 }
 

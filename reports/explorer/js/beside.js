@@ -2,14 +2,6 @@
 
 const TEXT_GAP_PX = 4;
 const LABEL_AWAY_PX = [9, 22, 38];
-let pen = null;
-
-/** The width of a text in pixels, set in this font. */
-export function textWidth(text, font) {
-  pen ??= document.createElement("canvas").getContext("2d");
-  pen.font = font;
-  return pen.measureText(text).width;
-}
 
 /** The places of texts, each {x, y, width, height} beside its point {x, y}, as a box {left, top, right, bottom, far} or
  *  null where there is none: within `bounds`, a box, and clear of each other and of the boxes `taken`. The nearest that

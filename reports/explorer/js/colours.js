@@ -1,12 +1,13 @@
 // Colours of palette.css as a canvas takes them, and hatches.
 
+import { isTask, taskName } from "./tasks.js";
+
 /** The hatch of each label of reports/drawing/style.FILLS that has one. */
 export const HATCHES = { G: "\\", R: "\\", CA: ".", LA: "/", LRP: "/", LRG: "\\", OC: "\\", RP: "\\", CU: "/" };
 /** Of the user's tasks, in turn. */
 export const TASK_HATCHES = ["-", "\\", "", "+"];
 
 const GENERAL = ["ground", "raised", "ink", "grey", "pale", "red", "accent"];
-const TASK_LABEL = "task:";
 const TILE = 8;
 const RISING = [[-0.5, 0.5, 0.5, -0.5], [-0.5, 1.5, 1.5, -0.5], [0.5, 1.5, 1.5, 0.5]];
 const FALLING = [[-0.5, 0.5, 0.5, 1.5], [-0.5, -0.5, 1.5, 1.5], [0.5, -0.5, 1.5, 0.5]];
@@ -21,16 +22,14 @@ const HATCH_LINES = {
 
 /** Under which names palette.css has the work of each style, in order. */
 export function fillNames(styles) {
-  const tasks = styles.map((style) => style.label).filter((label) => label.startsWith(TASK_LABEL)).sort();
-  return styles.map(({ label }) =>
-    label.startsWith(TASK_LABEL) ? `task${tasks.indexOf(label) % TASK_HATCHES.length}` : label,
-  );
+  const tasks = styles.map((style) => style.label).filter(isTask).sort();
+  return styles.map(({ label }) => (isTask(label) ? `task${tasks.indexOf(label) % TASK_HATCHES.length}` : label));
 }
 
 /** What a bar of this style is labelled with: nothing for context switches. */
 export function barLabel({ label }) {
   if (label === "switch") return "";
-  return label.startsWith(TASK_LABEL) ? label.slice(TASK_LABEL.length) : label;
+  return isTask(label) ? taskName(label) : label;
 }
 
 /** The colours that `element` has at present: {ground, ink, ...} and `fills` of the styles, each {fill, ink, hatch}. */

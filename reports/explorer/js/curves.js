@@ -15,7 +15,7 @@ export function drawCurves(group, lines, { x, y, box }) {
   reusedChildren(group, last.length, make).forEach((element, index) => {
     const line = last[index];
     const [path, markers] = element.children;
-    element.setAttribute("class", line.current ? "ss-plot-now" : "ss-plot-other");
+    element.setAttribute("class", line.current ? "ss-plot-now" : "");
     for (const each of [path, markers]) each.setAttribute("stroke", line.look.colour);
     path.setAttribute("d", linePath(line.x, line.y, x, y, line.step));
     path.setAttribute("stroke-dasharray", line.look.dashes || "none");

@@ -1,7 +1,7 @@
 // The whole explorer in one element: a form, the answer, and what shows why.
 
 import { changedQuery, asSteps, asTimes, modeOf, queryOf, textOf } from "./address.js";
-import { answerBox } from "./answer.js";
+import { answerBox, unanswered } from "./answer.js";
 import { asker } from "./ask.js";
 import { controls } from "./controls.js";
 import { pictures } from "./pictures.js";
@@ -33,11 +33,12 @@ export function explorer(host, { ask, query = "", pins = "", onQuery = unheard, 
   let mode = modeOf(asked);
   let view = null;
   let changes = [];
+  let [wanted, awaited, turning] = [query, true, null];
   let frame = null;
   let force = true;
   let refusal = null;
 
-  const box = answerBox(top, beside, id, { onPin: () => board.add(view), onStop: () => asking.stop(), onBack: back });
+  const box = answerBox(top, beside, id, { onPin: () => board.add(view), onStop: stop, onBack: back });
   const form = controls(side, id, { onChange: change, onMode: (next) => turn(next) });
   const drawn = pictures(results, id, { onTake: take });
   const board = pinboard(drawn.pinned, id, { ask: (text) => asking.aside(text), onTake: take, onPins: pinned });
@@ -46,27 +47,32 @@ export function explorer(host, { ask, query = "", pins = "", onQuery = unheard, 
     answered(answered, text) {
       const first = view === null;
       view = answered;
+      awaited = text !== wanted;
       if (asked.size === 0) adopt(view.query);
       if (text !== "") refusal = null;
+      if (turning !== null) turn(turning);
       frame ??= requestAnimationFrame(draw);
       if (first) board.show(pins);
     },
     refused(text) {
       refusal = text;
-      if (view === null) asking.want("");
+      awaited = false;
+      if (view === null) want("");
       else refuse();
     },
-    waiting: (seconds) => box.waiting(seconds),
-    gone(text) {
-      box.gone(text);
-      stale(true);
-    },
-    stopped() {
-      box.stopped();
-      stale(true);
-    },
+    ...unanswered(box, stale),
   });
-  asking.want(query);
+  want(query);
+
+  function stop() {
+    awaited = false;
+    asking.stop();
+  }
+
+  function want(text) {
+    [wanted, awaited] = [text, true];
+    asking.want(text);
+  }
 
   function draw() {
     frame = null;
@@ -84,6 +90,8 @@ export function explorer(host, { ask, query = "", pins = "", onQuery = unheard, 
   }
 
   function refuse() {
+    turning = null;
+    form.set({ query: asked, view, mode });
     if (form.refuse(refusal, changes)) {
       box.refused(`${SAID_BESIDE} ${SHOWN_BEFORE}`, true);
       stale(true);
@@ -107,7 +115,7 @@ export function explorer(host, { ask, query = "", pins = "", onQuery = unheard, 
     asked = changedQuery(asked, next);
     changes = Object.keys(next);
     onQuery(textOf(asked), { key, settled });
-    asking.want(textOf(asked));
+    want(textOf(asked));
   }
 
   function take(text) {
@@ -115,10 +123,13 @@ export function explorer(host, { ask, query = "", pins = "", onQuery = unheard, 
     changes = [];
     force = true;
     onQuery(text, { key: null, settled: true });
-    asking.want(text);
+    want(text);
   }
 
+  /** As soon as it is known what the design comes to that was asked for last. */
   function turn(next) {
+    turning = awaited ? next : null;
+    if (turning !== null) return;
     mode = next;
     const turned = next === "steps" ? asSteps(asked, view.design) : asTimes(asked, view.design);
     force = true;
@@ -142,7 +153,7 @@ export function explorer(host, { ask, query = "", pins = "", onQuery = unheard, 
       changes = [];
       force = true;
       if (pinned !== undefined) board.show(pinned);
-      asking.want(text);
+      want(text);
     },
     destroy() {
       cancelAnimationFrame(frame);

@@ -1,6 +1,7 @@
 // What is said of one job and of a whole schedule, in words: for the tip, the table, and who cannot see the chart.
 
 import { tickText } from "./scales.js";
+import { isTask, taskName } from "./tasks.js";
 
 const KINDS = {
   hr: "high-rate job",
@@ -14,7 +15,7 @@ const PLACES = 4;
 
 /** The kind of a job in words. */
 export function kindWords(kind) {
-  if (kind.startsWith("task:")) return `task ${kind.slice("task:".length)}`;
+  if (isTask(kind)) return `task ${taskName(kind)}`;
   return KINDS[kind] ?? kind.replaceAll("_", " ");
 }
 
@@ -52,7 +53,7 @@ function verdictOf(line, { missed, start, finish, deadline }) {
 }
 
 /** "2.5 steps (6.25 ms)". */
-export function bothUnits(line, steps) {
+function bothUnits(line, steps) {
   if (steps === null) return "never";
   const ms = line.periodMs === null ? "" : ` (${inMs(line, steps)} ms)`;
   return `${inSteps(steps)} ${Math.abs(steps - 1) < 1e-9 ? "step" : "steps"}${ms}`;

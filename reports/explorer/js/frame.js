@@ -2,7 +2,8 @@
 
 import { svg } from "./svg.js";
 import { linear, logarithmic, tickText } from "./scales.js";
-import { clearOfNext, textWidth } from "./beside.js";
+import { clearOfNext } from "./beside.js";
+import { textWidth } from "./textwidth.js";
 
 const FRAME_TOP_PX = 10;
 const FRAME_RIGHT_PX = 14;

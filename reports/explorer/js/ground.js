@@ -1,7 +1,7 @@
 // Whether what lies behind an element is light or dark: a notebook or a page may have its own theme.
 
 /** "light" or "dark". */
-export function groundOf(element) {
+function groundOf(element) {
   for (let behind = element; behind; behind = behind.parentElement) {
     const [red, green, blue, alpha = 1] = (getComputedStyle(behind).backgroundColor.match(/[\d.]+/g) ?? [0, 0, 0, 0]).map(Number);
     if (alpha > 0.5) return 0.299 * red + 0.587 * green + 0.114 * blue < 128 ? "dark" : "light";

@@ -4,13 +4,14 @@ import { html } from "./svg.js";
 import { arrowRow, drawMissed } from "./arrows.js";
 import { hatchPattern } from "./colours.js";
 import { grouped, inMs } from "./facts.js";
+import { isTask } from "./tasks.js";
 
 const SWATCH = { width: 28, height: 14 };
 const SIGN = { width: 10, height: 16 };
 
 /** Entries for what is in the schedule; `every`: of how many jobs of a crowded row one has its arrows. */
 export function ganttLegend({ line, colours }, every) {
-  const some = every > 1 ? ` (1 in ${every.toLocaleString("en")} where crowded)` : "";
+  const some = every > 1 ? ` (1 in ${grouped(every)} where crowded)` : "";
   const worked = new Set(line.rows.flatMap((row) => [...new Set(row.style)]));
   const styles = line.styles.flatMap((style, index) => (worked.has(index) ? [[style, colours.fills[index]]] : []));
   styles.sort(([one], [other]) => legendPlace(one) - legendPlace(other));
@@ -63,7 +64,7 @@ function markEntries(line) {
 
 /** The filter's work, then tasks, then context switches. */
 function legendPlace({ label }) {
-  return label === "switch" ? 2 : label.startsWith("task:") ? 1 : 0;
+  return label === "switch" ? 2 : isTask(label) ? 1 : 0;
 }
 
 function workWords(style) {

@@ -6,11 +6,11 @@ import { drawAxes, drawGrid, drawMarks } from "./axis.js";
 import { drawBars, drawWaits } from "./bars.js";
 import { drawCallouts, drawLabels } from "./labels.js";
 import { drawNames, lanesOf } from "./lanes.js";
+import { textWidth } from "./textwidth.js";
 
 const FONT_PX = 12.5;
 const MOST_RATIO = 3;
 const TRACK_PX = 3;
-const MOST_WIDTHS = 5000;
 
 /** Draws `stretch` of a timeline into `canvas`, `width` wide; {line, layout, scale, every}: what it then shows where, and
  *  of how many jobs of a crowded row one has its arrows. */
@@ -18,7 +18,7 @@ export function drawGantt(canvas, line, stretch, width, colours, ratio = deviceP
   const context = canvas.getContext("2d");
   const sharp = Math.min(ratio, MOST_RATIO);
   const font = `${FONT_PX}px ${getComputedStyle(canvas).fontFamily}`;
-  const measure = measured(context, font);
+  const measure = (text) => textWidth(text, font);
   const layout = lanesOf(line, width, measure);
   sized(canvas, width, layout.height, sharp);
   context.setTransform(sharp, 0, 0, sharp, 0, 0);
@@ -48,21 +48,6 @@ function sized(canvas, width, height, ratio) {
   [canvas.width, canvas.height] = [across, down];
   canvas.style.width = `${width}px`;
   canvas.style.height = `${height}px`;
-}
-
-const widths = new Map();
-
-/** The width of a text in the font, measured once. */
-function measured(context, font) {
-  return (text) => {
-    const key = `${font} ${text}`;
-    if (!widths.has(key)) {
-      if (widths.size > MOST_WIDTHS) widths.clear();
-      context.font = font;
-      widths.set(key, context.measureText(text).width);
-    }
-    return widths.get(key);
-  };
 }
 
 /** Which part of all steps is shown, where that is not all. */

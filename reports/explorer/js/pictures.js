@@ -22,7 +22,7 @@ export function pictures(host, id, { onTake }) {
     host.append(html("section", named, heading, ...children));
     return heading;
   };
-  const place = () => html("div", { class: "ss-place" });
+  const place = () => html("div");
   const reasons = () => html("ul", { class: "ss-reasons", "aria-label": "Why not" });
 
   const methods = { host: place(), least: html("p", { class: "ss-least" }), why: reasons() };

@@ -15,7 +15,7 @@ export function saving(host, id, files) {
   const downloads = html("p", { class: "ss-downloads" });
   const [shell, python] = [copied("command", `${id}-shell`), copied("Python", `${id}-python`)];
   const address = copied("link", `${id}-link`);
-  host.append(html("section", { class: "ss-section ss-save", "aria-labelledby": `${id}-save` },
+  host.append(html("section", { class: "ss-section", "aria-labelledby": `${id}-save` },
     html("h2", { id: `${id}-save` }, "Save"), downloads, address.element, shell.element, python.element));
 
   return {
@@ -36,7 +36,7 @@ export function saving(host, id, files) {
 function copied(label, id) {
   const text = html("textarea", { id, readonly: true, rows: 1, spellcheck: "false", class: "ss-copied", wrap: "off" });
   const copy = html("button", { type: "button", class: "ss-button" }, `Copy the ${label}`);
-  const said = html("span", { class: "ss-said", role: "status" });
+  const said = html("span", { role: "status" });
   const told = html("p", {}, copy, " ", said);
   const element = html("div", { class: "ss-copy" }, html("label", { for: id }, capital(label)), text, told);
   let timer = null;

@@ -1,7 +1,7 @@
 // A scenario in one element: what is asked of it, the answer, how its times are spread, and its trace.
 
 import { changedQuery, queryOf, textOf } from "./address.js";
-import { answerBox } from "./answer.js";
+import { answerBox, unanswered } from "./answer.js";
 import { asker } from "./ask.js";
 import { scenarioForm } from "./scenarioform.js";
 import { scenarioResults } from "./scenarioresults.js";
@@ -10,10 +10,10 @@ import { html } from "./svg.js";
 
 /**
  * The scenario's page in `host`, as `query` says. `ask(path, query, signal)` promises what the server answers at "view",
- * "schedule" and "next". `onQuery(query, {key, settled})` hears of each change: of which control, null for the steps of
- * the trace, and whether it is still being dragged.
+ * "schedule" and "next". `onQuery(query, {key, settled})` hears of each change: of which control, and whether it is still
+ * being dragged; `onTrace(query)` of other steps of the trace.
  */
-export function scenarioExplorer(host, { ask, query = "", onQuery = () => {} }) {
+export function scenarioExplorer(host, { ask, query = "", onQuery, onTrace }) {
   const id = `ss-${Math.random().toString(36).slice(2, 10)}`;
   const top = html("section", { class: "ss-answer", "aria-label": "Answer" });
   const [side, beside] = [html("div", { class: "ss-side" }), html("div", { class: "ss-beside" })];
@@ -25,10 +25,10 @@ export function scenarioExplorer(host, { ask, query = "", onQuery = () => {} }) 
 
   const box = answerBox(top, beside, id, { onStop: () => asking.stop(), onBack: back });
   const form = scenarioForm(side, id, change);
-  const drawn = scenarioResults(results, id, (changes) => change(changes, { key: "results", settled: true }));
+  const drawn = scenarioResults(results, id, (changes) => change(changes, { key: null, settled: true }));
   const trace = scenarioTrace(drawn.trace, id, ask, (changes) => {
     asked = changedQuery(asked, changes);
-    onQuery(textOf(asked), { key: null, settled: true });
+    onTrace(textOf(asked));
   });
   const asking = asker((text, signal) => ask("view", text, signal), {
     answered(answered, text) {
@@ -42,15 +42,7 @@ export function scenarioExplorer(host, { ask, query = "", onQuery = () => {} }) 
       if (view === null) asking.want("");
       else refuse();
     },
-    waiting: (seconds) => box.waiting(seconds),
-    gone(text) {
-      box.gone(text);
-      stale(true);
-    },
-    stopped() {
-      box.stopped();
-      stale(true);
-    },
+    ...unanswered(box, stale),
   });
   asking.want(query);
 
@@ -88,7 +80,7 @@ export function scenarioExplorer(host, { ask, query = "", onQuery = () => {} }) 
 
   function back() {
     if (view !== null) show(view.query);
-    onQuery(textOf(asked), { key: "back", settled: true });
+    onQuery(textOf(asked), { key: null, settled: true });
   }
 
   /** Shows what another link says, and tells nobody. */

@@ -8,7 +8,7 @@ import { table } from "./table.js";
 
 /** The sections in `host`, and between them `trace`, a place for the trace; ids begin with `id`. `onChange(changes)` hears what their buttons write into the query. */
 export function scenarioResults(host, id, onChange) {
-  const place = () => html("div", { class: "ss-place" });
+  const place = () => html("div");
   const [jobs, sensors, job, landing, output] = [place(), place(), place(), place(), place()];
   const section = (name, text, ...children) => {
     const element = html("section", { class: "ss-section", "aria-labelledby": `${id}-${name}` }, html("h2", { id: `${id}-${name}` }, text), ...children);
@@ -88,7 +88,7 @@ function sentenceOf({ sentence, exact_miss: exact }) {
 }
 
 function agePlot(host) {
-  const element = html("div", { class: "ss-place" });
+  const element = html("div");
   host.append(element);
   return { element, plot: histogram(element) };
 }

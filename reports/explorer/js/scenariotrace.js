@@ -10,8 +10,8 @@ const AFTER_MISS_STEPS = 2;
 /** The section in `host`; ids begin with `id`. `ask(path, query, signal)` promises windows ("schedule") and misses
  *  ("next"); `onMove({at, span})` hears which steps are shown. */
 export function scenarioTrace(host, id, ask, onMove) {
-  const chartPlace = html("div", { class: "ss-place" });
-  const tablePlace = html("div", { class: "ss-place" });
+  const chartPlace = html("div");
+  const tablePlace = html("div");
   const jobs = html("details", {}, html("summary", {}, "Its jobs as a table"), tablePlace);
   const steps = traceControls(id, { onMove: move, onFind: (of) => find(of), onStop: () => stop() });
   const heading = html("h2", { id: `${id}-trace` }, "The trace");

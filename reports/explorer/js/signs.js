@@ -1,7 +1,8 @@
 // What a plot marks besides its lines: designs with a ring and a label, and a limit with what lies beyond it.
 
 import { svg } from "./svg.js";
-import { besidePoints, coveringNone, firstClear, textWidth } from "./beside.js";
+import { besidePoints, coveringNone, firstClear } from "./beside.js";
+import { textWidth } from "./textwidth.js";
 import { reusedChildren } from "./frame.js";
 
 const DESIGN_RING_PX = 7;

@@ -2,7 +2,8 @@
 
 import { svg } from "./svg.js";
 import { reusedChildren } from "./frame.js";
-import { doOverlap, textWidth } from "./beside.js";
+import { doOverlap } from "./beside.js";
+import { textWidth } from "./textwidth.js";
 
 const STAKE_ROWS = 3;
 const STAKE_ROW_PX = 15;

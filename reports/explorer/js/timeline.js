@@ -1,6 +1,7 @@
 // A schedule made ready for drawing: by row, in order of time, to be found by halving.
 
 import { wholeStretch } from "./stretch.js";
+import { isTask } from "./tasks.js";
 
 /** {steps, whole, periodMs, styles, marks, rows, pieces, misses, schedule}; whole: the steps there are, from the
  *  schedule's `origin`, where it has one, to `steps`. Of each row: its bars and work, whether there are callouts above
@@ -27,10 +28,6 @@ export function timeline(schedule) {
   const misses = missed.sort((one, other) => jobs.deadline[one] - jobs.deadline[other]);
   const { steps, period_ms: periodMs, styles, marks, origin = 0 } = schedule;
   return { steps, whole: wholeStretch(origin, steps), periodMs, styles, marks, rows, pieces, misses, schedule };
-}
-
-function isTask(name) {
-  return name.startsWith("task:");
 }
 
 /** The first index in ascending `values` of one that is greater than `value`. */

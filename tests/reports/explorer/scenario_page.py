@@ -40,7 +40,6 @@ def opened(page: Page, runs: Runs, query: str = "") -> Page:
         route.fulfill(body=found.content, status=found.status, headers=HEADERS, content_type=found.media)
 
     page.route("**/*", answer)
-    page.set_default_timeout(10_000)
     page.goto(f"{HOST}/scenario{query and f'?{query}'}")
     page.wait_for_selector("[data-shown]")
     page.wait_for_selector("[data-first]")

@@ -8,9 +8,10 @@ from typing import Any
 
 import pytest
 from axe_playwright_python.sync_playwright import Axe
-from playwright.sync_api import Locator, Page, expect
+from playwright.sync_api import Page, expect
 
 from tests.browser import Visit
+from tests.reports.explorer.form import drag, field, give, slider
 from tests.reports.explorer.made_view import made_view
 from tests.reports.explorer.small_server import SmallServer
 
@@ -28,19 +29,6 @@ def opened(visit: Visit, server: SmallServer, link: str = "") -> Page:
     visit.page.goto(server.url + link)
     expect(visit.page.locator(".ss-explorer")).to_have_attribute("data-shown", re.compile("."))
     return visit.page
-
-
-def field(page: Page, label: str) -> Locator:
-    return page.get_by_label(label, exact=True).filter(visible=True)
-
-
-def slider(page: Page, label: str) -> Locator:
-    return page.get_by_label(f"{label}, slider", exact=True).filter(visible=True)
-
-
-def give(page: Page, label: str, text: str) -> None:
-    field(page, label).fill(text)
-    field(page, label).press("Enter")
 
 
 def shows(page: Page, text: str) -> None:
@@ -108,18 +96,6 @@ def test_of_the_designs_that_do_the_least_is_named(visit: Visit, server: SmallSe
     expect(methods.get_by_role("rowheader")).to_have_text(["dual-rate", "clone", "recalculate"])
 
 
-def drag(page: Page, label: str, *shares: float) -> None:
-    slider(page, label).scroll_into_view_if_needed()
-    box = slider(page, label).bounding_box()
-    assert box is not None
-    down = box["y"] + box["height"] / 2
-    page.mouse.move(box["x"] + shares[0] * box["width"], down)
-    page.mouse.down()
-    for share in shares[1:]:
-        page.mouse.move(box["x"] + share * box["width"], down, steps=4)
-    page.mouse.up()
-
-
 SLIDERS = ["Loop rate", "Measurement rate", "Delay", "Needed accuracy", "Land by"]
 
 
@@ -127,7 +103,7 @@ SLIDERS = ["Loop rate", "Measurement rate", "Delay", "Needed accuracy", "Land by
 def test_dragging_meets_no_refusal_and_is_one_step_back(visit: Visit, server: SmallServer, label: str) -> None:
     page = opened(visit, server, f"?{DESIGN}&L=62&within=0.38")
     before = page.url
-    drag(page, label, 0.5, 0.02, 0.98, 0.4)
+    drag(page, slider(page, label), 0.5, 0.02, 0.98, 0.4)
     expect(page).not_to_have_url(before)
     shows(page, page.url.partition("?")[2])
     expect(page.locator(".ss-stale")).to_have_count(0)
@@ -219,6 +195,15 @@ def test_in_steps_and_back(visit: Visit, server: SmallServer) -> None:
     assert field(page, "Measurement rate").input_value() == "4"
 
 
+def test_units_are_turned_of_what_was_asked_for_last(visit: Visit, server: SmallServer) -> None:
+    page = opened(visit, server, "?hr_hz=400&N=80&M=44&model=ins-gps")
+    server.open.clear()
+    give(page, "N", "100")
+    page.get_by_role("radio", name="Hz and ms").check()
+    server.open.set()
+    shows(page, "hr_hz=400&model=ins-gps&measurement_hz=4&delay_ms=110")
+
+
 def test_a_rate_that_is_no_decimal_is_a_fraction_and_has_its_place_on_the_slider(
     visit: Visit, server: SmallServer
 ) -> None:
@@ -227,7 +212,7 @@ def test_a_rate_that_is_no_decimal_is_a_fraction_and_has_its_place_on_the_slider
     shows(page, "hr_hz=400&model=ins-gps&measurement_hz=40/7&delay_ms=110")
     assert field(page, "Measurement rate").input_value() == "40/7"
     expect(slider(page, "Measurement rate")).to_have_attribute("aria-valuetext", "40/7 Hz")
-    drag(page, "Measurement rate", 0.5, 0.51)
+    drag(page, slider(page, "Measurement rate"), 0.5, 0.51)
     assert 0.2 < float(field(page, "Measurement rate").input_value()) < 8.9
 
 
@@ -406,7 +391,7 @@ def test_the_answer_is_read_out_when_it_stands_still(visit: Visit, server: Small
       const heard = new MutationObserver(() => busy.push(answer.getAttribute("aria-busy")));
       heard.observe(answer, {subtree: true, characterData: true, childList: true});
     }""")
-    drag(page, "Land by", 0.9, 0.3, 0.6)
+    drag(page, slider(page, "Land by"), 0.9, 0.3, 0.6)
     expect(page.locator(".ss-explorer")).to_have_attribute("data-shown", re.compile("L="))
     expect(answer).not_to_have_attribute("aria-busy", "true")
     said = page.evaluate("window.busy")

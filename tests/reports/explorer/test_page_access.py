@@ -9,7 +9,8 @@ from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Browser
 
 from tests.browser import Visit
-from tests.reports.explorer.explored import Explorer, opened, unfold
+from tests.reports.explorer.explored import Explorer, opened
+from tests.reports.explorer.form import unfold
 
 FLIGHT = "hr_hz=400&measurement_hz=5&delay_ms=110&model=ins-gps&within=0.4"
 DESIGNS = {"flight": FLIGHT, "misses": "N=10&M=4&speed=0.7", "part": f"{FLIGHT}&processor=rp2040", "refused": "N=0&M=4"}

@@ -8,7 +8,8 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.browser import Visit
-from tests.reports.explorer.explored import exploring, give, opened, shown
+from tests.reports.explorer.explored import exploring, opened, shown
+from tests.reports.explorer.form import give
 
 pytest.importorskip("uvicorn", reason="the extra explore is not installed")
 

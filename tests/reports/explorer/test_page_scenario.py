@@ -7,7 +7,8 @@ from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Page, expect
 
 from tests.browser import Visit
-from tests.reports.explorer.explored import Explorer, drag, exploring
+from tests.reports.explorer.explored import Explorer, exploring
+from tests.reports.explorer.form import drag
 from tests.scenarios import ROCKET
 
 pytest.importorskip("uvicorn", reason="the extra explore is not installed")

@@ -10,7 +10,8 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from tests.browser import Visit
-from tests.reports.explorer.explored import Explorer, drag, field, give, opened, shown, slider, unfold
+from tests.reports.explorer.explored import Explorer, opened, shown
+from tests.reports.explorer.form import drag, field, give, slider, unfold
 
 FLIGHT = "hr_hz=400&measurement_hz=5&delay_ms=110&model=ins-gps&within=0.4"
 

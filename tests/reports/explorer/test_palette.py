@@ -46,7 +46,7 @@ def test_in_the_light_methods_look_as_in_print(method: str) -> None:
 def test_it_has_no_other_work_and_no_other_methods() -> None:
     named = {f"{kind}-{label}" for label in WORK for kind in ("fill", "ink")}
     named |= {f"method-{method}" for method in METHOD_LINES}
-    assert {name for name in COLOURS if "-" in name} - {"on-accent"} == named
+    assert {name for name in COLOURS if "-" in name} == named
 
 
 @pytest.mark.parametrize("label", WORK)
@@ -74,4 +74,3 @@ def test_texts_can_be_read_and_controls_seen(ground: str, theme: int) -> None:
         name: contrast(COLOURS[name][theme], under) for name in TEXTS if contrast(COLOURS[name][theme], under) < 4.5
     } == {}
     assert contrast(COLOURS["line"][theme], under) >= 3
-    assert contrast(COLOURS["on-accent"][theme], COLOURS["accent"][theme]) >= 4.5

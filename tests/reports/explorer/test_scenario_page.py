@@ -17,6 +17,7 @@ from studies.explorer.scenario import explore_scenario
 from studies.explorer.scenario_runs import Runs
 from studies.selection.in_scenario import question_of
 from tests.browser import Visit
+from tests.reports.explorer.form import drag, slider
 from tests.reports.explorer.scenario_page import HOST, opened
 from tests.scenarios import BY_HAND, scenario, sensor
 
@@ -95,15 +96,7 @@ def test_another_seed_is_another_run(page_of: Opened) -> None:
 
 def test_a_drag_is_one_step_to_go_back(page_of: Opened) -> None:
     page = page_of(LATE)
-    slider = page.get_by_label("Processor so many times as slow, slider")
-    box = slider.bounding_box()
-    assert box is not None
-    middle = box["y"] + box["height"] / 2
-    page.mouse.move(box["x"] + box["width"] / 2, middle)
-    page.mouse.down()
-    for share in (0.55, 0.6, 0.65):
-        page.mouse.move(box["x"] + box["width"] * share, middle)
-    page.mouse.up()
+    drag(page, slider(page, "Processor so many times as slow"), 0.5, 0.55, 0.6, 0.65)
     page.wait_for_url("**times_slower=**")
     page.go_back()
     expect(page.get_by_label("Processor so many times as slow", exact=True)).to_have_value("1")

@@ -8,7 +8,7 @@ from html.parser import HTMLParser
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from reports.pages.alive import figure
+from reports.pages.alive import figure, script, style
 
 SMALL = st.recursive(
     st.none()
@@ -51,3 +51,7 @@ def test_what_is_told_is_read_back_and_ends_no_element(data: dict[str, object]) 
 
 def test_a_figure_that_tells_nothing_is_its_picture() -> None:
     assert figure('<img src="data:,">', None) == '<figure class="ss-figure"><img src="data:,"></figure>'
+
+
+def test_a_page_grows_by_less_than_100_kb() -> None:
+    assert len((script() + style()).encode()) < 100_000
