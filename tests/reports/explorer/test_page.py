@@ -340,6 +340,17 @@ def test_on_a_phone_the_answer_stays_in_sight_and_nothing_is_wider(visit: Visit,
     assert page.evaluate("document.documentElement.scrollWidth") <= NARROW["width"]
 
 
+def test_on_paper_nothing_that_says_the_design_is_cut_off(visit: Visit, server: SmallServer) -> None:
+    """As wide as A4 between its margins."""
+    visit.page.set_viewport_size({"width": 680, "height": 1000})
+    page = opened(visit, server, f"?{DESIGN}&within=0.38#A={DESIGN.replace('&', '%26').replace('=', '%3D')}")
+    page.emulate_media(media="print")
+    for name in ("Link", "Command", "Python"):
+        assert field(page, name).evaluate("one => one.scrollWidth <= one.clientWidth"), name
+        assert field(page, name).evaluate("one => one.scrollHeight <= one.clientHeight"), name
+    assert page.evaluate("document.documentElement.scrollWidth") <= 680
+
+
 def test_a_form_in_a_narrow_place_is_above_what_it_shows(visit: Visit, server: SmallServer) -> None:
     """It looks at its own width, not at the window's: a notebook's cell is narrow in a wide window."""
     page = opened(visit, server)
