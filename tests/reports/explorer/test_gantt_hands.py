@@ -88,6 +88,19 @@ def test_arrow_keys_walk_the_jobs_and_each_is_said(visit: Visit) -> None:
     assert not chart.page.locator(".ss-gantt-tip").is_visible()
 
 
+def test_what_is_below_stays_where_it_is_when_the_keys_come_and_go(visit: Visit) -> None:
+    """So that a click there is not lost."""
+    chart = Chart(visit, schedule())
+    legend, keys = (chart.page.locator(f".ss-gantt-{name}") for name in ("legend", "keys"))
+    before = legend.bounding_box()
+    chart.press("ArrowRight")
+    assert keys.is_visible()
+    assert legend.bounding_box() == before
+    chart.page.evaluate("document.activeElement.blur()")
+    assert not keys.is_visible()
+    assert legend.bounding_box() == before
+
+
 def test_a_job_tells_its_times_in_steps_and_in_milliseconds(visit: Visit) -> None:
     chart = Chart(visit, schedule())
     chart.press("ArrowRight", "ArrowDown", "End")
