@@ -4,6 +4,7 @@ import { changedQuery, asSteps, asTimes, modeOf, queryOf, textOf } from "./addre
 import { answerBox, unanswered } from "./answer.js";
 import { asker } from "./ask.js";
 import { controls } from "./controls.js";
+import { viewInPageWords } from "./fields.js";
 import { pictures } from "./pictures.js";
 import { pinboard } from "./pins.js";
 import { saving } from "./save.js";
@@ -46,7 +47,7 @@ export function explorer(host, { ask, query = "", pins = "", onQuery = unheard, 
   const asking = asker(ask, {
     answered(answered, text) {
       const first = view === null;
-      view = answered;
+      view = viewInPageWords(answered);
       awaited = text !== wanted;
       if (asked.size === 0) adopt(view.query);
       if (text !== "") refusal = null;

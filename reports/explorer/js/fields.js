@@ -2,6 +2,7 @@
 
 import { stepsInMs } from "./address.js";
 import { FURTHER_OPTIONS, plainChoices } from "./furtherfields.js";
+import { METHOD_WORDS } from "./methodwords.js";
 import { evenStops, roundedTo, roundStops, wholeStops } from "./stops.js";
 
 /*
@@ -101,7 +102,8 @@ const DESIGN = [
     write: (value) => ({ processor: value }),
   },
   {
-    key: "method", label: "Method", help: "how a late measurement gets into the filter",
+    key: "method", label: "Method",
+    help: ({ view }) => METHOD_WORDS[view.design.method] ?? "how a late measurement gets into the filter",
     options: ({ view }) => plainChoices(view.choices.method),
     write: (value) => ({ method: value }),
   },
@@ -151,6 +153,20 @@ export function inPageWords(text) {
   const labels = new Map([["land_within_ms", "Land by"], ...named]);
   const worded = (part) => part.replace(/^\w+(?= is )|(?<![\w-])\w+_\w+(?![\w=])/g, (key) => labels.get(key) ?? key);
   return text.split("`").map((part, index) => (index % 2 ? `\`${part}\`` : worded(part))).join("");
+}
+
+/** A view whose texts are in the words of the page. */
+export function viewInPageWords(view) {
+  const { answer, warnings, notes, methods, parts } = view;
+  const worded = (row) => ({ ...row, reason: row.reason && inPageWords(row.reason) });
+  return {
+    ...view,
+    answer: { ...answer, sentence: inPageWords(answer.sentence) },
+    warnings: warnings.map(inPageWords),
+    notes: notes.map(inPageWords),
+    methods: methods.map((row) => ({ ...worded(row), within: row.within && worded(row.within) })),
+    parts: parts.map(worded),
+  };
 }
 
 /* A key that is an ordinary word, too, is meant where a text begins with it, or a value follows: the least speed is no

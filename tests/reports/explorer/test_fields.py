@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import pytest
 from playwright.sync_api import Browser
 
+from sched_sim.costs.methods import DELAYED_METHODS
 from tests.reports.explorer.scripts import Ask, asking
 
 KEYS = ["hr_hz", "delay_ms", "N", "M", "within", "model", "method", "L", "speed", "cpus"]
@@ -50,3 +51,8 @@ def test_a_refusal_is_shown_at_the_control_that_it_is_about(
 )
 def test_a_refusal_names_the_control_as_the_page_does(text: str, words: str, ask: Ask) -> None:
     assert ask("return of.inPageWords(a);", text) == words
+
+
+def test_of_every_method_it_is_said_what_it_does(browser: Browser) -> None:
+    with asking(browser, "methodwords") as ask:
+        assert set(ask("return Object.keys(of.METHOD_WORDS);")) == set(DELAYED_METHODS)

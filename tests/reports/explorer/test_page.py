@@ -80,6 +80,26 @@ def test_why_no_parts_are_compared_is_said_in_their_place(visit: Visit, server: 
     expect(page.get_by_role("region", name="Parts")).to_contain_text(f"{why.capitalize()}.")
 
 
+def test_all_that_is_said_is_in_the_words_of_the_page(visit: Visit, server: SmallServer) -> None:
+    said = {"warnings": ["delay_ms 300 is long"], "notes": ["hr_hz 400"]}
+    server.view = lambda query: {
+        **made_view(query),
+        **said,
+        "answer": {"sentence": "not by land_within_ms 9", "state": ""},
+    }
+    page = opened(visit, server, f"?{DESIGN}")
+    expect(page.get_by_role("status").first).to_have_text("not by Land by 9")
+    expect(page.get_by_role("list", name="Warnings")).to_have_text("Delay 300 is long")
+    page.get_by_text("How this was computed").click()
+    expect(page.get_by_text("Loop rate 400")).to_be_visible()
+
+
+def test_the_method_that_is_chosen_says_what_it_does(visit: Visit, server: SmallServer) -> None:
+    page = opened(visit, server, f"?{DESIGN}")
+    field(page, "Method").select_option("clone")
+    expect(page.get_by_text("keeps a copy of what was measured")).to_be_visible()
+
+
 def test_methods_that_cannot_be_are_no_rows_but_reasons(visit: Visit, server: SmallServer) -> None:
     page = opened(visit, server, f"?{DESIGN}&within=0.3")
     methods = page.get_by_role("region", name="Designs that keep")
