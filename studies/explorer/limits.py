@@ -27,7 +27,8 @@ def limits(asked: Resolved) -> Limits:
     """With one measurement on its way, if the design has one; else also with as many as it has.
 
     Another N or M takes another L along, if L was not said. With tasks that rarely repeat together with the
-    measurements, or costs that lack an entry, a design may still be refused.
+    measurements, costs that lack an entry, or several corrections on their way whose work piles up slowly, a design may
+    still be refused.
     """
     options = asked.design.options
     law = METHODS[asked.design.method].law(options.feedback)

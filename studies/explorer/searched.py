@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from sched_sim.design.least_speed import has_closed_form
 from sched_sim.design.long_pattern import of_bound
@@ -57,3 +57,22 @@ def check_beside(costs: Costs, timing: Timing, options: Options, tasks: Sequence
         raise InputError(
             f"it takes a search by simulation over {periods:,} HR periods: choose it to see its least speed"
         )
+
+
+MOST_RUNS = 80
+"""Simulations of a design whose corrections overlap: where work piles up slowly each is of thousands of HR periods, and
+there are more of them than of any other design."""
+
+
+def patience(options: Options, tasks: Sequence[Task]) -> Callable[[int], None]:
+    """For `least_speed` to call with how many simulations it has made: raises InputError where they do not come to an
+    end while somebody waits."""
+
+    def go_on(runs: int) -> None:
+        if runs > MOST_RUNS and has_closed_form(options, tasks):
+            raise InputError(
+                f"the least speed takes a search by more than {MOST_RUNS} simulations, as work piles up slowly: ask "
+                f"`sched-sim minimum`, or take one measurement on its way at a time"
+            )
+
+    return go_on

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from bisect import bisect_left
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from fractions import Fraction
 
@@ -13,8 +14,9 @@ from sched_sim.design.methods import method_of
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import Costs, DualRateCosts
 from sched_sim.design.timing import Timing
+from sched_sim.errors import InputError
 from sched_sim.schedule.tasks import Task
-from studies.explorer.searched import MOST_BESIDE, searched
+from studies.explorer.searched import MOST_BESIDE, patience, searched
 from studies.selection.front import some_landings
 
 MOST_STAIRS = 200
@@ -40,9 +42,17 @@ def stairs(
         return found if timing.L in legal else [*found, _stair(costs, timing, options, tasks, own)]
     beside = beside and searched(costs, timing, options, tasks) <= MOST_BESIDE
     at = {*some_landings(legal[0], legal[-1], MOST_SIMULATED)} - {timing.L} if beside else set()
-    known = [(L, least_speed(costs, replace(timing, L=L), options, tasks)) for L in at]
-    known = sorted([(timing.L, own), *known])
+    known = sorted([(timing.L, own), *_searched(costs, timing, options, tasks, at)])
     return [_stair(costs, replace(timing, L=L), options, tasks, least) for L, least in known]
+
+
+def _searched(
+    costs: Costs, timing: Timing, options: Options, tasks: Sequence[Task], at: Iterable[int]
+) -> Iterator[tuple[int, LeastSpeed]]:
+    """But for those that take too long."""
+    for L in at:
+        with suppress(InputError):
+            yield L, least_speed(costs, replace(timing, L=L), options, tasks, patience(options, tasks))
 
 
 def in_closed_form(costs: Costs, timing: Timing, options: Options, tasks: Sequence[Task]) -> bool:

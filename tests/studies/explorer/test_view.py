@@ -229,3 +229,10 @@ def test_beside_tasks_the_machine_of_the_costs_is_judged_and_the_landings_lead_t
     assert method.landing.L[at] == view.current.achieved_l == machine.landed
     assert method.within is not None
     assert method.within.landed == machine.landed
+
+
+def test_a_search_that_does_not_come_to_its_end_is_given_up() -> None:
+    """Where work piles up slowly each of its simulations is of many steps."""
+    query = "N=1&M=1&costs=counted-9-3-3&lr_propagate_by=l&feedback=same-step"
+    beside = next(of for of in explore(design_of(f"{query}&method=larsen")).methods if of.method == "dual-rate")
+    assert "more than 80 simulations, as work piles up slowly: ask `sched-sim minimum`" in beside.reason
