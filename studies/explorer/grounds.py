@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from sched_sim.costs.table import units
 from sched_sim.processors.ground import calibration_texts, ground
+from sched_sim.text import visible
 from studies.explorer.answer import Found
 
 
@@ -25,7 +26,7 @@ def _costs(found: Found) -> Iterator[str]:
 
 
 def _tasks(found: Found) -> Iterator[str]:
-    if names := ", ".join(task.name for task in found.asked.tasks):
+    if names := ", ".join(visible(task.name) for task in found.asked.tasks):
         yield f"beside it run {names}"
 
 

@@ -7,6 +7,7 @@ from fractions import Fraction
 
 from sched_sim.design.binding import BINDING_WORDS
 from sched_sim.design.methods import METHODS
+from sched_sim.text import visible
 from studies.explorer.accuracy import Accuracy
 from studies.explorer.front import FrontLine
 from studies.explorer.planned import Planned
@@ -163,4 +164,4 @@ def _curve(figures: Accuracy, L: int) -> AccuracyCurve | None:
 
 def binding_words(binding: str) -> str:
     """What fixes a least speed, as people read it."""
-    return BINDING_WORDS.get(binding, binding)
+    return visible(BINDING_WORDS.get(binding, binding))

@@ -14,6 +14,7 @@ from sched_sim.scenario.kinds import correct_kind, gain_kind, loss_kind
 from sched_sim.scenario.scenario import Scenario
 from sched_sim.schedule.intervals import TASK
 from sched_sim.schedule.labels import MEANINGS
+from sched_sim.text import visible
 from studies.explorer.scenario_trace import AHEAD, Bars, Trace
 from studies.explorer.scenario_waiting import Waiting, waiting
 from studies.explorer.schedule import meaning
@@ -58,7 +59,7 @@ def window(trace: Trace, first: int, until: int) -> Document:
         "steps": until,
         "period_ms": None if scenario.hr_hz is None else float(1000 / scenario.hr_hz),
         "cut": f"without {seen.left_out:,} more jobs that wait" if seen.left_out else "",
-        "rows": [{"name": row.name, "cpu": row.cpu} for row in rows],
+        "rows": [{"name": visible(row.name), "cpu": row.cpu} for row in rows],
         **bars,
         "jobs": jobs,
         "marks": marks(trace, first, until),
@@ -167,7 +168,7 @@ def _bars(trace: Trace, shown: Sequence[Columns], seen: Seen, rows: Sequence[Row
     number = {label: index for index, label in enumerate(used)}
     row_of = {kind: index for index, row in enumerate(rows) for kind in row.kinds}
     return {
-        "styles": [{"label": label, "meaning": meaning(label)} for label in used],
+        "styles": [{"label": visible(label), "meaning": visible(meaning(label))} for label in used],
         "bars": {
             "row": [row_of[kinds[trace.jobs.kind[index]]] for index in job],
             "style": [number[styles[index]] for index in style],
@@ -197,12 +198,13 @@ def marks(trace: Trace, first: int, until: int) -> list[Document]:
 def _marks(trace: Trace, first: int, until: int) -> Iterator[Document]:
     late = [sensor for sensor in trace.scenario.sensors if sensor.delayed]
     for sensor in late:
-        kind, of = correct_kind(sensor), f" {sensor.name}" if len(late) > 1 else ""
+        kind, name = correct_kind(sensor), visible(sensor.name)
+        of = f" {name}" if len(late) > 1 else ""
         taken, arrives = trace.measured[kind]
         for letter, what, steps in (
-            ("k", f"{sensor.name} measures", taken),
-            ("m", f"a measurement of {sensor.name} arrives", arrives[arrives > taken]),
-            ("l", f"a correction of {sensor.name} has landed", np.array(trace.landings[kind], np.int64)),
+            ("k", f"{name} measures", taken),
+            ("m", f"a measurement of {name} arrives", arrives[arrives > taken]),
+            ("l", f"a correction of {name} has landed", np.array(trace.landings[kind], np.int64)),
         ):
             for step in np.unique(steps[(steps >= first) & (steps < until)]).tolist():
                 yield {"step": step, "label": letter + of, "meaning": what}

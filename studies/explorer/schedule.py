@@ -17,6 +17,7 @@ from sched_sim.schedule.labels import MEANINGS
 from sched_sim.schedule.outcome import Schedule, Slice
 from sched_sim.schedule.processor import Processor
 from sched_sim.schedule.tasks import Task
+from sched_sim.text import visible
 
 MOST_BARS = 20_000
 """About so many are made: a browser draws them at once."""
@@ -131,7 +132,7 @@ def shown(
         steps,
         period_ms,
         cut,
-        tuple(Line(line.name, line.cpu) for line in lines),
+        tuple(Line(visible(line.name), line.cpu) for line in lines),
         styles,
         _jobs(spans, number, schedule.period),
         bars,
@@ -171,7 +172,7 @@ def _simulated(
 def _jobs(spans: Sequence[JobSpan], number: dict[Row, int], period: int) -> Jobs:
     return Jobs(
         [number[span.row] for span in spans],
-        [span.kind for span in spans],
+        [visible(span.kind) for span in spans],
         [span.step for span in spans],
         [span.release / period for span in spans],
         [None if (start := _start(span)) is None else start / period for span in spans],
@@ -198,7 +199,7 @@ def _bars(schedule: Schedule, spans: Sequence[JobSpan], number: dict[Row, int]) 
         [bar.end / period for bar in made],
         [of_job[bar.kind, bar.step] for bar in made],
     )
-    return bars, tuple(Style(label, meaning(label)) for label in labels)
+    return bars, tuple(Style(visible(label), visible(meaning(label))) for label in labels)
 
 
 def meaning(label: str) -> str:

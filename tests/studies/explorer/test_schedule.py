@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections import Counter, defaultdict
 from fractions import Fraction
 from random import Random
@@ -17,7 +18,11 @@ from sched_sim.design.simulate import simulate, simulated_steps
 from sched_sim.design.timing import Timing
 from sched_sim.schedule import intervals
 from sched_sim.schedule.labels import MEANINGS
+from sched_sim.schedule.tasks import Task
+from studies.explorer.design import Design
+from studies.explorer.given import Given
 from studies.explorer.schedule import MOST_BARS, Timeline, most_steps, timeline
+from studies.explorer.view import explore
 from tests.random_designs import Simulated, random_design
 
 DUAL_RATE = select(load_costs("steffes2014"), "dual-rate")
@@ -117,3 +122,13 @@ def test_what_is_cut_is_the_start_of_the_whole() -> None:
     assert cut.cut == "the first 10,000 of 10,800 steps"
     assert cut.bars.start[: len(whole.bars.start)] == whole.bars.start
     assert [mark.step for mark in cut.marks if mark.label.startswith("k")] == list(range(0, 10_000, 900))
+
+
+def test_what_cannot_be_seen_of_a_name_is_told_by_its_escape() -> None:
+    """It would turn the direction of what is written behind it."""
+    task = Task("a\u202eb", Fraction(2), Fraction(1, 2), priority=30)
+    view = explore(Design(N=10, M=4, speed="0.9"), Given(tasks=[task]))
+    told = json.dumps(view.document(), ensure_ascii=False)
+    assert view.schedule.rows[-1].name == "a\\u202eb"
+    assert "task a\\u202eb" in view.answer.sentence
+    assert told.isprintable()
