@@ -17,14 +17,18 @@ MOST_SLICES = 4_000
 def schedule_html(schedule: Schedule, table: str) -> str:
     """For a notebook, which needs no extension for it and asks nothing of the network. table: of the schedule, as HTML.
 
-    Of a long schedule the first steps are drawn.
+    Of a long schedule the first steps are drawn, and it is said how many deadlines are missed later.
     """
     steps = -(-schedule.horizon // schedule.period)
     drawn = min(steps, _most_steps(schedule))
     cut = "" if drawn == steps else f"the first {drawn:,} of {steps:,} steps"
     end = drawn * schedule.period
     kept = replace(schedule, slices=tuple(piece for piece in schedule.slices if piece.release < end))
-    data = {"panels": [{"title": "", "notes": [], "schedule": rounded(document(shown(kept, drawn, cut=cut)))}]}
+    line = shown(kept, drawn, cut=cut)
+    if later := schedule.misses - sum(line.jobs.missed):
+        are = "deadline is" if later == 1 else "deadlines are"
+        line = replace(line, cut=f"{cut}; {later:,} more {are} missed later")
+    data = {"panels": [{"title": "", "notes": [], "schedule": rounded(document(line))}]}
     return (
         f'<div class="ss-cell"><style>{style()}</style>{figure(table, data)}'
         f'<script type="module">{script()}</script></div>'

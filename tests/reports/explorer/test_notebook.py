@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Iterator
+from fractions import Fraction
 from importlib.metadata import EntryPoint
 from pathlib import Path
 
@@ -13,7 +14,7 @@ from playwright.sync_api import Page, expect
 
 from reports.explorer import notebook
 from reports.explorer.notebook import schedule_html
-from sched_sim import Timing, load_costs, run_scenario, select, simulate
+from sched_sim import Task, Timing, load_costs, run_scenario, select, simulate
 from sched_sim import shown as plug_in
 from sched_sim.schedule.intervals import jobs
 from sched_sim.schedule.outcome import Schedule
@@ -106,6 +107,16 @@ def test_of_a_long_schedule_the_first_steps_are_drawn(visit: Visit, monkeypatch:
     monkeypatch.setattr(notebook, "MOST_SLICES", 20)
     page = opened(visit, schedule_html(schedule(3), "<table></table>"))
     assert "the first 11 of 30 steps" in page.locator(".ss-gantt-finding").inner_text()
+
+
+@pytest.mark.parametrize(("at", "said"), [(2, "the first 11 of 30 steps"), (25, "; 2 more deadlines are missed later")])
+def test_a_miss_after_what_is_drawn_is_told(at: int, said: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(notebook, "MOST_SLICES", 20)
+    costs = select(load_costs("steffes2014"), "dual-rate")
+    task = Task("rare", Fraction(100), Fraction(1, 4), priority=5, offset=Fraction(at))
+    missing = simulate(costs, Timing(10, 4, 8), "0.77", 3, tasks=[task], keep_slices=True)
+    assert missing.misses
+    assert f'{said}"' in schedule_html(missing, "<table></table>")
 
 
 def test_a_dark_notebook_has_a_dark_chart(visit: Visit) -> None:
