@@ -41,10 +41,12 @@ def warnings(found: Found) -> tuple[str, ...]:
 def _lands_earlier(found: Found) -> Iterator[str]:
     plan = found.plan
     if plan.fits and plan.landed is not None and _chooses(found) and plan.landed < plan.timing.L:
-        same = f"L = {plan.landed} needs the same processor"
+        same = f": L = {plan.landed} needs the same processor"
         if found.asked.pace is not None:
-            same = f"this processor keeps L = {plan.landed} as well"
-        yield f"lands at {plan.landed} of the {plan.timing.L} you allow: {same}"
+            same = f": this processor keeps L = {plan.landed} as well"
+        if _by_deadline(found):
+            same = ""
+        yield f"lands at {plan.landed} of the {plan.timing.L} you allow{same}"
 
 
 def _needs_no_later(found: Found) -> Iterator[str]:
@@ -52,8 +54,13 @@ def _needs_no_later(found: Found) -> Iterator[str]:
     timing = found.plan.timing
     law = method_of(found.plan.costs).law(found.asked.design.options.feedback)
     last = law.last_of_use(timing.N, timing.M)
-    if _chooses(found) and last < timing.L and law.several:
+    if _chooses(found) and last < timing.L and law.several and not _by_deadline(found):
         yield f"L = {timing.L} needs what L = {last} does: no later one needs less"
+
+
+def _by_deadline(found: Found) -> bool:
+    """Whether another L changes what runs when."""
+    return found.asked.design.options.policy == "edf"
 
 
 def _chooses(found: Found) -> bool:

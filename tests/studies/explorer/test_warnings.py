@@ -39,6 +39,7 @@ def dual_rate_costs(hr: int, restart: int, update: int) -> CostTable:
     [
         ("N=10&M=4&L=8", []),
         ("N=100&M=10&L=80", ["lands at 29 of the 80 you allow: L = 29 needs the same processor"]),
+        ("N=100&M=10&L=80&policy=edf", ["lands at 29 of the 80 you allow"]),
         ("N=10&M=4&L=8&speed=1.2", ["lands at 5 of the 8 you allow: this processor keeps L = 5 as well"]),
         ("N=10&M=4&method=larsen", []),
         ("N=10&M=4&L=8&speed=0.7", []),
