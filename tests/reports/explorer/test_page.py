@@ -7,7 +7,6 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
-from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Page, expect
 
 from tests.browser import Visit
@@ -119,18 +118,18 @@ def test_of_the_designs_that_do_the_least_is_named(visit: Visit, server: SmallSe
 SLIDERS = ["Loop rate", "Measurement rate", "Delay", "Needed accuracy", "Land by"]
 
 
-@pytest.mark.parametrize("label", SLIDERS)
-def test_dragging_meets_no_refusal_and_is_one_step_back(visit: Visit, server: SmallServer, label: str) -> None:
+def test_dragging_meets_no_refusal_and_is_one_step_back(visit: Visit, server: SmallServer) -> None:
     page = opened(visit, server, f"?{DESIGN}&L=62&within=0.38")
     before = page.url
-    drag(page, slider(page, label), 0.5, 0.02, 0.98, 0.4)
-    expect(page).not_to_have_url(before)
-    shows(page, page.url.partition("?")[2])
-    expect(page.locator(".ss-stale")).to_have_count(0)
-    assert [alert.text_content() for alert in page.get_by_role("alert").all() if alert.text_content()] == []
-    page.go_back()
-    expect(page).to_have_url(before)
-    shows(page, before.partition("?")[2])
+    for label in SLIDERS:
+        drag(page, slider(page, label), 0.5, 0.02, 0.98, 0.4)
+        expect(page).not_to_have_url(before)
+        shows(page, page.url.partition("?")[2])
+        expect(page.locator(".ss-stale")).to_have_count(0)
+        expect(page.get_by_role("alert").filter(has_text=re.compile("."))).to_have_count(0)
+        page.go_back()
+        expect(page).to_have_url(before)
+        shows(page, before.partition("?")[2])
 
 
 def test_a_slider_goes_by_the_arrow_keys(visit: Visit, server: SmallServer) -> None:
@@ -337,18 +336,7 @@ def test_files_are_those_of_the_design(visit: Visit, server: SmallServer) -> Non
         expect(page.get_by_role("link", name=name)).to_have_attribute("href", f"{server.url}{kind}?{DESIGN}&L=62")
 
 
-WIDE, NARROW = {"width": 1280, "height": 800}, {"width": 360, "height": 740}
-
-
-@pytest.mark.parametrize(("size", "scheme"), [(WIDE, "light"), (NARROW, "dark")], ids=["desktop", "phone"])
-def test_it_is_accessible(visit: Visit, server: SmallServer, size: Any, scheme: Any) -> None:
-    visit.page.set_viewport_size(size)
-    visit.page.emulate_media(color_scheme=scheme)
-    page = opened(visit, server, f"?{DESIGN}&within=0.38#A={DESIGN.replace('&', '%26').replace('=', '%3D')}")
-    expect(page.get_by_role("button", name="Remove design A")).to_be_visible()
-    page.get_by_text("Further options").click()
-    found = Axe().run(page)
-    assert found.violations_count == 0, found.generate_report()
+NARROW = {"width": 360, "height": 740}
 
 
 def test_on_a_phone_the_answer_stays_in_sight_and_nothing_is_wider(visit: Visit, server: SmallServer) -> None:
