@@ -5,7 +5,10 @@ from __future__ import annotations
 import json
 from typing import Any
 
+import pytest
 from playwright.sync_api import Page
+
+pytest.importorskip("anywidget", reason="the extra notebook is not installed")
 
 from reports.explorer.widget import Explorer
 

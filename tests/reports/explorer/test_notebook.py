@@ -9,8 +9,11 @@ from importlib.metadata import EntryPoint
 from pathlib import Path
 
 import pytest
-from IPython.core.formatters import DisplayFormatter
 from playwright.sync_api import Page, expect
+
+pytest.importorskip("IPython", reason="it comes with the extra notebook, which is not installed")
+
+from IPython.core.formatters import DisplayFormatter
 
 from reports.explorer import notebook
 from reports.explorer.notebook import schedule_html

@@ -12,6 +12,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from playwright.sync_api import Page, expect
 
+pytest.importorskip("anywidget", reason="the extra notebook is not installed")
+
 from reports import Explorer
 from sched_sim.errors import InputError
 from studies.explorer.design import Design

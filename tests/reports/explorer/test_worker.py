@@ -7,6 +7,10 @@ from collections.abc import MutableMapping
 from threading import Event
 from typing import Any
 
+import pytest
+
+pytest.importorskip("starlette", reason="the extra explore is not installed")
+
 from reports.explorer.answer import Answer
 from reports.explorer.guard import App
 from reports.explorer.server import MOST_WAITING
