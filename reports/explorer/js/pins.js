@@ -1,5 +1,6 @@
 // Designs put aside to compare: a letter each, a column of what they come to, and a mark in the plots.
 
+import { inPageWords } from "./fields.js";
 import { html, digits } from "./svg.js";
 import { accuracyText, powerText } from "./verdicts.js";
 
@@ -32,7 +33,7 @@ export function pinboard(host, id, { ask, onTake, onPins }) {
       try {
         pin.view = await ask(pin.query);
       } catch (error) {
-        pin.refused = error.message;
+        pin.refused = inPageWords(error.message);
       }
       onPins(text());
     }

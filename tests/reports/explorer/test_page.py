@@ -182,6 +182,12 @@ def test_a_refusal_is_in_the_words_of_the_page(visit: Visit, server: SmallServer
     visit.errors.remove(*(error for error in visit.errors if "422" in error))
 
 
+def test_so_is_that_of_a_pinned_design(visit: Visit, server: SmallServer) -> None:
+    page = opened(visit, server, f"?{DESIGN}#A=hr_hz%3D400%26measurement_hz%3D5%26delay_ms%3D1000")
+    expect(page.get_by_text("A: Delay is longer than Measurement rate allows")).to_be_visible()
+    visit.errors.remove(*(error for error in visit.errors if "422" in error))
+
+
 def test_a_link_that_is_refused_says_why_and_can_be_mended(visit: Visit, server: SmallServer) -> None:
     page = opened(visit, server, "?N=10&M=12&L=8")
     expect(page.get_by_role("alert").filter(has_text="must be > M=12")).to_be_visible()
