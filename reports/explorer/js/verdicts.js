@@ -31,7 +31,7 @@ export function methodsTable({ host, least, why }, view, onTake) {
 
 /** The table of parts in `host`. */
 export function partsTable({ host, why }, view, onTake) {
-  const share = (value, text) => (value === null ? "–" : `${text(100 * value.value, SHARE_DIGITS)} %`);
+  const share = (value, text) => (value === null ? "–" : `${text(percentOf(value.value), SHARE_DIGITS)} %`);
   const order = "Those that do come first, by price; without one, by how little they have to spare";
   table(host, {
     caption: `Pick a part to see ${view.design.method} on it. ${order}`,
@@ -114,6 +114,11 @@ function briefTitle(title) {
   const [name, example = ""] = title.split(", ");
   const both = `${name}, ${example}`;
   return example.startsWith("e.g.") && both.length <= MOST_LETTERS ? both : name;
+}
+
+/** A share in percent, without what the product of floats adds: 110, not 110.00000000000001. */
+export function percentOf(share) {
+  return Number((100 * share).toPrecision(15));
 }
 
 /** A speed in a unit of `power`, as the sentence that answers has it. */

@@ -42,3 +42,9 @@ def test_an_accuracy_is_rounded_as_in_the_answer(ask: Ask, values: list[float]) 
 )
 def test_a_speed_has_the_digits_of_the_answer(speed: float | None, short: str, text: str, ask: Ask) -> None:
     assert ask("return of.powerText(a, b);", speed, {"short": short}) == text
+
+
+def test_a_share_in_percent_is_rounded_as_in_the_answer(ask: Ask) -> None:
+    shares = [Fraction(thousandths, 1000) for thousandths in range(1, 2000)]
+    percents = ask("return a.map(of.percentOf);", [float(share) for share in shares])
+    assert [no_less(written(percent), 3) for percent in percents] == [no_less(100 * share, 3) for share in shares]
