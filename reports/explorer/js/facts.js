@@ -46,7 +46,7 @@ export function jobFacts(line, job) {
 /** By how much a job met its deadline or missed it. */
 function verdictOf(line, { missed, start, finish, deadline }) {
   if (!missed && finish === null) return "is not finished, and not yet due";
-  if (finish === deadline) return "meets its deadline, with nothing to spare";
+  if (finish === deadline) return missed ? "misses its deadline, by less than is shown" : "meets its deadline, with nothing to spare";
   if (!missed) return `meets its deadline, ${bothUnits(line, deadline - finish)} to spare`;
   if (finish !== null) return `misses its deadline by ${bothUnits(line, finish - deadline)}`;
   return start === null ? "misses its deadline: it never gets the processor" : "misses its deadline: it never finishes";

@@ -35,6 +35,13 @@ def test_a_job_meets_its_deadline_or_misses_it(job: tuple[float, float | None, f
     assert ask(SAID, by_hand(3, [job]), line) == verdict
 
 
+def test_a_miss_of_less_than_floats_tell_apart_is_a_miss(ask: Ask) -> None:
+    schedule = by_hand(3, [(0, 1, 1)])
+    schedule["jobs"]["missed"] = [True]
+    line = {"periodMs": 2, "rows": [{"cpu": ""}], "pieces": [[0]]}
+    assert ask(SAID, schedule, line) == "misses its deadline, by less than is shown"
+
+
 def test_a_job_that_never_ran_is_said_to_have_never_got_the_processor(ask: Ask) -> None:
     schedule = by_hand(3, [(0, None, 1)])
     schedule["jobs"]["start"] = [None]
