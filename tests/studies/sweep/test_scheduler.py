@@ -62,6 +62,7 @@ def test_no_scheduler_answers(monkeypatch, sched_sim):
 def test_what_listens_is_not_of_dask(sched_sim, greeting):
     """Dask takes it for lengths: of more than memory holds, of nothing, of a message without parts."""
     with socket.create_server(("127.0.0.1", 0)) as server:
+        server.settimeout(60)  # a sweep that asks nobody fails the test, and does not hold it
         address = f"tcp://127.0.0.1:{server.getsockname()[1]}"
         with ThreadPoolExecutor(1) as pool:
             met = pool.submit(lambda: server.accept()[0])
