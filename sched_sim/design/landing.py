@@ -18,6 +18,7 @@ def landing(costs: Costs, timing: Timing, pace: Fraction, options: Options, task
 
     pace: the speed, in cost units per HR period.
     """
+    own = costs
     costs, timing = of_bound(costs, timing)
     if phases_matter(tasks):
         from sched_sim.design.any_phase import worst_landing
@@ -25,7 +26,7 @@ def landing(costs: Costs, timing: Timing, pace: Fraction, options: Options, task
         return worst_landing(costs, timing, pace, options, tasks)
     if not has_closed_form(options, tasks, costs, timing):
         before = alone(costs, timing, options, tasks)
-        if before is not None and (landed := landing(costs, before, pace, options, tasks)) is not None:
+        if before is not None and (landed := landing(own, before, pace, options, tasks)) is not None:
             return landed
         from sched_sim.design.steady import run_until_steady
 

@@ -69,6 +69,7 @@ def least_speed(
     """
     tasks = checked(timing, options, tasks)
     method_of(costs).check_design(costs, timing, options.feedback)
+    own = costs
     costs, timing = of_bound(costs, timing)
     if not has_closed_form(options, tasks, costs, timing):
         if phases_matter(tasks):
@@ -78,7 +79,7 @@ def least_speed(
         from sched_sim.design.search import least_speed_by_simulation
 
         before = alone(costs, timing, options, tasks)
-        enough = None if before is None else least_speed(costs, before, options)
+        enough = None if before is None else least_speed(own, before, options)
         floor = _floor(costs, timing, options)
         if before is not None and enough is not None:
             known = enough.speed == floor or gains_nothing(costs, timing, before, enough.speed, floor, options)
@@ -107,7 +108,7 @@ def least_speed_range(
     before = alone(at, bound, options, tasks)
     if before is None:
         return Fraction(0), None
-    return _floor(at, bound, options), least_speed(at, before, options).speed
+    return _floor(at, bound, options), least_speed(costs, before, options).speed
 
 
 def achieved_l(costs: Costs, timing: Timing, speed: Number, options: Options = Options()) -> int | None:

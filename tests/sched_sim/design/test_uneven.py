@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 from sched_sim.costs.table_file import load_costs
 from sched_sim.design.highest_rate import highest_rate
+from sched_sim.design.landing import landing
 from sched_sim.design.least_speed import least_speed
 from sched_sim.design.load import loads
 from sched_sim.design.long_pattern import LONGEST_PATTERN, without_restarts
@@ -150,6 +151,16 @@ def test_a_long_pattern_has_that_bound() -> None:
     assert timing.taken.steps > LONGEST_PATTERN
     bound = least_speed(without_restarts(costs), Timing(timing.N, timing.M, timing.L))
     assert least_speed(costs, timing) == bound
+
+
+def test_of_a_long_pattern_a_later_landing_needs_no_more() -> None:
+    """Than that before the next measurement, which has a closed form."""
+    costs = select(load_costs("counted-9-3-3"), "dual-rate")
+    later = Timing(70, 13, 95, Times.of("0.91", 190).instants(Fraction(64)))
+    assert later.taken.steps > LONGEST_PATTERN
+    least = least_speed(costs, later)
+    assert least == least_speed(costs, Timing(70, 13, 70))
+    assert landing(costs, later, least.speed, Options(), ()) == 34
 
 
 @pytest.mark.parametrize("method", SEVERAL)
