@@ -32,7 +32,7 @@ def started() -> Iterator[Browser]:
 
 
 class Visit:
-    """A page of a context of its own, and what went wrong on it: errors, and requests that leave the machine."""
+    """A page, and what went wrong on it: errors, and requests that leave the machine."""
 
     def __init__(self, context: BrowserContext) -> None:
         self.page: Page = context.new_page()
@@ -41,6 +41,16 @@ class Visit:
         self.page.on("pageerror", lambda error: self.errors.append(str(error)))
         self.page.on("console", lambda said: self.errors.append(said.text) if said.type == "error" else None)
         context.on("request", lambda request: self.requests.append(request.url))
+
+    def begin(self) -> None:
+        """As a new page is."""
+        self.page.unroute_all()
+        self.page.goto("about:blank")
+        self.page.set_viewport_size({"width": 1280, "height": 720})
+        self.page.emulate_media(
+            media="null", color_scheme="light", reduced_motion="no-preference", forced_colors="none"
+        )
+        self.errors, self.requests = [], []
 
     @property
     def outside(self) -> list[str]:

@@ -16,12 +16,20 @@ def browser() -> Iterator[Browser]:
         yield browser
 
 
-@pytest.fixture
-def visit(browser: Browser) -> Iterator[Visit]:
-    """At the end: no error was raised on the page, and nothing was asked of another machine."""
+@pytest.fixture(scope="session")
+def page_of_all(browser: Browser) -> Iterator[Visit]:
+    """A new page takes longer than most of what is tried on it."""
     context = browser.new_context()
-    visit = Visit(context)
-    yield visit
+    yield Visit(context)
     context.close()
-    assert visit.errors == []
-    assert visit.outside == []
+
+
+@pytest.fixture
+def visit(page_of_all: Visit) -> Iterator[Visit]:
+    """Empty, whatever other tests did. At the end: no error was raised on the page, and nothing was asked of another
+    machine."""
+    page_of_all.begin()
+    yield page_of_all
+    page_of_all.page.goto("about:blank")
+    assert page_of_all.errors == []
+    assert page_of_all.outside == []

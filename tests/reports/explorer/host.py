@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from itertools import count
 from typing import Any
 
 import pytest
@@ -32,21 +33,24 @@ const model = {
   save_changes: async () => {
     const sent = Object.fromEntries([...changed].map((name) => [name, state[name]]));
     changed.clear();
-    if (Object.keys(sent).length) take(await window.python(sent));
+    if (Object.keys(sent).length) take(await window.%s(sent));
   },
 };
 window.take = take;
 window.end = widget.render({ model, el: document.querySelector("main") });
 </script>"""
+NUMBERS = count()
+"""A page keeps what is exposed to it."""
 SYNCED = ("query", "answered", "error", "view")
 
 
 def hosted(page: Page, widget: Explorer, *, answers: bool = True) -> None:
     """Shows it. Changes of the model are set on the widget, whose state comes back, as a comm would bring it; unless it
     does not answer."""
-    page.expose_function("python", lambda sent: _set(widget, sent) if answers else {})
+    name = f"python{next(NUMBERS)}"
+    page.expose_function(name, lambda sent: _set(widget, sent) if answers else {})
     script = widget._esm.replace("export default", "const widget =")
-    page.set_content(HOST % (widget._css, script, json.dumps(state(widget)).replace("<", r"\\u003c")))
+    page.set_content(HOST % (widget._css, script, json.dumps(state(widget)).replace("<", r"\\u003c"), name))
 
 
 def state(widget: Explorer) -> dict[str, Any]:

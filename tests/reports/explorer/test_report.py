@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from axe_playwright_python.sync_playwright import Axe
-from playwright.sync_api import Browser, Locator, Page
+from playwright.sync_api import Browser, Locator, Page, expect
 
 from reports.charts.panels import method_panel
 from reports.pages import alive
@@ -116,7 +116,7 @@ def test_a_figure_that_says_more_than_its_chart_is_seen_first(visit: Visit) -> N
     assert picture.is_visible()
     timeline.get_by_role("button", name="Show the chart").click()
     assert picture.is_hidden()
-    assert timeline.locator(".ss-gantt-range").inner_text() == "steps 9 to 20"
+    expect(timeline.locator(".ss-gantt-range")).to_have_text("steps 9 to 20")
 
 
 def test_on_paper_a_figure_is_its_picture(visit: Visit) -> None:
