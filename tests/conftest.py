@@ -53,13 +53,16 @@ def pytest_collection_finish() -> None:
     gc.set_threshold(50_000, 20, 100)
 
 
-def pytest_runtest_setup(item: pytest.Item) -> None:
+@pytest.hookimpl(wrapper=True, tryfirst=True)
+def pytest_runtest_setup(item: pytest.Item) -> Generator[None, object, object]:
     """Leaves out the backend c where there is no C compiler."""
     from tests.c_compiler import has_c  # it loads BLAS
 
     callspec = getattr(item, "callspec", None)
     if callspec is not None and callspec.params.get("backend") == "c" and not has_c():
         pytest.skip("there is no C compiler")
+    with _loop_of_a_browser_aside(item):
+        return (yield)
 
 
 @contextmanager
@@ -77,7 +80,16 @@ def _loop_of_a_browser_aside(item: pytest.Item) -> Iterator[None]:
 
 
 @pytest.hookimpl(wrapper=True, tryfirst=True)
-def pytest_runtest_protocol(item: pytest.Item) -> Generator[None, object, object]:
+def pytest_runtest_call(item: pytest.Item) -> Generator[None, object, object]:
+    with _loop_of_a_browser_aside(item):
+        return (yield)
+
+
+@pytest.hookimpl(wrapper=True, tryfirst=True)
+def pytest_runtest_teardown(item: pytest.Item, nextitem: pytest.Item | None) -> Generator[None, object, object]:
+    """With the last test of all the browser is closed, by its loop."""
+    if nextitem is None:
+        return (yield)
     with _loop_of_a_browser_aside(item):
         return (yield)
 
