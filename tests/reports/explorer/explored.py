@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import re
 import signal
 import subprocess
 import sys
@@ -16,7 +15,7 @@ from urllib.error import HTTPError
 from urllib.parse import urlsplit
 from urllib.request import urlopen
 
-from playwright.sync_api import Page, expect
+from playwright.sync_api import Page
 
 from tests.browser import Visit
 
@@ -79,12 +78,12 @@ def exploring(*options: str) -> Iterator[Explorer]:
 def opened(visit: Visit, explorer: Explorer, query: str | None = None) -> Page:
     """The page with its first picture; query: by default that of the command."""
     visit.page.goto(explorer.first if query is None else f"{explorer.base}?{query}")
-    expect(visit.page.locator(".ss-explorer")).to_have_attribute("data-shown", re.compile("."))
+    visit.page.wait_for_selector('.ss-explorer[data-shown]:not([data-shown=""])')
     return visit.page
 
 
 def shown(page: Page, explorer: Explorer) -> Mapping[str, Any]:
     """The view of the address, once it is drawn."""
     view: Mapping[str, Any] = explorer.view(page.url.partition("?")[2].partition("#")[0])
-    expect(page.locator(".ss-explorer:not(.ss-stale)")).to_have_attribute("data-shown", view["query"])
+    page.wait_for_selector(f'.ss-explorer:not(.ss-stale)[data-shown="{view["query"]}"]')
     return view

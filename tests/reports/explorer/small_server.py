@@ -12,6 +12,9 @@ from typing import Any
 from reports.explorer.module import asset, module, stylesheet
 from tests.reports.explorer.made_view import RefusedError, made_view
 
+POLL_S = 0.01
+"""How soon it sees that it is to end: a test waits for that."""
+
 POLICY = "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; img-src 'self' data:"
 
 
@@ -75,7 +78,7 @@ class SmallServer:
 
         server = Server(("127.0.0.1", self.port), Handler)
         self.port = server.server_address[1]
-        thread = threading.Thread(target=server.serve_forever, daemon=True)
+        thread = threading.Thread(target=server.serve_forever, args=(POLL_S,), daemon=True)
         thread.start()
         try:
             yield self

@@ -26,13 +26,13 @@ def server() -> Iterator[SmallServer]:
 def opened(visit: Visit, server: SmallServer, link: str = "") -> Page:
     """The page of a link, with its first picture."""
     visit.page.goto(server.url + link)
-    expect(visit.page.locator(".ss-explorer")).to_have_attribute("data-shown", re.compile("."))
+    visit.page.wait_for_selector('.ss-explorer[data-shown]:not([data-shown=""])')
     return visit.page
 
 
 def shows(page: Page, text: str) -> None:
     """What the view that is drawn was asked for."""
-    expect(page.locator(".ss-explorer")).to_have_attribute("data-shown", text)
+    page.wait_for_selector(f'.ss-explorer[data-shown="{text}"]')
 
 
 def test_without_a_link_it_begins_with_a_design_and_can_be_changed(visit: Visit, server: SmallServer) -> None:

@@ -42,7 +42,7 @@ def elsewhere(tmp_path: Path) -> Iterator[int]:
     """The port of another server."""
     (tmp_path / "index.html").write_text("<!doctype html><title>elsewhere</title><p>here", encoding="utf-8")
     server = ThreadingHTTPServer(("127.0.0.1", 0), partial(Handler, directory=tmp_path))
-    Thread(target=server.serve_forever, daemon=True).start()
+    Thread(target=server.serve_forever, args=(0.01,), daemon=True).start()
     yield server.server_address[1]
     server.shutdown()
     server.server_close()
