@@ -27,7 +27,7 @@ class _Connection(H11Protocol):
 
     _since = 0.0
 
-    def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
+    def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]  # of TCP alone
         super().connection_made(transport)
         self._since = self.loop.time()
         waiting = [of for of in self.connections if isinstance(of, _Connection) and of._waits and of is not self]
