@@ -6,6 +6,7 @@ import asyncio
 import gc
 import os
 import shlex
+import signal
 import sys
 from collections.abc import Generator, Iterator
 from contextlib import contextmanager
@@ -24,6 +25,8 @@ from tests.exhaust import figures
 # machine has cores, in each process of xdist, and wait for one another.
 os.environ["MPLBACKEND"] = "Agg"
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
+signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's background job ignores it, and so would the tests'
 
 ANY_TIME: dict[str, Any] = {"deadline": None, "suppress_health_check": [HealthCheck.too_slow]}  # of a busy machine
 settings.register_profile("ci", max_examples=15, derandomize=True, print_blob=True, **ANY_TIME)
