@@ -79,10 +79,11 @@ def test_each_row_is_a_list_where_no_table_fits(terminal: Run) -> None:
 def test_a_table_into_a_pipe_is_as_wide_as_it_needs_to_be(
     sched_sim: Run, monkeypatch: pytest.MonkeyPatch, columns: str | None
 ) -> None:
-    monkeypatch.delenv("COLUMNS")
-    if columns is not None:
-        monkeypatch.setenv("COLUMNS", columns)
-    out = sched_sim(f"simulate --scenario {ROCKET}").out
+    with monkeypatch.context() as environment:  # `pytest -v` reads it too
+        environment.delenv("COLUMNS")
+        if columns is not None:
+            environment.setenv("COLUMNS", columns)
+        out = sched_sim(f"simulate --scenario {ROCKET}").out
     assert "left out" not in out
     assert re.search(r"job +jobs +finished +min +mean +median +p95 +p99 +max +missed +P\(miss\) +95 % interval", out)
 
