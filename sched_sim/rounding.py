@@ -15,6 +15,13 @@ def no_less(value: Fraction, digits: int) -> str:
     return f"{float(up(value, digits)):.{max(digits, 15)}g}"
 
 
+def percent_up(share: Figure) -> str:
+    """A share that is needed, in percent, to three digits: what is more than all never looks like all. Five digits and
+    more have commas."""
+    number = Decimal(up(100 * written(share), 3))
+    return f"{number:{',' if number >= 10_000 else ''}f} %"
+
+
 def up(value: Figure, digits: int) -> str:
     """To so many digits, whole numbers in full."""
     return _rounded(value, digits, ROUND_CEILING)
@@ -37,4 +44,4 @@ def _rounded(value: Figure, digits: int, way: str) -> str:
     context = Context(prec=most, rounding=way)
     number = context.divide(Decimal(exact.numerator), Decimal(exact.denominator))
     places = max(digits - 1 - number.adjusted(), 0)
-    return f"{number.quantize(Decimal(1).scaleb(-places), context=context):f}"
+    return f"{number.quantize(Decimal(1).scaleb(-places), context=Context(prec=most + 1)):f}"

@@ -15,7 +15,7 @@ from sched_sim.cli.processors import Parts
 from sched_sim.costs.table import units
 from sched_sim.design.options import Options
 from sched_sim.errors import InputError, option
-from sched_sim.rounding import no_less
+from sched_sim.rounding import no_less, percent_up
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -295,9 +295,7 @@ def _figure(value: float | None) -> str | None:
 
 
 def _percent(share: Any) -> str | None:
-    from studies.selection.parts import percent
-
-    return None if share is None else percent(share)
+    return None if share is None else percent_up(share)
 
 
 TOO_SLOW = "too slow"

@@ -7,7 +7,7 @@ from decimal import Decimal
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from sched_sim.rounding import Figure, down, up, written
+from sched_sim.rounding import Figure, down, percent_up, up, written
 
 if TYPE_CHECKING:
     from sched_sim.design.fit import Fit
@@ -91,10 +91,6 @@ def _limit(value: Figure) -> str:
     return down(exact, 4)
 
 
-def _percent(rounded: Callable[[Figure, int], str]) -> Callable[[Figure], str]:
-    return lambda value: f"{rounded(100 * value, 3)} %"
-
-
 HIGHEST_HR_HZ = "highest HR Hz"
 
 MOST_SHOWN_DIGITS, MOST_SHOWN_DENOMINATOR = 12, 1000
@@ -102,9 +98,9 @@ MOST_SHOWN_DIGITS, MOST_SHOWN_DENOMINATOR = 12, 1000
 
 WORDS: dict[str, tuple[str, Callable[[Any], str]]] = {
     "needs, MHz": ("needed_mhz", lambda value: up(value, 4)),
-    "of its speed": ("needed_share", _percent(up)),
-    "slack": ("slack", _percent(down)),
-    "load": ("load", _percent(up)),
+    "of its speed": ("needed_share", percent_up),
+    "slack": ("slack", lambda value: f"{down(100 * value, 3)} %"),
+    "load": ("load", percent_up),
     "lands after, ms": ("correction_ms", lambda value: f"{float(value):.6g}"),
     HIGHEST_HR_HZ: ("highest_hr_hz", _limit),
 }

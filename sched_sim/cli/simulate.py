@@ -18,7 +18,7 @@ from sched_sim.cli.outputs import refuse_one_file_for_two
 from sched_sim.cli.progress import progress_bar
 from sched_sim.design.options import Options
 from sched_sim.errors import InputError
-from sched_sim.rounding import no_less
+from sched_sim.rounding import percent_up
 
 if TYPE_CHECKING:
     from sched_sim.design.pieces import Costs
@@ -281,7 +281,7 @@ def of_the_start(costs: Costs, timing: Timing, speed: Fraction, options: Options
     load = loads(costs, timing, speed, options)[0]
     return (
         f"shown from the start on: no measurement is there before step {timing.M}; once the filter has been running, "
-        f"the load is {no_less(100 * load, 3)} %"
+        f"the load is {percent_up(load)}"
     )
 
 

@@ -78,7 +78,8 @@ class Part:
     operations around each arithmetic one, for jobs that do not count their own. sources: where each figure is from,
     by its name in the file. path: where the file was read from, for messages. calibration: of code that multiplies
     zeros, sparse_calibration: of code that leaves them out; None where nothing was measured; they change no time.
-    price: of one, in whatever currency all files have it; None where it is not known.
+    price: of one, in whatever currency all files have it; None where it is not known. for_sale: not where it is the
+    machine of a publication, which is named only where no other does.
     cycles_per_instruction: for tables of instructions; None where it is not stated.
     """
 
@@ -93,6 +94,7 @@ class Part:
     calibration: Calibration | None = None
     sparse_calibration: Calibration | None = None
     price: Fraction | None = None
+    for_sale: bool = True
     cycles_per_instruction: CyclesPerInstruction | None = None
 
 

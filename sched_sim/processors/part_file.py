@@ -7,7 +7,16 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, model_validator
+from pydantic import (
+    AfterValidator,
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Field,
+    StrictBool,
+    ValidationError,
+    model_validator,
+)
 
 from sched_sim.costs.operations import OPERATION_KINDS
 from sched_sim.errors import InputError, option
@@ -120,6 +129,7 @@ class _ProcessorFile(BaseModel):
     sparse_calibration: Annotated[_Calibration, BeforeValidator(_range)] | None = None
     cycles_per_instruction: _CyclesPerInstruction | None = None
     price: Annotated[_Number, AfterValidator(lambda price: positive(price, "the number"))] | None = None
+    for_sale: StrictBool = True
     cycles: _InCycles = {}
     microseconds: _InMicroseconds = {}
 
@@ -189,6 +199,7 @@ def read_part(path: Path, shown: str = "", argument: str | None = None) -> Part:
         calibration=_calibration(checked.calibration),
         sparse_calibration=_calibration(checked.sparse_calibration),
         price=checked.price,
+        for_sale=checked.for_sale,
         cycles_per_instruction=(
             None
             if checked.cycles_per_instruction is None

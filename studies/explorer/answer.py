@@ -8,7 +8,7 @@ from math import ceil, isfinite
 from typing import Literal
 
 from sched_sim.errors import option
-from sched_sim.rounding import no_less
+from sched_sim.rounding import no_less, percent_up
 from sched_sim.schedule.intervals import TASK
 from studies.explorer.accuracy import Accuracy
 from studies.explorer.methods import binding_words
@@ -16,7 +16,7 @@ from studies.explorer.planned import Planned
 from studies.explorer.query import number_text
 from studies.explorer.resolved import Resolved
 from studies.explorer.schedule import Timeline
-from studies.explorer.words import bound, figure, lands, listed, named, needs, place, share, within
+from studies.explorer.words import bound, figure, lands, listed, named, needs, place, within
 from studies.selection.choice import Candidate
 from studies.selection.methods import METHODS
 from studies.selection.parts import OnPart
@@ -215,7 +215,7 @@ def _takes(found: Found) -> str:
     asked, plan = found.asked, found.plan
     if asked.design.speed is not None or asked.pace is None:
         return f", and it needs {needs(asked, plan.least.speed)}"
-    return f", and it takes {share(plan.least.speed / asked.pace)} of the {'part' if asked.part else 'machine'}"
+    return f", and it takes {percent_up(plan.least.speed / asked.pace)} of the {'part' if asked.part else 'machine'}"
 
 
 def _cheapest(found: Found) -> str:
@@ -223,8 +223,8 @@ def _cheapest(found: Found) -> str:
     allowed = within(found.asked)
     for on in found.parts:
         enough = allowed is None or (on.std is not None and on.std <= allowed)
-        if on.part is not None and on.fits and on.needed is not None and enough:
-            return f"; {on.name} would do: {share(on.needed)} of it is needed"
+        if on.part is not None and on.for_sale and on.fits and on.needed is not None and enough:
+            return f"; {on.name} would do: {percent_up(on.needed)} of it is needed"
     return ""
 
 

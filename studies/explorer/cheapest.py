@@ -66,9 +66,11 @@ class _Known:
     @property
     def rank(self) -> tuple[int, Fraction]:
         """The best that it may have among those that do, by cost, but for the load that decides between equals."""
-        price = None if self.part is None else self.part.price
+        price, for_sale = (None, True) if self.part is None else (self.part.price, self.part.for_sale)
         most = Fraction(1) if self.high is None else min(self.high / self.pace, Fraction(1))
-        return (1, -most) if price is None else (0, price)
+        if price is None or not for_sale:
+            return (1 if for_sale else 2), -most
+        return 0, price
 
     def exactly(self, timing: Timing, options: Options, tasks: Sequence[Task]) -> _Known:
         speed = self.low if self.is_exact else least_speed(self.costs, timing, options, tasks).speed

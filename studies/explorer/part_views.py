@@ -9,12 +9,14 @@ from studies.explorer.query import query_of
 from studies.explorer.resolved import Resolved
 from studies.selection.parts import OnPart
 
+NOT_FOR_SALE = "not for sale: it is shown for comparison, and named only where no other does"
+
 
 @dataclass(frozen=True, slots=True)
 class PartView:
     """needed: the share of its speed at which every deadline holds, load: the share of its time that it is busy; both
-    None where nothing is known of it, and the reason says why. landed: the L at which corrections land there, None if
-    it is too slow; std: the figure of the output then. query: of the design on it."""
+    None where nothing is known of it, and the reason says why, or that it is not for sale. landed: the L at which
+    corrections land there, None if it is too slow; std: the figure of the output then. query: of the design on it."""
 
     name: str
     title: str
@@ -41,6 +43,6 @@ def part_view(asked: Resolved, on: OnPart) -> PartView:
         asked.sampling.ms(on.landed),
         on.std,
         None if on.price is None else float(on.price),
-        on.remark,
+        on.remark or ("" if on.for_sale else NOT_FOR_SALE),
         query_of(design),
     )

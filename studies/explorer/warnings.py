@@ -13,9 +13,9 @@ from sched_sim.design.less_work import enough_for_less, holds_for_less
 from sched_sim.design.methods import method_of
 from sched_sim.errors import option
 from sched_sim.processors.part import ranged
-from sched_sim.rounding import down
+from sched_sim.rounding import down, percent_up
 from studies.explorer.answer import Found
-from studies.explorer.words import needs, place, share
+from studies.explorer.words import needs, place
 from studies.selection.remarks import BOUND
 
 LITTLE = Fraction(1, 20)
@@ -90,10 +90,10 @@ def _calibrated(found: Found) -> Iterator[str]:
     if known is None:
         yield f"what {part.name} takes over what is counted was never measured: {time_it}"
     elif plan.fits and needed * known.most > 1:
-        most = share(needed * known.most)
+        most = percent_up(needed * known.most)
         yield f"fits by counts, but {part.name} took {known.text} of them, and may need {most} of its speed: {time_it}"
     elif not plan.fits and needed * known.least <= 1 < needed:
-        least = share(needed * known.least)
+        least = percent_up(needed * known.least)
         yield f"too slow by counts, but {part.name} took {known.text} of them, and may need only {least}: {time_it}"
 
 

@@ -7,7 +7,7 @@ from fractions import Fraction
 
 from sched_sim.costs.table import units
 from sched_sim.errors import option
-from sched_sim.rounding import no_less, written
+from sched_sim.rounding import no_less, percent_up, written
 from sched_sim.ticks import exact
 from studies.explorer.query import number_text
 from studies.explorer.resolved import Resolved
@@ -23,15 +23,10 @@ def machine(asked: Resolved) -> str:
     return f"the machine of {asked.table.name}" if asked.part is None else asked.part.name
 
 
-def share(value: Fraction) -> str:
-    """Of a processor's speed or time."""
-    return f"{no_less(100 * value, 3)} %"
-
-
 def needs(asked: Resolved, speed: Fraction) -> str:
     """A speed, in percent of the machine if there is one."""
     if asked.machine_pace is not None:
-        return f"{share(speed / asked.machine_pace)} of {machine(asked)}"
+        return f"{percent_up(speed / asked.machine_pace)} of {machine(asked)}"
     if asked.table.unit == "second":
         return f"{no_less(10**6 * speed, 5)} us per HR period"
     return f"{no_less(speed, 5)} {units(asked.table.unit)} per HR period"

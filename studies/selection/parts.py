@@ -6,7 +6,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from math import ceil
 from typing import NamedTuple
 
 from sched_sim.costs.table import SECONDS, CostTable
@@ -19,6 +18,7 @@ from sched_sim.design.pieces import Costs, Statistic
 from sched_sim.design.timing import Timing
 from sched_sim.errors import InputError
 from sched_sim.processors.part import Part, on_part
+from sched_sim.rounding import percent_up
 from sched_sim.schedule.tasks import Task
 
 
@@ -46,6 +46,11 @@ class OnPart:
         return None if self.part is None else self.part.price
 
     @property
+    def for_sale(self) -> bool:
+        """As in `Part`."""
+        return self.part is None or self.part.for_sale
+
+    @property
     def fits(self) -> bool:
         return self.landed is not None
 
@@ -55,18 +60,16 @@ class OnPart:
 
 
 def by_cost(on: OnPart) -> tuple[int, Fraction, Fraction]:
-    """First what runs it: by price, those without one after the others, the one with the least to spare first; then
-    what is too slow, the nearest first; last what nothing is known of. Of equals the less busy one."""
+    """First what runs it: by price, those without one after the others, the one with the least to spare first, and then
+    what is not for sale; then what is too slow, the nearest first; last what nothing is known of. Of equals the less
+    busy one."""
     if on.needed is None or on.load is None:
-        return 3, Fraction(0), Fraction(0)
+        return 4, Fraction(0), Fraction(0)
     if not on.fits:
-        return 2, on.needed, on.load
+        return 3, on.needed, on.load
+    if not on.for_sale:
+        return 2, -on.needed, on.load
     return (1, -on.needed, on.load) if on.price is None else (0, on.price, on.load)
-
-
-def percent(share: Fraction) -> str:
-    """To three digits; above 100 whole numbers, rounded up, so that what is too much never looks like all."""
-    return f"{float(100 * share):.3g} %" if share <= 1 else f"{ceil(100 * share):,} %"
 
 
 def too_slow(looked: Sequence[OnPart]) -> str:
@@ -77,7 +80,7 @@ def too_slow(looked: Sequence[OnPart]) -> str:
     which = f"{nearest.name} is too slow: it"
     if nearest.part is not None:
         which = f"no part is fast enough: the nearest, {nearest.name},"
-    return f"{which} needs {percent(nearest.needed)} of its speed"
+    return f"{which} needs {percent_up(nearest.needed)} of its speed"
 
 
 class Place(NamedTuple):

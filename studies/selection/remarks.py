@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 from filters.accuracy.pattern import repeats_soon
 from sched_sim.errors import option
+from sched_sim.rounding import percent_up
 from studies.selection.choice import Candidate, Choice
-from studies.selection.parts import percent
 from studies.selection.question import Accuracies, Question
 
 BOUND = (
@@ -44,8 +44,8 @@ def _no_part(choice: Choice) -> Iterator[str]:
             f"out for all that ship"
         )
     yield (
-        f"{none}: {on.name} would need {percent(on.needed)} of its speed, with {of.variant.method}; {faster}, give a "
-        f"slower {option('hr_hz')}, or use fewer measurements and allow more {option('within')}"
+        f"{none}: {on.name} would need {percent_up(on.needed)} of its speed, with {of.variant.method}; {faster}, give "
+        f"a slower {option('hr_hz')}, or use fewer measurements and allow more {option('within')}"
     )
 
 

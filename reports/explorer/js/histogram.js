@@ -88,7 +88,7 @@ export function histogram(host) {
     const inside = (given.points?.x ?? []).map((at, index) => [at, index]).filter(([at]) => at >= from && at < until);
     const points = inside.map(([, index]) => [POINTS_LOOK, given.points.name, given.points.y[index]]);
     const told = [[BARS_LOOK, given.y.label, given.bars[bin]], ...tails, ...points];
-    const rows = told.map(([look, name, share]) => ({ sign: pathSample(look), name, text: digits(share, 3) }));
+    const rows = told.map(([look, name, share]) => ({ sign: pathSample(look), name, text: digits(share) }));
     const heard = aloud ? rows.map(({ name, text }) => `${name} ${text}`).join(", ") : null;
     const middle = laid.x((from + until) / 2);
     read.tell({ x: middle, box: laid.box, heading: binText(given, bin), rows, dots: [], aloud: heard });

@@ -2,7 +2,7 @@
 
 import { inPageWords } from "./fields.js";
 import { html, digits } from "./svg.js";
-import { accuracyText, powerText } from "./verdicts.js";
+import { accuracyText, percentText, powerText } from "./amounts.js";
 
 const MOST = 8;
 const LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ";
@@ -120,13 +120,13 @@ const ROWS = [
 
 /* Of a design that is on no part. */
 function wouldDo(parts) {
-  const part = parts.find(({ fits }) => fits);
+  const part = parts.find(({ fits, reason }) => fits && !reason);
   return part ? `${part.name} would do` : "–";
 }
 
 function loadText({ load }, given) {
   if (!load) return "–";
-  return `${digits(100 * load.value, 3)} %${given === null ? " at the least speed" : ""}`;
+  return `${percentText(load.value)}${given === null ? " at the least speed" : ""}`;
 }
 
 function landing({ achieved_l: steps, landed_ms: after }) {

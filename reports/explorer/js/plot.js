@@ -8,13 +8,13 @@ import { looksOf } from "./looks.js";
 import { ascending, heldUntil, indexAt, pointsAlong, valueAt } from "./paths.js";
 import { nearestPoint, plotReader } from "./reading.js";
 import { lineSample, plotLegend } from "./samples.js";
-import { plotSheet, quantity, saidOf } from "./sheet.js";
+import { axisText, plotSheet, quantity, saidOf } from "./sheet.js";
 import { plotSigns } from "./signs.js";
 import { valuesOf, valuesTable } from "./values.js";
 
-/** A plot in `host`. `show({title, x: {label, log}, y: {label, log}, lines, points, limit})` draws it and may be called
- *  as often as there is a new picture. lines: [{name, x, y, step, current, notes}], x in order, null where there is no
- *  value; a step line holds each value until the next x, and the last one to the end; notes (may be left out) are texts
+/** A plot in `host`. `show({title, x: {label, log, text}, y: {label, log, text}, lines, points, limit})` draws it and may
+ *  be called as often as there is a new picture. `text(value)` (may be left out) writes a value of the axis. lines:
+ *  [{name, x, y, step, current, notes}], x in order, null where there is no value; a step line holds each value until the next x, and the last one to the end; notes (may be left out) are texts
  *  for its points. points: [{x, y, label, current}] are designs; limit: {y, label} or null, what lies above it is
  *  shaded. `onPick(x, line)`, where it is given, is called with a point that is clicked, or that Enter is pressed on.
  *  `destroy()` takes the plot away. */
@@ -86,13 +86,18 @@ export function plot(host, { onPick = null } = {}) {
     const rows = told.map(({ look, name, text }) => ({ sign: lineSample(look), name, text }));
     const dots = told.map(({ value, look }) => ({ y: laid.y(value), look })).filter((dot) => dot.y !== null);
     const heard = aloud ? spokenValues(given.y.label, told, found.line.name) : null;
-    read.tell({ x: laid.x(found.x), box: laid.box, heading: saidOf(given.x.label, found.x), rows, dots, aloud: heard });
+    read.tell({ x: laid.x(found.x), box: laid.box, heading: saidOf(given.x, placeText(found)), rows, dots, aloud: heard });
   }
 
   function toldAt(x) {
     const all = seen().map((line) => ({ ...line, value: valueAt(line.x, line.y, x, line.step) }));
     const known = all.filter((line) => line.value !== null).sort((one, other) => other.value - one.value);
-    return known.map((line) => ({ ...line, text: `${digits(line.value)}${noteAt(line, x)}` }));
+    return known.map((line) => ({ ...line, text: `${axisText(given.y, line.value)}${noteAt(line, x)}` }));
+  }
+
+  /** A point of a line as the table has it; between them, where the pointer is. */
+  function placeText({ line, x }) {
+    return line.x.includes(x) ? axisText(given.x, x) : digits(x);
   }
 
   function hold() {
@@ -102,7 +107,7 @@ export function plot(host, { onPick = null } = {}) {
     const index = Math.max(0, indexAt(line.x, start));
     const keys = `arrow keys walk along ${line.name}, up and down change the line`;
     const label = `${given.title}: ${keys}${onPick === null ? "" : ", Enter picks"}`;
-    read.hold({ label, count: line.x.length, index, text: saidOf(given.x.label, line.x[index]) });
+    read.hold({ label, count: line.x.length, index, text: saidOf(given.x, axisText(given.x, line.x[index])) });
   }
 
   function turn(by) {
@@ -136,7 +141,7 @@ function spokenValues(label, told, first) {
 }
 
 function spokenPlot({ title, x, y, points, limit }) {
-  const at = (each) => `${saidOf(x.label, each.x)}, ${saidOf(y.label, each.y)}`;
+  const at = (each) => `${saidOf(x, axisText(x, each.x))}, ${saidOf(y, axisText(y, each.y))}`;
   const designs = points.map((each) => `${each.label || "this design"}: ${at(each)}`);
   return [`${title}. ${y.label} against ${x.label}`, ...designs, ...(limit === null ? [] : [limit.label])].join("; ");
 }

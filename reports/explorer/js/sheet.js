@@ -8,10 +8,15 @@ export function quantity(label) {
   return { name, unit: unit ?? "" };
 }
 
-/** A value with the quantity and the unit of its axis. */
-export function saidOf(label, value) {
+/** A value of an axis {label, text}: as its `text` writes it, else to five digits. */
+export function axisText({ text }, value) {
+  return value === null || text === undefined ? digits(value, 5) : text(value);
+}
+
+/** A value's text with the quantity and the unit of its axis. */
+export function saidOf({ label }, text) {
   const { name, unit } = quantity(label);
-  return `${name} ${digits(value)}${unit === "" ? "" : ` ${unit}`}`;
+  return `${name} ${text}${unit === "" ? "" : ` ${unit}`}`;
 }
 
 /** A figure in `host`: a title, a legend, the label of the y axis, an area with a picture, the label of the x axis, and

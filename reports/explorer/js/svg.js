@@ -29,9 +29,13 @@ export function digits(value, count = 4) {
 
 /** As `digits`, but rounded up, and whole numbers in full: a need never looks smaller than it is. */
 export function noLess(value, count) {
-  if (value === null || value === undefined || !(value > 0)) return digits(value, count);
+  return value > 0 ? digits(upTo(value, count), 15) : digits(value, count);
+}
+
+/** The least number of so many digits, or whole number, that is no less than a positive one. */
+export function upTo(value, count) {
   const most = Math.min(Math.max(count, String(Math.trunc(value)).length), 15);
   const near = Number(value.toPrecision(most));
   const place = most - 1 - Math.floor(Math.log10(value));
-  return digits(near < value ? near + 10 ** -place : near, most);
+  return near < value ? near + 10 ** -place : near;
 }

@@ -1,5 +1,7 @@
 // The four curves: what it would take to land earlier or later, on a slower or a faster processor.
 
+import { accuracyText, powerText } from "./amounts.js";
+
 /** What a plot shows of a view and the pinned designs {letter, view}; null where there is nothing to show. A line has
  *  the query of its method; `landing(x, line)` is the step L of what is picked, where picking is of use. */
 export const TRADEOFFS = [
@@ -73,11 +75,11 @@ function pointsOf(view, pins, of) {
 }
 
 function powerAxis(name, { power }) {
-  return { label: `${name} (${power.unit})`, log: true };
+  return { label: `${name} (${power.unit})`, log: true, text: (speed) => powerText(speed, power) };
 }
 
 function accuracyAxis({ current }) {
-  return { label: `standard deviation (${current.unit || "1"})`, log: false };
+  return { label: `standard deviation (${current.unit || "1"})`, log: false, text: accuracyText };
 }
 
 function limitOf({ design, current }) {

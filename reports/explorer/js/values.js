@@ -1,11 +1,11 @@
 // The values of a plot as a table, behind a `details`.
 
-import { digits, html } from "./svg.js";
+import { html } from "./svg.js";
 import { ascending, valueAt } from "./paths.js";
+import { axisText } from "./sheet.js";
 import { table } from "./table.js";
 
 const MOST_VALUE_ROWS = 60;
-const VALUE_DIGITS = 5;
 
 /** A closed `details` in an element of its own. `show(make)` makes the table of what `make()` gives, as `table` takes
  *  it, as soon as it is open. */
@@ -29,7 +29,7 @@ export function valuesTable() {
 export function valuesOf({ title, x, y, lines: given, points }) {
   const lines = given.map(ascending);
   const every = [...new Set(lines.flatMap((line) => line.x))].sort((one, other) => one - other);
-  const all = every.map((at) => [at, ...lines.map((line) => valueText(valueAt(line.x, line.y, at, line.step)))]);
+  const all = every.map((at) => [at, ...lines.map((line) => axisText(y, valueAt(line.x, line.y, at, line.step)))]);
   const designs = new Set(points.map((point) => point.x));
   const needed = (row, index, rows) => index === 0 || index === rows.length - 1 || designs.has(row[0]);
   const differs = (row, index) => row.some((text, at) => at > 0 && text !== all[index - 1][at]);
@@ -41,12 +41,8 @@ export function valuesOf({ title, x, y, lines: given, points }) {
   const columns = lines.map((line, index) => ({ label: line.name, numeric: true, text: (row) => row[index + 1] }));
   return {
     caption: `${title}: ${y.label}${thinned}`,
-    columns: [{ label: x.label, numeric: true, text: (row) => valueText(row[0]) }, ...columns],
+    columns: [{ label: x.label, numeric: true, text: (row) => axisText(x, row[0]) }, ...columns],
     rows,
     current: rows.findIndex((row) => row[0] === current),
   };
-}
-
-function valueText(value) {
-  return digits(value, VALUE_DIGITS);
 }

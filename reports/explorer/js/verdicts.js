@@ -1,13 +1,10 @@
 // The methods and the parts side by side, and why some do not.
 
-import { digits, html, noLess } from "./svg.js";
-import { grouped } from "./facts.js";
+import { accuracyText, percentText, powerText } from "./amounts.js";
+import { digits, html } from "./svg.js";
 import { table } from "./table.js";
 
 const MOST_LETTERS = 50;
-const ACCURACY_DIGITS = 4;
-const SHARE_DIGITS = 3;
-const SPEED_DIGITS = 5;
 
 /** The table of methods in `host`: with an accuracy that is needed, at the latest landing that keeps it. */
 export function methodsTable({ host, least, why }, view, onTake) {
@@ -31,15 +28,14 @@ export function methodsTable({ host, least, why }, view, onTake) {
 
 /** The table of parts in `host`. */
 export function partsTable({ host, why }, view, onTake) {
-  const share = (value, text) => (value === null ? "–" : `${text(percentOf(value.value), SHARE_DIGITS)} %`);
   const order = "Those that do come first, by price; without one, by how little they have to spare";
   table(host, {
     caption: `Pick a part to see ${view.design.method} on it. ${order}`,
     columns: [
       { key: "title", label: "part", text: ({ title }) => briefTitle(title) },
       verdict("does it"),
-      { key: "needed", label: "of its speed", numeric: true, text: ({ needed }) => share(needed, noLess) },
-      { key: "load", label: "load", numeric: true, text: ({ load }) => share(load, digits) },
+      { key: "needed", label: "of its speed", numeric: true, text: ({ needed }) => percentText(needed && needed.value) },
+      { key: "load", label: "load", numeric: true, text: ({ load }) => percentText(load && load.value) },
       { key: "landed", label: "lands at", numeric: true, text: ({ landed, landed_ms: ms }) => stepText(landed, ms) },
       ...accuracyColumn(view, ({ std }) => std),
     ],
@@ -114,22 +110,6 @@ function briefTitle(title) {
   const [name, example = ""] = title.split(", ");
   const both = `${name}, ${example}`;
   return example.startsWith("e.g.") && both.length <= MOST_LETTERS ? both : name;
-}
-
-/** A share in percent, without what the product of floats adds: 110, not 110.00000000000001. */
-export function percentOf(share) {
-  return Number((100 * share).toPrecision(15));
-}
-
-/** A speed in a unit of `power`, as the sentence that answers has it. */
-export function powerText(speed, { short }) {
-  const text = noLess(speed, short.startsWith("%") ? SHARE_DIGITS : SPEED_DIGITS);
-  return speed >= 1e4 ? grouped(Number(text)) : text;
-}
-
-/** A standard deviation, as the sentence that answers has it. */
-export function accuracyText(std) {
-  return noLess(std, ACCURACY_DIGITS);
 }
 
 function stepText(L, ms) {

@@ -21,6 +21,11 @@ SHOW = """([shown, picks]) => {
   shownPlot.show(shown);
 }"""
 
+MADE = """(shown) => {
+  const times = 1234567.2 / shown.lines[0].y[0];
+  const text = (speed) => amounts.powerText(times * speed, { short: "speed" });
+  shownPlot.show({ ...shown, y: { ...shown.y, text } });
+}"""
 AT_FULL_WIDTH = """() => {
   const [, , width] = document.querySelector(".ss-plot-picture").getAttribute("viewBox").split(" ");
   return Number(width) === document.querySelector(".ss-plot-area").getBoundingClientRect().width;
@@ -28,7 +33,7 @@ AT_FULL_WIDTH = """() => {
 
 
 def drawn(visit: Visit, shown: Shown, *, picks: bool = True) -> Page:
-    loaded(visit, "plot", styles=STYLES)
+    loaded(visit, "plot", "amounts", styles=STYLES)
     visit.page.evaluate(SHOW, [shown, picks])
     visit.page.wait_for_selector(".ss-plot-grid[d]", state="attached")
     return visit.page
@@ -82,9 +87,27 @@ def test_a_pointer_is_told_what_every_line_says_there(visit: Visit) -> None:
     dual_rate = shown["lines"][0]
     least = dual_rate["y"][dual_rate["x"].index(8)]
     expect(tip).to_contain_text("L 8 steps")
-    expect(tip).to_contain_text(f"dual-rate{least:.4g}")
+    expect(tip).to_contain_text(f"dual-rate{least:.5g}")
     page.mouse.move(1, 1)
     expect(tip).to_be_hidden()
+
+
+def test_what_the_pointer_is_told_is_what_the_table_has(visit: Visit) -> None:
+    """Digit by digit, and a need is rounded up."""
+    page = drawn(visit, stairs_shown())
+    page.evaluate(MADE, stairs_shown() | {"points": []})
+    page.get_by_text("Values as a table").click()
+    walk, told = page.get_by_role("slider"), page.locator(".ss-plot-row")
+    walk.focus()
+    page.keyboard.press("Home")
+    expect(walk).to_have_attribute("aria-valuetext", "L 5 steps")
+    row = page.get_by_role("row").filter(has=page.get_by_role("rowheader", name="5", exact=True))
+    names, values = told.locator("span:not(.ss-plot-value)"), told.locator(".ss-plot-value")
+    in_tip = dict(zip(names.all_inner_texts(), values.all_inner_texts(), strict=True))
+    heads = page.get_by_role("columnheader").all_inner_texts()[1:]
+    cells = dict(zip(heads, row.get_by_role("cell").all_inner_texts(), strict=True))
+    assert in_tip == {name: text for name, text in cells.items() if text != "–"}
+    assert in_tip["dual-rate"] == "1,234,568"
 
 
 def test_a_click_on_the_staircase_gives_its_l(visit: Visit) -> None:

@@ -17,10 +17,12 @@ from sched_sim.costs.table import CostTable
 from sched_sim.design.timing import Timing
 from sched_sim.processors.part import Part
 from sched_sim.schedule.tasks import Task
+from studies.explorer.cheapest import cheapest
 from studies.explorer.design import Design
 from studies.explorer.given import Given
 from studies.explorer.parts import Where, verdicts, where_of
 from studies.explorer.resolved import resolved
+from studies.explorer.view import explore
 from tests.studies.explorer.questions import PARTS, options
 
 COUNTED, PAPERS = load_costs("counted-9-3-3"), Options()
@@ -72,6 +74,19 @@ def test_a_part_without_a_time_for_an_operation_is_last_with_the_reason() -> Non
     assert [on.name for on in found] == [PARTS[0].name, "lame"]
     assert "gives no time for" in found[1].remark
     assert found[1].needed is None
+
+
+def test_what_is_not_for_sale_is_named_after_what_is_and_the_reason_is_told() -> None:
+    view = explore(Design(hr_hz=1, N=5, M=2, costs="counted-9-3-3", method="larsen"), Given())
+    patent = view.parts[-1]
+    assert (patent.name, patent.fits) == ("patent", True)
+    assert patent.needed is not None
+    assert all(part.needed is not None and part.needed < patent.needed for part in view.parts[:-1])
+    assert patent.reason.startswith("not for sale")
+    assert f"{view.parts[0].name} would do" in view.answer.sentence
+    alone = replace(PARTS[0], for_sale=False)
+    (place,) = where((alone,), 1).places("larsen")
+    assert [on.fits for on in cheapest([place], Timing(5, 2, 5), PAPERS, ())] == [True]
 
 
 def test_of_costs_that_are_times_it_is_the_machine(tmp_path: Path) -> None:

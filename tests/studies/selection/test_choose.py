@@ -23,7 +23,7 @@ from studies.selection.front import front
 from studies.selection.methods import METHODS
 from studies.selection.model import load_model
 from studies.selection.outputs import outputs_of
-from studies.selection.parts import OnPart, by_cost, percent
+from studies.selection.parts import OnPart, by_cost
 from studies.selection.question import Question
 from studies.selection.sampling import Sampling
 
@@ -230,11 +230,6 @@ def test_of_parts_that_are_as_good_the_less_busy_is_first() -> None:
     assert sorted([worse, better], key=by_cost)[0] is better
     priced = [replace(on, part=replace(part, price=Fraction(3))) for on in (worse, better)]
     assert sorted(priced, key=by_cost)[0] is priced[1]
-
-
-def test_more_than_all_of_a_part_never_looks_like_all() -> None:
-    shares = (Fraction(1), Fraction("1.0001"), Fraction("0.4484"), Fraction("158.6301"))
-    assert [percent(share) for share in shares] == ["100 %", "101 %", "44.8 %", "15,864 %"]
 
 
 def test_what_waits_for_one_measurement_is_told_once_with_what_would_do() -> None:

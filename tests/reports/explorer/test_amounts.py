@@ -10,13 +10,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from playwright.sync_api import Browser
 
-from sched_sim.rounding import no_less, written
+from sched_sim.rounding import no_less, percent_up, written
 from tests.reports.explorer.scripts import Ask, asking
 
 
 @pytest.fixture(scope="module")
 def ask(browser: Browser) -> Iterator[Ask]:
-    with asking(browser, "verdicts") as ask:
+    with asking(browser, "amounts") as ask:
         yield ask
 
 
@@ -37,6 +37,7 @@ def test_an_accuracy_is_rounded_as_in_the_answer(ask: Ask, values: list[float]) 
         (7.635, "% of cortex-m4f", "7.64"),
         (78.44, "% of rp2040", "78.5"),
         (14592.1, "% of rp2040", "14,593"),
+        (1234.5, "% of rp2040", "1235"),
         (None, "speed", "–"),
     ],
 )
@@ -46,5 +47,6 @@ def test_a_speed_has_the_digits_of_the_answer(speed: float | None, short: str, t
 
 def test_a_share_in_percent_is_rounded_as_in_the_answer(ask: Ask) -> None:
     shares = [Fraction(thousandths, 1000) for thousandths in range(1, 2000)]
-    percents = ask("return a.map(of.percentOf);", [float(share) for share in shares])
-    assert [no_less(written(percent), 3) for percent in percents] == [no_less(100 * share, 3) for share in shares]
+    shares += [Fraction("0.0000003121"), Fraction("9.990001"), Fraction("158.6301"), Fraction("99.995")]
+    texts = ask("return a.map(of.percentText);", [float(share) for share in shares])
+    assert texts == [percent_up(share) for share in shares]
