@@ -100,15 +100,16 @@ def part_rows(view: Document) -> list[Row]:
 
 
 def job_rows(view: Document) -> list[Row]:
-    """Times are in HR periods, and in ms where one is so many."""
+    """Times are in HR periods, and in ms where one is so many; of a schedule that is cut each row says so."""
     schedule = view["schedule"]
     jobs, period = schedule["jobs"], view["period_ms"]
     names = [row["name"] for row in schedule["rows"]]
+    cut = {"cut": schedule["cut"]} if schedule["cut"] else {}
     rows: list[Row] = []
     for values in zip(*jobs.values(), strict=True):
         job = dict(zip(jobs, values, strict=True))
         in_ms = {f"{name}_ms": _times(job[name], period) for name in TIMES} if period is not None else {}
-        rows.append({**job, "row": names[job["row"]], **in_ms})
+        rows.append({**job, "row": names[job["row"]], **in_ms, **cut})
     return rows
 
 

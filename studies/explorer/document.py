@@ -6,6 +6,8 @@ from dataclasses import fields, is_dataclass
 from fractions import Fraction
 from typing import Any
 
+from sched_sim.text import visible
+
 
 def document(value: Any) -> Any:
     """Records and mappings become objects, tuples lists of what they hold, fractions their value beside the exact text.
@@ -19,3 +21,12 @@ def document(value: Any) -> Any:
     if isinstance(value, tuple):
         return [document(item) for item in value]
     return value
+
+
+def all_visible(value: Any) -> Any:
+    """Plain data with each text in it, and each key, made `visible`."""
+    if isinstance(value, str):
+        return visible(value)
+    if isinstance(value, dict):
+        return {visible(key): all_visible(item) for key, item in value.items()}
+    return [all_visible(item) for item in value] if isinstance(value, list | tuple) else value

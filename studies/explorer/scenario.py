@@ -11,6 +11,7 @@ from typing import Any, Literal
 from sched_sim.scenario.load import demand
 from sched_sim.scenario.scenario import Late, Scenario
 from sched_sim.scenario.workload import kinds_of_jobs
+from studies.explorer.document import all_visible
 from studies.explorer.query import number_text
 from studies.explorer.scenario_accuracy import AccuracyView, accuracy_view
 from studies.explorer.scenario_answer import answer, notes, warnings
@@ -76,8 +77,9 @@ class ScenarioView:
     trace: Mapping[str, int]
 
     def document(self) -> dict[str, Any]:
-        """For JSON."""
-        return asdict(self)
+        """For JSON, its texts as a page shows them."""
+        found: dict[str, Any] = all_visible(asdict(self))
+        return found
 
 
 def explore_scenario(

@@ -12,6 +12,7 @@ from sched_sim.bounds import at_least_one, short, whole
 from sched_sim.errors import InputError, option
 from sched_sim.scenario.scenario import Scenario
 from sched_sim.scenario.workload import kinds_of_jobs
+from sched_sim.text import visible
 from sched_sim.ticks import Number, positive
 from studies.explorer.query import number_text, pairs_of, whole_number
 
@@ -26,8 +27,8 @@ LEAST_TIMES, MOST_TIMES = Fraction(1, 1000), Fraction(1000)
 class ScenarioAsked:
     """seed, steps: instead of the scenario's own. times_slower: the processor is so many times as slow, kept exactly.
 
-    exact, accuracy: whether what may take long is asked for. shown: of which kind of job the distribution is. at, span:
-    the first step of the trace that is shown, and how many.
+    exact, accuracy: whether what may take long is asked for. shown: of which kind of job the distribution is, its name
+    as it is or made `visible`. at, span: the first step of the trace that is shown, and how many.
     Raises InputError that names the argument, its value and the remedy.
     """
 
@@ -64,7 +65,8 @@ class ScenarioAsked:
                 f"{option('steps')} is {short(self.steps)}: give at most {most:,}, which are a million jobs; "
                 f"`sched-sim simulate --scenario` simulates more"
             )
-        if self.shown is not None and self.shown not in (kinds := kinds_of_jobs(scenario)):
+        kinds = [visible(kind) for kind in kinds_of_jobs(scenario)]
+        if self.shown is not None and visible(self.shown) not in kinds:
             raise InputError(f"{option('shown')} is {short(repr(self.shown))}: choose from {', '.join(kinds)}")
         return replace(
             scenario,

@@ -13,6 +13,7 @@ from sched_sim.scenario.outcome import Outcome
 from sched_sim.scenario.run import run_scenario
 from sched_sim.scenario.scenario import Scenario
 from sched_sim.ticks import exact as exact_number
+from studies.explorer.document import all_visible
 from studies.explorer.query import whole_number
 from studies.explorer.scenario import scenario_view
 from studies.explorer.scenario_asked import ScenarioAsked, asked_of
@@ -85,7 +86,7 @@ class Runs:
         kinds = {correct_kind(sensor) for sensor in meant.sensors} if of == "landing" else None
         trace = self._trace(Run.of(asked))
         found = trace.search(float(after), kinds, AT_ONCE)
-        return {"found": found, "simulated": trace.reached, "steps": meant.steps}
+        return {"found": all_visible(found), "simulated": trace.reached, "steps": meant.steps}
 
     def _run(self, run: Run) -> Outcome:
         return run_scenario(self._of(run))

@@ -128,7 +128,7 @@ def _jobs(trace: Trace, seen: Seen, rows: Sequence[RowKinds]) -> Document:
     late = trace.scenario.steps if seen.before == inf else float(np.nextafter(seen.before, 0))
     return {
         "row": [row_of[kind] for kind in kinds],
-        "kind": kinds,
+        "kind": [visible(kind) for kind in kinds],
         "step": [jobs.step[job] for job in seen.jobs] + [job.step for job in waits],
         "release": [jobs.release[job] for job in seen.jobs] + [job.release for job in waits],
         "start": [_known(jobs.start[job], seen.before) for job in seen.jobs] + [None] * len(waits),

@@ -19,8 +19,9 @@ export function saving(host, id, files) {
     html("h2", { id: `${id}-save` }, "Save"), downloads, address.element, shell.element, python.element));
 
   return {
-    show({ query, commands }, pins) {
-      const all = FILES.map(([kind, words]) => [files(kind, query, pins), words]);
+    show({ query, commands, schedule: { cut } }, pins) {
+      const said = (kind) => (kind === "jobs.csv" && cut ? `: ${cut}` : "");
+      const all = FILES.map(([kind, words]) => [files(kind, query, pins), `${words}${said(kind)}`]);
       const offered = all.filter(([address]) => address !== null);
       const held = [...downloads.children].indexOf(downloads.querySelector(":focus"));
       const link = ([href, words]) => html("a", { href, download: "", class: "ss-button" }, words);

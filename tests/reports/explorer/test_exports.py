@@ -81,6 +81,14 @@ def test_jobs_are_in_periods_and_in_ms() -> None:
     assert "release_ms" not in rows("/jobs.csv", "N=10&M=4")[0]
 
 
+def test_of_a_schedule_that_is_cut_every_job_says_so() -> None:
+    long = "N=20000&M=4&L=8&method=larsen&speed=2"
+    shown = view(long)["schedule"]
+    assert shown["cut"]
+    assert {job["cut"] for job in rows("/jobs.csv", long)} == {shown["cut"]}
+    assert "cut" not in rows("/jobs.csv")[0]
+
+
 def test_what_is_within_is_a_column_of_its_own() -> None:
     row = {
         "least": {"value": 0.5, "exact": "1/2"},

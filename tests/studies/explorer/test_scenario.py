@@ -6,6 +6,7 @@ import json
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
+from urllib.parse import quote
 
 import pytest
 from hypothesis import given, settings
@@ -17,6 +18,7 @@ from sched_sim.scenario.scenario import Scenario
 from sched_sim.scenario.scenario_file import read_scenario
 from studies.explorer.scenario import ScenarioView, explore_scenario
 from studies.explorer.scenario_asked import ScenarioAsked
+from studies.explorer.scenario_runs import Runs
 from studies.probability.beside_sampled import beside_sampled
 from studies.selection.in_scenario import accuracy_along, question_of
 from tests.command_line import Run
@@ -49,6 +51,23 @@ def test_its_figures_are_those_of_the_outcome(seed: int) -> None:
 def test_it_goes_through_json(seed: int) -> None:
     document = explore_scenario(random_scenario(seed)).document()
     assert json.loads(json.dumps(document, allow_nan=False))["misses"] == document["misses"]
+
+
+def test_what_cannot_be_seen_of_a_name_is_told_by_its_escape_and_may_be_asked_for_so() -> None:
+    """It would turn the direction of what is written behind it, or be copied unseen."""
+    names = ("a\u202eb", "a\u2068b")
+    runs = Runs(scenario(10, {"predict": 4} | {f"correct.{name}": 9 for name in names},
+                         *(sensor(name, 5, 2) for name in names)))  # fmt: skip
+    view = runs.view("")
+    steps = runs.schedule("first=0&until=20")
+    told = [view, steps, runs.next("")]
+    assert json.dumps(told, ensure_ascii=False).isprintable()
+    assert [job["kind"] for job in view["jobs"]] == view["kinds"]
+    assert {*steps["schedule"]["jobs"]["kind"]} == {*view["kinds"]}
+    assert {of["kind"] for of in view["sensors"]} <= {*view["kinds"]}
+    for kind in view["kinds"]:
+        assert runs.view(f"shown={quote(kind)}")["shown"] == kind
+    assert runs.view("shown=" + quote(f"correct {names[0]}"))["shown"] == r"correct a\u202eb"
 
 
 def test_it_says_what_the_command_line_says(sched_sim: Run) -> None:
