@@ -44,5 +44,5 @@ def stylesheet() -> str:
 
 @cache
 def asset(name: str) -> str:
-    """A file of `js`: a script, a style sheet or a page."""
+    """A file of `js`: a script, a style sheet or the frame of a page."""
     return (files("reports.explorer") / "js" / name).read_text(encoding="utf-8")

@@ -6,7 +6,6 @@ import asyncio
 from collections.abc import Awaitable, Callable, Mapping
 from contextlib import suppress
 from functools import cache, partial
-from typing import NamedTuple
 
 from starlette.applications import Starlette
 from starlette.requests import Request
@@ -16,7 +15,8 @@ from starlette.routing import Route
 from reports.explorer.answer import Answer, Asked, Question, document
 from reports.explorer.compact import compact
 from reports.explorer.guard import App, guarded
-from reports.explorer.module import asset, module, stylesheet
+from reports.explorer.module import module, stylesheet
+from reports.explorer.pages import DESIGNS, SCENARIO
 from reports.explorer.worker import Worker
 
 MOST_WAITING = 16
@@ -26,22 +26,6 @@ BUSY = "The explorer is busy with what other pages have asked: close some of the
 
 GONE = 499
 """The status of an answer that nobody waits for; it is not sent."""
-
-
-class Page(NamedTuple):
-    """frame: its HTML; script: the path that it has its script from, which begins with the module `entry`."""
-
-    path: str
-    frame: str
-    script: str
-    entry: str
-
-    def is_asked_by(self, path: str) -> bool:
-        return path.startswith(f"{self.path.rstrip('/')}/")
-
-
-DESIGNS = Page("/", "index.html", "/explorer.js", "page")
-SCENARIO = Page("/scenario", "scenario.html", "/scenario.js", "scenario")
 
 
 def application(port: int, questions: Mapping[str, Question], asked: Asked) -> App:
@@ -70,7 +54,7 @@ def application(port: int, questions: Mapping[str, Question], asked: Asked) -> A
 
     pages = [page for page in (DESIGNS, SCENARIO) if any(map(page.is_asked_by, questions))]
     routes = [
-        *(Route(page.path, _text(partial(asset, page.frame), "text/html")) for page in pages),
+        *(Route(page.path, _text(page.html, "text/html")) for page in pages),
         *(Route(page.script, _text(partial(_script, page.entry), "text/javascript")) for page in pages),
         Route("/explorer.css", _text(_style, "text/css")),
         Route("/favicon.ico", _no_icon),

@@ -49,7 +49,7 @@ class Answer:
 
 
 @dataclass(frozen=True, slots=True)
-class Found:
+class DesignFound:
     """What is known of a design. plan: of its method; figures: its accuracy by landing, None without a model; kept: of
     each method; parts: verdicts on the design, by cost."""
 
@@ -61,7 +61,7 @@ class Found:
     parts: Sequence[OnPart] = ()
 
 
-def answer(found: Found) -> Answer:
+def answer(found: DesignFound) -> Answer:
     """Of one design."""
     if not found.plan.fits:
         return Answer(_misses(found), "misses")
@@ -75,7 +75,7 @@ def answer(found: Found) -> Answer:
     return Answer(_inaccurate(found, std), "inaccurate")
 
 
-def _runs(found: Found) -> str:
+def _runs(found: DesignFound) -> str:
     asked, plan = found.asked, found.plan
     std = None if found.figures is None else found.figures.at(plan.landed)
     then = ""
@@ -88,7 +88,7 @@ def _runs(found: Found) -> str:
     return f"{_subject(found)} meets every deadline: {landed}{_takes(found)}"
 
 
-def _keeps(found: Found) -> str:
+def _keeps(found: DesignFound) -> str:
     asked, plan = found.asked, found.plan
     kept = found.kept.get(plan.method)
     allowed = plan.timing.L if kept is None or kept.L is None else min(plan.timing.L, kept.L)
@@ -99,7 +99,7 @@ def _keeps(found: Found) -> str:
     return f"{keeps}: {_landing(found, allowed)}{_takes(found)}"
 
 
-def _misses(found: Found) -> str:
+def _misses(found: DesignFound) -> str:
     asked, plan = found.asked, found.plan
     late = _first_late(found.timeline)
     first = f": {late} is late first" if late else f", later than is shown: {binding_words(plan.least.binding)}"
@@ -114,7 +114,7 @@ def _misses(found: Found) -> str:
     return f"{start}, and {needed}{_on_it(found)}{_cheapest(found)}"
 
 
-def _on_it(found: Found) -> str:
+def _on_it(found: DesignFound) -> str:
     """The methods that keep the accuracy on the same machine."""
     pace, kept = found.asked.machine_pace, found.kept
     if pace is None or found.asked.design.speed is not None:
@@ -127,7 +127,7 @@ def _on_it(found: Found) -> str:
     return f"; on it {listed([method for _, method in does])} would do" if does else ""
 
 
-def _inaccurate(found: Found, std: float) -> str:
+def _inaccurate(found: DesignFound, std: float) -> str:
     asked, plan, kept = found.asked, found.plan, found.kept.get(found.plan.method)
     assert asked.outputs is not None
     assert plan.landed is not None
@@ -144,14 +144,14 @@ def _inaccurate(found: Found, std: float) -> str:
     return f"{start}; {by}, for which it needs {needs(asked, kept.least.speed)}"
 
 
-def _best(found: Found, std: float) -> str:
+def _best(found: DesignFound, std: float) -> str:
     kept = found.kept.get(found.plan.method)
     best, first = (std, found.plan.landed) if kept is None else (kept.best, kept.first)
     assert first is not None
     return f"at best it is {figure(found.asked, best)}, landing at {lands(found.asked, first)}"
 
 
-def _others(found: Found) -> str:
+def _others(found: DesignFound) -> str:
     """Which methods keep the accuracy, or how near they come to it."""
     kept = {method: of for method, of in found.kept.items() if method != "standard"}
     does = sorted((of.least.speed, method) for method, of in kept.items() if of.least is not None)
@@ -170,7 +170,7 @@ def _others(found: Found) -> str:
     )
 
 
-def _without_delay(found: Found) -> str:
+def _without_delay(found: DesignFound) -> str:
     reference = found.kept.get("standard")
     if reference is None or not isfinite(reference.best):
         return ""
@@ -181,7 +181,7 @@ def _is_known(method: str, of: Candidate) -> bool:
     return isfinite(of.best) and not METHODS[method].floored
 
 
-def _not_known(found: Found) -> str:
+def _not_known(found: DesignFound) -> str:
     """The schedule holds."""
     asked, figures = found.asked, found.figures
     reason = "its correction does not land" if figures is None or figures.curve is not None else figures.reason
@@ -190,7 +190,7 @@ def _not_known(found: Found) -> str:
     return f"whether {_subject(found)} keeps {bound(asked)} is not known: {reason}"
 
 
-def _subject(found: Found) -> str:
+def _subject(found: DesignFound) -> str:
     """The method, and what it runs on."""
     asked = found.asked
     if asked.design.speed is not None:
@@ -199,7 +199,7 @@ def _subject(found: Found) -> str:
     return f"{named(found.plan.method)} on {on}" if on else named(found.plan.method)
 
 
-def _landing(found: Found, allowed: int) -> str:
+def _landing(found: DesignFound, allowed: int) -> str:
     plan = found.plan
     if plan.landed is None:
         return "its correction does not land"
@@ -211,14 +211,14 @@ def _landing(found: Found, allowed: int) -> str:
     return f"its correction lands at {lands(found.asked, plan.landed)}{of}"
 
 
-def _takes(found: Found) -> str:
+def _takes(found: DesignFound) -> str:
     asked, plan = found.asked, found.plan
     if asked.design.speed is not None or asked.pace is None:
         return f", and it needs {needs(asked, plan.least.speed)}"
     return f", and it takes {percent_up(plan.least.speed / asked.pace)} of the {'part' if asked.part else 'machine'}"
 
 
-def _cheapest(found: Found) -> str:
+def _cheapest(found: DesignFound) -> str:
     """The first part that runs the design, and is accurate enough if that was asked for."""
     allowed = within(found.asked)
     for on in found.parts:

@@ -7,15 +7,15 @@ from collections.abc import Iterator
 from sched_sim.costs.table import units
 from sched_sim.processors.ground import calibration_texts, ground
 from sched_sim.text import visible
-from studies.explorer.answer import Found
+from studies.explorer.answer import DesignFound
 
 
-def grounds(found: Found) -> tuple[str, ...]:
+def grounds(found: DesignFound) -> tuple[str, ...]:
     """One line each."""
     return (*_costs(found), *_tasks(found), *_accuracy(found), *_parts(found))
 
 
-def _costs(found: Found) -> Iterator[str]:
+def _costs(found: DesignFound) -> Iterator[str]:
     counts, method = found.asked.counts, found.plan.method
     rests = ""
     if counts.operations:
@@ -25,12 +25,12 @@ def _costs(found: Found) -> Iterator[str]:
     yield f"costs: {counts.name}, in {units(counts.unit)}{rests}"
 
 
-def _tasks(found: Found) -> Iterator[str]:
+def _tasks(found: DesignFound) -> Iterator[str]:
     if names := ", ".join(visible(task.name) for task in found.asked.tasks):
         yield f"beside it run {names}"
 
 
-def _accuracy(found: Found) -> Iterator[str]:
+def _accuracy(found: DesignFound) -> Iterator[str]:
     outputs = found.asked.outputs
     if found.figures is not None and outputs is not None:
         which = (
@@ -39,6 +39,6 @@ def _accuracy(found: Found) -> Iterator[str]:
         yield f"accuracy: one standard deviation of {outputs.name}, {which}, exact for a linear model"
 
 
-def _parts(found: Found) -> Iterator[str]:
+def _parts(found: DesignFound) -> Iterator[str]:
     if any(on.part is not None for on in found.parts):
         yield "parts: the cheapest first where prices are known, else the one with the least to spare"

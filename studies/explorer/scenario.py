@@ -16,7 +16,7 @@ from studies.explorer.query import number_text
 from studies.explorer.scenario_accuracy import AccuracyView, accuracy_view
 from studies.explorer.scenario_answer import answer, notes, warnings
 from studies.explorer.scenario_asked import AS_IT_IS, MOST_SPAN, ScenarioAsked, most_steps, query_of_asked
-from studies.explorer.scenario_found import Found, NotAsked, find
+from studies.explorer.scenario_found import NotAsked, ScenarioFound, find
 from studies.explorer.scenario_jobs import JobView, job_views, unit_of
 from studies.explorer.scenario_sensors import SensorView, sensor_views
 from studies.probability.beside_sampled import Beside
@@ -92,7 +92,7 @@ def explore_scenario(
     return scenario_view(scenario, asked, find(scenario, asked, question))
 
 
-def scenario_view(scenario: Scenario, asked: ScenarioAsked, found: Found) -> ScenarioView:
+def scenario_view(scenario: Scenario, asked: ScenarioAsked, found: ScenarioFound) -> ScenarioView:
     """found: of this scenario, as it was asked for."""
     meant, outcome = found.scenario, found.outcome
     kinds = kinds_of_jobs(meant)
@@ -129,13 +129,13 @@ def scenario_view(scenario: Scenario, asked: ScenarioAsked, found: Found) -> Sce
     )
 
 
-def _state(found: Found) -> str:
+def _state(found: ScenarioFound) -> str:
     if found.outcome.misses:
         return "misses"
     return "holds" if any(figures.decided for figures in found.outcome.jobs.values()) else "unknown"
 
 
-def _worst(found: Found) -> str | None:
+def _worst(found: ScenarioFound) -> str | None:
     """The kind of job that misses most often; None if none does."""
     shares = {kind: figures.miss_probability or 0.0 for kind, figures in found.outcome.jobs.items()}
     worst = max(shares, key=shares.__getitem__)
@@ -150,7 +150,7 @@ def _slow(found: object) -> Slow:
     return Slow("found", why=found.why if isinstance(found, Beside) else "")
 
 
-def _trace(found: Found, asked: ScenarioAsked) -> dict[str, int]:
+def _trace(found: ScenarioFound, asked: ScenarioAsked) -> dict[str, int]:
     scenario, outcome = found.scenario, found.outcome
     cycles = ceil(CYCLES * max(sensor.every for sensor in scenario.sensors))
     span = asked.span or min(max(cycles, FEWEST_STEPS), USUAL_STEPS)
@@ -166,7 +166,7 @@ def _trace(found: Found, asked: ScenarioAsked) -> dict[str, int]:
     }
 
 
-def _first_of_interest(found: Found, span: int) -> int:
+def _first_of_interest(found: ScenarioFound, span: int) -> int:
     """The first step of a window about the first miss, or the first late measurement of a sensor."""
     if found.outcome.first_miss is not None:
         return ceil(found.outcome.first_miss) + AFTER_MISS - span

@@ -9,14 +9,14 @@ from sched_sim.scenario.causes import causes
 from sched_sim.scenario.kinds import correct_kind
 from sched_sim.scenario.said import INTERVAL, WITHHELD, phases_note
 from sched_sim.scenario.scenario import Scenario
-from studies.explorer.scenario_found import Found
+from studies.explorer.scenario_found import ScenarioFound
 from studies.explorer.scenario_jobs import as_percent, nouns, sentence
 
 FEW = 3
 """Kinds of job with misses that are told one by one."""
 
 
-def answer(found: Found) -> str:
+def answer(found: ScenarioFound) -> str:
     """Such as "In 100,000 steps (1,000 s) 3 of 20,000 corrections of gps landed late, 0.015 %, 95 % interval ..."."""
     scenario, jobs = found.scenario, found.outcome.jobs
     missing = sorted((kind for kind in jobs if jobs[kind].misses), key=lambda kind: -_share(found, kind))
@@ -37,7 +37,7 @@ def answer(found: Found) -> str:
     return f"{start}no deadline was missed; what is rarer than in {bound} of the {many} would not have been seen"
 
 
-def _share(found: Found, kind: str) -> float:
+def _share(found: ScenarioFound, kind: str) -> float:
     return found.outcome.jobs[kind].miss_probability or 0.0
 
 
@@ -46,14 +46,14 @@ def _duration(scenario: Scenario) -> str:
     return steps if scenario.hr_hz is None else f"{steps} ({float(scenario.steps / scenario.hr_hz):.4g} s)"
 
 
-def warnings(found: Found) -> list[str]:
+def warnings(found: ScenarioFound) -> list[str]:
     """Why deadlines are missed, and what has not landed."""
     outcome = found.outcome
     busy = [ticks / outcome.schedule.horizon for ticks in outcome.busy]
     return [*causes(found.scenario, outcome, busy), *_not_landed(found)]
 
 
-def _not_landed(found: Found) -> Iterator[str]:
+def _not_landed(found: ScenarioFound) -> Iterator[str]:
     for sensor in found.scenario.sensors:
         name, figures = sensor.name, found.outcome.sensors[sensor.name]
         corrections = found.outcome.jobs[correct_kind(sensor)]
@@ -64,7 +64,7 @@ def _not_landed(found: Found) -> Iterator[str]:
             )
 
 
-def notes(found: Found, left_out: int) -> list[str]:
+def notes(found: ScenarioFound, left_out: int) -> list[str]:
     """left_out: so many steps of the file are not simulated, unasked."""
     scenario = found.scenario
     said = [WITHHELD if scenario.harness else INTERVAL, phases_note(scenario)]

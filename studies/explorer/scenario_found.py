@@ -34,7 +34,7 @@ ACCURACY_TAKES = "some seconds to half a minute"
 
 
 @dataclass(frozen=True, slots=True)
-class Found:
+class ScenarioFound:
     """scenario: as it was asked for; exact, accuracy: or why there is none, in words; accuracy is None
     where no model is stated."""
 
@@ -44,11 +44,11 @@ class Found:
     accuracy: Accuracy
 
 
-def find(scenario: Scenario, asked: ScenarioAsked, question: Question | None = None) -> Found:
+def find(scenario: Scenario, asked: ScenarioAsked, question: Question | None = None) -> ScenarioFound:
     """question: of the accuracy, None if no model is stated. Raises InputError for what cannot be simulated."""
     meant = asked.of(scenario)
     outcome = run_scenario(meant)
-    return Found(meant, outcome, exact(meant, asked.exact), accuracy(meant, outcome, question, asked.accuracy))
+    return ScenarioFound(meant, outcome, exact(meant, asked.exact), accuracy(meant, outcome, question, asked.accuracy))
 
 
 def exact(scenario: Scenario, asked: bool) -> Exact:

@@ -17,7 +17,7 @@ from sched_sim.scenario.kinds import correct_kind, gain_kind, loss_kind
 from sched_sim.scenario.outcome import JobFigures
 from sched_sim.scenario.scenario import Scenario
 from sched_sim.schedule.intervals import TASK
-from studies.explorer.scenario_found import Found
+from studies.explorer.scenario_found import ScenarioFound
 from studies.probability.beside_sampled import Beside, Longer
 
 Floats: TypeAlias = npt.NDArray[np.float64]
@@ -33,7 +33,7 @@ NOT_RESOLVED = "not resolved"
 
 
 @dataclass(frozen=True, slots=True)
-class Curve:
+class StepCurve:
     """A step curve: y from each x to the next."""
 
     x: Sequence[float]
@@ -75,14 +75,14 @@ class JobView:
     deadline: float | None
     near: bool
     histogram: Histogram | None
-    longer: Curve | None
+    longer: StepCurve | None
     unresolved: float
-    exact: Curve | None
+    exact: StepCurve | None
     exact_miss: str
     sentence: str
 
 
-def job_views(found: Found) -> list[JobView]:
+def job_views(found: ScenarioFound) -> list[JobView]:
     return [_job(found, kind, figures) for kind, figures in found.outcome.jobs.items()]
 
 
@@ -91,7 +91,7 @@ def unit_of(scenario: Scenario) -> tuple[float, str]:
     return (1.0, "HR periods") if scenario.hr_hz is None else (float(1000 / scenario.hr_hz), "ms")
 
 
-def _job(found: Found, kind: str, figures: JobFigures) -> JobView:
+def _job(found: ScenarioFound, kind: str, figures: JobFigures) -> JobView:
     scenario, (scale, _) = found.scenario, unit_of(found.scenario)
     beside = found.exact if isinstance(found.exact, Beside) else None
     exact = _exact(beside.longer, scale) if beside is not None and beside.longer and kind == "predict" else None
@@ -158,13 +158,13 @@ def _histogram(values: Floats, end: float) -> Histogram:
     return Histogram(edges.tolist(), counts.tolist())
 
 
-def _longer(values: Floats) -> Curve:
+def _longer(values: Floats) -> StepCurve:
     """The share that takes longer than x; of many all of the longest, and of the rest some."""
     steps, counts = np.unique(values, return_counts=True)
     above = 1 - np.cumsum(counts) / values.size
     above[-1] = 0.0
     kept = _kept(steps.size)
-    return Curve([0.0, *steps[kept].tolist()], [1.0, *above[kept].tolist()])
+    return StepCurve([0.0, *steps[kept].tolist()], [1.0, *above[kept].tolist()])
 
 
 def _kept(count: int) -> npt.NDArray[np.int64]:
@@ -175,7 +175,7 @@ def _kept(count: int) -> npt.NDArray[np.int64]:
     return np.unique(np.append(np.linspace(0, count - half, half).astype(np.int64), np.arange(count - half, count)))
 
 
-def _exact(longer: Longer, scale: float) -> Curve:
+def _exact(longer: Longer, scale: float) -> StepCurve:
     """As far as it is more than samples resolve, and DEEPEST. Where points are left out it is what it was before, which
     is more."""
     shown = longer.exceedance > max(longer.floor, DEEPEST)
@@ -183,7 +183,7 @@ def _exact(longer: Longer, scale: float) -> Curve:
     changes = np.flatnonzero(np.diff(longer.exceedance[:end], prepend=2.0))
     kept = changes[_kept(changes.size)]
     x = scale * np.append(kept, end) / longer.ticks
-    return Curve(x.tolist(), np.append(longer.exceedance[kept], 0.0).tolist())
+    return StepCurve(x.tolist(), np.append(longer.exceedance[kept], 0.0).tolist())
 
 
 def _said(scenario: Scenario, figures: JobFigures) -> tuple[str, str]:

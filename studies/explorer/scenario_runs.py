@@ -17,7 +17,7 @@ from studies.explorer.document import all_visible
 from studies.explorer.query import whole_number
 from studies.explorer.scenario import scenario_view
 from studies.explorer.scenario_asked import ScenarioAsked, asked_of
-from studies.explorer.scenario_found import Accuracy, Exact, Found, accuracy, exact
+from studies.explorer.scenario_found import Accuracy, Exact, ScenarioFound, accuracy, exact
 from studies.explorer.scenario_trace import Trace
 from studies.explorer.scenario_window import Document, window
 from studies.selection.in_scenario import Question
@@ -62,7 +62,9 @@ class Runs:
         """`explore_scenario` of what the query asks."""
         asked, _ = asked_of(query)
         meant, run = asked.of(self.scenario), Run.of(asked)
-        found = Found(meant, self._outcome(run), self._exact(run, asked.exact), self._accuracy(run, asked.accuracy))
+        found = ScenarioFound(
+            meant, self._outcome(run), self._exact(run, asked.exact), self._accuracy(run, asked.accuracy)
+        )
         return scenario_view(self.scenario, asked, found).document()
 
     def schedule(self, query: str) -> Document:

@@ -11,7 +11,7 @@ from sched_sim.scenario.kinds import correct_kind
 from sched_sim.scenario.outcome import SensorFigures
 from sched_sim.scenario.scenario import Sensor
 from sched_sim.scenario.sensor_times import times
-from studies.explorer.scenario_found import Found
+from studies.explorer.scenario_found import ScenarioFound
 from studies.explorer.scenario_jobs import DEEPEST
 from studies.probability.beside_sampled import Beside
 
@@ -51,7 +51,7 @@ class SensorView:
     most_often: tuple[int, float] | None
 
 
-def sensor_views(found: Found) -> list[SensorView]:
+def sensor_views(found: ScenarioFound) -> list[SensorView]:
     scenario, outcome = found.scenario, found.outcome
     said = times(scenario) or [_in_steps(sensor) for sensor in scenario.sensors]
     return [
@@ -67,7 +67,7 @@ def _in_steps(sensor: Sensor) -> str:
     return f"{sensor.name}: every {shown(sensor.every)} steps{late}"
 
 
-def _sensor(found: Found, sensor: Sensor, figures: SensorFigures, said: str) -> SensorView:
+def _sensor(found: ScenarioFound, sensor: Sensor, figures: SensorFigures, said: str) -> SensorView:
     scenario = found.scenario
     landing = found.exact.landing if isinstance(found.exact, Beside) else {}
     exact = {L: one.bounds.upper for L, one in landing.items() if one.bounds.upper > max(one.floor, DEEPEST)}

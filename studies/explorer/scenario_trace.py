@@ -23,7 +23,7 @@ STRIDE = 1_000
 """HR steps between two looks at how far it is."""
 
 
-class Jobs:
+class TracedJobs:
     """In the order of their first slices. kind: its index; times in HR periods; seen: when the first slice ended;
     start: of the first work; start and finish are NaN where they have not been."""
 
@@ -37,7 +37,7 @@ class Jobs:
         self.finish = array("d")
 
 
-class Bars:
+class TracedBars:
     """Work of one processor, each bar done without interruption, in the order of time. job, style: their indices;
     run: the number of the stretch of its job, from 0; last: whether the job then finished, or gave the processor up;
     start, end: in HR periods."""
@@ -89,8 +89,8 @@ class Trace:
         self.scenario = scenario
         self.kinds = {kind: index for index, kind in enumerate(work.kinds)}
         self.styles: dict[str, int] = {}
-        self.jobs = Jobs()
-        self.bars = [Bars() for _ in range(scenario.cpus)]
+        self.jobs = TracedJobs()
+        self.bars = [TracedBars() for _ in range(scenario.cpus)]
         self.misses = Misses()
         self.landings = {correct_kind(sensor): array("q") for sensor in scenario.sensors}
         self.measured = _measured(scenario)

@@ -15,7 +15,7 @@ from sched_sim.scenario.scenario import Scenario
 from sched_sim.schedule.intervals import TASK
 from sched_sim.schedule.labels import MEANINGS
 from sched_sim.text import visible
-from studies.explorer.scenario_trace import AHEAD, Bars, Trace
+from studies.explorer.scenario_trace import AHEAD, Trace, TracedBars
 from studies.explorer.scenario_waiting import Waiting, waiting
 from studies.explorer.schedule import meaning
 
@@ -88,7 +88,7 @@ def row_kinds(scenario: Scenario) -> list[RowKinds]:
     return sorted(lines, key=lambda line: line.cpu)
 
 
-def _columns(bars: Bars, part: slice) -> Columns:
+def _columns(bars: TracedBars, part: slice) -> Columns:
     return {name: np.array(getattr(bars, name)[part]) for name in ("job", "run", "last", "style", "start", "end")}
 
 

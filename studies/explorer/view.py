@@ -10,7 +10,7 @@ from typing import Any
 from sched_sim.design.methods import method_of
 from sched_sim.errors import InputError
 from studies.explorer.accuracy import Accuracy, accuracy
-from studies.explorer.answer import Answer, Found, answer
+from studies.explorer.answer import Answer, DesignFound, answer
 from studies.explorer.choices import Choices, choices_of
 from studies.explorer.commands import Commands, commands
 from studies.explorer.current import Current, current_of, said_of
@@ -91,7 +91,7 @@ def explore(design: Design, given: Given = Given()) -> View:
         current.costs, current.timing, current.speed, design.cycles, design.options, asked.tasks, period_ms
     )
     fronts = _fronts(plans, figures, power)
-    found = Found(asked, current, shown, own, kept, looked)
+    found = DesignFound(asked, current, shown, own, kept, looked)
     return View(
         query_of(design),
         said_of(asked, current),

@@ -14,7 +14,7 @@ from sched_sim.design.methods import method_of
 from sched_sim.errors import option
 from sched_sim.processors.part import ranged
 from sched_sim.rounding import down, percent_up
-from studies.explorer.answer import Found
+from studies.explorer.answer import DesignFound
 from studies.explorer.words import needs, place
 from studies.selection.remarks import BOUND
 
@@ -22,7 +22,7 @@ LITTLE = Fraction(1, 20)
 """A share of a processor that is little to have left."""
 
 
-def warnings(found: Found) -> tuple[str, ...]:
+def warnings(found: DesignFound) -> tuple[str, ...]:
     """One line each, most telling first."""
     return (
         *_lands_earlier(found),
@@ -38,7 +38,7 @@ def warnings(found: Found) -> tuple[str, ...]:
     )
 
 
-def _lands_earlier(found: Found) -> Iterator[str]:
+def _lands_earlier(found: DesignFound) -> Iterator[str]:
     plan = found.plan
     if plan.fits and plan.landed is not None and _chooses(found) and plan.landed < plan.timing.L:
         same = f": L = {plan.landed} needs the same processor"
@@ -49,7 +49,7 @@ def _lands_earlier(found: Found) -> Iterator[str]:
         yield f"lands at {plan.landed} of the {plan.timing.L} you allow{same}"
 
 
-def _needs_no_later(found: Found) -> Iterator[str]:
+def _needs_no_later(found: DesignFound) -> Iterator[str]:
     """A later L than is of any use."""
     timing = found.plan.timing
     law = method_of(found.plan.costs).law(found.asked.design.options.feedback)
@@ -58,17 +58,17 @@ def _needs_no_later(found: Found) -> Iterator[str]:
         yield f"L = {timing.L} needs what L = {last} does: no later one needs less"
 
 
-def _by_deadline(found: Found) -> bool:
+def _by_deadline(found: DesignFound) -> bool:
     """Whether another L changes what runs when."""
     return found.asked.design.options.policy == "edf"
 
 
-def _chooses(found: Found) -> bool:
+def _chooses(found: DesignFound) -> bool:
     """Whether the method has a choice of where it lands."""
     return not method_of(found.plan.costs).law(found.asked.design.options.feedback).only_first
 
 
-def _to_spare(found: Found) -> Iterator[str]:
+def _to_spare(found: DesignFound) -> Iterator[str]:
     plan, asked = found.plan, found.asked
     if asked.pace is None or not plan.fits:
         return
@@ -80,7 +80,7 @@ def _to_spare(found: Found) -> Iterator[str]:
         yield f"only {down(100 * left, 2)} %{of} is to spare: what takes that much longer is late; take a faster one"
 
 
-def _calibrated(found: Found) -> Iterator[str]:
+def _calibrated(found: DesignFound) -> Iterator[str]:
     """Where a verdict by counts hangs on how near counts come to the part."""
     asked, plan, part = found.asked, found.plan, found.asked.part
     if part is None or asked.machine_pace is None:
@@ -97,7 +97,7 @@ def _calibrated(found: Found) -> Iterator[str]:
         yield f"too slow by counts, but {part.name} took {known.text} of them, and may need only {least}: {time_it}"
 
 
-def _less_work(found: Found) -> Iterator[str]:
+def _less_work(found: DesignFound) -> Iterator[str]:
     """Where executions that take less than their costs may be late; only where that takes no simulation to know."""
     asked, plan, options = found.asked, found.plan, found.asked.design.options
     if not plan.fits or not has_closed_form(options, asked.tasks, plan.costs, plan.timing):
@@ -109,12 +109,12 @@ def _less_work(found: Found) -> Iterator[str]:
     yield f"work that takes less than its cost may land in another step and be late: {none}"
 
 
-def _by_design(found: Found) -> Iterator[str]:
+def _by_design(found: DesignFound) -> Iterator[str]:
     if found.plan.method in CAVEATS:
         yield f"{CAVEATS[found.plan.method]}: clone lands as early, and is exact"
 
 
-def _assumed_costs(found: Found) -> Iterator[str]:
+def _assumed_costs(found: DesignFound) -> Iterator[str]:
     """Of a filter that nobody named."""
     asked = found.asked
     if asked.design.costs is None and asked.design.model is None:
@@ -125,7 +125,7 @@ def _assumed_costs(found: Found) -> Iterator[str]:
         yield f"costs are {of[asked.counts.name]}: give a {option('model')}, or {option('costs')} of your own"
 
 
-def _other_size(found: Found) -> Iterator[str]:
+def _other_size(found: DesignFound) -> Iterator[str]:
     """Costs of a filter that is not the model's."""
     asked, said = found.asked, found.asked.counts.provenance
     if asked.model is None or not {"states", "measurements"} <= {*said}:
@@ -138,7 +138,7 @@ def _other_size(found: Found) -> Iterator[str]:
         )
 
 
-def _measured(found: Found) -> Iterator[str]:
+def _measured(found: DesignFound) -> Iterator[str]:
     asked, statistic = found.asked, found.asked.design.statistic
     if busy := busy_note(asked.counts.provenance):
         yield busy
@@ -150,6 +150,6 @@ def _measured(found: Found) -> Iterator[str]:
         yield f"{option('statistic')} {statistic} changes nothing: each cost is one figure, counted or stated"
 
 
-def _bounded(found: Found) -> Iterator[str]:
+def _bounded(found: DesignFound) -> Iterator[str]:
     if found.figures is not None and not repeats_soon(found.asked.sampling.between):
         yield BOUND

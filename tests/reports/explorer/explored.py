@@ -6,10 +6,8 @@ import json
 import os
 import signal
 import subprocess
-import sys
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from pathlib import Path
 from typing import Any
 from urllib.error import HTTPError
 from urllib.parse import urlsplit
@@ -18,8 +16,7 @@ from urllib.request import urlopen
 from playwright.sync_api import Page
 
 from tests.browser import Visit
-
-ROOT = Path(__file__).parents[3]
+from tests.reports.explorer.started import started
 
 
 class Explorer:
@@ -60,19 +57,8 @@ class Explorer:
 
 @contextmanager
 def exploring(*options: str) -> Iterator[Explorer]:
-    process = subprocess.Popen(
-        [sys.executable, "-m", "sched_sim", "explore", "--no-browser", *options],
-        cwd=ROOT,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        start_new_session=True,
-    )
-    try:
+    with started("-m", "sched_sim", "explore", "--no-browser", *options) as process:
         yield Explorer(process)
-    finally:
-        process.kill()
-        process.communicate()
 
 
 def opened(visit: Visit, explorer: Explorer, query: str | None = None) -> Page:

@@ -9,14 +9,15 @@ from playwright.sync_api import Page, Route
 
 from reports.explorer.answer import Answer, document
 from reports.explorer.guard import HEADERS
-from reports.explorer.module import asset, module, stylesheet
+from reports.explorer.module import module, stylesheet
+from reports.explorer.pages import SCENARIO
 from reports.explorer.scenario_routes import scenario_questions
 from sched_sim.errors import InputError
 from studies.explorer.scenario_runs import Runs
 
 HOST = "http://127.0.0.1:8400"
 FILES: dict[str, tuple[Callable[[], str], str]] = {
-    "/scenario": (lambda: asset("scenario.html"), "text/html"),
+    "/scenario": (SCENARIO.html, "text/html"),
     "/scenario.js": (lambda: module("scenario"), "text/javascript"),
     "/explorer.css": (stylesheet, "text/css"),
     "/favicon.ico": (lambda: "", "image/x-icon"),

@@ -9,7 +9,8 @@ from contextlib import contextmanager
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from typing import Any
 
-from reports.explorer.module import asset, module, stylesheet
+from reports.explorer.module import module, stylesheet
+from reports.explorer.pages import DESIGNS
 from tests.reports.explorer.made_view import RefusedError, made_view
 
 POLL_S = 0.01
@@ -36,7 +37,7 @@ class SmallServer:
         """Status, type and text."""
         name, _, query = path.partition("?")
         texts = {
-            "/": ("text/html", lambda: asset("index.html")),
+            "/": ("text/html", DESIGNS.html),
             "/explorer.js": ("text/javascript", lambda: module("page")),
             "/explorer.css": ("text/css", stylesheet),
         }

@@ -256,7 +256,7 @@ def test_designs_are_pinned_kept_in_the_link_and_removed(visit: Visit, server: S
     pinned = page.get_by_role("region", name="Pinned designs").get_by_role("table")
     expect(pinned.get_by_role("row", name="method")).to_have_text("methodclonedual-rateclone")
     expect(pinned.get_by_role("row", name="part")).to_contain_text("rp2040 would do")
-    expect(pinned.get_by_role("row", name="load")).to_contain_text("80 % at the least speed")
+    expect(pinned.get_by_role("row", name="load")).to_contain_text("80.0 % at the least speed")
     expect(page).to_have_url(re.compile("#A=.*&B="))
     link = page.url
     page.goto("about:blank")

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import re
-
 import pytest
 from playwright.sync_api import expect
 
@@ -31,20 +29,6 @@ def test_a_server_that_is_gone_is_told_and_the_page_goes_on_with_the_next(visit:
         with exploring("--port", str(explorer.port), *DESIGN) as again:
             assert shown(page, again)["design"]["M"] == 5
         expect(page.get_by_text("is not running any more")).to_be_hidden()
-    left(visit)
-
-
-def test_a_server_that_ends_while_it_is_asked_is_told(visit: Visit) -> None:
-    with exploring("--port", "0", *DESIGN) as explorer:
-        page = opened(visit, explorer)
-        explorer.pause()
-        give(page, "M", "5")
-        expect(page.get_by_text("Still computing")).to_be_visible()
-        explorer.go_on()
-        assert shown(page, explorer)["design"]["M"] == 5
-        assert re.match("Ended after", explorer.end().splitlines()[1])
-        give(page, "M", "6")
-        expect(page.get_by_text("is not running any more")).to_be_visible()
     left(visit)
 
 

@@ -6,17 +6,15 @@ import os
 import signal
 import socket
 import subprocess
-import sys
 from collections.abc import Iterator
 from contextlib import ExitStack, closing, contextmanager, suppress
 from http.client import HTTPConnection
-from pathlib import Path
 
 import pytest
 
-pytest.importorskip("uvicorn", reason="the extra explore is not installed")
+from tests.reports.explorer.started import started
 
-ROOT = Path(__file__).parents[3]
+pytest.importorskip("uvicorn", reason="the extra explore is not installed")
 
 SERVER = """
 import sys
@@ -79,19 +77,8 @@ class Server:
 @contextmanager
 def running(ignoring: str = "") -> Iterator[Server]:
     code = f"import signal\n{ignoring}\n{SERVER}"
-    process = subprocess.Popen(
-        [sys.executable, "-c", code],
-        cwd=ROOT,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        start_new_session=True,
-    )
-    try:
+    with started("-c", code) as process:
         yield Server(process)
-    finally:
-        process.kill()
-        process.communicate()
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])

@@ -9,7 +9,8 @@ import pytest
 from reports.explorer import answer as answers
 from reports.explorer.answer import NO_MEMORY, UNEXPECTED, Answer
 from reports.explorer.compact import compact
-from reports.explorer.module import asset, module, stylesheet
+from reports.explorer.module import module, stylesheet
+from reports.explorer.pages import DESIGNS
 from sched_sim.errors import InputError
 from tests.reports.explorer.serving import client
 
@@ -20,7 +21,7 @@ def raising(error: BaseException) -> Answer:
 
 def test_the_page_its_script_and_its_style() -> None:
     for path, text, media in [
-        ("/", asset("index.html"), "text/html"),
+        ("/", DESIGNS.html(), "text/html"),
         ("/explorer.js", compact(module("page")), "text/javascript"),
         ("/explorer.css", compact(stylesheet()), "text/css"),
     ]:

@@ -23,7 +23,7 @@ pytest.importorskip("uvicorn", reason="the extra explore is not installed")
 
 from reports.explorer import serve
 from reports.explorer.answer import Answer, Asked
-from reports.explorer.module import asset
+from reports.explorer.pages import SCENARIO
 from tests.reports.explorer.serving import Client
 from tests.scenarios import ROCKET
 
@@ -104,7 +104,7 @@ def test_a_scenario_has_a_page_beside_that_of_designs(started: Any) -> None:
     view = client.get("/scenario/view").json()
     steps = client.get("/scenario/schedule?first=0&until=10").json()
     assert steps["steps"] == view["steps"]
-    assert client.get("/scenario").text == asset("scenario.html")
+    assert client.get("/scenario").text == SCENARIO.html()
     assert client.get("/scenario.js").status_code == client.get("/view").status_code == 200
 
 

@@ -11,7 +11,7 @@ from sched_sim.design.options import Options
 from sched_sim.processors.part import Part
 from sched_sim.processors.part_file import load_part, shipped_parts
 from studies.explorer.accuracy import accuracy
-from studies.explorer.answer import Found
+from studies.explorer.answer import DesignFound
 from studies.explorer.given import Given
 from studies.explorer.parts import Where, verdicts, where_of
 from studies.explorer.planned import planned
@@ -91,7 +91,7 @@ def questions(draw: st.DrawFn) -> Question:
     )
 
 
-def found_of(query: str, given: Given = GIVEN) -> Found:
+def found_of(query: str, given: Given = GIVEN) -> DesignFound:
     """All that is known of the design of a query."""
     design = design_of(query, given)
     asked = resolved(design, given)
@@ -100,8 +100,8 @@ def found_of(query: str, given: Given = GIVEN) -> Found:
     at, _ = where_of(asked)
     if question is None:
         parts = () if at is None else verdicts(at, plan.method, plan.timing, lambda _: None)
-        return Found(asked, plan, line, parts=parts)
+        return DesignFound(asked, plan, line, parts=parts)
     figures = accuracy(question, plan.method, whole=True, last=plan.timing.L)
     kept = {} if design.within is None else keeping(question, asked.methods, plan.method, at)
     parts = () if at is None else verdicts(at, plan.method, plan.timing, figures.at)
-    return Found(asked, plan, line, figures, kept, parts)
+    return DesignFound(asked, plan, line, figures, kept, parts)

@@ -23,7 +23,7 @@ from hypothesis import strategies as st
 
 from sched_sim import CostTable, Task, load_part, read_costs
 from sched_sim.cli import main
-from studies.explorer.answer import Found
+from studies.explorer.answer import DesignFound
 from studies.explorer.commands import Commands, commands
 from studies.explorer.given import Given
 from studies.selection.model import load_model
@@ -63,7 +63,7 @@ def exit_code() -> int:
     return 0
 
 
-def check(found: Found) -> None:
+def check(found: DesignFound) -> None:
     """Runs all that is said of a design."""
     said, plan, asked = commands(found.asked, found.plan), found.plan, found.asked
     std = None if found.figures is None else found.figures.at(plan.landed)
@@ -95,7 +95,7 @@ def check(found: Found) -> None:
     check_python(found, said.python)
 
 
-def check_python(found: Found, text: str) -> None:
+def check_python(found: DesignFound, text: str) -> None:
     names: dict[str, Any] = {}
     with redirect_stdout(StringIO()) as out:
         exec(text, names)
@@ -108,7 +108,7 @@ def check_python(found: Found, text: str) -> None:
         assert figure == pytest.approx(found.figures.at(found.plan.landed))
 
 
-def unit_s(found: Found) -> Fraction:
+def unit_s(found: DesignFound) -> Fraction:
     pace = found.asked.machine_pace
     assert pace is not None
     assert found.asked.rate is not None
