@@ -137,7 +137,7 @@ def _of_each(
 
 def _counted(costs: JobCosts[int]) -> JobCosts[int]:
     """With Python's integers, whatever whole numbers they were."""
-    return converted(costs, index)
+    return costs if all(type(work) is int for work in works(costs)) else converted(costs, index)
 
 
 def _arrays(costs: JobCosts[int], N: Ints, *others: Ints | int) -> list[Ints]:

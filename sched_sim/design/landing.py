@@ -13,10 +13,17 @@ from sched_sim.design.timing import Timing
 from sched_sim.schedule.tasks import Task, phases_matter
 
 
-def landing(costs: Costs, timing: Timing, pace: Fraction, options: Options, tasks: Sequence[Task]) -> int | None:
+def landing(
+    costs: Costs,
+    timing: Timing,
+    pace: Fraction,
+    options: Options,
+    tasks: Sequence[Task],
+    least: Fraction | None = None,
+) -> int | None:
     """The L at which corrections land where every deadline holds, at the latest; None if one does not.
 
-    pace: the speed, in cost units per HR period.
+    pace: the speed, in cost units per HR period; least: the least speed, where it is known.
     """
     own = costs
     costs, timing = of_bound(costs, timing)
@@ -32,7 +39,7 @@ def landing(costs: Costs, timing: Timing, pace: Fraction, options: Options, task
 
         steady = run_until_steady(costs, timing, pace, options, tasks)
         return max(steady.schedule.achieved, default=None) if steady.repeats else None
-    if least_speed(costs, timing, options).speed > pace:
+    if (least_speed(costs, timing, options).speed if least is None else least) > pace:
         return None
     landed = achieved_l(costs, timing, pace, options)
     return landed if landed is not None and landed <= timing.L else None

@@ -156,11 +156,11 @@ def staircase(
     legal = law.legal(N, M)
     if not legal:
         method.check_design(costs, longest, options.feedback)
-    timings = [Timing(N, M, L) for L in (legal if only is None else sorted(only)) if L in legal]
-    if all(has_closed_form(options, (), costs, timing) for timing in timings):
-        return _in_closed_form(costs, timings, options)
+    landings = [L for L in (legal if only is None else sorted(only)) if L in legal]
+    if not landings or has_closed_form(options, (), costs, Timing(N, M, landings[-1])):
+        return _in_closed_form(costs, N, M, landings, options)
     stairs = []
-    for timing in timings:
+    for timing in (Timing(N, M, L) for L in landings):
         least = least_speed(costs, timing, options)
         landed = achieved_l(costs, timing, least.speed, options)
         assert landed is not None
@@ -168,20 +168,20 @@ def staircase(
     return stairs
 
 
-def _in_closed_form(costs: Costs, timings: Sequence[Timing], options: Options) -> list[Stair]:
+def _in_closed_form(costs: Costs, N: int, M: int, landings: Sequence[int], options: Options) -> list[Stair]:
     """The stairs of one N and M, all at once."""
     import numpy as np
 
-    for timing in timings[:1]:
-        method_of(costs).check_design(costs, timing, options.feedback)
+    for first in landings[:1]:
+        method_of(costs).check_design(costs, Timing(N, M, first), options.feedback)
     resolution, in_ticks = _in_ticks(costs)
-    N, M, L = (np.array([getattr(timing, step) for timing in timings], dtype=np.int64) for step in "NML")
-    least = analysis.least_period(in_ticks, N, M, L, options)
-    landed = analysis.achieved_l(in_ticks, N, M, least.numerator, options, least.denominator)
+    every_N, every_M = (np.full(len(landings), steps, dtype=np.int64) for steps in (N, M))
+    least = analysis.least_period(in_ticks, every_N, every_M, np.array(landings, dtype=np.int64), options)
+    landed = analysis.achieved_l(in_ticks, every_N, every_M, least.numerator, options, least.denominator)
     return [
-        Stair(timing.L, Fraction(period, steps * resolution), Binding(code).name, achieved)
-        for timing, period, steps, code, achieved in zip(
-            timings, *(column.tolist() for column in (*least, landed)), strict=True
+        Stair(L, Fraction(period, steps * resolution), Binding(code).name, achieved)
+        for L, period, steps, code, achieved in zip(
+            landings, *(column.tolist() for column in (*least, landed)), strict=True
         )
     ]
 
@@ -214,6 +214,9 @@ def _floor(costs: Costs, timing: Timing, options: Options) -> Fraction:
 
 
 def _in_ticks(costs: Costs, *others: Fraction) -> tuple[int, JobCosts[int]]:
-    costs = converted(costs, Fraction)
-    resolution = ticks_per_unit([*works(costs), *others])
-    return resolution, converted(costs, lambda work: to_ticks(work, resolution))
+    resolution = ticks_per_unit([*(_exact(work) for work in works(costs)), *others])
+    return resolution, converted(costs, lambda work: to_ticks(_exact(work), resolution))
+
+
+def _exact(work: Fraction) -> Fraction:
+    return work if isinstance(work, Fraction) else Fraction(work)

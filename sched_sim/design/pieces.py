@@ -232,4 +232,4 @@ def converted(costs: JobCosts[Number], convert: Callable[[Number], Other]) -> Jo
 
 def works(costs: JobCosts[Number]) -> tuple[Number, ...]:
     """What each piece costs."""
-    return tuple(getattr(costs, piece) for piece in costs.__match_args__)
+    return tuple([getattr(costs, piece) for piece in costs.__match_args__])

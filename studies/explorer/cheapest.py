@@ -79,5 +79,5 @@ class _Known:
 
 def _looked(place: _Known, timing: Timing, options: Options, tasks: Sequence[Task], lands: bool = True) -> OnPart:
     busy = busy_share(place.costs, timing, place.pace, options, tasks)
-    landed = landing(place.costs, timing, place.pace, options, tasks) if lands else None
+    landed = landing(place.costs, timing, place.pace, options, tasks, place.low) if lands else None
     return OnPart(place.part, place.least, busy, landed)

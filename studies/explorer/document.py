@@ -4,18 +4,23 @@ from __future__ import annotations
 
 from dataclasses import fields, is_dataclass
 from fractions import Fraction
+from functools import cache
 from typing import Any
 
 from sched_sim.text import visible
+
+PLAIN = (str, int, float, list, type(None))
 
 
 def document(value: Any) -> Any:
     """Records and mappings become objects, tuples lists of what they hold, fractions their value beside the exact text.
     Lists are columns of plain values, and stay as they are."""
+    if isinstance(value, PLAIN):
+        return value
     if isinstance(value, Fraction):
         return {"value": float(value), "exact": str(value)}
     if is_dataclass(value):
-        return {field.name: document(getattr(value, field.name)) for field in fields(value)}
+        return {name: document(getattr(value, name)) for name in _names(type(value))}
     if isinstance(value, dict):
         return {key: document(item) for key, item in value.items()}
     if isinstance(value, tuple):
@@ -30,3 +35,8 @@ def all_visible(value: Any) -> Any:
     if isinstance(value, dict):
         return {visible(key): all_visible(item) for key, item in value.items()}
     return [all_visible(item) for item in value] if isinstance(value, list | tuple) else value
+
+
+@cache
+def _names(kind: type) -> list[str]:
+    return [field.name for field in fields(kind)]

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
+from typing import Any
 
 from sched_sim.design.binding import BINDING_WORDS
 from sched_sim.design.methods import METHODS
@@ -12,7 +13,6 @@ from studies.explorer.accuracy import Accuracy
 from studies.explorer.front import FrontLine
 from studies.explorer.planned import Planned
 from studies.explorer.power import Power
-from studies.explorer.query import query_of
 from studies.explorer.resolved import Resolved
 from studies.explorer.staircases import MOST_STAIRS
 from studies.selection.choice import Candidate
@@ -98,7 +98,7 @@ def method_view(
     return MethodView(
         plan.method,
         "",
-        query_of(replace(asked.design, method=plan.method)),
+        asked.queries.but(method=plan.method),
         asked.asked_L(plan.method),
         plan.least.speed,
         power.of(plan.least.speed),
@@ -121,23 +121,19 @@ def method_view(
 
 def refused_view(asked: Resolved, method: str, reason: str) -> MethodView:
     """Of one that cannot be had."""
-    return MethodView(method, reason, query_of(replace(asked.design, method=method)))
+    return MethodView(method, reason, asked.queries.but(method=method))
 
 
 def within_of(asked: Resolved, method: str, kept: Candidate, power: Power) -> Within:
     on = kept.parts[0] if kept.parts else None
     part = None if on is None or not on.fits else on.name
     named = asked.design.processor if on is None or not on.fits or on.part is None else on.part.name
-    design = asked.design
+    at: dict[str, Any] = {"method": method, "processor": named}
     if kept.L is not None:
-        only_first = METHODS[method].law(design.options.feedback).only_first
-        design = replace(design, L=None if only_first else kept.L, land_within_ms=None)
-    at_L = replace(
-        design,
-        method=method,
-        processor=named,
-        speed=None if named else design.speed,
-    )
+        only_first = METHODS[method].law(asked.design.options.feedback).only_first
+        at |= {"L": None if only_first else kept.L, "land_within_ms": None}
+    if named:
+        at["speed"] = None
     least = None if kept.least is None else kept.least.speed
     return Within(
         kept.L,
@@ -149,7 +145,7 @@ def within_of(asked: Resolved, method: str, kept: Candidate, power: Power) -> Wi
         kept.landed if on is None else on.landed,
         kept.landed_std if on is None else on.std,
         kept.reason,
-        query_of(at_L),
+        asked.queries.but(**at),
     )
 
 

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 
-from studies.explorer.query import query_of
 from studies.explorer.resolved import Resolved
 from studies.selection.parts import OnPart
 
@@ -32,7 +31,7 @@ class PartView:
 
 
 def part_view(asked: Resolved, on: OnPart) -> PartView:
-    design = asked.design if on.part is None else replace(asked.design, processor=on.part.name, speed=None)
+    there = {} if on.part is None else {"processor": on.part.name, "speed": None}
     return PartView(
         on.name,
         asked.counts.name if on.part is None else on.part.title,
@@ -44,5 +43,5 @@ def part_view(asked: Resolved, on: OnPart) -> PartView:
         on.std,
         None if on.price is None else float(on.price),
         on.remark or ("" if on.for_sale else NOT_FOR_SALE),
-        query_of(design),
+        asked.queries.but(**there),
     )

@@ -37,11 +37,8 @@ class Where:
 
     def places(self, method: str) -> list[Place]:
         """With the costs of the method on each. Raises InputError for a table that lacks them."""
-        return self._looker.places(self.table, method, self.rate, self.options)
-
-    @property
-    def _looker(self) -> Parts:
-        return _kept(itself(self.table), tuple(map(itself, self.parts)), self.statistic)
+        table, parts = itself(self.table), tuple(map(itself, self.parts))
+        return _places(table, parts, self.statistic, method, self.rate, self.options)
 
 
 def where_of(asked: Resolved) -> tuple[Where | None, str]:
@@ -74,6 +71,18 @@ def verdicts(where: Where, method: str, timing: Timing, at: Callable[[int], floa
     looked = [looked_at(place, timing, where.options, where.tasks) for place in where.places(method)]
     figured = [replace(on, std=None if on.landed is None else at(on.landed)) for on in looked]
     return tuple(sorted(figured, key=by_cost))
+
+
+@lru_cache(maxsize=256)
+def _places(
+    table: Same[CostTable],
+    parts: tuple[Same[Part], ...],
+    statistic: Statistic,
+    method: str,
+    rate: Fraction,
+    options: Options,
+) -> list[Place]:
+    return _kept(table, parts, statistic).places(table.value, method, rate, options)
 
 
 @lru_cache(maxsize=16)

@@ -40,7 +40,7 @@ def planned(asked: Resolved, method: str) -> Planned:
     (check_searched if current else check_beside)(costs, timing, options, tasks)
     least = least_speed(costs, timing, options, tasks, patience(options, tasks))
     speed = least.speed if asked.pace is None else asked.pace
-    held = landing(costs, timing, speed, options, tasks)
+    held = landing(costs, timing, speed, options, tasks, least.speed)
     landed = held
     if held is None and has_closed_form(options, tasks, costs, timing):
         landed = achieved_l(costs, timing, speed, options)

@@ -19,7 +19,8 @@ class Power:
     per_unit: Fraction
 
     def of(self, speed: Fraction) -> float:
-        return float(speed * self.per_unit)
+        per_unit = self.per_unit
+        return (speed.numerator * per_unit.numerator) / (speed.denominator * per_unit.denominator)
 
 
 def power_of(asked: Resolved) -> Power:

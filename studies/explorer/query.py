@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import fields
 from fractions import Fraction
 from typing import Any
-from urllib.parse import parse_qsl, quote, urlencode
+from urllib.parse import parse_qsl, quote
 
 from sched_sim.bounds import short
 from sched_sim.design.options import Options, choices
@@ -46,9 +46,26 @@ def design_of(query: str, given: Given = Given()) -> Design:
 
 def query_of(design: Design) -> str:
     """The query that `design_of` makes this design of: only what is not as by default, always in the same order."""
-    values = _said(design)
-    said = {name: _text(value) for name, value in values.items() if value is not None and value != DEFAULTS[name]}
-    return urlencode(said, quote_via=quote, safe="/,:")
+    return Queries(design).but()
+
+
+class Queries:
+    """Those of a design, and of others that differ from it in a few keys."""
+
+    def __init__(self, design: Design) -> None:
+        self._pairs = _pairs(_said(design))
+
+    def but(self, **changes: Any) -> str:
+        """The query of the design with these in place of its own."""
+        return "&".join(filter(None, (self._pairs | _pairs(changes)).values()))
+
+
+def _pairs(values: Mapping[str, Any]) -> dict[str, str]:
+    """By key, what stands in a query; empty for what is as by default."""
+    return {
+        name: "" if value is None or value == DEFAULTS[name] else f"{name}={quote(_text(value), safe='/,:')}"
+        for name, value in values.items()
+    }
 
 
 def texts(design: Design) -> Mapping[str, str | None]:

@@ -18,7 +18,7 @@ from sched_sim.schedule.tasks import Task
 from sched_sim.ticks import exact
 from studies.explorer.design import Design
 from studies.explorer.given import Given
-from studies.explorer.query import number_text
+from studies.explorer.query import Queries, number_text
 from studies.selection.model import Model
 from studies.selection.outputs import Outputs
 from studies.selection.sampling import Sampling, with_defaults
@@ -49,6 +49,11 @@ class Resolved:
     def rate(self) -> Fraction | None:
         """Of the HR loop, in Hz."""
         return self.stated.rate
+
+    @cached_property
+    def queries(self) -> Queries:
+        """Of the design, and of others beside it."""
+        return Queries(self.design)
 
     @cached_property
     def methods(self) -> tuple[str, ...]:

@@ -62,7 +62,7 @@ def in_closed_form(costs: Costs, timing: Timing, options: Options, tasks: Sequen
 
 
 def _stair(costs: Costs, timing: Timing, options: Options, tasks: Sequence[Task], least: LeastSpeed) -> Stair:
-    landed = landing(costs, timing, least.speed, options, tasks)
+    landed = landing(costs, timing, least.speed, options, tasks, least.speed)
     assert landed is not None
     return Stair(timing.L, least.speed, least.binding, landed)
 

@@ -25,7 +25,6 @@ from studies.explorer.part_views import PartView, part_view
 from studies.explorer.parts import Where, verdicts, where_of
 from studies.explorer.planned import Planned, planned
 from studies.explorer.power import Power, power_of
-from studies.explorer.query import query_of
 from studies.explorer.question import question_of
 from studies.explorer.resolved import Resolved, resolved
 from studies.explorer.schedule import Timeline, timeline
@@ -93,7 +92,7 @@ def explore(design: Design, given: Given = Given()) -> View:
     fronts = _fronts(plans, figures, power)
     found = DesignFound(asked, current, shown, own, kept, looked)
     return View(
-        query_of(design),
+        asked.queries.but(),
         said_of(asked, current),
         choices_of(asked),
         limits(asked),

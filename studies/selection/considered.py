@@ -56,7 +56,7 @@ def considered(question: Question, curve_of: Callable[[Variant], Curve], variant
         least = least_speed(costs, timing, variant.options, question.tasks_in_unit)
     except InputError as error:
         return replace(found, reason=str(error))
-    landed = landing(costs, timing, least.speed, variant.options, question.tasks_in_unit)
+    landed = landing(costs, timing, least.speed, variant.options, question.tasks_in_unit, least.speed)
     at = None if landed is None else (0 if delay == 0 and found.first == 0 else landed)
     return replace(
         found,

@@ -131,7 +131,8 @@ def looked_at(place: Place, timing: Timing, options: Options, tasks: Sequence[Ta
     """What one place makes of a design. Raises InputError as `least_speed` does."""
     if place.costs is None:
         return OnPart(place.part, None, None, remark=place.remark)
-    needed = least_speed(place.costs, timing, options, tasks).speed / place.pace
+    least = least_speed(place.costs, timing, options, tasks).speed
+    needed = least / place.pace
     busy = busy_share(place.costs, timing, place.pace, options, tasks)
-    lands = landing(place.costs, timing, place.pace, options, tasks) if needed <= 1 else None
+    lands = landing(place.costs, timing, place.pace, options, tasks, least) if needed <= 1 else None
     return OnPart(place.part, needed, busy, lands)
