@@ -7,6 +7,7 @@ from fractions import Fraction
 
 from sched_sim.design.least_speed import achieved_l, alone, has_closed_form, least_speed
 from sched_sim.design.long_pattern import of_bound
+from sched_sim.design.methods import method_of
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import Costs
 from sched_sim.design.timing import Timing
@@ -41,5 +42,7 @@ def landing(
         return max(steady.schedule.achieved, default=None) if steady.repeats else None
     if (least_speed(costs, timing, options).speed if least is None else least) > pace:
         return None
+    if method_of(costs).lands_in_step_m:
+        return timing.M
     landed = achieved_l(costs, timing, pace, options)
     return landed if landed is not None and landed <= timing.L else None

@@ -89,6 +89,8 @@ def _wrong(task: Task) -> Iterator[str]:
 def checked_tasks(tasks: Iterable[Task], cpus: int) -> tuple[Task, ...]:
     """The user's tasks. Raises InputError for anything else, for two of one name, and for a task on a processor that is
     not there."""
+    if tasks == ():
+        return ()
     if isinstance(tasks, str | Path | Task) or not isinstance(tasks, Iterable):
         raise InputError(f"tasks is {short(repr(tasks))}: give a list of Task(...), as `read_tasks` returns one")
     known = tuple(tasks)

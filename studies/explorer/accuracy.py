@@ -13,7 +13,7 @@ from filters.accuracy.predictor import predictor_multiplications
 from filters.delayed.low_rate_noise import LowRateNoise
 from sched_sim.design.methods import METHODS as SCHEDULED
 from sched_sim.errors import option
-from studies.explorer.same import Same, contents
+from studies.explorer.same import Same, contents, itself
 from studies.selection.compare import Metric
 from studies.selection.conditions import Conditions, check_ages
 from studies.selection.curve import Curve, at_arrival, by_landing
@@ -74,7 +74,7 @@ def curve_of(question: Question, method: str, *, whole: bool = False, last: int 
     check_ages(question.model, ceil(sampling.between) + most)
     if METHODS[method].lossless:
         noise: LowRateNoise = question.options.low_rate_noise if method == "dual-rate" else "exact"
-        model, outputs = _same_model(question.model), _same_outputs(question.outputs)
+        model, outputs, _ = _known(itself(question))
         return _by_landing(model, outputs, sampling.between, most, noise, question.metric)
     if METHODS[method].floored and not whole:
         lossless = curve_of(question, "recalculate").at(sampling.M)
@@ -82,21 +82,13 @@ def curve_of(question: Question, method: str, *, whole: bool = False, last: int 
             return Curve(sampling.M, np.array([lossless]))
     if METHODS[method].floored:
         _check_effort(question, method)
-    return _at_arrival(
-        _same_model(question.model),
-        _same_outputs(question.outputs),
-        method,
-        sampling.between,
-        sampling.M,
-        Same(question.conditions, contents(question.conditions)),
-        question.metric,
-    )
+    model, outputs, conditions = _known(itself(question))
+    return _at_arrival(model, outputs, method, sampling.between, sampling.M, conditions, question.metric)
 
 
 def _check_effort(question: Question, method: str) -> None:
     """Raises ValueError for a sum of more multiplications than MOST."""
-    sampling, model, outputs = question.sampling, _same_model(question.model), _same_outputs(question.outputs)
-    pull = question.conditions.pull
+    sampling, pull, (model, outputs, _) = question.sampling, question.conditions.pull, _known(itself(question))
     if pull is not None and _multiplications(model, outputs, sampling.between, sampling.M, pull) > MOST:
         raise ValueError(f"its accuracy is a sum over too many steps: `sched-sim accuracy --method {method}` takes it")
 
@@ -132,12 +124,22 @@ def _why_not_whole(question: Question) -> str:
     return f"more than {lossless:.4g}{unit}: choose it to see how much"
 
 
-def _same_model(model: Model) -> Same[Model]:
-    return Same(model, contents(model.linear))
+class _Known(NamedTuple):
+    """What of a question no hash is of, known by what is in it."""
+
+    model: Same[Model]
+    outputs: Same[Outputs]
+    conditions: Same[Conditions]
 
 
-def _same_outputs(outputs: Outputs) -> Same[Outputs]:
-    return Same(outputs, contents(outputs.rows))
+@lru_cache(maxsize=2)
+def _known(same: Same[Question]) -> _Known:
+    question = same.value
+    return _Known(
+        Same(question.model, contents(question.model.linear)),
+        Same(question.outputs, contents(question.outputs.rows)),
+        Same(question.conditions, contents(question.conditions)),
+    )
 
 
 @lru_cache(maxsize=KEPT)

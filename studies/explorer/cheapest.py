@@ -20,7 +20,7 @@ from studies.selection.parts import OnPart, Place, by_cost
 def cheapest(places: Sequence[Place], timing: Timing, options: Options, tasks: Sequence[Task]) -> list[OnPart]:
     """The first of `Parts.look` by cost, alone; where nothing is known of any place, all of them; none of no places."""
     known = [
-        _Known(part, costs, pace, *least_speed_range(costs, timing, options, tasks))
+        _Known.of(part, costs, pace, *least_speed_range(costs, timing, options, tasks))
         for part, costs, pace, _ in places
         if costs is not None
     ]
@@ -46,35 +46,32 @@ def cheapest(places: Sequence[Place], timing: Timing, options: Options, tasks: S
 
 @dataclass(frozen=True, slots=True)
 class _Known:
-    """A place whose costs are known. low, high: between which the least speed is; high: None if that is not known."""
+    """A place whose costs are known. low: that the least speed is not below; least: the share of its speed that this
+    is; is_exact: whether it is the least speed; rank: the best that it may have among those that do, by cost, but for
+    the load that decides between equals."""
 
     part: Part | None
     costs: Costs
     pace: Fraction
     low: Fraction
-    high: Fraction | None
+    least: Fraction
+    is_exact: bool
+    rank: tuple[int, Fraction]
 
-    @property
-    def is_exact(self) -> bool:
-        return self.low == self.high
-
-    @property
-    def least(self) -> Fraction:
-        """The share of its speed that is needed, at least."""
-        return self.low / self.pace
-
-    @property
-    def rank(self) -> tuple[int, Fraction]:
-        """The best that it may have among those that do, by cost, but for the load that decides between equals."""
-        price, for_sale = (None, True) if self.part is None else (self.part.price, self.part.for_sale)
-        most = Fraction(1) if self.high is None else min(self.high / self.pace, Fraction(1))
-        if price is None or not for_sale:
-            return (1 if for_sale else 2), -most
-        return 0, price
+    @classmethod
+    def of(cls, part: Part | None, costs: Costs, pace: Fraction, low: Fraction, high: Fraction | None) -> _Known:
+        """high: that the least speed is not above; None if that is not known."""
+        least, is_exact = low / pace, low == high
+        price, for_sale = (None, True) if part is None else (part.price, part.for_sale)
+        most = Fraction(1) if high is None else min(least if is_exact else high / pace, Fraction(1))
+        rank = (0, price) if price is not None and for_sale else (1 if for_sale else 2, -most)
+        return cls(part, costs, pace, low, least, is_exact, rank)
 
     def exactly(self, timing: Timing, options: Options, tasks: Sequence[Task]) -> _Known:
-        speed = self.low if self.is_exact else least_speed(self.costs, timing, options, tasks).speed
-        return _Known(self.part, self.costs, self.pace, speed, speed)
+        if self.is_exact:
+            return self
+        speed = least_speed(self.costs, timing, options, tasks).speed
+        return _Known.of(self.part, self.costs, self.pace, speed, speed)
 
 
 def _looked(place: _Known, timing: Timing, options: Options, tasks: Sequence[Task], lands: bool = True) -> OnPart:
