@@ -22,6 +22,6 @@ def prefix(model: LinearModel, steps: int) -> Prefix:
     Phi, Q = np.empty((steps + 1, n, n)), np.empty((steps + 1, n, n))
     Phi[0], Q[0] = np.eye(n), 0.0
     for a in range(steps):
-        Phi[a + 1] = model.Phi @ Phi[a]  # (16)
-        Q[a + 1] = model.Phi @ Q[a] @ model.Phi.T + model.Q  # (18)
+        model.Phi.dot(Phi[a], Phi[a + 1])  # (16)
+        np.add(model.Phi.dot(Q[a]).dot(model.Phi.T), model.Q, Q[a + 1])  # (18)
     return Prefix(Phi, Q)

@@ -14,6 +14,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Hashable
 from fractions import Fraction
+from functools import cache
 
 from sched_sim.design.hr_loop import HrSource, OnLanding
 from sched_sim.design.method import CostOf, CycleWork, Law, Method
@@ -103,6 +104,7 @@ class DelayedHorizon(HrSource):
         return self._next_update()
 
 
+@cache
 def law(_feedback: Feedback) -> Law:
     return Law(1, 0, only_first=False)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Hashable
 from fractions import Fraction
+from functools import cache
 
 from sched_sim.design.hr_loop import HrSource, OnLanding
 from sched_sim.design.method import CostOf, CycleWork, Law, Method
@@ -174,6 +175,7 @@ class DualRate(HrSource):
         return (self.lr_queue.popleft(),)
 
 
+@cache
 def law(feedback: Feedback) -> Law:
     after, before = (1, 0) if feedback == "next-step" else (0, 1)
     return Law(after, before, only_first=False, several=True)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Hashable
 from dataclasses import replace
 from fractions import Fraction
+from functools import cache
 
 from sched_sim.design import larsen_in_flight
 from sched_sim.design.hr_loop import HrSource, OnLanding
@@ -54,10 +55,12 @@ def _work(parts: Parts) -> int:
     return sum(work for _, work in parts)
 
 
+@cache
 def law(_feedback: Feedback) -> Law:
     return Law(0, 0, only_first=True)
 
 
+@cache
 def law_with_several(_feedback: Feedback) -> Law:
     return Law(0, 0, only_first=True, several=True)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Hashable
 from dataclasses import replace
 from fractions import Fraction
+from functools import cache
 
 from sched_sim.design.hr_loop import HrSource, OnLanding
 from sched_sim.design.method import CostOf, CycleWork, Law, Method
@@ -70,6 +71,7 @@ class TwoRate(HrSource):
         return ()
 
 
+@cache
 def law(_feedback: Feedback) -> Law:
     return Law(1, 0, only_first=False, undelayed=True)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from functools import lru_cache
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -50,6 +51,7 @@ class JobSpan(NamedTuple):
     preemptions: int
 
 
+@lru_cache(maxsize=256)
 def row_of(kind: str, cpu: int | None) -> Row:
     """The line on which jobs of one kind are drawn."""
     if kind.startswith(TASK):

@@ -173,7 +173,7 @@ class Processor:
                             order_of_release += 1
                             heappush(cpus[new.cpu].ready, (rank(new), order_of_release, new))
                     if on_slice is not None and piece is not None:
-                        on_slice(piece._replace(finished=bool(finished)))
+                        on_slice(piece if finished else piece._replace(finished=False))
                     for done in finished:
                         tally = tallies[done.kind]
                         tally.finished += 1

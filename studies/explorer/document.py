@@ -19,8 +19,8 @@ def document(value: Any) -> Any:
         return value
     if isinstance(value, Fraction):
         return {"value": float(value), "exact": str(value)}
-    if is_dataclass(value):
-        return {name: document(getattr(value, name)) for name in _names(type(value))}
+    if names := _names(value.__class__):
+        return {name: document(getattr(value, name)) for name in names}
     if isinstance(value, dict):
         return {key: document(item) for key, item in value.items()}
     if isinstance(value, tuple):
@@ -39,4 +39,5 @@ def all_visible(value: Any) -> Any:
 
 @cache
 def _names(kind: type) -> list[str]:
-    return [field.name for field in fields(kind)]
+    """Of the fields of a record; none of what is no record."""
+    return [field.name for field in fields(kind)] if is_dataclass(kind) else []

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 from sched_sim.costs.table_file import shipped_tables
@@ -22,6 +23,9 @@ class Sources:
     part: str | None
     model: str | None
     tasks: str | None
+
+
+_shipped = cache(shipped_tables)
 
 
 def sources_of(asked: Resolved) -> Sources | None:
@@ -45,11 +49,11 @@ def _costs(asked: Resolved) -> str | None:
         return asked.given.costs[name].path if name in asked.given.costs else name
     if asked.model is None:
         return None
-    return counts.name if counts.name in shipped_tables() else f"{counts.name}.toml"
+    return counts.name if counts.name in _shipped() else f"{counts.name}.toml"
 
 
 def _counting(asked: Resolved, costs: str | None) -> tuple[str, ...]:
-    if asked.model is None or asked.design.costs is not None or asked.counts.name in shipped_tables():
+    if asked.model is None or asked.design.costs is not None or asked.counts.name in _shipped():
         return ()
     sizes = zip(("--states", "--inputs", "--measurements"), map(str, asked.model.sizes), strict=True)
     of = [word for pair in sizes for word in pair]
