@@ -53,18 +53,20 @@ def least_speed(
     options: Options = Options(),
     tasks: Sequence[Task] = (),
     on_progress: Callable[[int], None] = lambda _runs: None,
+    on_work: Callable[[int], None] = lambda _instants: None,
 ) -> LeastSpeed:
     """The least speed at which every deadline holds (Steffes 2014, Sec. III.C: needed processing power).
 
     In closed form and exact, where measurements are not whole steps apart for their intervals as they come, whether
     each is used M steps after its k or as soon as it is there (`uneven`). With context-switch costs, other tasks or
     earliest deadline first, and where the dual-rate filter has several corrections on their way, M >= N or L > N, by
-    bisection on the simulation, which is exact to one tick and calls `on_progress` (see
-    `search.least_speed_by_simulation`), or, where the intervals repeat only after many steps, an upper bound
-    (`long_pattern`); with tasks whose offset may be any, or with jitter, by bisection on the worst response times, for
-    every phase (`any_phase.least_speed_of_any_phase`), of uneven intervals an upper bound too. An L > N needs no more
-    than one before the next measurement. Every faster processor does too, except where landing earlier costs more:
-    the HR job of step k+1 is the longest of all, or same-step feedback spills into the next step.
+    bisection on the simulation, which is exact to one tick and calls `on_progress` before each one, with its number,
+    and `on_work` after it, with how many points in time it visited (see `search.least_speed_by_simulation`), or, where
+    the intervals repeat only after many steps, an upper bound (`long_pattern`); with tasks whose offset may be any, or
+    with jitter, by bisection on the worst response times, for every phase (`any_phase.least_speed_of_any_phase`), of
+    uneven intervals an upper bound too. An L > N needs no more than one before the next measurement. Every faster
+    processor does too, except where landing earlier costs more: the HR job of step k+1 is the longest of all, or
+    same-step feedback spills into the next step.
     Raises InputError for an L that the method cannot have.
     """
     tasks = checked(timing, options, tasks)
@@ -85,7 +87,7 @@ def least_speed(
             known = enough.speed == floor or gains_nothing(costs, timing, before, enough.speed, floor, options)
             if known:
                 return enough
-        found = LeastSpeed(*least_speed_by_simulation(costs, timing, options, tasks, on_progress))
+        found = LeastSpeed(*least_speed_by_simulation(costs, timing, options, tasks, on_progress, on_work))
         return found if enough is None or found.speed < enough.speed else enough
     if comes_unevenly(costs, timing):
         return LeastSpeed(longest_job(costs, timing), Binding.hr.name)

@@ -31,6 +31,9 @@ FIRST_LOOK = 256
 OnProgress = Callable[[int], None]
 """Called with how many simulations have been run."""
 
+OnWork = Callable[[int], None]
+"""Called after each simulation with how many points in time it visited."""
+
 
 def least_speed_by_simulation(
     costs: Costs,
@@ -38,6 +41,7 @@ def least_speed_by_simulation(
     options: Options,
     tasks: Sequence[Task],
     on_progress: OnProgress = lambda _runs: None,
+    on_work: OnWork = lambda _instants: None,
 ) -> tuple[Fraction, str]:
     """(least speed, binding): there no deadline is ever missed, since all that can come has been seen
     (`run_until_steady`); one tick of period less is too slow: a deadline is missed, or work piles up without end.
@@ -54,7 +58,9 @@ def least_speed_by_simulation(
     def run(period: int, steps: int) -> Steady:
         on_progress(next(runs))
         speed = Fraction(period, resolution)
-        return run_until_steady(costs, timing, speed, options, tasks, steps)
+        steady = run_until_steady(costs, timing, speed, options, tasks, steps)
+        on_work(steady.schedule.instants)
+        return steady
 
     piling = [ceil(load * resolution) for load in _loads_later(costs, timing, options, tasks)]
     too_slow = max(ceil(floor * resolution) - 1, 0)

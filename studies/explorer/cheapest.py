@@ -14,11 +14,15 @@ from sched_sim.design.pieces import Costs
 from sched_sim.design.timing import Timing
 from sched_sim.processors.part import Part
 from sched_sim.schedule.tasks import Task
+from studies.explorer.searched import MOST_WORK_BESIDE, patience
 from studies.selection.parts import OnPart, Place, by_cost
 
 
 def cheapest(places: Sequence[Place], timing: Timing, options: Options, tasks: Sequence[Task]) -> list[OnPart]:
-    """The first of `Parts.look` by cost, alone; where nothing is known of any place, all of them; none of no places."""
+    """The first of `Parts.look` by cost, alone; where nothing is known of any place, all of them; none of no places.
+
+    Raises InputError where it takes too long a search.
+    """
     known = [
         _Known.of(part, costs, pace, *least_speed_range(costs, timing, options, tasks))
         for part, costs, pace, _ in places
@@ -70,7 +74,7 @@ class _Known:
     def exactly(self, timing: Timing, options: Options, tasks: Sequence[Task]) -> _Known:
         if self.is_exact:
             return self
-        speed = least_speed(self.costs, timing, options, tasks).speed
+        speed = least_speed(self.costs, timing, options, tasks, on_work=patience(MOST_WORK_BESIDE)).speed
         return _Known.of(self.part, self.costs, self.pace, speed, speed)
 
 

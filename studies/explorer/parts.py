@@ -11,11 +11,12 @@ from sched_sim.costs.table import COUNTED, INSTRUCTION, SECONDS, CostTable
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import Statistic
 from sched_sim.design.timing import Timing
-from sched_sim.errors import option
+from sched_sim.errors import InputError, option
 from sched_sim.processors.part import Part, why_not_instructions
 from sched_sim.schedule.tasks import Task
 from studies.explorer.resolved import Resolved
 from studies.explorer.same import Same, itself
+from studies.explorer.searched import MOST_WORK_BESIDE, patience
 from studies.selection.parts import OnPart, Parts, Place, by_cost, looked_at
 
 
@@ -64,13 +65,18 @@ def where_of(asked: Resolved) -> tuple[Where | None, str]:
 
 
 def verdicts(where: Where, method: str, timing: Timing, at: Callable[[int], float | None]) -> tuple[OnPart, ...]:
-    """What each place makes of a design, by cost. at: the figure of the output by landing.
-
-    Raises InputError as `least_speed` does.
-    """
-    looked = [looked_at(place, timing, where.options, where.tasks) for place in where.places(method)]
+    """What each place makes of a design, by cost; nothing is known of one on which the least speed takes too long to
+    search. at: the figure of the output by landing."""
+    looked = [_looked_at(place, timing, where) for place in where.places(method)]
     figured = [replace(on, std=None if on.landed is None else at(on.landed)) for on in looked]
     return tuple(sorted(figured, key=by_cost))
+
+
+def _looked_at(place: Place, timing: Timing, where: Where) -> OnPart:
+    try:
+        return looked_at(place, timing, where.options, where.tasks, patience(MOST_WORK_BESIDE))
+    except InputError as error:
+        return OnPart(place.part, None, None, remark=str(error))
 
 
 @lru_cache(maxsize=256)

@@ -11,7 +11,7 @@ from sched_sim.design.least_speed import LeastSpeed, Stair, achieved_l, has_clos
 from sched_sim.design.pieces import Costs
 from sched_sim.design.timing import Timing
 from studies.explorer.resolved import Resolved
-from studies.explorer.searched import check_beside, check_searched, patience
+from studies.explorer.searched import MOST_WORK, MOST_WORK_BESIDE, check_beside, check_searched, patience
 from studies.explorer.staircases import landings, stairs
 
 
@@ -38,7 +38,7 @@ def planned(asked: Resolved, method: str) -> Planned:
     timing, costs = asked.timing(method), asked.costs(method)
     current = method == asked.design.method
     (check_searched if current else check_beside)(costs, timing, options, tasks)
-    least = least_speed(costs, timing, options, tasks, patience(options, tasks))
+    least = least_speed(costs, timing, options, tasks, on_work=patience(MOST_WORK if current else MOST_WORK_BESIDE))
     speed = least.speed if asked.pace is None else asked.pace
     held = landing(costs, timing, speed, options, tasks, least.speed)
     landed = held

@@ -59,20 +59,27 @@ def check_beside(costs: Costs, timing: Timing, options: Options, tasks: Sequence
         )
 
 
-MOST_RUNS = 80
-"""Simulations of a design whose corrections overlap: where work piles up slowly each is of thousands of HR periods, and
-there are more of them than of any other design."""
+MOST_WORK = 200_000
+"""Points in time that the simulations of a search visit, of the design itself: some half a second. There are more only
+where work piles up slowly, or many jobs come in a step."""
+
+MOST_WORK_BESIDE = 40_000
+"""As many, of each method, landing or part beside it."""
 
 
-def patience(options: Options, tasks: Sequence[Task]) -> Callable[[int], None]:
-    """For `least_speed` to call with how many simulations it has made: raises InputError where they do not come to an
-    end while somebody waits."""
+def patience(most: int) -> Callable[[int], None]:
+    """For `least_speed` to call with the work of each simulation: raises InputError where there are more than so many
+    points in time in all."""
+    visited = 0
 
-    def go_on(runs: int) -> None:
-        if runs > MOST_RUNS and has_closed_form(options, tasks):
+    def go_on(instants: int) -> None:
+        nonlocal visited
+        visited += instants
+        if visited > most:
             raise InputError(
-                f"the least speed takes a search by more than {MOST_RUNS} simulations, as work piles up slowly: ask "
-                f"`sched-sim minimum`, or take one measurement on its way at a time"
+                f"the least speed takes a search by simulations of more than {most:,} points in time, as work piles "
+                f"up slowly or many jobs come in a step: ask `sched-sim minimum`, or take one measurement on its way "
+                f"at a time, no {option('context_switch')}, or fewer tasks"
             )
 
     return go_on

@@ -16,7 +16,7 @@ from sched_sim.design.pieces import Costs, DualRateCosts
 from sched_sim.design.timing import Timing
 from sched_sim.errors import InputError
 from sched_sim.schedule.tasks import Task
-from studies.explorer.searched import MOST_BESIDE, patience, searched
+from studies.explorer.searched import MOST_BESIDE, MOST_WORK_BESIDE, patience, searched
 from studies.selection.front import some_landings
 
 MOST_STAIRS = 200
@@ -52,7 +52,7 @@ def _searched(
     """But for those that take too long."""
     for L in at:
         with suppress(InputError):
-            yield L, least_speed(costs, replace(timing, L=L), options, tasks, patience(options, tasks))
+            yield L, least_speed(costs, replace(timing, L=L), options, tasks, on_work=patience(MOST_WORK_BESIDE))
 
 
 def in_closed_form(costs: Costs, timing: Timing, options: Options, tasks: Sequence[Task]) -> bool:

@@ -8,10 +8,12 @@ from functools import lru_cache
 
 from sched_sim.design.least_speed import has_closed_form
 from sched_sim.design.methods import METHODS as SCHEDULED
+from sched_sim.errors import InputError
 from studies.explorer.accuracy import accuracy, curve_of, lacks
 from studies.explorer.cheapest import cheapest
 from studies.explorer.parts import Where
 from studies.explorer.same import Same, contents, itself
+from studies.explorer.searched import MOST_WORK_BESIDE, patience
 from studies.selection.choice import Candidate
 from studies.selection.considered import considered, too_coarse
 from studies.selection.curve import Curve
@@ -75,8 +77,13 @@ def _keeping(same: Same[Question], method: str, where: Same[Where] | None) -> Ca
     variant = next(variants([method], (1,), question.tables, question.options, question.ways), None)
     if variant is None:
         return _none(question, method, f"the cost table {question.tables[0].name} has no costs of it")
-    found = considered(question, lambda of: _in_reach(question, of.method), variant)
-    return found if where is None or found.L is None else _on_cheapest(question, found, where.value)
+    found = considered(question, lambda of: _in_reach(question, of.method), variant, patience(MOST_WORK_BESIDE))
+    if where is None or found.L is None:
+        return found
+    try:
+        return _on_cheapest(question, found, where.value)
+    except InputError as error:
+        return replace(found, reason=str(error))
 
 
 def _in_reach(question: Question, method: str) -> Curve:

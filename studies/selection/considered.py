@@ -21,10 +21,15 @@ from studies.selection.variants import Variant
 from studies.selection.waiting import too_irregular, too_late
 
 
-def considered(question: Question, curve_of: Callable[[Variant], Curve], variant: Variant) -> Candidate:
+def considered(
+    question: Question,
+    curve_of: Callable[[Variant], Curve],
+    variant: Variant,
+    on_work: Callable[[int], None] = lambda _instants: None,
+) -> Candidate:
     """The latest landing with which it keeps the accuracy, and the least speed for that, without parts.
 
-    curve_of: the figure of the output by landing, ValueError where there is no regime.
+    curve_of: the figure of the output by landing, ValueError where there is no regime; on_work: as of `least_speed`.
     """
     using = question.sampling.using(variant.every)
     first = earliest(variant.method, using.M, variant.options)
@@ -53,7 +58,7 @@ def considered(question: Question, curve_of: Callable[[Variant], Curve], variant
         timing = using.timing(delay, max(last, delay))
         SCHEDULED[variant.method].check(timing, variant.options.feedback)
         costs = select(variant.table, variant.method, variant.options, question.statistic)
-        least = least_speed(costs, timing, variant.options, question.tasks_in_unit)
+        least = least_speed(costs, timing, variant.options, question.tasks_in_unit, on_work=on_work)
     except InputError as error:
         return replace(found, reason=str(error))
     landed = landing(costs, timing, least.speed, variant.options, question.tasks_in_unit, least.speed)

@@ -3,7 +3,7 @@ its corrections land there."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import NamedTuple
@@ -127,11 +127,17 @@ class Parts:
             return Place(part, None, 1 / rate, str(error))
 
 
-def looked_at(place: Place, timing: Timing, options: Options, tasks: Sequence[Task]) -> OnPart:
-    """What one place makes of a design. Raises InputError as `least_speed` does."""
+def looked_at(
+    place: Place,
+    timing: Timing,
+    options: Options,
+    tasks: Sequence[Task],
+    on_work: Callable[[int], None] = lambda _instants: None,
+) -> OnPart:
+    """What one place makes of a design. on_work: as of `least_speed`. Raises InputError as that does."""
     if place.costs is None:
         return OnPart(place.part, None, None, remark=place.remark)
-    least = least_speed(place.costs, timing, options, tasks).speed
+    least = least_speed(place.costs, timing, options, tasks, on_work=on_work).speed
     needed = least / place.pace
     busy = busy_share(place.costs, timing, place.pace, options, tasks)
     lands = landing(place.costs, timing, place.pace, options, tasks, least) if needed <= 1 else None

@@ -232,7 +232,21 @@ def test_beside_tasks_the_machine_of_the_costs_is_judged_and_the_landings_lead_t
 
 
 def test_a_search_that_does_not_come_to_its_end_is_given_up() -> None:
-    """Where work piles up slowly each of its simulations is of many steps."""
+    """Where work piles up slowly each of its simulations visits many points in time."""
     query = "N=1&M=1&costs=counted-9-3-3&lr_propagate_by=l&feedback=same-step"
     beside = next(of for of in explore(design_of(f"{query}&method=larsen")).methods if of.method == "dual-rate")
-    assert "more than 80 simulations, as work piles up slowly: ask `sched-sim minimum`" in beside.reason
+    assert "simulations of more than 40,000 points in time, as work piles up slowly" in beside.reason
+    switching = "N=4&M=4&feedback=same-step&lr_propagate_by=l&context_switch=0.01"
+    with pytest.raises(InputError, match=r"more than 200,000 points in time, .*: ask `sched-sim minimum`, or take one"):
+        explore(design_of(f"{switching}&speed=7/3&model=ins-gps&within=0.01"))
+
+
+def test_what_is_beside_a_design_takes_short_searches_or_says_why_not() -> None:
+    """For a needed accuracy its correction may land later than is asked of the design."""
+    view = explore(
+        design_of("N=10&M=15&L=16&model=star-tracker&within=0.5&feedback=same-step&context_switch=10&policy=edf")
+    )
+    within = next(of.within for of in view.methods if of.method == "dual-rate")
+    assert within is not None
+    assert within.least is None
+    assert "more than 40,000 points in time" in within.reason
