@@ -20,16 +20,21 @@ MOST_BESIDE = 200
 """HR periods, of each method, landing or part beside it: some ten milliseconds."""
 
 
+def most_beside(tasks: Sequence[Task]) -> int:
+    """MOST_BESIDE, less where tasks may have any phase: each is looked at from each start of a busy period then."""
+    return MOST_BESIDE // len(tasks) if phases_matter(tasks) else MOST_BESIDE
+
+
 def searched(costs: Costs, timing: Timing, options: Options, tasks: Sequence[Task]) -> int:
     """HR periods until measurements and tasks are released together again, and of the longest landing; with tasks that
-    may have any phase, those until measurements repeat, for each task; of the dual-rate filter for each correction on
-    its way. 0 in closed form."""
+    may have any phase, those until measurements and the others repeat, for each task; of the dual-rate filter for each
+    correction on its way. 0 in closed form."""
     costs, timing = of_bound(costs, timing)
     if has_closed_form(options, tasks, costs, timing):
         return 0
     landing = max(timing.M, timing.L)
     any_phase = phases_matter(tasks)
-    periods = hyperperiod_steps(timing, () if any_phase else tasks) + landing
+    periods = hyperperiod_steps(timing, [task for task in tasks if task.offset != "any"]) + landing
     times = len(tasks) if any_phase else 1
     return times * periods * (in_flight(timing.N, landing) if isinstance(costs, DualRateCosts) else 1)
 
@@ -53,7 +58,7 @@ def check_searched(costs: Costs, timing: Timing, options: Options, tasks: Sequen
 def check_beside(costs: Costs, timing: Timing, options: Options, tasks: Sequence[Task]) -> None:
     """Raises InputError for another method than the one that is looked at, whose least speed takes long to find."""
     periods = searched(costs, timing, options, tasks)
-    if periods > MOST_BESIDE:
+    if periods > most_beside(tasks):
         raise InputError(
             f"it takes a search by simulation over {periods:,} HR periods: choose it to see its least speed"
         )

@@ -16,7 +16,7 @@ from sched_sim.design.pieces import Costs, DualRateCosts
 from sched_sim.design.timing import Timing
 from sched_sim.errors import InputError
 from sched_sim.schedule.tasks import Task
-from studies.explorer.searched import MOST_BESIDE, MOST_WORK_BESIDE, patience, searched
+from studies.explorer.searched import MOST_WORK_BESIDE, most_beside, patience, searched
 from studies.selection.front import some_landings
 
 MOST_STAIRS = 200
@@ -40,7 +40,7 @@ def stairs(
         at = {*some_landings(legal[0], legal[-1], MOST_STAIRS), timing.L}
         found = staircase(costs, timing.N, timing.M, options, only=frozenset(at))
         return found if timing.L in legal else [*found, _stair(costs, timing, options, tasks, own)]
-    beside = beside and searched(costs, timing, options, tasks) <= MOST_BESIDE
+    beside = beside and searched(costs, timing, options, tasks) <= most_beside(tasks)
     at = {*some_landings(legal[0], legal[-1], MOST_SIMULATED)} - {timing.L} if beside else set()
     known = sorted([(timing.L, own), *_searched(costs, timing, options, tasks, at)])
     return [_stair(costs, replace(timing, L=L), options, tasks, least) for L, least in known]

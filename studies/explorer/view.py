@@ -28,7 +28,7 @@ from studies.explorer.power import Power, power_of
 from studies.explorer.question import question_of
 from studies.explorer.resolved import Resolved, resolved
 from studies.explorer.schedule import Timeline, timeline
-from studies.explorer.searched import MOST_BESIDE, searched
+from studies.explorer.searched import most_beside, searched
 from studies.explorer.warnings import warnings
 from studies.explorer.within import keeping
 from studies.selection.choice import Candidate
@@ -164,7 +164,7 @@ def _where(asked: Resolved, plan: Planned) -> tuple[Where | None, str]:
     options, timing = asked.design.options, plan.timing
     periods = searched(plan.costs, timing, options, asked.tasks)
     alone = method_of(plan.costs).law(options.feedback).one_in_flight(timing.N, timing.L)
-    if where is None or not where.parts or periods == 0 or (alone and periods <= MOST_BESIDE):
+    if where is None or not where.parts or periods == 0 or (alone and periods <= most_beside(asked.tasks)):
         return where, why
     if asked.part is None:
         return None, "no parts: on each the least speed takes a search by simulation: choose a processor"

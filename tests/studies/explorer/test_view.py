@@ -241,6 +241,18 @@ def test_a_search_that_does_not_come_to_its_end_is_given_up() -> None:
         explore(design_of(f"{switching}&speed=7/3&model=ins-gps&within=0.01"))
 
 
+def test_the_more_tasks_of_any_phase_the_less_is_searched_beside_a_design() -> None:
+    one, two = (Task(name, Fraction(20), Fraction(1, 10), 5) for name in ("control", "telemetry"))
+    other = [
+        next(of for of in explore(Design(N=40, M=20), Given(tasks=tasks)).methods if of.method == "larsen")
+        for tasks in ([one], [one, two])
+    ]
+    assert [of.reason for of in other] == [
+        "",
+        "it takes a search by simulation over 160 HR periods: choose it to see its least speed",
+    ]
+
+
 def test_what_is_beside_a_design_takes_short_searches_or_says_why_not() -> None:
     """For a needed accuracy its correction may land later than is asked of the design."""
     view = explore(
