@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import gc
 import signal
 import socket
 from collections.abc import Iterator
@@ -64,7 +65,9 @@ class _Server(uvicorn.Server):
 
 
 def serve(app: App, there: socket.socket) -> None:
-    """Answer at the socket until SIGINT or SIGTERM."""
+    """Answer at the socket until SIGINT or SIGTERM. What is there by then stays: no answer waits while it is looked
+    through for what is not used any more."""
+    gc.freeze()
     config = uvicorn.Config(
         app,
         http=_Connection,
