@@ -41,7 +41,7 @@ def check_laws(case: Case, problem: Problem) -> None:
 
 
 @each_case
-@settings(max_examples=10)
+@settings(max_examples=5)
 @given(data=DATA)
 def test_state_and_covariance_are_those_of_the_standard_filter(case: Case, data: st.DataObject) -> None:
     check_laws(case, data.draw(case.problems()))
@@ -63,7 +63,7 @@ def test_every_legal_delay_and_feedback_step_of_short_cycles(case: Case, N: int)
 
 
 @each_case
-@settings(max_examples=10)
+@settings(max_examples=5)
 @given(data=DATA)
 def test_covariances_stay_symmetric_and_positive_definite(case: Case, data: st.DataObject) -> None:
     given_problem = data.draw(case.problems())
@@ -74,7 +74,7 @@ def test_covariances_stay_symmetric_and_positive_definite(case: Case, data: st.D
 
 
 @each_case
-@settings(max_examples=10)
+@settings(max_examples=5)
 @given(data=DATA)
 def test_covariance_forms_agree(case: Case, data: st.DataObject) -> None:
     given_problem = data.draw(case.problems())
@@ -85,7 +85,7 @@ def test_covariance_forms_agree(case: Case, data: st.DataObject) -> None:
 
 
 @each_case
-@settings(max_examples=10)
+@settings(max_examples=5)
 @given(data=DATA)
 def test_a_measurement_is_not_read_before_it_is_available(case: Case, data: st.DataObject) -> None:
     whole = data.draw(case.problems())
@@ -97,7 +97,7 @@ def test_a_measurement_is_not_read_before_it_is_available(case: Case, data: st.D
 
 
 @each_case
-@settings(max_examples=10)
+@settings(max_examples=5)
 @given(data=DATA)
 def test_missing_measurements_leave_the_prediction(case: Case, data: st.DataObject) -> None:
     whole = data.draw(case.problems())

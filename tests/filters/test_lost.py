@@ -43,7 +43,7 @@ def losses(count: int, p: int, seed: int) -> FloatArray:
 
 @pytest.mark.parametrize("case", EVERY_CASE, ids=str)
 @pytest.mark.parametrize("form", COVARIANCE_FORMS)
-@settings(max_examples=8)
+@settings(max_examples=4)
 @given(data=st.data())
 def test_every_method_is_the_filter_with_the_remaining_rows(case: Case, form: str, data: st.DataObject) -> None:
     whole = data.draw(case.problems())

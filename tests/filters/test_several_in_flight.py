@@ -96,7 +96,7 @@ def several(draw: st.DrawFn, case: Case) -> Problem:
 
 
 @each_case
-@settings(max_examples=30)
+@settings(max_examples=15)
 @given(data=st.data())
 def test_each_state_is_the_mean_given_what_has_landed(case: Case, data: st.DataObject) -> None:
     given_problem = data.draw(several(case))
@@ -115,7 +115,7 @@ def test_each_state_is_the_mean_given_what_has_landed(case: Case, data: st.DataO
 
 
 @each_case
-@settings(max_examples=30)
+@settings(max_examples=15)
 @given(data=st.data())
 def test_so_it_is_where_some_were_lost(case: Case, data: st.DataObject) -> None:
     """A lost measurement is a cycle without a correction."""

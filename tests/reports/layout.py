@@ -18,7 +18,7 @@ def texts(figure: Figure) -> list[tuple[Text, Bbox]]:
     """Every visible text with its box in pixels."""
     with drawing():
         canvas = FigureCanvasAgg(figure)
-        canvas.draw()
+        figure.draw_without_rendering()
         found = [text for text in figure.findobj(Text) if text.get_visible() and text.get_text().strip()]
         unseen = _ticks_beyond_the_axis(figure)
         return [(text, text.get_window_extent(canvas.get_renderer())) for text in found if text not in unseen]

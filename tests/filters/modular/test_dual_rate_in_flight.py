@@ -83,7 +83,7 @@ def arriving(draw: st.DrawFn, steps: int, lands: dict[str, int], *, losses: bool
 SHORT = {"gps": 6, "camera": 3, "sonar": 2}
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=25, deadline=None)
 @given(measurements=arriving(7, SHORT))
 def test_any_arrivals_are_the_batch_of_what_has_landed(measurements: list[Measurement]) -> None:
     x, P = filtered(9, measurements, L=SHORT)
@@ -92,7 +92,7 @@ def test_any_arrivals_are_the_batch_of_what_has_landed(measurements: list[Measur
     np.testing.assert_allclose(P, expected.P, rtol=0, atol=1e-10)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=25, deadline=None)
 @given(measurements=arriving(7, SHORT, losses=True))
 def test_with_losses_too_it_is_the_carried_gain_of_what_has_landed(measurements: list[Measurement]) -> None:
     x, P = filtered(14, measurements, L=SHORT)

@@ -129,7 +129,7 @@ def holds_at_every_phase(loaded: Loaded, random: Random) -> bool:
     return latest in landed
 
 
-@settings(max_examples=40)
+@settings(max_examples=15)
 @given(with_tasks(), st.integers(0, 2**32))
 def test_at_the_least_speed_nothing_is_late_at_any_phase(loaded: Loaded, number: int) -> None:
     holds_at_every_phase(loaded, Random(number))
@@ -186,7 +186,7 @@ def is_tight(loaded: Loaded) -> bool | None:
     return False
 
 
-@settings(max_examples=30)
+@settings(max_examples=12)
 @given(with_tasks(plain=True).filter(lambda loaded: not is_bound(loaded[0])))
 def test_a_tick_below_something_is_late_with_all_released_together_at_a_step(loaded: Loaded) -> None:
     assert is_tight(loaded) is not False
@@ -214,7 +214,7 @@ restart_is_no_landing = Design(DualRateCosts(1, 2, 1, 1, 0, 1), Timing(2, 0, 2),
 lands_before_l = Design(DualRateCosts(1, 3, 2, 1, 0, 2), Timing(3, 0, 3), Options())
 
 
-@settings(max_examples=200)
+@settings(max_examples=60)
 @example(restart_is_no_landing)
 @example(lands_before_l)
 @given(designs)
@@ -315,7 +315,7 @@ def test_a_task_of_any_phase_is_simulated_from_the_start_on_as_often_as_its_load
     assert schedule.utilization == loads(LARSEN, ISSUE, Fraction("2.07"), tasks=[CONTROL])[0]
 
 
-@settings(max_examples=30)
+@settings(max_examples=15)
 @given(with_tasks(), st.fractions(Fraction(9, 10), Fraction(11, 10), max_denominator=1000))
 def test_it_takes_integers_of_any_size(loaded: Loaded, share: Fraction) -> None:
     """Costs of 10^17 times as many units, at a speed that is as much higher."""

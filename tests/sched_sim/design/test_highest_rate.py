@@ -51,7 +51,7 @@ def fits(costs: Costs, times: Times, rate: Fraction, options: Options) -> bool:
 seconds = st.fractions(0, 2, max_denominator=12) | st.sampled_from([Fraction(1), Fraction(1, 2), Fraction(0)])
 
 
-@settings(max_examples=40)
+@settings(max_examples=20)
 @given(designs, seconds, st.none() | seconds, st.sampled_from([1, 3, 20]))
 def test_it_fits_and_none_above_it_does(
     design: Design, delay: Fraction, more: Fraction | None, per_second: int
@@ -71,7 +71,7 @@ def test_it_fits_and_none_above_it_does(
     assert not [rate for rate in grid if fits(costs, times, rate, options)]
 
 
-@settings(max_examples=300)
+@settings(max_examples=100)
 @given(designs, st.integers(0, 3), st.integers(0, 3), st.integers(0, 3))
 def test_what_is_needed_of_a_range_is_needed_of_each_timing_in_it(design: Design, N: int, M: int, L: int) -> None:
     costs, timing, options = design

@@ -15,7 +15,7 @@ from sched_sim.design.timing import Timing
 from tests.designs import Design, designs
 
 
-@settings(max_examples=200)
+@settings(max_examples=60)
 @given(designs)
 def test_each_cycle_does_the_work_of_a_cycle(design: Design) -> None:
     costs, timing, options = design

@@ -26,7 +26,7 @@ horizon_piles_up = Design(DelayedHorizonCosts(1, 1, 1, 1), Timing(2, 0, 2), Opti
 horizon_is_late_and_keeps_up = horizon_piles_up._replace(options=Options(cpus=2))
 
 
-@settings(max_examples=400)
+@settings(max_examples=120)
 @example(lands_at_once_or_later)
 @example(feedback_spills)
 @given(designs)
@@ -38,14 +38,14 @@ def test_the_simulation_meets_every_deadline_at_the_least_speed_and_misses_one_t
     assert simulate(design.costs, design.timing, slower, CYCLES, design.options).misses > 0
 
 
-@settings(max_examples=200)
+@settings(max_examples=60)
 @given(designs, st.fractions(Fraction(1, 100), Fraction(99, 100), max_denominator=100))
 def test_no_speed_below_the_least_meets_every_deadline(design: Design, share: Fraction) -> None:
     slower = least_speed(*design).speed * share
     assert simulate(design.costs, design.timing, slower, CYCLES, design.options).misses > 0
 
 
-@settings(max_examples=400)
+@settings(max_examples=120)
 @example(horizon_piles_up, Fraction(33, 34))
 @example(horizon_is_late_and_keeps_up, Fraction(33, 34))
 @given(designs, st.fractions(Fraction(1, 4), 4, max_denominator=64))
@@ -110,7 +110,7 @@ def test_a_later_l_never_needs_a_faster_processor_and_lands_no_later_than_asked(
     assert all(stair.achieved <= stair.L for stair in stairs)
 
 
-@settings(max_examples=100)
+@settings(max_examples=40)
 @given(dual_rate_designs(), st.integers(1, 20))
 def test_work_is_conserved(design: Design, share: int) -> None:
     """Utilization is the work of the jobs that ran, whatever preempted what: slices add up to it and never overlap."""

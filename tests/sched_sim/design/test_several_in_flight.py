@@ -152,7 +152,7 @@ class ByTheTick:
         return min(ready)[1] if ready else None
 
 
-@settings(max_examples=40)
+@settings(max_examples=20)
 @example(Design(DualRateCosts(1, 1, 3, 3, 1, 90), Timing(1, 4, 6), Options(gain="precomputed")))
 @given(designs_in_flight().filter(lambda design: design.options.feedback == "next-step" and design.options.cpus == 1))
 def test_another_simulation_by_the_tick_lands_and_misses_alike(design: Design) -> None:

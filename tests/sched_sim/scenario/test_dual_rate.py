@@ -72,7 +72,7 @@ def merged(slices: Sequence[Slice], high_rate: bool) -> list[tuple[Fraction, Fra
     speed=st.integers(8, 60),
     cpus=st.sampled_from([1, 2]),
 )
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=50, deadline=None)
 def test_one_sensor_is_the_dual_rate_filter_with_precomputed_gain(
     timing: tuple[int, int], costs: tuple[int, ...], speed: int, cpus: Any
 ) -> None:
@@ -256,7 +256,7 @@ class ByTheTick:
     period=st.integers(6, 40),
     seed=st.integers(0, 9),
 )
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=50, deadline=None)
 def test_several_land_when_a_simulation_of_every_tick_says(
     every: list[int], delays: list[list[int]], offset: int, works: list[int], period: int, seed: int
 ) -> None:
@@ -346,7 +346,7 @@ def of_the_scenario(sensors: Sequence[Sensor], steps: int, seed: int) -> dict[st
     offset=st.integers(0, 3),
     dropout=st.sampled_from([0.0, 0.3]),
 )
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=30, deadline=None)
 def test_on_a_fast_processor_the_work_is_that_of_the_filter(
     every: list[int], delays: list[int], offset: int, dropout: float
 ) -> None:

@@ -46,7 +46,7 @@ starved = simulate(
 )
 
 
-@settings(max_examples=80)
+@settings(max_examples=30)
 @example(too_slow)
 @example(starved)
 @given(schedules())
@@ -69,7 +69,7 @@ def test_bars_cover_the_slices_exactly_and_never_overlap(schedule: Schedule) -> 
         assert all(before[1] <= after[0] for before, after in pairwise(of_cpu))
 
 
-@settings(max_examples=80)
+@settings(max_examples=30)
 @example(too_slow)
 @example(starved)
 @given(schedules())
@@ -84,7 +84,7 @@ def test_misses_are_flagged_exactly_where_the_schedule_has_them(schedule: Schedu
         assert any(row == of_job for of_job, _ in late)
 
 
-@settings(max_examples=80)
+@settings(max_examples=30)
 @given(schedules())
 def test_a_job_runs_or_waits_from_its_release_to_its_finish(schedule: Schedule) -> None:
     for job in jobs(schedule):

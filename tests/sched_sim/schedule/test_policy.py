@@ -70,7 +70,7 @@ def tasks(draw: st.DrawFn) -> list[Task]:
     ]
 
 
-@settings(max_examples=40)
+@settings(max_examples=15)
 @given(serial(), tasks())
 def test_it_never_needs_a_faster_processor_where_deadlines_are_the_jobs_own(
     design: tuple[SerialCosts[Fraction], Timing], beside: list[Task]
