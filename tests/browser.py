@@ -45,7 +45,6 @@ class Visit:
     def begin(self) -> None:
         """As a new page is."""
         self.page.unroute_all()
-        self.page.goto("about:blank")
         self.page.set_viewport_size({"width": 1280, "height": 720})
         self.page.emulate_media(
             media="null", color_scheme="light", reduced_motion="no-preference", forced_colors="none"

@@ -104,7 +104,7 @@ def stretches_of_jobs(draw: st.DrawFn) -> tuple[int, list[tuple[float, float, fl
     return steps, jobs, first, first + draw(st.floats(0.02, 1)) * (steps - first)
 
 
-@settings(deadline=None, max_examples=10, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(deadline=None, max_examples=5, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(stretches_of_jobs())
 def test_there_is_red_where_and_only_where_a_deadline_is_missed(
     visit: Visit, given: tuple[int, list[tuple[float, float, float]], float, float]

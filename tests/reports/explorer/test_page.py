@@ -47,22 +47,25 @@ def test_without_a_link_it_begins_with_a_design_and_can_be_changed(visit: Visit,
     shows(page, f"{DESIGN}&within=0.38")
     expect(page.get_by_role("heading", name="Designs that keep 0.38 m")).to_be_visible()
     assert page.url == f"{server.url}?{DESIGN}&within=0.38"
+    give(page, "Needed accuracy", "0,4")  # a comma is a point
+    shows(page, f"{DESIGN}&within=0.4")
 
 
-def test_a_comma_is_a_point(visit: Visit, server: SmallServer) -> None:
-    page = opened(visit, server)
-    give(page, "Needed accuracy", "0,38")
-    shows(page, f"{DESIGN}&within=0.38")
-
-
-def test_the_answer_and_its_warnings_come_with_the_design(visit: Visit, server: SmallServer) -> None:
+def test_the_answer_its_warnings_and_its_files_come_with_the_design(visit: Visit, server: SmallServer) -> None:
     page = opened(visit, server, f"?{DESIGN}&L=62")
     expect(page.get_by_role("status").first).to_have_text("✓dual-rate lands by step 62 of 80 with speed 0.656")
     expect(page.get_by_role("list", name="Warnings")).to_have_text("lands at 45 of the 62 you allow")
+    for name, kind in [("Chart (SVG)", "schedule.svg"), ("Methods (CSV)", "methods.csv"), ("Jobs (CSV)", "jobs.csv")]:
+        expect(page.get_by_role("link", name=name)).to_have_attribute("href", f"{server.url}{kind}?{DESIGN}&L=62")
 
 
-def test_of_a_design_that_is_picked_the_controls_and_the_address_tell(visit: Visit, server: SmallServer) -> None:
+def test_of_the_designs_that_do_the_least_is_named_and_of_one_that_is_picked_controls_and_address_tell(
+    visit: Visit, server: SmallServer
+) -> None:
     page = opened(visit, server, f"?{DESIGN}&within=0.38")
+    methods = page.get_by_role("region", name="Designs that keep")
+    expect(methods).to_contain_text("Needs least: dual-rate on rp2040, landing by step 66 (165 ms).")
+    expect(methods.get_by_role("rowheader")).to_have_text(["dual-rate", "clone", "recalculate"])
     page.get_by_role("button", name="clone").first.click()
     taken = f"{DESIGN}&within=0.38&method=clone&L=66&processor=rp2040"
     shows(page, taken)
@@ -72,15 +75,11 @@ def test_of_a_design_that_is_picked_the_controls_and_the_address_tell(visit: Vis
     assert field(page, "Processor").input_value() == "rp2040"
 
 
-def test_why_no_parts_are_compared_is_said_in_their_place(visit: Visit, server: SmallServer) -> None:
+def test_all_that_is_said_is_in_the_words_of_the_page_and_why_no_parts_are_compared_in_their_place(
+    visit: Visit, server: SmallServer
+) -> None:
     why = "no parts: on each the least speed takes a search"
-    server.view = lambda query: {**made_view(query), "parts": [], "notes": ["5 Hz: N = 80 steps", why]}
-    page = opened(visit, server, f"?{DESIGN}")
-    expect(page.get_by_role("region", name="Parts")).to_contain_text(f"{why.capitalize()}.")
-
-
-def test_all_that_is_said_is_in_the_words_of_the_page(visit: Visit, server: SmallServer) -> None:
-    said = {"warnings": ["delay_ms 300 is long"], "notes": ["hr_hz 400"]}
+    said = {"warnings": ["delay_ms 300 is long"], "notes": ["hr_hz 400", why], "parts": []}
     server.view = lambda query: {
         **made_view(query),
         **said,
@@ -89,14 +88,9 @@ def test_all_that_is_said_is_in_the_words_of_the_page(visit: Visit, server: Smal
     page = opened(visit, server, f"?{DESIGN}")
     expect(page.get_by_role("status").first).to_have_text("not by Land by 9")
     expect(page.get_by_role("list", name="Warnings")).to_have_text("Delay 300 is long")
+    expect(page.get_by_role("region", name="Parts")).to_contain_text(f"{why.capitalize()}.")
     page.get_by_text("How this was computed").click()
     expect(page.get_by_text("Loop rate 400")).to_be_visible()
-
-
-def test_the_method_that_is_chosen_says_what_it_does(visit: Visit, server: SmallServer) -> None:
-    page = opened(visit, server, f"?{DESIGN}")
-    field(page, "Method").select_option("clone")
-    expect(page.get_by_text("keeps a copy of what was measured")).to_be_visible()
 
 
 def test_methods_that_cannot_be_are_no_rows_but_reasons(visit: Visit, server: SmallServer) -> None:
@@ -108,20 +102,10 @@ def test_methods_that_cannot_be_are_no_rows_but_reasons(visit: Visit, server: Sm
     )
 
 
-def test_of_the_designs_that_do_the_least_is_named(visit: Visit, server: SmallServer) -> None:
-    page = opened(visit, server, f"?{DESIGN}&within=0.38")
-    methods = page.get_by_role("region", name="Designs that keep")
-    expect(methods).to_contain_text("Needs least: dual-rate on rp2040, landing by step 66 (165 ms).")
-    expect(methods.get_by_role("rowheader")).to_have_text(["dual-rate", "clone", "recalculate"])
-
-
-SLIDERS = ["Loop rate", "Measurement rate", "Delay", "Needed accuracy", "Land by"]
-
-
-def test_dragging_meets_no_refusal_and_is_one_step_back(visit: Visit, server: SmallServer) -> None:
+def test_dragging_is_one_step_back(visit: Visit, server: SmallServer) -> None:
     page = opened(visit, server, f"?{DESIGN}&L=62&within=0.38")
     before = page.url
-    for label in SLIDERS:
+    for label in ("Delay", "Land by"):
         drag(page, slider(page, label), 0.5, 0.02, 0.98, 0.4)
         expect(page).not_to_have_url(before)
         shows(page, page.url.partition("?")[2])
@@ -132,20 +116,11 @@ def test_dragging_meets_no_refusal_and_is_one_step_back(visit: Visit, server: Sm
         shows(page, before.partition("?")[2])
 
 
-def test_a_slider_goes_by_the_arrow_keys(visit: Visit, server: SmallServer) -> None:
-    page = opened(visit, server)
-    slider(page, "Delay").focus()
-    page.keyboard.press("ArrowLeft")
-    assert field(page, "Delay").input_value() == "109"
-    expect(slider(page, "Delay")).to_have_attribute("aria-valuetext", "109 ms")
-    shows(page, DESIGN.replace("110", "109"))
-    expect(slider(page, "Delay")).to_be_focused()
-
-
 def test_back_and_forward_show_each_discrete_change(visit: Visit, server: SmallServer) -> None:
     page = opened(visit, server)
     field(page, "Method").select_option("clone")
     shows(page, f"{DESIGN}&method=clone")
+    expect(page.get_by_text("keeps a copy of what was measured")).to_be_visible()
     field(page, "Processor").select_option("rp2040")
     shows(page, f"{DESIGN}&method=clone&processor=rp2040")
     page.go_back()
@@ -174,18 +149,15 @@ def test_what_is_refused_is_said_beside_its_field_and_the_last_picture_stays(vis
     visit.errors.remove(*(error for error in visit.errors if "422" in error))
 
 
-def test_a_refusal_is_in_the_words_of_the_page(visit: Visit, server: SmallServer) -> None:
-    page = opened(visit, server)
+def test_a_refusal_is_in_the_words_of_the_page_that_of_a_pinned_design_too(visit: Visit, server: SmallServer) -> None:
+    page = opened(visit, server, f"?{DESIGN}#A=hr_hz%3D400%26measurement_hz%3D5%26delay_ms%3D1000")
+    expect(page.get_by_text("A: Delay is longer than Measurement rate allows")).to_be_visible()
     give(page, "Delay", "1000")
     said = "Delay is longer than Measurement rate allows: see `sched-sim minimum delay_ms`"
     expect(page.get_by_role("alert").filter(has_text=said)).to_be_visible()
-    visit.errors.remove(*(error for error in visit.errors if "422" in error))
-
-
-def test_so_is_that_of_a_pinned_design(visit: Visit, server: SmallServer) -> None:
-    page = opened(visit, server, f"?{DESIGN}#A=hr_hz%3D400%26measurement_hz%3D5%26delay_ms%3D1000")
-    expect(page.get_by_text("A: Delay is longer than Measurement rate allows")).to_be_visible()
-    visit.errors.remove(*(error for error in visit.errors if "422" in error))
+    refused = [error for error in visit.errors if "422" in error]
+    assert len(refused) >= 2
+    visit.errors[:] = [error for error in visit.errors if error not in refused]
 
 
 def test_a_link_that_is_refused_says_why_and_can_be_mended(visit: Visit, server: SmallServer) -> None:
@@ -276,17 +248,16 @@ def test_pins_are_marked_in_the_plots(visit: Visit, server: SmallServer) -> None
     expect(plot).to_have_attribute("aria-label", re.compile("A: L 50, "))
 
 
-@pytest.mark.parametrize(
-    ("plot", "landing"),
-    [("Land later", 46), ("What landing later", 46), ("What a faster processor buys", 79)],
-)
-def test_a_point_of_a_curve_is_taken(visit: Visit, server: SmallServer, plot: str, landing: int) -> None:
+def test_a_point_of_a_curve_is_taken(visit: Visit, server: SmallServer) -> None:
     """By the keys: the first point and one more; with power L falls."""
     page = opened(visit, server, f"?{DESIGN}&method=clone")
-    page.get_by_role("slider", name=re.compile(plot)).focus()
-    for key in ("Home", "ArrowRight", "Enter"):
-        page.keyboard.press(key)
-    expect(page.locator(".ss-explorer")).to_have_attribute("data-shown", f"{DESIGN}&method=clone&L={landing}")
+    for plot, landing in (("Land later", 46), ("What landing later", 46), ("What a faster processor buys", 79)):
+        page.get_by_role("slider", name=re.compile(plot)).focus()
+        for key in ("Home", "ArrowRight", "Enter"):
+            page.keyboard.press(key)
+        shows(page, f"{DESIGN}&method=clone&L={landing}")
+        page.go_back()
+        shows(page, f"{DESIGN}&method=clone")
 
 
 def test_what_takes_long_says_so_and_can_be_stopped(visit: Visit, server: SmallServer) -> None:
@@ -298,22 +269,12 @@ def test_what_takes_long_says_so_and_can_be_stopped(visit: Visit, server: SmallS
     expect(page.get_by_text("Stopped. Shown is the design before.")).to_be_visible()
     expect(page.locator(".ss-stale")).to_have_count(1)
     server.open.set()
-    field(page, "Processor").select_option("rp2040")
-    shows(page, f"{DESIGN}&method=clone&processor=rp2040")
+    page.get_by_role("button", name="Back to the last design").click()
     expect(page.locator(".ss-stale")).to_have_count(0)
-
-
-def test_a_server_that_has_ended_is_told_and_found_again(visit: Visit) -> None:
-    server = SmallServer()
-    with server.running():
-        page = opened(visit, server)
-    field(page, "Method").select_option("clone")
-    expect(page.get_by_text("sched-sim explore is not running any more")).to_be_visible()
-    shows(page, DESIGN)
-    with server.running():
-        shows(page, f"{DESIGN}&method=clone")
-        expect(page.get_by_text("not running any more")).to_have_count(0)
-    visit.errors = [error for error in visit.errors if "ERR_CONNECTION_REFUSED" not in error]
+    assert field(page, "Method").input_value() == "dual-rate"
+    field(page, "Processor").select_option("rp2040")
+    shows(page, f"{DESIGN}&processor=rp2040")
+    expect(page.locator(".ss-stale")).to_have_count(0)
 
 
 def test_what_is_no_view_is_told(visit: Visit, server: SmallServer) -> None:
@@ -334,12 +295,6 @@ def test_the_link_is_copied_or_selected(visit: Visit, server: SmallServer) -> No
     page.get_by_role("button", name="Copy the command").click()
     expect(page.get_by_text("Selected")).to_be_visible()
     assert page.evaluate("getSelection().toString() || document.activeElement.value") == "sched-sim minimum -N 80 -M 44"
-
-
-def test_files_are_those_of_the_design(visit: Visit, server: SmallServer) -> None:
-    page = opened(visit, server, f"?{DESIGN}&L=62")
-    for name, kind in [("Chart (SVG)", "schedule.svg"), ("Methods (CSV)", "methods.csv"), ("Jobs (CSV)", "jobs.csv")]:
-        expect(page.get_by_role("link", name=name)).to_have_attribute("href", f"{server.url}{kind}?{DESIGN}&L=62")
 
 
 NARROW = {"width": 360, "height": 740}

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 from playwright.sync_api import expect
 
@@ -32,13 +34,15 @@ def test_a_server_that_is_gone_is_told_and_the_page_goes_on_with_the_next(visit:
     left(visit)
 
 
-def test_an_answer_that_takes_long_can_be_stopped(visit: Visit) -> None:
+def test_a_server_that_ends_while_it_is_asked_is_told(visit: Visit) -> None:
     with exploring("--port", "0", *DESIGN) as explorer:
         page = opened(visit, explorer)
         explorer.pause()
         give(page, "M", "5")
-        page.get_by_role("button", name="Stop").click()
-        expect(page.get_by_text("Stopped.")).to_be_visible()
+        expect(page.get_by_text("Still computing")).to_be_visible()
         explorer.go_on()
-        page.get_by_role("button", name="Back to the last design").click()
-        assert shown(page, explorer)["design"]["M"] == 4
+        assert shown(page, explorer)["design"]["M"] == 5
+        assert re.match("Ended after", explorer.end().splitlines()[1])
+        give(page, "M", "6")
+        expect(page.get_by_text("is not running any more")).to_be_visible()
+    left(visit)

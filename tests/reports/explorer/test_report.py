@@ -98,7 +98,7 @@ def test_under_the_pointer_a_job_tells_its_times(visit: Visit, dual_rate: list[J
     )
 
 
-def test_a_button_brings_the_printed_figure_back(visit: Visit) -> None:
+def test_a_button_brings_the_printed_figure_back_and_one_that_says_more_is_seen_first(visit: Visit) -> None:
     page = opened(visit)
     picture, button = page.get_by_alt_text(re.compile("Fig. 3")), figure(page, "Fig. 3").locator(".ss-switch")
     assert picture.is_hidden()
@@ -108,10 +108,6 @@ def test_a_button_brings_the_printed_figure_back(visit: Visit) -> None:
     assert chart(page).is_hidden()
     button.click()
     assert chart(page).is_visible()
-
-
-def test_a_figure_that_says_more_than_its_chart_is_seen_first(visit: Visit) -> None:
-    page = opened(visit)
     timeline, picture = figure(page, "Fig. 2"), page.get_by_alt_text(re.compile("Fig. 2"))
     assert picture.is_visible()
     timeline.get_by_role("button", name="Show the chart").click()

@@ -74,16 +74,13 @@ def test_what_is_exact_is_found_when_it_is_asked_for(page_of: Opened) -> None:
     expect(button).to_be_hidden()
 
 
-def test_where_nothing_is_exact_it_says_why(page_of: Opened) -> None:
-    page = page_of(read_scenario(WORTH))
-    expect(page.get_by_text("there are 2 sensors, and a design has one")).to_be_visible()
-
-
-def test_the_accuracy_is_told_where_a_model_is_stated(page_of: Opened) -> None:
+def test_the_accuracy_is_told_where_a_model_is_stated_and_where_nothing_is_exact_why(page_of: Opened) -> None:
     of = read_scenario(WORTH)
     view = explore_scenario(of, question=question_of(of, WORTH.parent))
     assert view.accuracy is not None
-    expect(page_of(of).get_by_text(view.accuracy.sentence)).to_be_visible()
+    page = page_of(of)
+    expect(page.get_by_text(view.accuracy.sentence)).to_be_visible()
+    expect(page.get_by_text("there are 2 sensors, and a design has one")).to_be_visible()
 
 
 def test_another_seed_is_another_run(page_of: Opened) -> None:

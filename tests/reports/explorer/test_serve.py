@@ -137,12 +137,12 @@ def test_it_goes_on_after_a_browser_that_has_gone_and_an_error() -> None:
         assert server.get("two") == (200, b"two")
 
 
-@pytest.mark.parametrize("sent", [b"\x16\x03\x01 hello", b"GET / HTTP/1.1\r\n\r\n", b"GET /\r\n\r\n", b"X" * 100_000])
-def test_it_goes_on_after_what_is_no_request(sent: bytes) -> None:
+def test_it_goes_on_after_what_is_no_request() -> None:
     with running() as server:
-        with socket.create_connection(("127.0.0.1", server.port), timeout=60) as there, suppress(ConnectionError):
-            there.sendall(sent)
-            there.shutdown(socket.SHUT_WR)
-            assert there.makefile("rb").readline() in (b"", b"HTTP/1.1 400 Bad Request\r\n")
-        assert server.get("two") == (200, b"two")
+        for sent in (b"\x16\x03\x01 hello", b"GET / HTTP/1.1\r\n\r\n", b"GET /\r\n\r\n", b"X" * 100_000):
+            with socket.create_connection(("127.0.0.1", server.port), timeout=60) as there, suppress(ConnectionError):
+                there.sendall(sent)
+                there.shutdown(socket.SHUT_WR)
+                assert there.makefile("rb").readline() in (b"", b"HTTP/1.1 400 Bad Request\r\n")
+            assert server.get("two") == (200, b"two"), sent
         assert server.end(signal.SIGINT) == (0, "", "ended\n")
