@@ -202,21 +202,22 @@ def test_the_command_line_imports_nothing_slow():
     assert run.stdout.split() == [], "import it inside the command that needs it"
 
 
-@pytest.mark.parametrize(
-    "line",
-    [
+def test_a_least_speed_in_closed_form_needs_no_numpy():
+    """One after the other in one process, so that what one of them imports would be seen after it."""
+    lines = [
         "minimum -N 20 -M 4",
         "minimum -N 20 -M 4 --feedback same-step --cpus 2 --format json",
         "minimum --hr-hz 400 --measurement-hz 5 --delay-ms 110 --processor cortex-m7",
         "processors -N 20 -M 4 --hr-hz 400",
-    ],
-)
-def test_a_least_speed_in_closed_form_needs_no_numpy(line):
-    code = f"import sys; sys.argv = ['sched-sim', *{line.split()!r}]; from sched_sim.cli.streams import run; "
-    code += "print(run(), 'numpy' in sys.modules, file=sys.stderr)"
+    ]
+    code = "import sys; from sched_sim.cli.streams import run\n"
+    for line in lines:
+        code += f"sys.argv = ['sched-sim', *{line.split()!r}]; code = run(); print('= = =')\n"
+        code += "print('=', code, 'numpy' in sys.modules, file=sys.stderr)\n"
     run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert run.stdout
-    assert run.stderr.splitlines()[-1] == "0 False"
+    answers = run.stdout.split("= = =\n")[:-1]
+    assert [bool(answer.strip()) for answer in answers] == [True] * len(lines)
+    assert [said for said in run.stderr.splitlines() if said.startswith("=")] == ["= 0 False"] * len(lines)
 
 
 def test_the_command_line_loads_no_plugins_of_pydantic(tmp_path):

@@ -19,7 +19,7 @@ def own_models(tmp_path: Path) -> None:
 
 def scenario(path: Path, hr_hz: int, every: str, delay: int) -> None:
     path.write_text(
-        f'name = "one sensor"\nhr_hz = {hr_hz}\nsteps = 4000\n[predictor]\ncost_us = 1\n[[sensor]]\nname = "one"\n'
+        f'name = "one sensor"\nhr_hz = {hr_hz}\nsteps = 2000\n[predictor]\ncost_us = 1\n[[sensor]]\nname = "one"\n'
         f'every = "{every}"\ndelay = {delay}\ncost_us = 1\n'
     )
 

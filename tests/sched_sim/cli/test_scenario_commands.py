@@ -204,14 +204,12 @@ def test_larsen_in_overload(sched_sim: Run, tmp_path: Path) -> None:
 
 def test_pictures_and_traces_are_written(sched_sim: Run, tmp_path: Path) -> None:
     line = f"simulate --scenario {ROCKET} --gantt g.svg --histogram h.svg --trace t.csv --trace t.json"
-    assert sched_sim(line).code == 0
+    result = sched_sim(f"{line} --format json")
+    assert result.code == 0
     assert {path.name for path in tmp_path.iterdir()} == {"g.svg", "h.svg", "t.csv", "t.json"}
     with (tmp_path / "t.csv").open() as file:
         finished = [row for row in csv.DictReader(file) if row["kind"] == "correct gps" and row["finished"] == "1"]
-    assert (
-        len(finished)
-        == json.loads(sched_sim(f"simulate --scenario {ROCKET} --format json").out)["sensors"]["gps"]["landed"]
-    )
+    assert len(finished) == json.loads(result.out)["sensors"]["gps"]["landed"]
 
 
 def test_help_says_in_which_unit_costs_are_and_what_a_sensor_has_by_default(sched_sim: Run) -> None:

@@ -77,7 +77,7 @@ def test_no_message_asks_for_other_facts(sched_sim: Run, tmp_path: Path, line: s
         "gantt -N 5 -M 12",
         "processors -N 25 -M 60 --hr-hz 100 --processor leon3",
         pytest.param("sweep -N 25 -M 60 --method dual-rate", marks=pytest.mark.exhaust),
-        "sweep -N 5:15:5 -M 20:30:10 --costs counted-9-3-3",
+        "sweep -N 5,15 -M 20 --costs counted-9-3-3",
         "minimum -N 4 -M 4 --method dual-rate",
         pytest.param("minimum -N 4 -M 4 --method dual-rate --feedback same-step", marks=pytest.mark.exhaust),
         "minimum -N 10 -M 4 -L 12",

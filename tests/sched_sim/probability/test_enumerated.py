@@ -79,12 +79,12 @@ CASES: Mapping[str, tuple[Any, ...]] = {
     "two processors": (
         DualRateCosts(c(9), often(10, 20, 0.25), often(2, 5), c(14), c(0), often(26, 37)),
         Timing(2, 1, 2),
-        3,
+        2,
         Options(cpus=2),
     ),
     "a more urgent task": (
         DualRateCosts(often(10, 25, 0.25), c(9), c(2), c(4), c(0), often(16, 27)),
-        Timing(3, 1, 2),
+        Timing(2, 1, 2),
         2,
         Options(),
         {URGENT: often(5, 9)},

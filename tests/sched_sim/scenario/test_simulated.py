@@ -12,7 +12,7 @@ from sched_sim.schedule.outcome import Slice
 from tests.random_scenarios import random_scenario
 
 
-@settings(max_examples=60)
+@settings(max_examples=25)
 @given(st.integers(0, 10**6), st.sets(st.integers(1, 59)))
 def test_it_is_the_same_wherever_it_was_stopped(seed: int, stops: set[int]) -> None:
     scenario = random_scenario(seed, [60])

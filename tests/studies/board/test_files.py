@@ -32,7 +32,6 @@ MODELS = {
     "scratch": (pendulum(), np.array([0.1, 0.0])),
 }
 SOURCES = ("filter.c", "tasks.c")
-each_precision = pytest.mark.parametrize("precision", ["single", "double"])
 
 
 FEW = [("linear", "double"), ("scratch", "double"), ("vehicle", "single"), ("no-inputs", "single")]
@@ -143,7 +142,7 @@ def test_the_example_for_freertos_compiles(name: str, tmp_path: Path) -> None:
 
 
 @needs_arm_gcc
-@each_precision
+@pytest.mark.parametrize("precision", ["single", pytest.param("double", marks=pytest.mark.exhaust)])
 def test_for_a_cortex_m(precision: Precision, tmp_path: Path) -> None:
     files = written(MODELS["vehicle"][0], x0=DRIVING, precision=precision, steps=STEPS, for_a_core=True)
     put(tmp_path, files)

@@ -26,7 +26,7 @@ from studies.modular.oscillator_run import (
 )
 
 CLAIMED = 0.8
-RUNS = 4
+RUNS = 3
 
 
 @cache
@@ -198,7 +198,7 @@ def test_each_sensor_bears_its_own_loss_of_another_quantity() -> None:
 
 
 def test_the_check_of_nees_is_passed_where_the_filter_has_the_right_model() -> None:
-    own = [own_model(USUAL, seed) for seed in range(8)]
+    own = [own_model(USUAL, seed) for seed in range(4)]
     for dropout in (0.5, 0.9):
         found = study.row(own, USUAL, dropout, "reference").consistency
         assert found.overall == pytest.approx(3.0, rel=0.1)
