@@ -57,8 +57,9 @@ types: $(STAMP) ## mypy --strict on the four packages
 imports: $(STAMP) ## import-linter: who may import whom
 	$(BIN)/lint-imports
 
+# Without byte code each of the many processes compiles all that it imports anew.
 unit: $(STAMP) ## pytest, the slow tests too
-	$(BIN)/python -m pytest -n 2 --dist worksteal
+	env -u PYTHONDONTWRITEBYTECODE $(BIN)/python -m pytest -n 2 --dist worksteal
 
 exhaust: $(STAMP) ## what takes too long for `make test`, with its figures (EXHAUST_SHARE=0.01: a hundredth of it)
 	$(BIN)/python -m pytest -v -n 2 --dist worksteal -m exhaust
