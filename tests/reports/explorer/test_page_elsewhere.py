@@ -48,17 +48,21 @@ def elsewhere(tmp_path: Path) -> Iterator[int]:
     server.server_close()
 
 
-@pytest.mark.parametrize("name", ["localhost", "127.0.0.1"])
-def test_it_gets_nothing(visit: Visit, elsewhere: int, name: str) -> None:
+def test_it_gets_nothing(visit: Visit, elsewhere: int) -> None:
     """By another name, which is another site, and by another port alone, which is not."""
     with exploring("--port", "0", "-N", "10", "-M", "4") as explorer:
-        page = visit.page
-        page.goto(f"http://{name}:{elsewhere}/")
-        view = f"{explorer.base}view?N=10&M=4"
-        assert [page.evaluate(ASKS, [view, mode]) for mode in ("cors", "no-cors")] == ["nothing"] * 2
-        for element, path in (("script", "view?N=10&M=4"), ("script", "explorer.js"), ("img", "schedule.svg?N=10&M=4")):
-            assert page.evaluate(LOADS, [element, f"{explorer.base}{path}"]) == "nothing"
-        page.evaluate(LOADS, ["iframe", explorer.first])
-        assert not [frame for frame in page.frames[1:] if frame.locator(".ss-explorer").count()]
+        page, base = visit.page, explorer.base
+        for name in ("localhost", "127.0.0.1"):
+            page.goto(f"http://{name}:{elsewhere}/")
+            view = f"{base}view?N=10&M=4"
+            assert [page.evaluate(ASKS, [view, mode]) for mode in ("cors", "no-cors")] == ["nothing"] * 2
+            for element, path in (
+                ("script", "view?N=10&M=4"),
+                ("script", "explorer.js"),
+                ("img", "schedule.svg?N=10&M=4"),
+            ):
+                assert page.evaluate(LOADS, [element, f"{base}{path}"]) == "nothing"
+            page.evaluate(LOADS, ["iframe", explorer.first])
+            assert not [frame for frame in page.frames[1:] if frame.locator(".ss-explorer").count()]
         assert "0 answered" in explorer.end()
     visit.errors.clear()  # the browser says what it has refused

@@ -21,6 +21,13 @@ def px4(of: Given) -> Accuracy:
     return lossless(of.model, of.states, of.N, of.M)
 
 
+SMALL = ("camera", "ins-gps")
+each_model = pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=() if name in SMALL else pytest.mark.exhaust) for name in MODELS]
+)
+"""The report of accuracies, rebuilt byte for byte in each run of the tests, is of all."""
+
+
 @cache
 def placed(name: str) -> list[Placed]:
     of = given(name)
@@ -60,7 +67,7 @@ def test_at_its_power_it_lands_there_and_misses_nothing(name: str, method: str) 
         assert slower.misses
 
 
-@pytest.mark.parametrize("name", MODELS)
+@each_model
 def test_exact_methods_are_as_good_as_their_age(name: str) -> None:
     of = given(name)
     for place in placed(name):
@@ -70,7 +77,7 @@ def test_exact_methods_are_as_good_as_their_age(name: str) -> None:
             assert place.accuracy.verdict == "exact"
 
 
-@pytest.mark.parametrize("name", MODELS)
+@each_model
 def test_the_front_is_beaten_by_none_and_beats_all_others(name: str) -> None:
     designs = [place for place in placed(name) if place.method != "standard"]
     front = [place for place in designs if place.on_front]
