@@ -28,7 +28,7 @@ def test_a_design_and_a_scenario_land_after_the_same_time(sched_sim: Run, tmp_pa
     """In the eighth step; at 30 Hz one of three measurements is taken two thirds of a step before its own."""
     (tmp_path / "counts.toml").write_text(COUNTS)
     (tmp_path / "s.toml").write_text(
-        'name = "s"\nhr_hz = 400\nduration_s = 20\ncosts = "counts.toml"\n'
+        'name = "s"\nhr_hz = 400\nduration_s = 40\ncosts = "counts.toml"\n'
         f'[[sensor]]\nname = "camera"\nhz = {hz}\ndelay_ms = 20\n'
     )
     design = DESIGN.format(hz)

@@ -81,7 +81,7 @@ def test_a_million_random_designs_are_the_same_job_by_job(part: int, record_prop
 
 
 def test_random_designs_are_of_every_kind_and_have_everything() -> None:
-    designs = [random_design(Random(seed)) for seed in range(800)]
+    designs = [random_design(Random(seed)) for seed in range(2000)]
     assert {type(design.costs) for design in designs} == set(PIECES)
     options = [design.options for design in designs]
     tasks = [task for design in designs for task in design.tasks]
