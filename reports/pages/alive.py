@@ -13,14 +13,15 @@ from reports.explorer.module import asset, module
 STYLES = ("palette.css", "gantt.css", "report.css")
 
 
-def figure(still: str, data: Mapping[str, Any] | None, attributes: str = "") -> str:
-    """still: an <img> or a <table>; data: "plots", see `reports.drawing.readout`, or "panels", see
-    `reports.charts.told`, with "still" where an image is to be seen first; None where nothing is to be told."""
+def figure(still: str, data: Mapping[str, Any] | None, *, caption: str = "", attributes: str = "") -> str:
+    """still: an <img>, a link with one in it, or a <table>; data: "plots", see `reports.drawing.readout`, or "panels",
+    see `reports.charts.told`, with "still" where an image is to be seen first; None where nothing is to be told.
+    caption: a <figcaption>."""
     if data is None:
-        return f'<figure class="ss-figure"{attributes}>{still}</figure>'
+        return f'<figure class="ss-figure"{attributes}>{still}{caption}</figure>'
     text = json.dumps(data, allow_nan=False, separators=(",", ":")).replace("<", r"\u003c")
     script = f'<script type="application/json">{text}</script>'
-    return f'<figure class="ss-figure" data-alive{attributes}>{still}{script}</figure>'
+    return f'<figure class="ss-figure" data-alive{attributes}>{still}{caption}{script}</figure>'
 
 
 @cache

@@ -13,12 +13,12 @@ function enliven(figure) {
   themed(figure);
   figure.addEventListener("keydown", (event) => event.stopPropagation());
   const shown = JSON.parse(figure.querySelector('script[type="application/json"]').textContent);
-  const still = figure.querySelector("img, table");
+  const still = figure.querySelector("a:has(img), img, table");
   const picture = html("div", { class: "ss-picture" });
   still.replaceWith(picture);
   picture.append(still);
   if (shown.plots) readout(picture, shown);
-  else withCharts(figure, shown, still.localName === "img");
+  else withCharts(figure, shown, still.localName !== "table");
 }
 
 /** Charts above what stands still; instead of a picture, which a button brings back. */
@@ -33,7 +33,7 @@ function withCharts(figure, { panels, still = false }, isPicture) {
     button.textContent = what === "chart" ? "Show the printed figure" : "Show the chart to move about in";
   };
   button.addEventListener("click", () => show(figure.dataset.shown === "chart" ? "picture" : "chart"));
-  figure.append(button);
+  figure.querySelector(".ss-picture").after(button);
   show(still ? "picture" : "chart");
 }
 

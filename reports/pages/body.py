@@ -1,0 +1,92 @@
+"""The HTML of a report's Markdown: headings that can be linked to, tables that scroll, figures with their captions."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from html import unescape
+from typing import NamedTuple
+
+from markdown_it import MarkdownIt
+
+from reports.pages import alive
+from reports.pages.data_uri import data_uri
+from reports.pages.pictures import Picture
+
+FIGURE = re.compile(
+    r'<p><img src="(?P<file>[^":]+\.svg)" alt="(?P<alt>[^"]*)" /></p>\n'
+    r"<p><strong>Figure (?P<number>\d+)\.</strong> (?P<caption>.*?) <em>(?P<links>.*?)</em></p>",
+    re.DOTALL,
+)
+HEADING = re.compile(r"<h([23])>(.*?)</h\1>")
+TABLE = re.compile(r"<table>.*?</table>", re.DOTALL)
+MENTION = re.compile(r"(<[^>]*>)|\bFigure (\d+)\b(?!\.<)")
+ANSWER = "<p><strong>Answer.</strong>"
+
+
+class Heading(NamedTuple):
+    """id: of its element; text: as HTML, without elements."""
+
+    level: int
+    id: str
+    text: str
+
+
+class Body(NamedTuple):
+    """lead: down to the first heading of a section; rest: from there."""
+
+    lead: str
+    rest: str
+    headings: tuple[Heading, ...]
+
+
+def body_of(markdown: str, figures: Mapping[str, Picture]) -> Body:
+    """figures: by file name."""
+    html = MarkdownIt("commonmark", {"html": True}).enable("table").render(markdown)
+    html = MENTION.sub(lambda found: found[1] or f'<a href="#figure-{found[2]}">{found[0]}</a>', html)
+    html = FIGURE.sub(lambda found: _captioned(figures[found["file"]], **found.groupdict()), html)
+    html = html.replace(ANSWER, ANSWER.replace("<p>", '<p class="answer">'), 1)
+    headings = tuple(_headings(html))
+    named = iter(headings)
+    html = HEADING.sub(lambda found: _named(next(named), found[2]), html)
+    lead, mark, rest = html.partition("<h2 ")
+    return Body(_scrolling(lead), _scrolling(mark + rest), headings)
+
+
+def _captioned(picture: Picture, *, file: str, alt: str, number: str, caption: str, links: str) -> str:
+    """The SVG itself, as a data URI: identifiers in one SVG cannot meet those of another."""
+    still = f'<a href="{file}"><img src="{data_uri(picture.svg)}" alt="{alt}"></a>'
+    text = f'<figcaption><b>Figure {number}.</b> {caption} <span class="files">{links}</span></figcaption>'
+    return alive.figure(still, picture.alive, caption=text, attributes=f' id="figure-{number}"')
+
+
+def _headings(html: str) -> Iterator[Heading]:
+    """No two have one id."""
+    taken: set[str] = set()
+    for level, inner in HEADING.findall(html):
+        text = _text(inner)
+        name = re.sub(r"\W+", "-", unescape(text).lower()).strip("-")
+        while name in taken:
+            name += "-"
+        taken.add(name)
+        yield Heading(int(level), name, text)
+
+
+def _named(heading: Heading, inner: str) -> str:
+    return f'<h{heading.level} id="{heading.id}">{inner}</h{heading.level}>'
+
+
+def _scrolling(html: str) -> str:
+    """Tables that are wider than the page scroll, and keys reach them; each is named after the heading above it."""
+    return "".join(map(_of_section, re.split(r"(?=<h[23] )", html)))
+
+
+def _of_section(html: str) -> str:
+    heading = re.match(r"<h[23] .*?>(.*?)</h[23]>", html)
+    label = "Table" if heading is None else f"Table: {_text(heading[1])}"
+    region = f'<div class="table" role="region" tabindex="0" aria-label="{label}">'
+    return TABLE.sub(lambda table: f"{region}{table[0]}</div>", html)
+
+
+def _text(html: str) -> str:
+    return re.sub(r"<.*?>", "", html)
