@@ -9,7 +9,8 @@ from pathlib import Path
 import numpy as np
 
 from filters.arrays import FloatArray
-from reports.pages.render import Row, csv_bytes
+from reports.pages.markdown import Row
+from reports.pages.render import csv_bytes
 
 Rows = list[Row]
 """The first one is the heading."""
