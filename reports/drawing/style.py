@@ -138,7 +138,16 @@ SOURCE_LINES = (
     Line("#2e7d4f", "-", "s"),
     Line("#8a3b73", "-", "D"),
 )
-"""For columns such as paper / counted / measured, in turn."""
+"""For what else is told apart, in turn."""
+
+SOURCES = {
+    "printed": Line(INK, "-", "|", 6.0),
+    "analysis": Line("#8a3b73", "-", "D"),
+    "counted": Line("#11538c", "-", "o"),
+    "measured": Line("#dd9009", "-", "^"),
+    "emulated": Line("#2e7d4f", "-", "s"),
+}
+"""Where a number comes from: the same in each figure. Printed: in the document that is regenerated."""
 
 
 @contextmanager

@@ -54,7 +54,7 @@ def test_a_page_has_one_script_that_is_small_and_ends_where_it_should(report: st
     text = page_of(report).read_text(encoding="utf-8")
     scripts = re.findall(r'<script type="module">(.*?)</script>', text, re.DOTALL)
     assert len(scripts) == 1
-    assert scripts[0].strip() == alive.script().strip(), "python -m tests.reports.scripted"
+    assert scripts[0].strip() == alive.script().strip(), "python -m tests.reports.rebuild"
     assert len(alive.script().encode()) < LARGEST_SCRIPT
     assert "</script" not in alive.script()
 

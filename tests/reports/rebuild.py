@@ -1,0 +1,32 @@
+"""Published reports anew from what is stored beside them: python -m tests.reports.rebuild [NAME...].
+
+For a change of how reports look, or of what they say. Nothing is measured.
+"""
+
+from __future__ import annotations
+
+import sys
+from importlib import import_module
+
+from tests.reports.published import FOLDER
+
+PACKAGES = {"steffes2014": "steffes", "patent-multirate": "multirate"}
+"""Where it is not the report's name."""
+
+
+def rebuild(report: str) -> list[str]:
+    """The files that differ from those that were there, which are deleted if they are no more."""
+    test = import_module(f"tests.reports.{PACKAGES.get(report, report)}.test_report")
+    folder = FOLDER / report
+    new = test.rebuilt()
+    old = {path.name: path.read_bytes() for path in folder.iterdir()}
+    for name, content in new.items():
+        (folder / name).write_bytes(content)
+    for name in old.keys() - new.keys():
+        (folder / name).unlink()
+    return sorted(name for name in old.keys() | new.keys() if old.get(name) != new.get(name))
+
+
+if __name__ == "__main__":
+    for report in sys.argv[1:] or sorted(path.name for path in FOLDER.iterdir() if path.is_dir()):
+        print(f"{report}: {', '.join(rebuild(report)) or 'as it was'}", file=sys.stderr)
