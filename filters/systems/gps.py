@@ -141,12 +141,17 @@ def pseudoranges(system: System, k: int, x: FloatArray) -> FloatArray:
     return ranges_m
 
 
-def _process(interval_s: float, acceleration_noise: float, clock_noise: float) -> tuple[FloatArray, FloatArray]:
-    """Phi and Q of dx/dt = A x + Gamma w over an interval, exactly: A^2 = 0, so exp(A t) = I + A t."""
+def motion(acceleration_noise: float = 0.05, clock_noise: float = 0.05) -> tuple[FloatArray, FloatArray]:
+    """dx/dt = A x + w: A (8, 8), and the spectral density (8, 8) of the white noise w. Arguments as of `gps`."""
     A, Gamma = np.zeros((8, 8)), np.zeros((8, 4))
     A[POSITION, VELOCITY] = Gamma[VELOCITY, :3] = np.eye(3)
     A[CLOCK_BIAS, CLOCK_DRIFT] = Gamma[CLOCK_DRIFT, 3] = 1.0
-    density = Gamma @ np.diag([acceleration_noise**2] * 3 + [clock_noise**2]) @ Gamma.T
+    return A, Gamma @ np.diag([acceleration_noise**2] * 3 + [clock_noise**2]) @ Gamma.T
+
+
+def _process(interval_s: float, acceleration_noise: float, clock_noise: float) -> tuple[FloatArray, FloatArray]:
+    """Phi and Q of `motion` over an interval, exactly: A^2 = 0, so exp(A t) = I + A t."""
+    A, density = motion(acceleration_noise, clock_noise)
     T = interval_s
     Q = density * T + (A @ density + density @ A.T) * (T**2 / 2) + A @ density @ A.T * (T**3 / 3)
     return np.eye(8) + A * T, Q
