@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 from fractions import Fraction
+from math import ceil
 from typing import NamedTuple
 
 from filters.systems.gps import gps
@@ -69,6 +70,15 @@ def least_time_of(form: Form, processor: Part) -> MultirateCosts[Fraction]:
 def every(n: int) -> Timing:
     """A gain every n-th step that has until the next one."""
     return Timing(n, 0, n)
+
+
+def least_period(costs: MultirateCosts[Fraction], share: Fraction) -> int | None:
+    """The least n at which one measurement a second takes no more than this share of the processor, None if none does.
+
+    costs: in seconds.
+    """
+    left = share - costs.state_update
+    return max(ceil(costs.covariance_gain / left), 1) if left > 0 else None
 
 
 def _without_square_roots(form: Form) -> Form:

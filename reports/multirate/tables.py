@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
 from typing import Any, NamedTuple
 
-from reports.multirate.costs import Form, every, least_time_of, time_of
-from reports.multirate.results import RECEIVER, SHOWN, Results
-from reports.multirate.words import ratio_text, scenario_text
+from filters.arrays import FloatArray
+from reports.multirate.costs import Form, every, least_period, least_time_of, time_of
+from reports.multirate.results import RECEIVER, SHOWN, N, Results
+from reports.multirate.words import change_text, ratio_text, scenario_text
 from reports.pages.numbers import decimal, percent, significant
 from sched_sim.costs.operations import arithmetic
 from sched_sim.design.fit import fit
 from sched_sim.design.load import utilization
 from sched_sim.processors.part import Part
 from studies.multirate.accuracy import GOOD, Accuracy, Reading, largest_good
-from studies.multirate.patent import CYCLES, Load, comparison, terms
+from studies.multirate.constancy import CONSTANT, constant_from
+from studies.multirate.patent import CYCLES, LIMIT_PERCENT, Load, comparison, terms
 
 Rows = list[list[Any]]
 
@@ -42,8 +44,12 @@ OTHERS: tuple[Reading, ...] = ("sampled", "skipped")
 NO_SQRT = "no sqrt"
 
 RATE_HZ = 100
-N = 5
-"""The patent's n, and the rate of the processor table."""
+"""Of the table of processors."""
+LIMIT = Fraction(LIMIT_PERCENT, 100)
+CHANGED_FROM = (0, 10, 50)
+"""Steps from which changes of a gain are told."""
+LAST_STEPS = 50
+"""Of a run: settled."""
 
 
 def loads(printed: Sequence[Load]) -> Rows:
@@ -111,6 +117,18 @@ def totals() -> Rows:
     return rows
 
 
+def limit_by_form(forms: Iterable[Form], processor: Part) -> Rows:
+    """The least n of each form that keeps to the patent's limit at one measurement a second, and the load there."""
+    rows: Rows = [["Counts and form", "load at n = 1, %", f"within {LIMIT_PERCENT} % from", "load there, %"]]
+    for form in forms:
+        costs = least_time_of(form, processor)
+        n = least_period(costs, LIMIT)
+        there = "-" if n is None else percent(utilization(costs, every(n), Fraction(1)))
+        alone = percent(utilization(costs, every(1), Fraction(1)))
+        rows.append([form.name, alone, "no n" if n is None else f"n = {n}", there])
+    return rows
+
+
 def load_by_n(forms: Iterable[Form], processor: Part, periods: Iterable[int]) -> Rows:
     """The load at one measurement (of all satellites) a second, in percent."""
     forms = list(forms)
@@ -143,9 +161,28 @@ def steady(results: Results) -> Rows:
     return rows
 
 
+RULE = (8 * (GOOD - 1)) ** 0.5
+"""The (n - 1) K at which 1 + ((n - 1) K)^2 / 8, the ratio of a slow scalar filter, becomes GOOD."""
+
+
 def rule(share: float) -> float:
-    """The n at which 1 + ((n - 1) K)^2 / 8, the ratio of a slow scalar filter, becomes GOOD."""
-    return float(1 + (8 * (GOOD - 1)) ** 0.5 / share)
+    """The n of RULE."""
+    return 1 + RULE / share
+
+
+def constancy(results: Results) -> Rows:
+    """By how much of itself the optimal gain of every scenario changes in N steps, in percent."""
+    heads = [*(f"from step {step}" for step in CHANGED_FROM), "settled"]
+    rows: Rows = [["System", "K", *heads, f"below {100 * CONSTANT:g} % from step"]]
+    for name, changes in results.changes.items():
+        told = [*(changes[step] for step in CHANGED_FROM), settled_change(results, name)]
+        row = [scenario_text(name), f"{results.shares[name]:.3f}", *map(change_text, told)]
+        rows.append([*row, constant_from(changes)])
+    return rows
+
+
+def settled_change(results: Results, name: str) -> float:
+    return float(results.changes[name][-LAST_STEPS:].max())
 
 
 def late(results: Results) -> Rows:
@@ -208,3 +245,23 @@ def accuracy_rows(results: Results) -> Rows:
             for row in rows
         ),
     ]
+
+
+def gain_rows(results: Results) -> Rows:
+    """The share of an innovation that each receiver believes in every step."""
+    columns = {
+        f"{scenario_text(name)}, {which}": getattr(course, which)
+        for name, course in results.gains.items()
+        for which in course._fields
+    }
+    return _by_step(columns)
+
+
+def course_rows(results: Results) -> Rows:
+    """The ratio of RECEIVER in every step, by n."""
+    return _by_step({f"n = {n}": course for n, course in results.courses.items()})
+
+
+def _by_step(columns: Mapping[str, FloatArray]) -> Rows:
+    steps = len(next(iter(columns.values())))
+    return [["step", *columns], *([k, *(f"{values[k]:.5g}" for values in columns.values())] for k in range(steps))]

@@ -1,7 +1,7 @@
 """Eqs. (4) to (6) of the patent: measurements that follow ever more closely, and the continuous filter they tend to.
 
-Of the receiver of `filters.systems.gps`, settled, with the satellites where they are in step 0. However many measurements
-there are, they say as much in a second: R dT is that of one measurement each second.
+Of the receiver of `filters.systems.gps`, settled, with the satellites where they are in step 0. However many
+measurements there are, they say as much in a second: R dT is that of one measurement each second.
 """
 
 from __future__ import annotations

@@ -20,6 +20,8 @@ Cycle: TypeAlias = Literal["state_update", "covariance_gain"]
 CYCLES: tuple[Cycle, ...] = get_args(Cycle)
 
 STATES, NOISES, MEASUREMENTS = 8, 4, 4
+LIMIT_PERCENT = 5
+"""What the filter may take of the processor, as the patent requires ("limited to 5 percent")."""
 
 
 class Load(NamedTuple):

@@ -1,0 +1,48 @@
+"""Tables as the page shows them: fewer columns than in the files, to fit on paper, and formulas with signs."""
+
+from __future__ import annotations
+
+from itertools import groupby
+
+from reports.multirate.tables import CYCLE_NAMES, Rows
+from reports.multirate.words import formula_text
+
+MINUS = "\N{MINUS SIGN}"
+
+
+def terms(rows: Rows) -> Rows:
+    """Formulas with signs; the cycle where it begins."""
+    heading, *body = rows
+    shown: Rows = [heading]
+    for cycle, of_cycle in groupby(body, key=lambda row: row[0]):
+        for number, row in enumerate(of_cycle):
+            shown.append([cycle if number == 0 else "", formula_text(row[1]), *row[2:]])
+    assert {row[0] for row in body} == set(CYCLE_NAMES.values())
+    return shown
+
+
+def totals(rows: Rows) -> Rows:
+    """With true minus signs."""
+    return [[str(cell).replace("-", MINUS) if str(cell)[:1] == "-" else cell for cell in row] for row in rows]
+
+
+def steady(rows: Rows) -> Rows:
+    """Without the largest n."""
+    left_out = rows[0].index("n = 20")
+    return [[cell for column, cell in enumerate(row) if column != left_out] for row in rows]
+
+
+def processors(rows: Rows) -> Rows:
+    """A row for each: the load of one filter, and of all of them the highest rate."""
+    heading, *body = rows
+    filters = list(dict.fromkeys((row[heading.index("Filter")], row[heading.index("n")]) for row in body))
+    name, n = filters[1]
+    heads = [f"{kind}, {each}" for kind, each in filters]
+    shown: Rows = [["Processor", "MHz", "precision", f"load, {name}, {n}", *heads]]
+    for processor, of_processor in groupby(body, key=lambda row: row[0]):
+        of = {(row[3], row[4]): row for row in of_processor}
+        first = of[filters[0]]
+        load = of[name, n][heading.index("load, %")]
+        highest = [of[key][-1] if of[key][-1] != "-" else of[key][heading.index("runs")] for key in filters]
+        shown.append([processor, first[1], first[2], load, *highest])
+    return shown
