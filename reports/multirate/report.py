@@ -63,10 +63,11 @@ def build(results: Results) -> dict[str, bytes]:
             "terms": shown.terms(rows["terms"]),
             "totals": shown.totals(rows["totals"]),
             "steady": shown.steady(rows["steady"]),
+            "constancy": shown.constancy(rows["constancy"]),
             "processors": shown.processors(rows["processors"]),
         },
         N=N,
-        saving=said.saving(costs, cases[1]),
+        saving=said.saving(costs, *cases[:2]),
         accuracy=said.accuracy(results),
         constant=said.constant(results),
         limit=said.limit(tended, costs),
@@ -80,7 +81,7 @@ def build(results: Results) -> dict[str, bytes]:
         observations=[formula_text(observation.text) for observation in patent.observations() if observation.holds],
         gantt=said.gantt(on_patents),
         logic_factors=[row[1] for row in rows["logic"][1:3]],
-        closest=said.closest(rows["load-by-n"]),
+        forms=said.forms(own, forms, patents),
     )
     return {
         **pages,

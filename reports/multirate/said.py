@@ -9,6 +9,7 @@ from typing import Any
 
 from reports.multirate import limits, tables
 from reports.multirate.costs import Form, every, least_period, least_time_of, patents_form, time_of
+from reports.multirate.ratio_axis import LEAST
 from reports.multirate.results import PERIODS, RECEIVER, SHOWN, N, Results
 from reports.multirate.schedule import one_loop_panel, two_rates_panel
 from reports.multirate.words import VEHICLE_SYSTEMS, VEHICLES, change_text, ratio_text, scenario_text
@@ -24,9 +25,11 @@ from studies.multirate.accuracy import GOOD, SPEEDS, Reading, largest_good
 from studies.multirate.constancy import CONSTANT, constant_from
 
 GANTT_HZ = Fraction(20)
+CLOSE = ("U-D", "square-root")
+"""Forms whose loads lie on that of the conventional short one."""
 
 
-def saving(costs: MultirateCosts[Fraction], aircraft: patent.Load) -> dict[str, Any]:
+def saving(costs: MultirateCosts[Fraction], slow: patent.Load, aircraft: patent.Load) -> dict[str, Any]:
     """Loads by the patent's counts on its processor, at one measurement of all satellites a second."""
     each, multirate = (utilization(costs, every(n), Fraction(1)) for n in (1, N))
     least = least_period(costs, tables.LIMIT)
@@ -36,6 +39,7 @@ def saving(costs: MultirateCosts[Fraction], aircraft: patent.Load) -> dict[str, 
     return {
         "each": percent(each),
         "printed": aircraft.printed,
+        "printed_slow": slow.printed,
         "multirate": percent(multirate),
         "factor": decimal(each / multirate),
         "each_hz": f"{float(1 / each):.1f}",
@@ -80,7 +84,11 @@ def accuracy(results: Results) -> dict[str, Any]:
         "good": [good[name] for name in receivers],
         "share": [f"{results.shares[name]:.2f}" for name in receivers],
         "beaten": beaten[0] if beaten else None,
-        "limit": f"{GOOD:g}",
+        "good_ratio": f"{GOOD:g}",
+        "good_percent": f"{100 * (GOOD - 1):g}",
+        "good_sigma": f"{100 * (GOOD**0.5 - 1):.1f}",
+        "rule": f"{tables.RULE:.2f}",
+        "drawn_from": f"{1 + LEAST:g}",
         "short_of_rule": max(short_of_rule),
         "slow_limit": ratio_text((N**0.5 + N**-0.5) / 2),
         "slow_sampled": ratio_text(results.at(slowest, "sampled", N).steady_mean),
@@ -90,10 +98,11 @@ def accuracy(results: Results) -> dict[str, Any]:
     }
 
 
-def _within_both(good: Mapping[str, int]) -> list[str]:
-    """The vehicles for which some n is within the patent's limit of load and good."""
+def _within_both(good: Mapping[str, int]) -> str:
+    """The vehicles for which some n is within the patent's limit of load and good, in words."""
     least = least_period(least_time_of(patents_form(), load_part("patent")), tables.LIMIT)
-    return [vehicle for vehicle, name in VEHICLE_SYSTEMS.items() if least is not None and good[name] >= least]
+    able = [vehicle for vehicle, name in VEHICLE_SYSTEMS.items() if least is not None and good[name] >= least]
+    return f"{' and '.join(able)} only" if able else "none"
 
 
 def constant(results: Results) -> dict[str, Any]:
@@ -132,12 +141,15 @@ def limit(found: limits.Limits, costs: MultirateCosts[Fraction]) -> dict[str, An
     }
 
 
-def closest(rows: list[list[Any]]) -> str:
-    """By how much U-D and square-root are at most above the short form, from the table of loads, in percent."""
-    heading, *body = rows
-    short, *others = (heading.index(name) for name in ("conventional, short", "U-D", "square-root"))
-    most = max(float(row[column]) / float(row[short]) - 1 for row in body for column in others)
-    return f"{ceil(1000 * most) / 10:g}"
+def forms(own: Form, ours: Mapping[str, Form], patents: Part) -> dict[str, Any]:
+    """From which n on each form keeps to the patent's limit, and by how much the two last are at most above the short
+    one, in percent."""
+    costs = {form.name: least_time_of(form, patents) for form in (own, *ours.values())}
+    least = sorted({n for n in (least_period(of, tables.LIMIT) for of in costs.values()) if n is not None})
+    loads = {name: [utilization(of, every(n), Fraction(1)) for n in PERIODS] for name, of in costs.items()}
+    short = loads["conventional, short"]
+    above = [one / other - 1 for name in CLOSE for one, other in zip(loads[name], short, strict=True)]
+    return {"least_n": " or ".join(map(str, least)), "closest": f"{ceil(1000 * max(above)) / 10:g}"}
 
 
 def start(results: Results) -> dict[str, Any]:

@@ -26,6 +26,11 @@ def totals(rows: Rows) -> Rows:
     return [[str(cell).replace("-", MINUS) if str(cell)[:1] == "-" else cell for cell in row] for row in rows]
 
 
+def constancy(rows: Rows) -> Rows:
+    """A line may not end between a sign and its number."""
+    return [[str(cell).replace("< ", "<\N{NO-BREAK SPACE}") for cell in row] for row in rows]
+
+
 def steady(rows: Rows) -> Rows:
     """Without the largest n."""
     left_out = rows[0].index("n = 20")

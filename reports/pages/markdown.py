@@ -62,4 +62,4 @@ def _unbroken(cell: str) -> str:
 
 
 def _is_number(cell: Any) -> bool:
-    return re.fullmatch(r"[-+−]?[\d., ]+( ?%)?|[-–]", str(cell)) is not None
+    return re.fullmatch(r"(?:<\s)?[-+−]?[\d., ]+( ?%)?|[-–]", str(cell)) is not None

@@ -6,68 +6,142 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
 
 from reports.charts.chart import gantt
-from reports.multirate.accuracy import Curve, Family, start_figure, steady_figure
-from reports.multirate.costs import least_time_of, our_forms, patents_form
-from reports.multirate.figures import load_figure, one_loop_panel, two_rates_panel
+from reports.multirate.costs import least_period, least_time_of, our_forms, patents_form
+from reports.multirate.gain_figure import gain_figure
+from reports.multirate.lead_figure import lead_figure
+from reports.multirate.limit_figure import limit_figure
+from reports.multirate.load_figure import Printed, load_figure
+from reports.multirate.results import Course
+from reports.multirate.schedule import one_loop_panel, two_rates_panel
+from reports.multirate.start_figure import start_figure
+from reports.multirate.steady_figures import Point, readings_figure, rule_figure
+from reports.multirate.styles import FAMILY_LINES, FORM_LINES, PERIOD_LINES, READING_LINES, VEHICLE_LINES
 from sched_sim.design.load import utilization
 from sched_sim.design.timing import Timing
 from sched_sim.processors.part import on_part
 from sched_sim.processors.part_file import load_part
 from sched_sim.schedule.intervals import bars
+from studies.multirate.accuracy import READINGS
+from studies.multirate.limit import Tending
 from tests.reports.layout import flaws, texts
 
 PATENT = load_part("patent")
 TABLE = on_part(patents_form().table, PATENT)
-READINGS = {"averaged": "$K(R/n)/n$", "sampled": "$K(R)/n$", "skipped": "every $n$-th measurement"}
+COSTS = least_time_of(patents_form(), PATENT)
+
+
+def curve(axes: Axes, name: str) -> Line2D:
+    return next(line for line in axes.lines if line.get_label() == name)
+
+
+def load(n: int) -> Fraction:
+    return 100 * utilization(COSTS, Timing(n, 0, n), Fraction(1))
+
+
+@pytest.mark.parametrize("lines", [VEHICLE_LINES, READING_LINES, PERIOD_LINES, FAMILY_LINES])
+def test_what_is_told_apart_differs_in_colour_marker_and_dashes(lines: dict[str, object]) -> None:
+    for attribute in ("colour", "marker") if lines is FAMILY_LINES else ("colour", "marker", "dashes"):
+        values = [getattr(line, attribute) for line in lines.values()]
+        assert len(set(values)) == len(values), attribute
+
+
+def test_forms_differ_in_colour_and_marker() -> None:
+    assert len({(line.colour, line.marker) for line in FORM_LINES}) == len(FORM_LINES)
+
+
+def test_the_answer() -> None:
+    ratios = {name: {n: 1 + speed * (n - 1) ** 2 for n in range(1, 11)} for name, speed in VEHICLES.items()}
+    figure = lead_figure(COSTS, {1: "16.7", 5: "4.1"}, 4, ratios)
+    assert flaws(figure) == []
+    left, right = figure.axes[:2]
+    np.testing.assert_allclose(curve(left, "the patent's counts").get_ydata(), [float(load(n)) for n in range(1, 11)])
+    assert float(figure.get_size_inches()[1]) * 25.4 <= 95
+    for name, of in ratios.items():
+        np.testing.assert_allclose(curve(right, name).get_ydata(), [ratio - 1 for n, ratio in of.items() if n > 1])
+
+
+VEHICLES = {"calm": 0.003, "road": 0.03, "aircraft": 0.2}
+
+
+@given(st.fractions(Fraction(8, 10), 17, max_denominator=1000))
+def test_the_least_period_is_the_least(percent: Fraction) -> None:
+    n = least_period(COSTS, percent / 100)
+    assert n is not None
+    assert load(n) <= percent < load(n - 1)
+
+
+def test_no_period_is_enough_where_the_state_update_alone_is_too_long() -> None:
+    assert least_period(COSTS, COSTS.state_update) is None
+    assert least_period(COSTS, Fraction(1)) == 1
 
 
 @pytest.mark.exhaust
 def test_load_against_n() -> None:
     forms = [patents_form(), *our_forms().values()]
-    figure = load_figure(
-        {form.name: least_time_of(form, PATENT) for form in forms}, {1: ["16.7"], 5: ["4.1"]}, range(1, 21)
-    )
+    costs = {form.name: least_time_of(form, PATENT) for form in forms}
+    printed = [Printed(1, "4.2", ", once in 4 s"), Printed(1, "16.7", ""), Printed(5, "4.1", "")]
+    figure = load_figure(costs, 2, printed, range(1, 21))
     assert flaws(figure) == []
-    curves = [line for line in figure.axes[0].lines if len(line.get_xdata()) == 20]
-    for form, curve in zip(forms, curves, strict=True):
-        costs = least_time_of(form, PATENT)
-        expected = [100 * float(utilization(costs, Timing(n, 0, n), Fraction(1))) for n in range(1, 21)]
-        assert list(curve.get_ydata()) == expected
-    rings = [(line.get_xdata()[0], line.get_ydata()[0]) for line in figure.axes[0].lines if line.get_markersize() == 9]
-    assert rings == [(1, 16.7), (5, 4.1)]
-    assert {"printed: 16.7 %", "printed: 4.1 %"} <= {text.get_text() for text, _ in texts(figure)}
-
-
-def test_the_rate_axis_is_the_inverse_of_the_load() -> None:
-    figure = load_figure({"patent": least_time_of(patents_form(), PATENT)}, {}, range(1, 21))
-    loads, rates = figure.axes[:2]
-    assert loads.get_ylim() == rates.get_ylim()
-    texts(figure)  # draws it
-    labels = {label.get_text(): label.get_position()[1] for label in rates.get_yticklabels()}
-    assert labels["50"] == pytest.approx(2)
+    left, right = figure.axes[:2]
+    loads = {
+        name: np.array([100 * float(utilization(of, Timing(n, 0, n), Fraction(1))) for n in range(1, 21)])
+        for name, of in costs.items()
+    }
+    for name in list(costs)[:3]:
+        np.testing.assert_allclose(curve(left, name).get_ydata(), loads[name])
+    for name in ("U-D", "square-root"):
+        above = 100 * (loads[name] / loads["conventional, short"] - 1)
+        np.testing.assert_allclose(curve(right, name).get_ydata(), above)
+    strokes = {(line.get_xdata()[0], line.get_ydata()[0]) for line in left.lines if line.get_marker() == "_"}
+    assert strokes == {(1, 4.2), (1, 16.7), (5, 4.1)}
 
 
 @pytest.mark.parametrize("spread", [0.001, 0.3, 3.0])
-def test_steady_state(spread: float) -> None:
-    """Alike or far apart, the curves' labels do not cover one another."""
-
-    def curves(count: int, factor: float) -> list[Curve]:
-        return [
-            Curve(f"{10.0**-number:g}", {n: 1 + factor * spread**number * (n - 1) ** 2 for n in range(1, 21)})
-            for number in range(count)
-        ]
-
-    families = [
-        Family(title, {reading: curves(count, 10.0**row) for row, reading in enumerate(READINGS)})
-        for title, count in (("Random walk", 4), ("Tracker", 3), ("Receiver", 3))
-    ]
-    figure = steady_figure(families, READINGS)
+def test_three_filters_in_steady_state(spread: float) -> None:
+    vehicles = {
+        title: {
+            reading: {n: 1 + spread**row * 10.0**number * (n - 1) ** 2 for n in range(1, 21)}
+            for number, reading in enumerate(READINGS)
+        }
+        for row, title in enumerate(("Hardly manoeuvres", "On the road", "Aircraft that turns"))
+    }
+    figure = readings_figure(vehicles, {"averaged": "one", "sampled": "two", "skipped": "three"})
     assert flaws(figure) == []
-    first = next(line for line in figure.axes[0].lines if len(line.get_xdata()) == 19)
-    assert list(first.get_xdata()) == list(range(2, 21))
-    np.testing.assert_allclose(first.get_ydata(), [(n - 1) ** 2 for n in range(2, 21)])
+    np.testing.assert_allclose(curve(figure.axes[0], "one").get_ydata(), [(n - 1) ** 2 for n in range(2, 21)])
+
+
+def test_the_rule() -> None:
+    points = {kind: [Point(spent, 1 + spent**2 / 8) for spent in (0.1, 0.5, 3.0)] for kind in FAMILY_LINES}
+    figure = rule_figure(points, 0.632)
+    assert flaws(figure) == []
+    drawn = curve(figure.axes[0], "tracker")
+    np.testing.assert_allclose(drawn.get_ydata(), np.square(drawn.get_xdata()) / 8)
+
+
+def test_the_gain_over_time() -> None:
+    courses = {
+        title: Course(1 / (1 + np.arange(401.0)), np.full(401, 0.2)) for title in ("Calm", "Road", "An aircraft")
+    }
+    figure = gain_figure(courses, dict.fromkeys(courses, 33))
+    assert flaws(figure) == []
+    np.testing.assert_allclose(curve(figure.axes[1], "gain in each step").get_ydata(), 1 / (1 + np.arange(101)))
+    assert curve(figure.axes[1], "$K(R/n)/n$ of every 5th").get_drawstyle() == "steps-post"
+
+
+def test_what_many_measurements_tend_to() -> None:
+    more = [Tending(n, 5 / n, 1 - 0.7 / n, 0.3, 0.3 / n**0.2, 1.0, 1.0) for n in (1, 2, 5, 10, 20, 50, 100)]
+    faster = [Tending(5, 1 / hz, 1 - 0.1 / hz, 1 - 0.2 / hz, 0.6, 1.0, 1.0) for hz in (0.5, 1, 2, 5, 10, 20, 50, 100)]
+    figure = limit_figure(more, faster)
+    assert flaws(figure) == []
+    left, right = figure.axes[:2]
+    assert list(curve(left, "gain in each step").get_xdata()) == [row.n for row in more]
+    np.testing.assert_allclose(curve(right, "$K(R/n)/n$").get_ydata(), [row.averaged for row in faster])
 
 
 def test_the_start() -> None:
@@ -84,10 +158,20 @@ def test_the_start() -> None:
 def test_one_loop_overruns_where_two_rates_do_not() -> None:
     """The same work, 82 % of the processor: with covariance and gain in the loop, three of five updates are late."""
     loop, rates = one_loop_panel(TABLE, 5, Fraction(20)), two_rates_panel(TABLE, 5, Fraction(20))
-    assert loop.schedule.misses == 6
+    assert loop.schedule.misses == 3
     assert rates.schedule.misses == 0
     assert list(rates.schedule.achieved) == [4]
     assert loop.schedule.utilization == rates.schedule.utilization == Fraction(5 * 7626 + 166870, 250_000)
     for panel in (loop, rates):
         assert {bar.style for bar in bars(panel.schedule)} == {"SU", "CG"}
-    assert flaws(gantt([one_loop_panel(TABLE, 5, Fraction(20)), two_rates_panel(TABLE, 5, Fraction(20))])) == []
+
+
+def test_each_label_of_both_schedules_stands_in_its_block() -> None:
+    figure = gantt([one_loop_panel(TABLE, 5, Fraction(20)), two_rates_panel(TABLE, 5, Fraction(20))])
+    assert flaws(figure) == []
+    for axes in figure.axes:
+        blocks = [path.get_extents() for group in axes.collections for path in group.get_paths()]
+        for text in axes.texts:
+            if text.get_text() in ("SU", "CG"):
+                x, y = text.get_position()
+                assert any(block.x0 <= x <= block.x1 and block.y0 <= y <= block.y1 for block in blocks)

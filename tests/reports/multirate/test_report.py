@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+from fractions import Fraction
 from functools import cache
 from pathlib import Path
 
@@ -9,12 +11,14 @@ import pytest
 
 from reports.multirate import tables
 from reports.multirate.costs import every, least_time_of, our_forms, patents_form, time_of
+from reports.multirate.limits import limits
 from reports.multirate.report import build
-from reports.multirate.results import PERIODS, SHOWN, Results, results
+from reports.multirate.results import PERIODS, SHOWN, N, Results, results
 from sched_sim.design.load import utilization
 from sched_sim.processors.part_file import load_part, shipped_parts
 from studies.multirate import patent
-from studies.multirate.accuracy import largest_good
+from studies.multirate.accuracy import ACCELERATION_NOISES, GOOD, largest_good
+from studies.multirate.limit import tending
 from tests.command_line import Run
 from tests.reports import published
 
@@ -80,6 +84,35 @@ def test_the_three_cases_are_those_of_the_patent() -> None:
     assert [row["with state update, %"] for row in rows("loads.csv")] == ["4.36", "17.45", "4.10"]
 
 
+def test_the_answer_is_short_and_begins_the_report() -> None:
+    title, answer, figure, *_ = rebuilt()["index.md"].decode().split("\n\n")
+    assert title.startswith("# ")
+    assert answer.startswith("**Answer.** ")
+    assert len(answer.split()) <= 50
+    assert figure.endswith("(answer.svg)")
+
+
+def test_the_limit_holds_from_the_n_that_is_said_on() -> None:
+    """By the table of loads, for the patent's counts and for each form."""
+    loads = {int(row["n"]): row for row in rows("load-by-n.csv")}
+    for row in rows("limit-by-form.csv"):
+        (column,) = [name for name in row if name.startswith("within")]
+        least = int(row[column].removeprefix("n = "))
+        name = row["Counts and form"]
+        assert all((float(load[name]) <= patent.LIMIT_PERCENT) == (n >= least) for n, load in loads.items())
+        assert row["load there, %"] == loads[least][name]
+        assert row["load at n = 1, %"] == loads[1][name]
+    assert "its limit of 5 % needs n ≥ 4." in text()
+    assert (loads[4]["the patent's counts"], loads[3]["the patent's counts"]) == ("4.93", "6.32")
+    assert "asks for n = 4 or more (4.93 %; n = 3 takes 6.32 %)" in text()
+
+
+def test_only_a_receiver_that_hardly_manoeuvres_has_an_n_for_both_limits() -> None:
+    good = {row["System"]: int(row["good to n"]) for row in rows("steady.csv") if row["System"].startswith("receiver")}
+    assert [name for name, n in good.items() if n >= 4] == ["receiver 0.05, calm"]
+    assert "so that an n for both there is for calm only" in text()
+
+
 def test_in_short() -> None:
     for said in (
         "takes 4.10 % of its processor instead of 17.45 % (printed: 16.7 %, for it leaves out the state update), 4.26",
@@ -92,17 +125,72 @@ def test_in_short() -> None:
         assert said in text()
 
 
+def test_a_settled_gain_is_constant_and_one_after_the_start_is_not() -> None:
+    table = rows("constancy.csv")
+    largest = max(float(row["settled"].removeprefix("< ")) for row in table)
+    assert f"settled, it changes by at most {largest:.4f} % of itself" in text()
+    receivers = [row for row in table if row["System"].startswith("receiver")]
+    assert all(float(row["from step 0"]) == 100 and float(row["from step 10"]) > 5 for row in receivers)
+    steps = ", ".join(row["below 5 % from step"] for row in receivers)
+    assert f"less than 5 % it changes from step {steps} on" in text()
+
+
+def test_the_divided_gain_is_too_small_where_the_loss_is_large() -> None:
+    """Of each receiver; by the table of gains."""
+    last = rows("gains.csv")[-1]
+    for name in ("receiver 0.05, calm", "receiver 0.3, road", "receiver 1, aircraft"):
+        assert float(last[f"{name}, divided"]) < 0.7 * float(last[f"{name}, optimal"])
+    assert "should believe 0.19, 0.33, 0.52 of an innovation, and believe 0.13, 0.17, 0.19" in text()
+
+
+def test_a_shorter_time_between_gains_makes_the_division_exact_and_more_measurements_do_not() -> None:
+    more, faster = rows("more.csv"), rows("faster.csv")
+    vehicles = ("calm", "road", "aircraft")
+    for name in vehicles:
+        assert [float(row[name]) for row in more] == sorted(float(row[name]) for row in more)
+        assert float(more[-1][name]) > float(more[0][name]) == 1.0
+        assert [float(row[name]) for row in faster] == sorted((float(row[name]) for row in faster), reverse=True)
+        assert float(faster[-1][name]) == 1.0
+    assert float(faster[-1]["aircraft, with R"]) > 1.3
+    fixed = {row["averaged"] for row in rows("limits.csv") if row["receiver"] == "aircraft" and row["n"] != "5"}
+    assert {f"{float(value):.3f}" for value in fixed} == {"0.269"}
+
+
+def test_from_the_rate_that_is_said_on_five_is_good_and_the_limit_is_lost() -> None:
+    rates = limits().least_hz
+    for vehicle, noise in zip(rates, ACCELERATION_NOISES, strict=True):
+        assert tending(noise, float(1 / rates[vehicle]), N).averaged_ratio <= GOOD
+        assert tending(noise, float(1 / (rates[vehicle] - Fraction(1, 10))), N).averaged_ratio > GOOD
+    said = ", ".join(f"{float(hz):g}" for hz in rates.values())
+    loads = ", ".join(f"{4.10 * float(hz):.1f}" for hz in rates.values())
+    assert f"from {said} measurements a second on" in text()
+    assert loads == ", ".join(f"{float(load):.1f}" for load in loads_said())
+
+
+def loads_said() -> list[str]:
+    return re.findall(r"[\d.]+", text().partition("there the patent's filter takes ")[2].partition(" % of")[0])
+
+
 def test_what_the_text_claims_without_a_number() -> None:
     """R is nowhere right, and for the aircraft no better than skipping; nothing is good beyond the rule."""
     for name, share in found().shares.items():
         averaged, sampled = (found().of(name, reading) for reading in ("averaged", "sampled"))
         assert all(a.steady_mean < b.steady_mean for a, b in zip(averaged, sampled, strict=True) if a.n > 1)
         assert largest_good(averaged) <= tables.rule(share)
+        assert all((row.n - 1) * share <= tables.RULE for row in averaged if row.steady_mean <= GOOD)
     assert found().at("gps 1", "sampled", 5).steady_mean > found().at("gps 1", "skipped", 5).steady_mean
     skipped, averaged = (found().of("gps 1", reading) for reading in ("skipped", "averaged"))
     better = {n: one.steady_mean < other.steady_mean for n, one, other in zip(PERIODS, skipped, averaged, strict=True)}
     assert [n for n in PERIODS if n > 1 and better[n]] == list(range(7, 21))
     assert "from n = 7 on skipping is better" in text()
+
+
+@pytest.mark.parametrize("name", ["random walk 0.0001", "random walk 0.001"])
+def test_slow_random_walks_lie_on_the_curve_of_the_rule(name: str) -> None:
+    for row in found().of(name, "averaged"):
+        spent = (row.n - 1) * found().shares[name]
+        if spent <= tables.RULE:
+            assert row.steady_mean - 1 == pytest.approx(spent**2 / 8, rel=0.1)
 
 
 def test_starts_with_no_step_at_full_rate_are_the_runs_of_the_study() -> None:
