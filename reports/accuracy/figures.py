@@ -27,7 +27,9 @@ EVERY_LINES = {
     4: Line("#8a3b73", (0, (1.5, 1.2)), "D"),
 }
 LINES: Mapping[str, Line] = {**METHOD_LINES, SUMMED: Line("#4a90c8", (0, (7.0, 1.5)), "d", 4.2)}
-SHADE = "#cfcfcf"
+FLIGHT_LINES = {False: Line(GREY, (0, (4.0, 1.5)), "v"), True: Line("#1d8a8a", "-", "P", 4.2)}
+"""By whether several frames are under way."""
+SHADE = "#8f8f8f"
 """Of the line below designs that no other one beats."""
 FAR = 2.4
 """Beyond so many times the power of the standard filter a design stands at the right edge."""
@@ -126,7 +128,7 @@ def _front(axes: Axes, designs: Sequence[Placed]) -> None:
     best = sorted((float(place.speed), _over(place)) for place in shown if place.on_front)
     speeds, levels = zip(*best, strict=True)
     axes.step(
-        [*speeds, edge * 1.55], [*levels, levels[-1]], where="post", color=SHADE, lw=4.0, zorder=1.2,
+        [*speeds, edge * 1.55], [*levels, levels[-1]], where="post", color=SHADE, lw=3.0, zorder=1.2,
         solid_capstyle="butt",
     )  # fmt: skip
     beyond = higher = 0
@@ -182,7 +184,7 @@ def _round_numbers(low: float, high: float) -> list[float]:
 def slow_figure(choices: Sequence[Choice], slowest: float = SLOWEST, fastest: float = FASTEST) -> Figure:
     """The best worst-step deviation at each speed, with one frame in flight and with several; the n of each stretch."""
     with drawing():
-        lines = {False: EVERY_LINES[2], True: EVERY_LINES[1]}
+        lines = FLIGHT_LINES
         names = {False: "one frame in flight, L ≤ n N", True: "several in flight"}
         legend = [line_entry(names[several], lines[several], dashes=True) for several in names]
         figure, ((axes,),) = sheet(1, 1, legend, height_mm=62.0, right_mm=8.0)

@@ -7,6 +7,7 @@ from typing import Any
 
 from reports.accuracy import tables
 from reports.accuracy.figures import front_figure, landing_figure, slow_figure
+from reports.accuracy.lead_figure import lead_figure
 from reports.accuracy.results import EXAMPLE, Results
 from reports.accuracy.words import MODELS, deviation, percents, plain_name, unbroken
 from reports.pages.numbers import significant
@@ -37,6 +38,7 @@ def build(results: Results) -> dict[str, bytes]:
     }
     figures = pictures(
         {
+            "answer.svg": lead_figure(results.landings),
             "landing.svg": landing_figure([*results.landings.values()]),
             "front.svg": front_figure(results.placed),
             "slow-processor.svg": slow_figure(results.choices),
@@ -47,6 +49,7 @@ def build(results: Results) -> dict[str, bytes]:
         TITLE,
         figures,
         **{name.replace("-", "_"): unbroken(table) for name, table in rows.items()},
+        shown_methods=[unbroken(table) for table in tables.shown_methods(rows["methods"])],
         cost=_cost(results),
         power=_power(results),
         wrong=_wrong(results),

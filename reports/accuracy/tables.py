@@ -97,6 +97,14 @@ def methods(results: Results) -> Rows:
     return rows
 
 
+def shown_methods(rows: Rows) -> tuple[Rows, Rows]:
+    """The table of methods in two that fit on paper: at the least power, and by the other update and landing first."""
+    first = rows[0].index("textbook update")
+    power = rows[0].index("least power")
+    named = [row for row in rows if row[power] != "-"]
+    return [row[:first] for row in rows], [[row[0], row[power], *row[first:]] for row in named]
+
+
 def exact_at(of: Given, L: int) -> Accuracy:
     """Of a method that loses nothing."""
     return lossless(of.model, of.states, of.N, L)
@@ -139,7 +147,7 @@ def operations(power: Fraction) -> str:
 
 def approximate(results: Results) -> Rows:
     rows: Rows = [
-        ["Model", "Q', %", "Q'', %", "PX4, worst, %", "PX4, rms, %", "fresh: motion", "fresh: bias", "fresh: worst"]
+        ["Model", "Q′, %", "Q″, %", "PX4, worst, %", "PX4, rms, %", "fresh: motion", "fresh: bias", "fresh: worst"]
     ]
     for name, found in results.approximations.items():
         late = found.exact_late.worst
@@ -168,7 +176,7 @@ def in_flight(results: Results) -> Rows:
 def camera_rates(results: Results) -> Rows:
     return [
         ["Camera, Hz", *results.noise_by_rate],
-        ["Q' costs, %", *(percents(share) for share in results.noise_by_rate.values())],
+        ["Q′ costs, %", *(percents(share) for share in results.noise_by_rate.values())],
     ]
 
 

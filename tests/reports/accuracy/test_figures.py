@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 
 from filters.accuracy import lossless
 from reports.accuracy.figures import LINES, SHADE, front_figure, landing_figure, slow_figure
+from reports.accuracy.lead_figure import lead_figure
 from reports.pages.numbers import significant
 from sched_sim.costs.methods import DELAYED_METHODS
 from studies.accuracy.given import MODELS, given
@@ -43,6 +44,19 @@ def test_landings() -> None:
             np.testing.assert_allclose(line.get_ydata(), 100 * (shown / found.no_delay - 1))
             assert line.get_xdata()[0] == found.given.ms(found.given.M)
             assert line.get_xdata()[-1] == found.given.ms(2 * found.given.N)
+
+
+def test_the_answer() -> None:
+    found = dict(zip(MODELS, landings(), strict=True))
+    figure = lead_figure(found)
+    assert flaws(figure) == []
+    assert float(figure.get_size_inches()[1]) * 25.4 <= 95
+    drawn = {line.get_label(): line.get_xdata() for line in figure.axes[0].lines}
+    waiting = [100 * landing.waiting for landing in found.values()]
+    np.testing.assert_allclose(drawn["landing at the next fix"], waiting)
+    np.testing.assert_allclose(
+        drawn["every 2nd fix, on arrival"], [100 * landing.leaving_out(2) for landing in found.values()]
+    )
 
 
 @cache

@@ -7,10 +7,12 @@ from pathlib import Path
 
 import pytest
 
+from reports.accuracy import tables
 from reports.accuracy.report import build
 from reports.accuracy.results import Results, results
 from reports.accuracy.words import MODELS, deviation, more, percents, plain_name, unbroken
-from studies.accuracy.scale import cheapest, earliest
+from studies.accuracy.given import given
+from studies.accuracy.scale import EXACT, SUMMED, cheapest, earliest
 from studies.accuracy.slow_processor import at_speeds
 from tests.command_line import Run
 from tests.reports import published
@@ -71,7 +73,7 @@ def test_landing_later_costs_what_was_found_before() -> None:
 
 def test_in_short() -> None:
     for said in (
-        "costs 3.73 % (INS with GPS), 13.8 % (with RTK), 0.0904 % (star tracker) and 27.6 % (camera)",
+        "costs 3.73 % (INS with GPS), 13.8 % (RTK), 0.0904 % (star tracker) and 27.6 % (camera)",
         "every second fix on arrival costs 35.8, 44.3, 22.3 and 82.9 %",
         "Used 872.5 ms (GPS), 377.5 ms (RTK) or 80 ms (camera)",
         "of the star tracker even 50 s after",
@@ -85,6 +87,44 @@ def test_in_short() -> None:
         "landing at L = 6 too: 14.9 mm, 32.3 % less. With one in flight that takes a speed of 11",
     ):
         assert said in text()
+
+
+def test_the_answer_is_short_and_begins_the_report() -> None:
+    title, answer, figure, *_ = rebuilt()["index.md"].decode().split("\n\n")
+    assert title.startswith("# ")
+    assert answer.startswith("**Answer.** ")
+    assert len(answer.split()) <= 50
+    assert figure.endswith("(answer.svg)")
+
+
+def test_every_second_fix_is_above_every_fix_wherever_both_land() -> None:
+    worst = {(row["model"], row["every"], row["L"]): float(row["worst"]) for row in rows("all-landings.csv")}
+    both = [key for key in worst if key[1] == "2" and (key[0], "1", key[2]) in worst]
+    assert {model for model, _, _ in both} == set(MODELS)
+    assert all(worst[key] > worst[key[0], "1", key[2]] for key in both)
+
+
+def test_the_least_power_is_of_the_dual_rate_filter_and_on_arrival_of_stochastic_cloning() -> None:
+    for name, placed in found().placed.items():
+        every = [place for place in placed if place.every == 1]
+        assert min(every, key=lambda place: place.speed).method == SUMMED
+        arrived = [place for place in every if place.method in EXACT and place.lands == given(name).M]
+        assert min(arrived, key=lambda place: place.speed).method in ("clone", "clone-split")
+
+
+def test_one_frame_in_flight_uses_every_frame_only_from_the_speed_that_is_said_on() -> None:
+    alone = {int(row["one: n"]) for row in rows("slow-processor.csv") if float(row["Speed"]) < 11}
+    assert min(alone) == 2
+    assert {row["one: n"] for row in rows("slow-processor.csv") if float(row["Speed"]) >= 11} == {"1"}
+
+
+def test_the_two_tables_of_methods_are_all_of_the_file() -> None:
+    whole = tables.methods(found())
+    one, other = tables.shown_methods(whole)
+    assert [len(row) for row in (one[0], other[0])] == [7, 5]
+    assert {*one[0], *other[0]} == {*whole[0]}
+    assert [row[0] for row in one] == [row[0] for row in whole]
+    assert other[1][1:] == [whole[1][4], *whole[1][7:]]
 
 
 def test_what_the_text_claims_without_a_number() -> None:
@@ -118,7 +158,7 @@ def test_the_table_of_methods_is_that_of_their_designs() -> None:
 
 def test_verdicts() -> None:
     verdicts = {row["Method"]: row["verdict"] for row in rows("methods.csv")}
-    assert verdicts["Dual-rate with Q'"] == "approximate: < 0.001 %"
+    assert verdicts["Dual-rate with Q′"] == "approximate: < 0.001 %"
     assert verdicts["PX4 output predictor"] == "approximate: +2.53 %, rms +5.72 %"
     assert verdicts["Fuse as fresh"] == "wrong: biased by 1.65 m at 15 m/s"
     assert verdicts["Carried gain"] == verdicts["Dual-rate"] == "exact"
