@@ -20,7 +20,7 @@ BETWEEN_S = 5
 """Between gains, as in the patent's example."""
 MEASUREMENTS = (1, 2, 5, 10, 20, 50, 100)
 """In that time."""
-RATES_HZ = (Fraction(1, 2), 1, 2, 5, 10, 20, 50, 100)
+RATES_HZ = tuple(map(Fraction, ("0.5", 1, 2, 5, 10, 20, 50, 100)))
 TENTHS = 10
 """Rates are told in so many parts of a Hz."""
 
@@ -70,7 +70,7 @@ def faster_rows(found: Limits, costs: MultirateCosts[Fraction]) -> Rows:
     rows: Rows = [["Measurements a second", "load, %", *VEHICLES, f"{last}, with R"]]
     for number, hz in enumerate(RATES_HZ):
         ratios = [found.faster[name][number].averaged_ratio for name in VEHICLES]
-        load = percent(utilization(costs, every(N), Fraction(1) / hz))
+        load = percent(utilization(costs, every(N), 1 / hz))
         rows.append([f"{float(hz):g}", load, *map(ratio_text, [*ratios, found.faster[last][number].sampled_ratio])])
     return rows
 

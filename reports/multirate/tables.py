@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
+from math import sqrt
 from typing import Any, NamedTuple
 
 from filters.arrays import FloatArray
@@ -161,7 +162,7 @@ def steady(results: Results) -> Rows:
     return rows
 
 
-RULE = (8 * (GOOD - 1)) ** 0.5
+RULE = sqrt(8 * (GOOD - 1))
 """The (n - 1) K at which 1 + ((n - 1) K)^2 / 8, the ratio of a slow scalar filter, becomes GOOD."""
 
 

@@ -18,7 +18,8 @@ def changes(gains: FloatArray, n: int) -> FloatArray:
     """
     later = gains[n:]
     change: FloatArray = np.linalg.norm(later - gains[:-n], axis=2) / np.linalg.norm(later, axis=2)
-    return change.max(axis=1)
+    largest: FloatArray = change.max(axis=1)
+    return largest
 
 
 def constant_from(change: FloatArray, limit: float = CONSTANT) -> int:
