@@ -20,7 +20,7 @@ BETWEEN_S = 5
 """Between gains, as in the patent's example."""
 MEASUREMENTS = (1, 2, 5, 10, 20, 50, 100)
 """In that time."""
-RATES_HZ = tuple(map(Fraction, ("0.5", 1, 2, 5, 10, 20, 50, 100)))
+RATES_HZ = (Fraction(1, 2), *map(Fraction, (1, 2, 5, 10, 20, 50, 100)))
 TENTHS = 10
 """Rates are told in so many parts of a Hz."""
 

@@ -6,7 +6,7 @@ from reports.multirate import limits, said, shown, tables
 from reports.multirate.costs import least_time_of, our_forms, patents_form
 from reports.multirate.drawn import drawn
 from reports.multirate.results import PERIODS, N, Results
-from reports.multirate.schedule import one_loop_panel, two_rates_panel
+from reports.multirate.schedule import one_loop_panel, schedule_rows, two_rates_panel
 from reports.multirate.words import (
     formula_text,
     signed,
@@ -45,14 +45,15 @@ def build(results: Results) -> dict[str, bytes]:
         "starts": tables.starts(results),
         "processors": tables.processor_rows(asked, parts),
     }
+    on_patents = on_part(own.table, patents)
+    schedules = [panel(on_patents, N, said.GANTT_HZ) for panel in (one_loop_panel, two_rates_panel)]
     others = {
         "accuracy": tables.accuracy_rows(results),
         "limits": limits.all_rows(tended),
         "gains": tables.gain_rows(results),
         "courses": tables.course_rows(results),
+        "rates": schedule_rows(schedules, said.GANTT_HZ),
     }
-    on_patents = on_part(own.table, patents)
-    schedules = [one_loop_panel(on_patents, N, said.GANTT_HZ), two_rates_panel(on_patents, N, said.GANTT_HZ)]
     figures = pictures({**drawn(results, tended, own, forms, patents, cases), "rates.svg": schedules})
     pages = render(
         "patent-multirate",

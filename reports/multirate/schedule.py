@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
+from typing import Any
 
 from reports.charts.panels import Panel, method_panel
 from sched_sim.costs.table import CostTable
@@ -11,6 +13,7 @@ from sched_sim.design.cycle_marks import cycle_marks
 from sched_sim.design.pieces import StandardCosts
 from sched_sim.design.simulate import simulate
 from sched_sim.design.timing import Timing
+from sched_sim.schedule.intervals import bars
 
 ONE_LOOP = {"P": "SU", "U": "CG"}
 
@@ -36,3 +39,15 @@ def one_loop_panel(table: CostTable, n: int, hr_hz: Fraction, cycles: int = 1) -
         notes=[f"HR period {float(1000 / hr_hz):g} ms", f"{100 * float(schedule.utilization):.0f} % busy"],
         marks=cycle_marks(Timing(n, 0, n), cycles, {}, arrives=False),
     )
+
+
+def schedule_rows(panels: Sequence[Panel], hr_hz: Fraction) -> list[list[Any]]:
+    """The pieces of work that are drawn, in ms; the first row is the heading."""
+    rows: list[list[Any]] = [["schedule", "row", "work", "step", "start_ms", "end_ms", "late"]]
+    for panel in panels:
+        schedule = panel.schedule
+        for bar in bars(schedule):
+            start, end = (f"{float(1000 * Fraction(at, schedule.period) / hr_hz):.6g}" for at in (bar.start, bar.end))
+            late = "no" if bar.overdue is None else "yes"
+            rows.append([panel.title, bar.row.name, bar.style, bar.step, start, end, late])
+    return rows

@@ -18,7 +18,7 @@ from reports.multirate.lead_figure import lead_figure
 from reports.multirate.limit_figure import limit_figure
 from reports.multirate.load_figure import Printed, load_figure
 from reports.multirate.results import Course
-from reports.multirate.schedule import one_loop_panel, two_rates_panel
+from reports.multirate.schedule import one_loop_panel, schedule_rows, two_rates_panel
 from reports.multirate.start_figure import start_figure
 from reports.multirate.steady_figures import Point, readings_figure, rule_figure
 from reports.multirate.styles import FAMILY_LINES, FORM_LINES, PERIOD_LINES, READING_LINES, VEHICLE_LINES
@@ -164,6 +164,15 @@ def test_one_loop_overruns_where_two_rates_do_not() -> None:
     assert loop.schedule.utilization == rates.schedule.utilization == Fraction(5 * 7626 + 166870, 250_000)
     for panel in (loop, rates):
         assert {bar.style for bar in bars(panel.schedule)} == {"SU", "CG"}
+
+
+def test_the_rows_of_the_schedules_are_all_the_work() -> None:
+    panels = [one_loop_panel(TABLE, 5, Fraction(20)), two_rates_panel(TABLE, 5, Fraction(20))]
+    _, *pieces = schedule_rows(panels, Fraction(20))
+    for panel in panels:
+        of = [piece for piece in pieces if piece[0] == panel.title]
+        assert sum(float(piece[5]) - float(piece[4]) for piece in of) == pytest.approx(5 * 7.626 + 166.87)
+    assert {piece[0] for piece in pieces if piece[-1] == "yes"} == {"One loop"}
 
 
 def test_each_label_of_both_schedules_stands_in_its_block() -> None:
