@@ -31,7 +31,10 @@ def gain_figure(courses: Mapping[str, Course], constant_from: Mapping[str, int])
         figure, [plots] = sheet(1, len(courses), legend, height_mm=PLOT_MM, gap_mm=6.0)
         steps = np.arange(LAST_STEP + 1)
         for axes, (title, course) in zip(plots, courses.items(), strict=True):
-            axes.plot(steps, course.optimal[steps], color=OPTIMAL.colour, ls=OPTIMAL.dashes, lw=1.4, label=EACH)
+            axes.plot(
+                steps, course.optimal[steps], OPTIMAL.marker, color=OPTIMAL.colour, ls=OPTIMAL.dashes, lw=1.4,
+                ms=OPTIMAL.size, mew=0, markevery=20, label=EACH,
+            )  # fmt: skip
             axes.plot(
                 steps, course.divided[steps], divided.marker, color=divided.colour, ls="-", lw=1.1, mew=0,
                 ms=0.8 * divided.size, drawstyle="steps-post", markevery=N, label=DIVIDED,

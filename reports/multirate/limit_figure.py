@@ -22,7 +22,7 @@ def limit_figure(more: Sequence[Tending], faster: Sequence[Tending]) -> Figure:
     """Gains per second over that of the continuous filter. Left, against n with one interval between gains; right,
     against the rate of measurements with one n."""
     with drawing():
-        lines = (OPTIMAL._replace(marker="x"), READING_LINES["averaged"], READING_LINES["sampled"])
+        lines = (OPTIMAL, READING_LINES["averaged"], READING_LINES["sampled"])
         legend = [line_entry(name, line) for name, line in zip(NAMES, lines, strict=True)]
         figure, [[left, right]] = sheet(1, 2, legend, height_mm=PLOT_MM)
         for axes, rows, places in (
@@ -33,7 +33,7 @@ def limit_figure(more: Sequence[Tending], faster: Sequence[Tending]) -> Figure:
             for name, line, column in zip(NAMES, lines, columns, strict=True):
                 axes.plot(
                     places, column, line.marker, color=line.colour, ls=line.dashes, ms=line.size, lw=1.1,
-                    mew=1.0 if line.marker == "x" else 0, label=name,
+                    mew=0, label=name,
                 )  # fmt: skip
             _across(axes, places)
             axes.set_ylim(0, 1.12)

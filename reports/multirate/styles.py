@@ -13,7 +13,7 @@ DASHES, DOTS, CHAIN = (0, (4.0, 1.5)), (0, (1.2, 1.2)), (0, (6.0, 1.5, 1.2, 1.5)
 PRINTED = SOURCES["printed"]
 PRINTED_MARKER = "_"
 """Its stroke, across an axis of values that goes up."""
-OPTIMAL = Line(INK, "-", "None")
+OPTIMAL = Line(INK, "-", "X", 4.2)
 """The filter that computes its gain in every step."""
 
 VEHICLE_LINES: Mapping[str, Line] = {
