@@ -15,7 +15,8 @@ STYLES = ("palette.css", "gantt.css", "report.css")
 
 def figure(still: str, data: Mapping[str, Any] | None, *, caption: str = "", attributes: str = "") -> str:
     """still: an <img>, a link with one in it, or a <table>; data: "plots", see `reports.drawing.readout`, or "panels",
-    see `reports.charts.told`, with "still" where an image is to be seen first; None where nothing is to be told.
+    see `reports.charts.told`, with "still" where an image is to be seen first, or "frames" of them, see
+    `reports.pages.pictures.Sliding`; None where nothing is to be told.
     caption: a <figcaption>."""
     if data is None:
         return f'<figure class="ss-figure"{attributes}>{still}{caption}</figure>'

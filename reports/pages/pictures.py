@@ -15,8 +15,8 @@ from reports.drawing.readout import readout
 
 
 class Picture(NamedTuple):
-    """alive: the panels of a Gantt chart, see `told`, "still" where the picture is to be seen first; or the curves of a
-    figure, see `readout`; None of any other."""
+    """alive: the panels of a Gantt chart, see `told`, "still" where the picture is to be seen first; or "frames" of
+    them, see `Sliding`; or the curves of a figure, see `readout`; None of any other."""
 
     svg: bytes
     alive: Mapping[str, Any] | None
@@ -29,7 +29,29 @@ class Annotated(NamedTuple):
     panels: Sequence[Panel]
 
 
-def pictures(figures: Mapping[str, Figure | Annotated | Sequence[Panel]]) -> dict[str, Picture]:
+class Frame(NamedTuple):
+    """One state of a figure. label: what is said of it, short, such as "L = 5"."""
+
+    label: str
+    panels: Sequence[Panel]
+
+
+class Sliding(NamedTuple):
+    """A figure in several states, all of equally many panels, which a slider goes through.
+
+    name: what differs; at: the one that is drawn in the file; figure: where it says more than the chart of its panels.
+    """
+
+    name: str
+    frames: Sequence[Frame]
+    at: int
+    figure: Figure | None = None
+
+
+Drawn = Figure | Annotated | Sliding | Sequence[Panel]
+
+
+def pictures(figures: Mapping[str, Drawn]) -> dict[str, Picture]:
     """By file name; where there are panels alone, they are drawn below one another as a Gantt chart."""
     return {name: _picture(figure) for name, figure in figures.items()}
 
@@ -39,9 +61,22 @@ def files(drawn: Mapping[str, Picture]) -> dict[str, bytes]:
     return {name: picture.svg for name, picture in drawn.items()}
 
 
-def _picture(figure: Figure | Annotated | Sequence[Panel]) -> Picture:
+def _picture(figure: Drawn) -> Picture:
     if isinstance(figure, Figure):
         return Picture(image(figure, "svg"), readout(figure))
     if isinstance(figure, Annotated):
-        return Picture(image(figure.figure, "svg"), {"panels": [told(panel) for panel in figure.panels], "still": True})
-    return Picture(image(gantt(figure), "svg"), {"panels": [told(panel) for panel in figure]})
+        return Picture(image(figure.figure, "svg"), {"panels": _told(figure.panels), "still": True})
+    if isinstance(figure, Sliding):
+        return _sliding(figure)
+    return Picture(image(gantt(figure), "svg"), {"panels": _told(figure)})
+
+
+def _sliding(figure: Sliding) -> Picture:
+    drawn = gantt(figure.frames[figure.at].panels) if figure.figure is None else figure.figure
+    frames = [{"label": frame.label, "panels": _told(frame.panels)} for frame in figure.frames]
+    seen_first = {} if figure.figure is None else {"still": True}
+    return Picture(image(drawn, "svg"), {"name": figure.name, "at": figure.at, "frames": frames, **seen_first})
+
+
+def _told(panels: Sequence[Panel]) -> list[dict[str, Any]]:
+    return [told(panel) for panel in panels]
