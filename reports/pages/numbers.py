@@ -36,3 +36,11 @@ def between(value: float, low: float, high: float) -> str:
 def span(low: str, high: str) -> str:
     """From one figure to another; one where they are the same, to the digits that are shown."""
     return low if low == high else f"{low} to {high}"
+
+
+def duration(seconds: float) -> str:
+    """How long something took, as one says it: "0.4 s", "41 s", "3 min 20 s"."""
+    if seconds < 1:
+        return f"{seconds:.1f} s"
+    minutes, rest = divmod(round(seconds), 60)
+    return f"{minutes} min {rest} s" if minutes else f"{rest} s"

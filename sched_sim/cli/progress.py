@@ -11,9 +11,12 @@ from contextlib import contextmanager
 
 from sched_sim.text import visible
 
+Progress = Callable[[int, int | None, str], None]
+"""To be called with (done, total, what is being done)."""
+
 
 @contextmanager
-def progress_bar(title: str) -> Iterator[Callable[[int, int | None, str], None]]:
+def progress_bar(title: str) -> Iterator[Progress]:
     """A function to be called with (done, total, what is being done); total: None where nobody knows it."""
     if not sys.stderr.isatty():
         yield lambda _done, _total, _what: None

@@ -1,115 +1,194 @@
-"""`sched-sim report`: measure, simulate, analyse and write a report."""
+"""`sched-sim report`: measure, simulate, analyse and write a report, or all of them."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Annotated, Literal
+from time import monotonic
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
 from sched_sim.cli.measured_note import say_busy
 from sched_sim.cli.output import say
+from sched_sim.cli.progress import Progress, progress_bar
+from sched_sim.errors import InputError
+
+if TYPE_CHECKING:
+    from reports.pages.made import Made
 
 Name = Annotated[
-    Literal["steffes2014", "patent-multirate", "erkf", "modular", "accuracy", "embedded"],
-    typer.Argument(help="Which report."),
+    Literal["steffes2014", "patent-multirate", "erkf", "modular", "accuracy", "embedded"] | None,
+    typer.Argument(
+        help="Which report: steffes2014, which is the default: what processor a late measurement asks for; "
+        "patent-multirate: a gain in every n-th step; erkf: an extended robust filter; modular: filters composed of "
+        "parts; accuracy: what landing later costs; embedded: how near counts come to boards.",
+        show_default=False,
+    ),
 ]
-Folder = Annotated[Path, typer.Option("--output", "-o", help="Folder in which the report's own folder is written.")]
+All = Annotated[
+    bool, typer.Option("--all", help="Make every report, one after another; if one fails, the others are made.")
+]
+Folder = Annotated[
+    Path,
+    typer.Option("--output", "-o", help="Folder of the reports' own folders, and of index.html, the page of them all."),
+]
 Thorough = Annotated[
     bool,
     typer.Option("--thorough", help="Measure ten times as many rounds; patent-multirate and accuracy measure nothing."),
 ]
 
 
-def report(name: Name = "steffes2014", thorough: Thorough = False, output: Folder = Path("build/reports")) -> None:
-    """Regenerate a report: HTML, Markdown, figures (SVG), tables (CSV). steffes2014, erkf, modular and embedded measure
-    here.
+def report(
+    name: Name = None, all_reports: All = False, thorough: Thorough = False, output: Folder = Path("build/reports")
+) -> None:
+    """Regenerate a report, or all: HTML, Markdown, figures (SVG), tables (CSV), and when, where and in how long it was
+    made (made.toml). steffes2014, erkf, modular and embedded measure here. Ctrl-C keeps the reports that are done.
 
-    sched-sim report --thorough
+    sched-sim report
     sched-sim report patent-multirate
-    sched-sim report erkf
     sched-sim report modular --output mine
-    sched-sim report accuracy
-    sched-sim report embedded
+    sched-sim report --thorough
+    sched-sim report --all
     """
+    from reports.pages.overview import check_overview
+    from reports.pages.render import make_folder
+
+    if name is not None and all_reports:
+        raise InputError(f"{name} and --all: --all makes every report; leave out one of them")
+    make_folder(output)
+    check_overview(output)
+    if all_reports:
+        _make_all(thorough, output)
+        return
+    name = name or "steffes2014"
+    with progress_bar(name) as progress:
+        _make(name, thorough, output, progress)
+    say(f"Wrote {_page(output / name)}, the same as index.md, its figures and tables; all reports: {_page(output)}")
+
+
+def _make(name: str, thorough: bool, output: Path, progress: Progress) -> Made:
+    """Writes the report, and the page of all reports anew."""
+    from reports.pages.made import made_here, with_made
+    from reports.pages.overview import overview
     from reports.pages.render import make_folder, write_report
 
     folder = output / name
     make_folder(folder)
-    write_report(REPORTS[name](thorough), folder)
-    say(f"Wrote {folder / 'index.html'}, the same as index.md, its figures and tables")
+    begun = monotonic()
+    files = REPORTS[name](thorough, progress)
+    made = made_here(monotonic() - begun)
+    write_report(with_made(files, made), folder)
+    write_report(overview(output, REPORTS), output)
+    return made
 
 
-def _steffes(thorough: bool) -> dict[str, bytes]:
+def _make_all(thorough: bool, output: Path) -> None:
+    """Raises InputError if some could not be made, once the others are."""
+    from reports.pages.numbers import duration
+
+    if not thorough:
+        say(_expected(output))
+    begun, failed = monotonic(), []
+    with progress_bar("Reports") as show:
+        for number, name in enumerate(REPORTS, start=1):
+            which = f"{number} of {len(REPORTS)}, {name}"
+
+            def progress(done: int, total: int | None, what: str, which: str = which) -> None:
+                show(done, total, f"{which}: {what}")
+
+            show(0, None, which)
+            try:
+                made = _make(name, thorough, output, progress)
+            except Exception as error:  # of any kind: the other reports are to be made
+                failed.append(name)
+                say(f"{name}: not made: {error or type(error).__name__}")
+            else:
+                say(f"{name}: {duration(made.seconds)}, {_page(output / name)}")
+    if failed:
+        raise InputError(
+            f"{len(failed)} of {len(REPORTS)} reports could not be made; the others are in {output}. To see why: "
+            + ", ".join(f"`sched-sim report {name}`" for name in failed)
+        )
+    say(f"Wrote {len(REPORTS)} reports in {duration(monotonic() - begun)}: {_page(output)}")
+
+
+def _expected(output: Path) -> str:
+    """How long it will take, by how long each report took when it was last made here, or where it is published."""
+    import reports
+    from reports.pages.made import made_of
+    from reports.pages.numbers import duration
+
+    published = Path(reports.__file__).parent / "published"
+    last = {name: made_of(output / name) or made_of(published / name) for name in REPORTS}
+    seconds = {name: made.seconds for name, made in last.items() if made is not None}
+    if not seconds:
+        return f"{len(REPORTS)} reports; how long they take is not known here: some minutes"
+    each = ", ".join(f"{name} {duration(seconds[name])}" if name in seconds else f"{name} ?" for name in REPORTS)
+    return f"{len(REPORTS)} reports, about {duration(sum(seconds.values()))} by their last runs: {each}"
+
+
+def _page(folder: Path) -> Path:
+    return folder / "index.html"
+
+
+def _steffes(thorough: bool, progress: Progress) -> dict[str, bytes]:
     from filters.systems.example import example_system
     from reports.steffes.report import build
-    from sched_sim.cli.progress import progress_bar
     from sched_sim.costs.methods import PAPER_METHODS
     from studies.measurement.methods import measure
 
-    with progress_bar("Measuring") as progress:
-        measured = measure(
-            example_system(9, 3, 3),
-            "compiled",
-            name="measured-9-3-3",
-            thorough=thorough,
-            progress=progress,
-            methods=PAPER_METHODS,
-        )
+    measured = measure(
+        example_system(9, 3, 3),
+        "compiled",
+        name="measured-9-3-3",
+        thorough=thorough,
+        progress=progress,
+        methods=PAPER_METHODS,
+    )
     say_busy(measured.name, measured.provenance)
     return build(measured)
 
 
-def _patent_multirate(_thorough: bool) -> dict[str, bytes]:
+def _patent_multirate(_thorough: bool, progress: Progress) -> dict[str, bytes]:
     from reports.multirate.report import build
     from reports.multirate.results import results
-    from sched_sim.cli.progress import progress_bar
 
-    with progress_bar("Computing") as progress:
-        figures = results(progress)
+    figures = results(progress)
     return build(figures)
 
 
-def _erkf(thorough: bool) -> dict[str, bytes]:
+def _erkf(thorough: bool, progress: Progress) -> dict[str, bytes]:
     from reports.erkf.report import build
     from reports.erkf.results import results
-    from sched_sim.cli.progress import progress_bar
 
-    with progress_bar("Measuring and simulating") as progress:
-        figures = results(thorough, progress)
+    figures = results(thorough, progress)
     for measured in figures.measured.values():
         say_busy(measured.name, measured.provenance)
     return build(figures)
 
 
-def _modular(thorough: bool) -> dict[str, bytes]:
+def _modular(thorough: bool, progress: Progress) -> dict[str, bytes]:
     from reports.modular.report import build
     from reports.modular.results import results
-    from sched_sim.cli.progress import progress_bar
 
-    with progress_bar("Simulating and measuring") as progress:
-        figures = results(thorough, progress)
+    figures = results(thorough, progress)
     return build(figures)
 
 
-def _accuracy(_thorough: bool) -> dict[str, bytes]:
+def _accuracy(_thorough: bool, progress: Progress) -> dict[str, bytes]:
     from reports.accuracy.report import build
     from reports.accuracy.results import results
-    from sched_sim.cli.progress import progress_bar
 
-    with progress_bar("Computing") as progress:
-        figures = results(progress)
+    figures = results(progress)
     return build(figures)
 
 
-def _embedded(thorough: bool) -> dict[str, bytes]:
+def _embedded(thorough: bool, progress: Progress) -> dict[str, bytes]:
     from reports.embedded.report import build
     from reports.embedded.results import results
-    from sched_sim.cli.progress import progress_bar
 
-    with progress_bar("Emulating and measuring") as progress:
-        found = results(thorough, progress)
+    found = results(thorough, progress)
     for measured in found.costs.values():
         say_busy(measured.name, measured.provenance)
     for missing in filter(None, found.said.values()):
@@ -117,7 +196,7 @@ def _embedded(thorough: bool) -> dict[str, bytes]:
     return build(found)
 
 
-REPORTS: Mapping[str, Callable[[bool], dict[str, bytes]]] = {
+REPORTS: Mapping[str, Callable[[bool, Progress], dict[str, bytes]]] = {
     "steffes2014": _steffes,
     "patent-multirate": _patent_multirate,
     "erkf": _erkf,

@@ -8,6 +8,7 @@ import re
 from collections.abc import Collection, Mapping
 from pathlib import Path
 
+from reports.pages import made
 from reports.pages.machine import MARK
 from tests.command_line import Run
 
@@ -17,13 +18,14 @@ Files = Mapping[str, bytes]
 
 
 def names(report: str) -> list[str]:
-    """Of the files that are committed."""
-    return sorted(path.name for path in (FOLDER / report).iterdir())
+    """Of the files that are committed, but for the one that says when and where they were made."""
+    return sorted(path.name for path in (FOLDER / report).iterdir() if path.name != made.FILE)
 
 
 def is_rebuilt(report: str, name: str, files: Files) -> None:
     """files: what the code makes of the report."""
-    assert files[name] == (FOLDER / report / name).read_bytes()
+    written = made.with_made(files, made.made_of(FOLDER / report))
+    assert written[name] == (FOLDER / report / name).read_bytes()
 
 
 def is_complete(report: str, files: Files) -> None:
@@ -44,7 +46,10 @@ def is_written(report: str, files: Files, sched_sim: Run, folder: Path) -> None:
     """By the command, run in `folder`; what takes long must be replaced before."""
     result = sched_sim(f"report {report} -o here")
     assert (result.code, result.out) == (0, "")
-    assert {path.name: path.read_bytes() for path in (folder / "here" / report).iterdir()} == files
+    there = folder / "here" / report
+    said = made.made_of(there)
+    assert said is not None
+    assert {path.name: path.read_bytes() for path in there.iterdir()} == made.with_made(files, said)
 
 
 def differs_only_where_marked(files: Files, others: Files, figures: Collection[str], mark: str = MARK) -> None:

@@ -44,7 +44,7 @@ def page(visit: Visit, picture: Picture) -> Page:
 
 
 def test_the_file_is_the_state_that_is_shown_first(picture: Picture, panels: list[Panel]) -> None:
-    assert picture.svg == pictures({"alone.svg": [panels[3]]})["alone.svg"].svg
+    assert picture.svg == pictures({"by-l.svg": [panels[3]]})["by-l.svg"].svg
 
 
 def test_keys_go_through_the_states_and_say_which(page: Page, panels: list[Panel]) -> None:

@@ -132,7 +132,8 @@ def test_a_refused_command_changes_no_file(sched_sim: Run, folder: Path, line: s
 def test_a_full_disk_is_one_message_and_leaves_every_file_whole(
     sched_sim: Run, folder: Path, line: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("sched_sim.cli.report.REPORTS", {"patent-multirate": lambda _: {"out.svg": bytes(9000)}})
+    files = {"out.svg": bytes(9000), "index.html": b"</main>"}
+    monkeypatch.setattr("sched_sim.cli.report.REPORTS", {"patent-multirate": lambda _thorough, _progress: files})
     reports = folder / "patent-multirate"
     reports.mkdir()
     outputs = [path / f"out.{kind}" for path in (folder, reports) for kind in ("svg", "csv", "json", "toml")]

@@ -1,0 +1,65 @@
+"""When, where and how long a report was made: `made.toml` beside it, and the last line of its page.
+
+A report itself is a pure function of its results; this is what differs from one making of it to the next.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from datetime import UTC, datetime
+from html import escape
+from importlib.metadata import version
+from pathlib import Path
+from typing import NamedTuple
+
+from reports.pages.numbers import duration
+from sched_sim.files.toml_reader import read_toml
+from sched_sim.files.toml_writer import toml_tables, toml_value
+
+FILE = "made.toml"
+
+
+class Made(NamedTuple):
+    """date: such as 2026-11-29; machine: its processor's name; versions: of what made it, by name; seconds: it took."""
+
+    date: str
+    machine: str
+    versions: Mapping[str, str]
+    seconds: float
+
+
+def made_here(seconds: float) -> Made:
+    """By this process, today."""
+    from studies.measurement.methods import machine, versions
+
+    own = {"sched_sim": version("sched-sim"), **versions()}
+    return Made(datetime.now(UTC).date().isoformat(), machine(), own, round(seconds, 1))
+
+
+def made_of(folder: Path) -> Made | None:
+    """What a report's folder says of it; None if it says nothing. Raises InputError if that cannot be read."""
+    path = folder / FILE
+    if not path.exists():
+        return None
+    about = read_toml(path, str(path), "make the report anew")
+    return Made(about["date"], about["machine"], about["versions"], float(about["seconds"]))
+
+
+def with_made(files: Mapping[str, bytes], made: Made | None) -> dict[str, bytes]:
+    """The report's files as they are written: its page says when and where it was made, and so does `made.toml`."""
+    if made is None:
+        return dict(files)
+    before, end, after = files["index.html"].decode().rpartition("</main>")
+    return {**files, "index.html": f"{before}{_footer(made)}{end}{after}".encode(), FILE: _toml(made)}
+
+
+def _footer(made: Made) -> str:
+    versions = ", ".join(f"{name} {number}" for name, number in made.versions.items())
+    said = escape(f"Made on {made.date} in {duration(made.seconds)} on {made.machine} ({versions}): ")
+    return f'<footer class="files">{said}<a href="{FILE}">{FILE}</a></footer>\n'
+
+
+def _toml(made: Made) -> bytes:
+    single = {"date": made.date, "machine": made.machine, "seconds": made.seconds}
+    lines = [f"{key} = {toml_value(value)}" for key, value in single.items()]
+    return "\n".join([*lines, *toml_tables("versions", made.versions), ""]).encode()

@@ -1,0 +1,88 @@
+"""The page of all reports in a folder: of each its title, its answer, its first figure, and when and where it was made.
+
+It is made from the reports' own files, whatever wrote them.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from pathlib import Path
+from typing import NamedTuple
+
+from jinja2 import Environment, PackageLoader, StrictUndefined
+from markdown_it import MarkdownIt
+from markupsafe import Markup
+
+from reports.explorer.compact import compact
+from reports.explorer.module import PALETTE, asset
+from reports.pages.data_uri import data_uri
+from reports.pages.made import made_of
+from reports.pages.numbers import duration
+from sched_sim.errors import InputError
+
+TITLE = "Reports of sched_sim"
+HEADING = re.compile(r"^# (.+)$", re.MULTILINE)
+ANSWER = re.compile(r"^\*\*Answer\.\*\* (.+?)(?:\n\n|\Z)", re.MULTILINE | re.DOTALL)
+FIRST_FIGURE = re.compile(r"^!\[([^\]]*)\]\(([^):]+\.svg)\)$", re.MULTILINE)
+
+
+OURS = {"index.html": f"<title>{TITLE}</title>", "index.md": f"# {TITLE}\n"}
+"""What each file of this page holds."""
+
+
+class Report(NamedTuple):
+    """name: of its folder; title, answer: as Markdown, the answer empty where there is none; figure: its file, alt: in
+    words; made: when, where and how long, empty where nobody wrote that down."""
+
+    name: str
+    title: str
+    answer: str
+    figure: str
+    alt: str
+    made: str
+
+
+def overview(folder: Path, order: Iterable[str]) -> dict[str, bytes]:
+    """The files "index.md" and "index.html" of the reports of these names that are in `folder`."""
+    reports = [report_in(folder / name) for name in order if (folder / name / "index.md").exists()]
+    environment = Environment(
+        loader=PackageLoader("reports"),
+        undefined=StrictUndefined,
+        autoescape=lambda name: name is not None and name.endswith(".html.j2"),
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    environment.filters["inline"] = lambda text: Markup(MarkdownIt("commonmark").renderInline(text))
+    environment.globals["uri"] = lambda report: Markup(data_uri((folder / report.name / report.figure).read_bytes()))
+    values = {"title": TITLE, "reports": reports, "style": Markup(compact(asset(PALETTE)))}
+    return {
+        name: environment.get_template(f"{name}.j2").render(**values).encode() for name in ("index.md", "index.html")
+    }
+
+
+def check_overview(folder: Path) -> None:
+    """Raises InputError if a file that the page of all reports would replace is something else."""
+    for name, mark in OURS.items():
+        path = folder / name
+        if path.is_file() and mark not in path.read_text(encoding="utf-8", errors="replace"):
+            raise InputError(
+                f"--output {str(folder)!r}: {str(path)!r} is there and is no page of reports, which would replace it; "
+                f"give another folder"
+            )
+
+
+def report_in(folder: Path) -> Report:
+    """What its Markdown and its `made.toml` say."""
+    text = (folder / "index.md").read_text(encoding="utf-8")
+    title, answer, figure = HEADING.search(text), ANSWER.search(text), FIRST_FIGURE.search(text)
+    seen = figure is not None and (folder / figure[2]).exists()
+    made = made_of(folder)
+    return Report(
+        folder.name,
+        title[1] if title else folder.name,
+        " ".join(answer[1].split()) if answer else "",
+        figure[2] if figure and seen else "",
+        figure[1] if figure and seen else "",
+        f"{made.date}, {made.machine}, {duration(made.seconds)}" if made else "",
+    )
