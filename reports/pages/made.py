@@ -13,10 +13,12 @@ from pathlib import Path
 from typing import NamedTuple
 
 from reports.pages.numbers import duration
+from sched_sim.errors import InputError
 from sched_sim.files.toml_reader import read_toml
 from sched_sim.files.toml_writer import toml_tables, toml_value
 
 FILE = "made.toml"
+REMEDY = "delete it, or make the report anew"
 
 
 class Made(NamedTuple):
@@ -41,8 +43,11 @@ def made_of(folder: Path) -> Made | None:
     path = folder / FILE
     if not path.exists():
         return None
-    about = read_toml(path, str(path), "make the report anew")
-    return Made(about["date"], about["machine"], about["versions"], float(about["seconds"]))
+    about = read_toml(path, str(path), REMEDY)
+    try:
+        return Made(about["date"], about["machine"], about["versions"], float(about["seconds"]))
+    except KeyError as missing:
+        raise InputError(f"{path} lacks {missing}: {REMEDY}") from None
 
 
 def with_made(files: Mapping[str, bytes], made: Made | None) -> dict[str, bytes]:

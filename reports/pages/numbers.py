@@ -39,8 +39,8 @@ def span(low: str, high: str) -> str:
 
 
 def duration(seconds: float) -> str:
-    """How long something took, as one says it: "0.4 s", "41 s", "3 min 20 s"."""
+    """How long something took, as one says it: "less than 1 s", "41 s", "3 min 20 s"."""
     if seconds < 1:
-        return f"{seconds:.1f} s"
+        return "less than 1 s"
     minutes, rest = divmod(round(seconds), 60)
     return f"{minutes} min {rest} s" if minutes else f"{rest} s"

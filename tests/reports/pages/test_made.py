@@ -1,0 +1,68 @@
+"""What differs from one making of a report to the next: beside it, in the last line of its page, and read back."""
+
+from __future__ import annotations
+
+from html import unescape
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from reports.pages.made import FILE, Made, made_here, made_of, with_made
+from reports.pages.numbers import duration
+from sched_sim.errors import InputError
+
+FILES = {"index.html": b"<main>says </main> in a script, and ends</main>\n", "index.md": b"# A report\n"}
+TEXT = st.text(st.characters(codec="utf-8", exclude_categories=("C", "Zl", "Zp")))
+MADE = st.builds(
+    Made, TEXT, TEXT, st.dictionaries(TEXT, TEXT, min_size=1), st.integers(0, 10**6).map(lambda tenths: tenths / 10)
+)
+
+
+@given(MADE)
+def test_what_is_written_is_read_back(made: Made) -> None:
+    with TemporaryDirectory() as name:
+        folder = Path(name)
+        (folder / FILE).write_bytes(with_made(FILES, made)[FILE])
+        assert made_of(folder) == made
+
+
+@given(MADE)
+def test_the_page_says_it_at_its_end_and_nothing_else_changes(made: Made) -> None:
+    files = with_made(FILES, made)
+    assert sorted(files) == sorted([*FILES, FILE])
+    assert files["index.md"] == FILES["index.md"]
+    before, footer, after = files["index.html"].decode().partition("<footer")
+    assert f"{before}</main>{after.partition('</main>')[2]}".encode() == FILES["index.html"]
+    said = unescape(footer + after)
+    assert all(word in said for word in (made.date, made.machine, duration(made.seconds), *made.versions.values()))
+
+
+def test_of_a_report_that_nobody_wrote_it_down_of_nothing_is_said(tmp_path: Path) -> None:
+    assert made_of(tmp_path) is None
+    assert with_made(FILES, None) == FILES
+
+
+def test_a_file_that_is_broken_is_named(tmp_path: Path) -> None:
+    (tmp_path / FILE).write_text("date = ")
+    with pytest.raises(InputError, match=r"made.toml is not valid TOML"):
+        made_of(tmp_path)
+    (tmp_path / FILE).write_text('date = "2026-11-29"')
+    with pytest.raises(InputError, match=r"made.toml .*anew"):
+        made_of(tmp_path)
+
+
+def test_here_it_is_this_machine_by_these_versions() -> None:
+    made = made_here(12.34)
+    assert made.machine
+    assert set(made.versions) == {"sched_sim", "python", "numpy", "numba"}
+    assert made.seconds == 12.3
+
+
+@pytest.mark.parametrize(
+    ("seconds", "said"), [(0.9, "less than 1 s"), (41.4, "41 s"), (59.6, "1 min 0 s"), (200, "3 min 20 s")]
+)
+def test_how_long_in_words(seconds: float, said: str) -> None:
+    assert duration(seconds) == said
