@@ -31,12 +31,11 @@ help: ## list the targets
 	@sed -n 's/^\([a-z]*\):.*## /\1|/p' Makefile | while IFS='|' read -r name what; do \
 		printf '  make %-8s %s\n' "$$name" "$$what"; done
 
-run: $(STAMP) ## measure, simulate, analyse and write the report to build/reports
+run: $(STAMP) ## measure, simulate, analyse and write the first report to build/reports (all: sched-sim report --all)
 	$(BIN)/sched-sim report
 
 publish: $(STAMP) ## write all reports anew where they are kept, in reports/published
-	for name in steffes2014 patent-multirate erkf modular accuracy embedded; do \
-		$(BIN)/sched-sim report $$name --output reports/published || exit 1; done
+	$(BIN)/sched-sim report --all --output reports/published
 	cd reports/published/embedded && cp cortex-*.toml stored-boards.csv stored-checks.csv stored-folders.csv stored-live*.csv \
 		$(CURDIR)/studies/data/embedded
 
