@@ -10,7 +10,8 @@ from playwright.sync_api import Page, expect
 
 from reports.charts.panels import Panel, method_panel
 from reports.pages import alive
-from reports.pages.data_uri import data_uri
+from reports.pages.body import body_of
+from reports.pages.markdown import Figures
 from reports.pages.pictures import Frame, Picture, Sliding, pictures
 from sched_sim.costs.table_file import load_costs
 from sched_sim.design.least_speed import staircase
@@ -36,9 +37,9 @@ def picture(panels: list[Panel]) -> Picture:
 
 @pytest.fixture
 def page(visit: Visit, picture: Picture) -> Page:
-    figure = alive.figure(f'<a href="by-l.svg"><img src="{data_uri(picture.svg)}" alt="by L"></a>', picture.alive)
-    title = "<!doctype html><html lang=en class=ss-ground><title>slider</title><main><h1>Slider</h1>"
-    visit.page.set_content(f"{title}<style>{alive.style()}</style>{figure}")
+    figure = body_of(Figures("").figure("by-l.svg", "by L", "A caption.") + "\n", {"by-l.svg": picture}).lead
+    title = "<!doctype html><html lang=en class=ss-ground><title>slider</title>"
+    visit.page.set_content(f"{title}<style>{alive.style()}</style><main><h1>Slider</h1>{figure}</main>")
     visit.page.add_script_tag(content=alive.script(), type="module")
     return visit.page
 
@@ -77,5 +78,5 @@ def test_on_a_phone_it_is_in_the_page_and_no_rule_of_accessible_pages_is_broken(
 
 def test_on_paper_there_is_the_picture_alone(page: Page) -> None:
     page.emulate_media(media="print")
-    assert page.get_by_alt_text("by L").is_visible()
+    assert page.get_by_role("img", name="by L").is_visible()
     assert page.locator(".ss-slider").is_hidden()
