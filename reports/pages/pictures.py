@@ -16,7 +16,7 @@ from reports.drawing.readout import readout
 
 class Picture(NamedTuple):
     """alive: the panels of a Gantt chart, see `told`, "still" where the picture is to be seen first; or "frames" of
-    them, see `Sliding`; or the curves of a figure, see `readout`; None of any other."""
+    them, see `Sliding`; and the curves of a figure, see `readout`; None of any other."""
 
     svg: bytes
     alive: Mapping[str, Any] | None
@@ -39,7 +39,8 @@ class Frame(NamedTuple):
 class Sliding(NamedTuple):
     """A figure in several states, all of equally many panels, which a slider goes through.
 
-    name: what differs; at: the one that is drawn in the file; figure: where it says more than the chart of its panels.
+    name: what differs; at: the one that is drawn in the file; figure: what is drawn there instead and seen first, such
+    as curves over all the states; these tell their values, too.
     """
 
     name: str
@@ -74,7 +75,7 @@ def _picture(figure: Drawn) -> Picture:
 def _sliding(figure: Sliding) -> Picture:
     drawn = gantt(figure.frames[figure.at].panels) if figure.figure is None else figure.figure
     frames = [{"label": frame.label, "panels": _told(frame.panels)} for frame in figure.frames]
-    seen_first = {} if figure.figure is None else {"still": True}
+    seen_first = {} if figure.figure is None else {**(readout(drawn) or {}), "still": True}
     return Picture(image(drawn, "svg"), {"name": figure.name, "at": figure.at, "frames": frames, **seen_first})
 
 

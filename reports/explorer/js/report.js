@@ -19,7 +19,7 @@ function enliven(figure) {
   still.replaceWith(picture);
   picture.append(still);
   if (shown.plots) readout(picture, shown);
-  else withCharts(figure, shown, still.localName !== "table");
+  if (shown.panels || shown.frames) withCharts(figure, shown, still.localName !== "table");
 }
 
 /** Charts above what stands still; instead of a picture, which a button brings back. Of several states, `frames`, the

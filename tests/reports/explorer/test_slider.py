@@ -6,6 +6,7 @@ import re
 
 import pytest
 from axe_playwright_python.sync_playwright import Axe
+from matplotlib.figure import Figure
 from playwright.sync_api import Page, expect
 
 from reports.charts.panels import Panel, method_panel
@@ -35,13 +36,17 @@ def picture(panels: list[Panel]) -> Picture:
     return pictures({"by-l.svg": Sliding("L asked for", frames, at=3)})["by-l.svg"]
 
 
-@pytest.fixture
-def page(visit: Visit, picture: Picture) -> Page:
+def opened(visit: Visit, picture: Picture) -> Page:
     figure = body_of(Figures("").figure("by-l.svg", "by L", "A caption.") + "\n", {"by-l.svg": picture}).lead
     title = "<!doctype html><html lang=en class=ss-ground><title>slider</title>"
     visit.page.set_content(f"{title}<style>{alive.style()}</style><main><h1>Slider</h1>{figure}</main>")
     visit.page.add_script_tag(content=alive.script(), type="module")
     return visit.page
+
+
+@pytest.fixture
+def page(visit: Visit, picture: Picture) -> Page:
+    return opened(visit, picture)
 
 
 def test_the_file_is_the_state_that_is_shown_first(picture: Picture, panels: list[Panel]) -> None:
@@ -80,3 +85,17 @@ def test_on_paper_there_is_the_picture_alone(page: Page) -> None:
     page.emulate_media(media="print")
     assert page.get_by_role("img", name="by L").is_visible()
     assert page.locator(".ss-slider").is_hidden()
+
+
+def test_curves_over_all_states_are_seen_first_and_tell_their_values(visit: Visit, panels: list[Panel]) -> None:
+    axes = (curves := Figure(figsize=(4, 3))).add_subplot(xlabel="L", ylabel="speed")
+    axes.plot([stair.L for stair in STAIRS], [float(stair.speed) for stair in STAIRS], "o-", label="dual-rate")
+    frames = [Frame(f"L = {stair.L}", [panel]) for stair, panel in zip(STAIRS, panels, strict=True)]
+    page = opened(visit, pictures({"by-l.svg": Sliding("L asked for", frames, 0, curves)})["by-l.svg"])
+    page.locator(".ss-readout").press("Home")
+    expect(page.locator(".ss-told")).to_contain_text("1.19")
+    assert page.locator(".ss-slider").is_hidden()
+    page.get_by_role("button", name="Show the chart").click()
+    assert page.locator(".ss-readout").is_hidden()
+    page.get_by_role("slider", name="L asked for").press("ArrowRight")
+    expect(page.locator(".ss-alive-title")).to_contain_text(panels[1].notes[0])
