@@ -24,11 +24,13 @@ def told(panel: Panel) -> dict[str, Any]:
     alive = {(piece.kind, piece.step) for piece in schedule.slices if piece.end > first and piece.release < end}
     seen = replace(schedule, slices=tuple(piece for piece in schedule.slices if (piece.kind, piece.step) in alive))
     marks = [StepMark(mark.step, mark.text, mark.meaning) for mark in panel.marks]
+    whole = document(shown(seen, panel.end, marks))
     return {
         "title": panel.title,
         "notes": [plain_text(note) for note in panel.notes if not note.endswith(BUSY)],
         "schedule": {
-            **rounded(document(shown(seen, panel.end, marks))),
+            **rounded(whole),
+            "busy": float(f"{whole['busy']:.3g}"),
             **({"origin": panel.first} if panel.first else {}),
         },
     }

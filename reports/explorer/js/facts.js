@@ -1,6 +1,7 @@
 // What is said of one job and of a whole schedule, in words: for the tip, the table, and who cannot see the chart.
 
 import { tickText } from "./scales.js";
+import { digits } from "./svg.js";
 import { isTask, taskName } from "./tasks.js";
 
 const KINDS = {
@@ -12,6 +13,7 @@ const KINDS = {
   lr_step: "robust step",
 };
 const PLACES = 4;
+const LEAST_PERCENT = 0.001;
 
 /** The kind of a job in words. */
 export function kindWords(kind) {
@@ -95,6 +97,13 @@ export function grouped(number) {
 
 export function times(count) {
   return count === 1 ? "once" : count === 2 ? "twice" : `${grouped(count)} times`;
+}
+
+/** How busy the processor is: in whole percents, below ten of them in two digits, so that little is not nothing. */
+export function busyShare({ busy }) {
+  const percent = 100 * busy;
+  const few = percent > 0 && percent < LEAST_PERCENT ? `under ${LEAST_PERCENT}` : digits(percent, 2);
+  return `${percent < 9.95 ? few : Math.round(percent)}\u00a0%\u00a0busy`;
 }
 
 /** How many jobs miss their deadline. */

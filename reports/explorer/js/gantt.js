@@ -2,7 +2,7 @@
 
 import { html } from "./svg.js";
 import { coloursOf } from "./colours.js";
-import { grouped, inSteps, jobSentence, missesSentence } from "./facts.js";
+import { busyShare, grouped, inSteps, jobSentence, missesSentence } from "./facts.js";
 import { listen } from "./gestures.js";
 import { ganttLegend, showLegend } from "./legend.js";
 import { drawGantt } from "./picture.js";
@@ -202,7 +202,7 @@ class Gantt {
     const { finding, frame, tools } = this.parts;
     const { schedule, misses } = this.line;
     const said = missesSentence(schedule);
-    const notes = [`${Math.round(100 * schedule.busy)}\u00a0%\u00a0busy`, schedule.cut].filter(Boolean);
+    const notes = [busyShare(schedule), schedule.cut].filter(Boolean);
     const whole = stretchWords(this.line.whole, this.line.whole);
     const verdict = misses.length ? html("strong", { class: "ss-gantt-missed" }, `✗ ${said}`) : said;
     finding.replaceChildren(verdict, ...notes.map((text) => ` · ${text}`));

@@ -33,6 +33,11 @@ def test_its_words_without_what_the_chart_says_itself() -> None:
     assert not any("$" in note or "busy" in note for note in panel["notes"])
 
 
+def test_how_busy_the_processor_is_to_three_digits_however_little() -> None:
+    idle = method_panel(load_costs("steffes2014"), "dual-rate", Timing(10, 4, 8), 2345.6)
+    assert told(idle)["schedule"]["busy"] == float(f"{float(idle.schedule.utilization):.3g}") < 0.001
+
+
 def test_of_a_part_only_its_jobs_are_told() -> None:
     part, whole = (told(panel)["schedule"] for panel in (zoomed(PANEL, 8, 12), PANEL))
     assert (part["origin"], part["steps"]) == (8, 12)

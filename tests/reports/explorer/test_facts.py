@@ -76,3 +76,11 @@ def test_kinds_of_jobs_are_said_in_words(kind: str, words: str, ask: Ask) -> Non
 )
 def test_times_have_four_places_or_three_digits(steps: float | None, text: str, ask: Ask) -> None:
     assert ask("return of.inSteps(a);", steps) == text
+
+
+@pytest.mark.parametrize(
+    ("busy", "said"),
+    [(0.87, "87"), (0.0996, "10"), (0.0414, "4.1"), (0.000412, "0.041"), (1e-6, "under 0.001"), (0, "0"), (1, "100")],
+)
+def test_a_processor_that_does_little_does_not_do_nothing(busy: float, said: str, ask: Ask) -> None:
+    assert ask("return of.busyShare(a);", {"busy": busy}) == f"{said}\xa0%\xa0busy"
