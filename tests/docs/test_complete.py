@@ -6,6 +6,7 @@ import re
 
 import pytest
 
+from sched_sim.cli.report import REPORTS
 from sched_sim.design.binding import Binding
 from studies import run_sweep
 from tests.docs.test_examples import ROOT
@@ -30,3 +31,7 @@ def test_the_folders_of_the_source(package: str) -> None:
     folders = {path.parent.relative_to(ROOT).as_posix() for path in (ROOT / package).glob("*/**/__init__.py")}
     assert folders <= named
     assert all((ROOT / name).is_dir() for name in named)
+
+
+def test_the_reports() -> None:
+    assert listed("howto/reports.md") == list(REPORTS)
