@@ -33,7 +33,7 @@ OURS = {"index.html": f"<title>{TITLE}</title>", "index.md": f"# {TITLE}\n"}
 
 class Report(NamedTuple):
     """name: of its folder; title, answer: as Markdown, the answer empty where there is none; figure: its file, alt: in
-    words; made: when, where and how long, empty where nobody wrote that down."""
+    words; made: when, where and in how long it was, in words; empty where nobody wrote that down."""
 
     name: str
     title: str
@@ -84,5 +84,5 @@ def report_in(folder: Path) -> Report:
         " ".join(answer[1].split()) if answer else "",
         figure[2] if figure and seen else "",
         figure[1] if figure and seen else "",
-        f"{made.date}, {made.machine}, {duration(made.seconds)}" if made else "",
+        f"made on {made.date} on {made.machine} in {duration(made.seconds)}" if made else "",
     )
