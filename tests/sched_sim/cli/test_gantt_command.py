@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from tests.command_line import Run, is_refused
+from tests.svg import texts_of
 
 AXIS = "time (ms), HR loop at 400 Hz"
 DESIGN = "gantt -N 10 -M 4 -L 8"
@@ -16,11 +17,6 @@ DESIGN = "gantt -N 10 -M 4 -L 8"
 def width_mm(picture: Path) -> float:
     (found,) = re.findall(r'<svg [^>]*?width="([\d.]+)pt"', picture.read_text())
     return float(found) / 72 * 25.4
-
-
-def said(picture: Path) -> list[str]:
-    """Each text stands beside its glyphs as a comment."""
-    return re.findall(r"<!-- (.*?) -->", picture.read_text())
 
 
 @pytest.mark.parametrize(
@@ -36,9 +32,9 @@ def test_by_default_it_is_as_wide_as_the_text_of_a_page(sched_sim: Run, tmp_path
     sched_sim(f"{DESIGN} -o a.svg")
     sched_sim(f"{DESIGN} -o b.svg --width 170mm --from 0 --until 10")
     assert [width_mm(tmp_path / name) for name in ("a.svg", "b.svg")] == pytest.approx([170, 170])
-    assert "all 10 steps" in said(tmp_path / "b.svg")
-    assert "all 10 steps" not in said(tmp_path / "a.svg")
-    assert AXIS not in said(tmp_path / "a.svg")
+    assert "all 10 steps" in texts_of(tmp_path / "b.svg")
+    assert "all 10 steps" not in texts_of(tmp_path / "a.svg")
+    assert AXIS not in texts_of(tmp_path / "a.svg")
 
 
 def test_a_stretch_may_be_in_steps_or_in_ms(sched_sim: Run, tmp_path: Path) -> None:
@@ -46,13 +42,13 @@ def test_a_stretch_may_be_in_steps_or_in_ms(sched_sim: Run, tmp_path: Path) -> N
     for file, stretch in (("a.svg", "--from 3 --until 8"), ("b.svg", "--from 9ms --until 18ms")):
         assert sched_sim(f"{DESIGN} --hr-hz 400 {stretch} -o {file}").code == 0
     assert (tmp_path / "a.svg").read_text() == (tmp_path / "b.svg").read_text()
-    assert "steps 3 to 7 of 10" in said(tmp_path / "a.svg")
-    assert AXIS in said(tmp_path / "a.svg")
+    assert "steps 3 to 7 of 10" in texts_of(tmp_path / "a.svg")
+    assert AXIS in texts_of(tmp_path / "a.svg")
 
 
 def test_hr_hz_adds_an_axis_in_ms_to_the_picture_of_a_simulation_too(sched_sim: Run, tmp_path: Path) -> None:
     sched_sim("simulate -N 10 -M 4 --hr-hz 400 --gantt c.svg")
-    assert AXIS in said(tmp_path / "c.svg")
+    assert AXIS in texts_of(tmp_path / "c.svg")
 
 
 @pytest.mark.parametrize(
@@ -93,6 +89,6 @@ def test_each_method_is_simulated_as_far_as_the_picture_goes(sched_sim: Run, tmp
     """Larsen's correction is in the state by step 26, the dual-rate one must be by 40."""
     line = "gantt -N 10 -M 25 -L 40 --costs counted-9-3-3"
     assert sched_sim(f"{line} --from 20 --until 34 -o g.svg").code == 0
-    texts = " ".join(re.findall(r"<!-- (.*?) -->", (tmp_path / "g.svg").read_text()))
+    texts = " ".join(texts_of(tmp_path / "g.svg"))
     assert texts.count("steps 20 to 33 of") == 2
     is_refused(sched_sim(f"{line} --until 41 -o g.svg"), ["--until 41 is beyond the end", "40 steps are simulated"])

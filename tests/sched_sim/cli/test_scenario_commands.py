@@ -17,6 +17,7 @@ from sched_sim.scenario.scenario_file import read_scenario
 from sched_sim.schedule.tasks import Task
 from tests.command_line import Run, is_refused
 from tests.scenarios import ROCKET
+from tests.svg import texts_of
 
 SHORT = """\
 name = "short"
@@ -313,8 +314,8 @@ def test_a_picture_of_a_scenario_shows_the_steps_asked_for_and_says_whose_they_a
     (tmp_path / "c.toml").write_text(SPREAD_COSTS)
     line = "simulate --scenario s.toml"
     assert sched_sim(f"{line} --gantt g.svg --from 25 --until 43").code == 0
-    texts = re.findall(r"<!-- (.*?) -->", (tmp_path / "g.svg").read_text())
-    assert {"steps 25 to 42 of 200", "$k$, $m$, $l$ of gps", "gps"} <= set(texts)
+    texts = texts_of(tmp_path / "g.svg")
+    assert {"steps 25 to 42 of 200", "k, m, l of gps", "gps"} <= set(texts)
     assert all(any(label in text for text in texts) for label in ("carry", "land", "correct"))
     is_refused(sched_sim(f"{line} --gantt g.svg --until 201"), ["--until 201", "200 steps are simulated"])
     is_refused(sched_sim(f"{line} --from 25"), ["--from says what a picture shows", "--gantt"])

@@ -6,12 +6,12 @@ N = 3, M = 7, counted at 9 states and 3 measurements: two others are on their wa
 from __future__ import annotations
 
 import json
-import re
 from pathlib import Path
 
 import pytest
 
 from tests.command_line import Run, is_refused
+from tests.svg import texts_of
 
 DESIGN = "-N 3 -M 7 --costs counted-9-3-3"
 LEAST = {
@@ -43,7 +43,7 @@ def test_simulate_misses_nothing_at_that_speed_and_something_just_below(sched_si
 @each_method
 def test_gantt_draws_it_at_that_speed(sched_sim: Run, tmp_path: Path, method: str) -> None:
     assert sched_sim(f"gantt {DESIGN} --method {method} -o g.svg").code == 0
-    texts = " ".join(re.findall(r"<!-- (.*?) -->", (tmp_path / "g.svg").read_text()))
+    texts = " ".join(texts_of(tmp_path / "g.svg"))
     for words in (f"speed {LEAST[method]}", "k+7", "no deadline missed"):
         assert words in texts
 
