@@ -35,11 +35,11 @@ METADATA: dict[str, dict[str, str | None]] = {
 
 
 def image(figure: Figure, kind: str, name: str = "") -> bytes:
-    """The figure as "svg", "pdf" or "png" (300 dots per inch). name: an SVG's title; by default the titles in it."""
+    """The figure as "svg", "pdf" or "png" (300 dots per inch). name: of an SVG; by default what stands above it."""
     buffer = BytesIO()
     with drawing():
         if kind == "svg":
-            return _svg(figure, visible(name) or _titles(figure)).encode()
+            return _svg(figure, visible(name) or _own_name(figure)).encode()
         figure.savefig(buffer, format=kind, metadata=METADATA[kind])
     return buffer.getvalue()
 
@@ -54,9 +54,15 @@ def _svg(figure: Figure, name: str) -> str:
     return svg.replace("</style>", f" {STYLE}</style>", 1)
 
 
-def _titles(figure: Figure) -> str:
-    texts = [text for text in figure.findobj(Text) if isinstance(text, Text) and text.get_fontsize() == TITLE_PT]
-    return "; ".join(filter(None, dict.fromkeys(plain_text(text.get_text()) for text in texts))) or "figure"
+def _own_name(figure: Figure) -> str:
+    """Its titles; without any, the names of its axes."""
+    titles = [text.get_text() for text in figure.findobj(_is_title) if isinstance(text, Text)]
+    names = [name for axes in figure.axes for name in (axes.get_ylabel(), axes.get_xlabel())]
+    return "; ".join(filter(None, dict.fromkeys(map(plain_text, titles or names)))) or "figure"
+
+
+def _is_title(text: Artist) -> bool:
+    return isinstance(text, Text) and text.get_fontsize() == TITLE_PT and bool(text.get_text())
 
 
 @contextmanager

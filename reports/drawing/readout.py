@@ -17,6 +17,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from filters.arrays import FloatArray
+from reports.drawing.dark import themed
 from sched_sim.text import visible
 
 MOST_POINTS = 100
@@ -31,8 +32,8 @@ def readout(figure: Figure) -> dict[str, Any] | None:
 
     "plots": "box" (left, top, width and height as shares of the figure), "title", "x" and "y" ("name", "scale", "ends";
     where the scale is neither "linear" nor "log", the values at evenly spaced "places"), "columns" of numbers, of texts
-    where an axis has words, and "lines" ("name", "colour", "x" and "y": which columns, "said": those of the words,
-    "step": whether each value holds until the next).
+    where an axis has words, and "lines" ("name", "colour" of CSS, "x" and "y": which columns, "said": those of the
+    words, "step": whether each value holds until the next).
     """
     plots = [_plot(figure, axes) for axes in figure.axes if any(map(_is_told, axes.lines))]
     return {"plots": plots} if plots else None
@@ -93,7 +94,7 @@ def _line(axes: Axes, line: Line2D, columns: list[list[float] | list[str]]) -> d
     kept = _thinned(np.flatnonzero(_is_inside(axes, across, up)), up, is_step=is_step)
     told: dict[str, Any] = {
         "name": plain_text(str(line.get_label())) if len(kept) else "",
-        "colour": to_hex(line.get_color()),
+        "colour": themed(to_hex(line.get_color())),
         "x": _number_of(columns, [_short(value) for value in across[kept]]),
         "y": _number_of(columns, [_short(value) for value in up[kept]]),
     }

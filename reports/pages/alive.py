@@ -14,8 +14,8 @@ STYLES = ("palette.css", "gantt.css", "report.css")
 
 
 def figure(still: str, data: Mapping[str, Any] | None, *, caption: str = "", attributes: str = "") -> str:
-    """still: an <img>, a link with one in it, or a <table>; data: "plots", see `reports.drawing.readout`, or "panels",
-    see `reports.charts.told`, with "still" where an image is to be seen first, or "frames" of them, see
+    """still: a `picture`, or a <table>; data: "plots", see `reports.drawing.readout`, or "panels",
+    see `reports.charts.told`, with "still" where the picture is to be seen first, or "frames" of them, see
     `reports.pages.pictures.Sliding`; None where nothing is to be told.
     caption: a <figcaption>."""
     if data is None:
@@ -23,6 +23,11 @@ def figure(still: str, data: Mapping[str, Any] | None, *, caption: str = "", att
     text = json.dumps(data, allow_nan=False, separators=(",", ":")).replace("<", r"\u003c")
     script = f'<script type="application/json">{text}</script>'
     return f'<figure class="ss-figure" data-alive{attributes}>{still}{caption}{script}</figure>'
+
+
+def picture(svg: str) -> str:
+    """svg: an element, see `reports.pages.inline`. It may become wider than the page, and then scrolls in itself."""
+    return f'<div class="ss-scroll"><div class="ss-picture">{svg}</div></div>'
 
 
 @cache

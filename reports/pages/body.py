@@ -10,7 +10,7 @@ from typing import NamedTuple
 from markdown_it import MarkdownIt
 
 from reports.pages import alive
-from reports.pages.data_uri import data_uri
+from reports.pages.inline import inline
 from reports.pages.pictures import Picture
 
 FIGURE = re.compile(
@@ -44,7 +44,7 @@ def body_of(markdown: str, figures: Mapping[str, Picture]) -> Body:
     """figures: by file name."""
     html = MarkdownIt("commonmark", {"html": True}).enable("table").render(markdown)
     html = MENTION.sub(lambda found: found[1] or f'<a href="#figure-{found[2]}">{found[0]}</a>', html)
-    html = FIGURE.sub(lambda found: _captioned(figures[found["file"]], **found.groupdict()), html)
+    html = FIGURE.sub(lambda found: _captioned(figures[found["file"]], found), html)
     html = html.replace(ANSWER, ANSWER.replace("<p>", '<p class="answer">'), 1)
     headings = tuple(_headings(html))
     named = iter(headings)
@@ -53,9 +53,9 @@ def body_of(markdown: str, figures: Mapping[str, Picture]) -> Body:
     return Body(_scrolling(lead), _scrolling(mark + rest), headings)
 
 
-def _captioned(picture: Picture, *, file: str, alt: str, number: str, caption: str, links: str) -> str:
-    """The SVG itself, as a data URI: identifiers in one SVG cannot meet those of another."""
-    still = f'<a href="{file}"><img src="{data_uri(picture.svg)}" alt="{alt}"></a>'
+def _captioned(picture: Picture, found: re.Match[str]) -> str:
+    number, caption, links = found["number"], found["caption"], found["links"]
+    still = alive.picture(inline(picture.svg, f"figure{number}", unescape(found["alt"])))
     text = f'<figcaption><b>Figure {number}.</b> {caption} <span class="files">{links}</span></figcaption>'
     return alive.figure(still, picture.alive, caption=text, attributes=f' id="figure-{number}"')
 
@@ -84,7 +84,7 @@ def _scrolling(html: str) -> str:
 def _of_section(html: str) -> str:
     heading = re.match(r"<h[23] .*?>(.*?)</h[23]>", html)
     label = "Table" if heading is None else f"Table: {_text(heading[1])}"
-    region = f'<div class="table" role="region" tabindex="0" aria-label="{label}">'
+    region = f'<div class="table" role="group" tabindex="0" aria-label="{label}">'
     return TABLE.sub(lambda table: f"{region}{table[0]}</div>", html)
 
 

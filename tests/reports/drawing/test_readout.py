@@ -10,6 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from matplotlib.figure import Figure
 
+from reports.drawing.dark import themed
 from reports.drawing.readout import INTERVALS, MOST_POINTS, plain_text, readout
 from reports.drawing.style import METHOD_LINES
 from reports.steffes.comparisons import cost_figure
@@ -38,7 +39,7 @@ def test_least_speeds_are_those_of_the_staircase() -> None:
         stairs, line = staircase(select(COSTS, "dual-rate"), N, M), curve(plot, "Dual-rate")
         assert line["x"] == [stair.L for stair in stairs]
         assert line["y"] == pytest.approx([float(stair.speed) for stair in stairs], rel=1e-3)
-        assert line["colour"] == METHOD_LINES["dual-rate"].colour
+        assert line["colour"] == themed(METHOD_LINES["dual-rate"].colour)
         assert set(curve(plot, "Recalculate")["y"]) == {{4: 2.81, 10: 5.51}[M]}
 
 
