@@ -7,9 +7,9 @@ from xml.etree import ElementTree
 from xml.etree.ElementTree import Element
 
 from reports.drawing.dark import themed
-from reports.pages.smaller import smaller
+from reports.pages.smaller import plain, smaller
 
-RULE = re.compile(r"[\w*]+\s*\{([^}]*)\}")
+RULE = re.compile(r"([\w*]+)\s*\{([^}]*)\}")
 PAINTS = ("fill", "stroke")
 
 
@@ -20,21 +20,22 @@ def inline(svg: bytes, name: str, title: str) -> str:
     """
     root = smaller(svg)
     rest = root.attrib
-    common = _declarations_for_all(root)
+    common = _rules_of_file(root, name)
     root.attrib = {"class": name, "role": "img", "viewBox": rest["viewBox"]}
     _rename(root, name)
-    rules = [f".{name}{{fill:{themed('#000000')};{common}}}", *_classes(root, name)]
+    rules = [f".{name}{{fill:{themed('#000000')}}}", *common, *_classes(root, name)]
     _titled(root, title, "".join(rules))
     return ElementTree.tostring(root, encoding="unicode")
 
 
-def _declarations_for_all(root: Element) -> str:
-    """What the file's own style sheet says of all its elements, which then need none of their own: it is inherited."""
+def _rules_of_file(root: Element, name: str) -> list[str]:
+    """The file's own style sheet, which is taken out, for this picture alone; what it says of all is inherited."""
     found = [rule for style in root.iter("style") for rule in RULE.findall(style.text or "")]
     for parent in root.iter():
         for child in [child for child in parent if child.tag in ("style", "title")]:
             parent.remove(child)
-    return ";".join(found).replace(": ", ":").replace("; ", ";")
+    of = {"*": f".{name}"}
+    return [f"{of.get(which, f'.{name} {which}')}{{{plain(declared)}}}" for which, declared in found]
 
 
 def _rename(root: Element, name: str) -> None:

@@ -48,8 +48,13 @@ def _value(name: str, value: str) -> str:
     if name == "d":
         return _path(value)
     if name == "style":
-        return value.replace(": ", ":").replace("; ", ";")
+        return plain(value)
     return re.sub(r"-?\d+\.\d+", _rounded, value) if name in PLACES or name == "transform" else value
+
+
+def plain(declarations: str) -> str:
+    """Of CSS, without spaces."""
+    return declarations.replace(": ", ":").replace("; ", ";")
 
 
 def _path(path: str) -> str:

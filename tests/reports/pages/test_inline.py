@@ -38,7 +38,7 @@ def test_names_of_several_pictures_do_not_meet_and_each_refers_to_its_own(svg: b
     assert not set(ids[0]) & set(ids[1])
     for text, own in zip((one, other), ids, strict=True):
         assert set(re.findall(r"(?:url\(|href=\")#([\w-]+)", text)) == set(own)
-        assert set(re.findall(r'class="([^"]*)"', text)) == set(re.findall(r"\.([\w-]+)\{", text))
+        assert set(re.findall(r'class="([^"]*)"', text)) == set(re.findall(r"\.([\w-]+)[^}]*\{", text))
     assert one.replace("figure1", "figure2") == other
 
 
