@@ -35,7 +35,8 @@ def dark(colour: str) -> str:
     linear = [_linear(part) for part in to_rgb(colour)]
     wanted = min((luminance(DARK_GROUND) + FLARE) * raised(contrast(colour, "#ffffff")) - FLARE, 1.0)
     most = max(linear)
-    full = [(part / most) ** PURER for part in linear] if most else [1.0, 1.0, 1.0]
+    purer = PURER if wanted < luminance(colour) else 1.0
+    full = [(part / most) ** purer for part in linear] if most else [1.0, 1.0, 1.0]
     reached = _luminance(full)
     if wanted <= reached:
         parts = [part * wanted / reached for part in full]
@@ -47,7 +48,7 @@ def dark(colour: str) -> str:
 
 def raised(ratio: float) -> float:
     """A contrast on white, as it is on `DARK_GROUND`."""
-    return float(ratio ** (1 + 0.6 * exp(-(log(ratio) ** 2))))
+    return float(ratio ** (1 + 0.8 * exp(-(log(ratio) ** 2))))
 
 
 def luminance(colour: str) -> float:
