@@ -19,6 +19,21 @@ from tests.reports.published import FOLDER
 
 REPORTS = sorted(path.parent.name for path in FOLDER.glob("*/index.html"))
 LARGEST_SCRIPT = 100 * 1024
+A4_MM, LETTER_MM, MARGIN_MM = 210.0, 215.9, 15.0
+PHONE = 360
+READABLE = 700
+"""Pixels of a figure, in which its smallest text is 10 pixels high."""
+WIDER = """[...document.querySelectorAll("table, figure, svg, pre")].filter(
+    (it) => it.getBoundingClientRect().right > innerWidth || it.scrollWidth > it.clientWidth + 1
+).map((it) => it.outerHTML)
+"""
+UNREACHED = """[...document.querySelectorAll("table, pre")].filter(
+    (it) => it.getBoundingClientRect().right > innerWidth && !it.closest("[tabindex='0']")
+).map((it) => it.outerHTML)
+"""
+THINNED = """[...document.querySelectorAll(".ss-picture > svg > :not(title), tbody tr:nth-child(n + 3)")].forEach(
+    (it) => it.remove()
+)"""
 
 
 def page_of(report: str) -> Path:
@@ -41,12 +56,17 @@ def dual_rate() -> list[JobSpan]:
     ]
 
 
-def figure(page: Page, name: str) -> Locator:
-    return page.get_by_role("figure").filter(has=page.get_by_alt_text(re.compile(name)))
+def figure(page: Page, file: str) -> Locator:
+    """By the file that its caption leads to."""
+    return page.locator(f'figure:has(a[href="{file}"])')
+
+
+def picture(page: Page, file: str) -> Locator:
+    return figure(page, file).locator(".ss-picture > svg")
 
 
 def chart(page: Page) -> Locator:
-    return figure(page, "Fig. 3").locator(".ss-gantt").nth(1)
+    return figure(page, "fig3.svg").locator(".ss-gantt").nth(1)
 
 
 @pytest.mark.parametrize("report", REPORTS)
@@ -100,45 +120,106 @@ def test_under_the_pointer_a_job_tells_its_times(visit: Visit, dual_rate: list[J
 
 def test_a_button_brings_the_printed_figure_back_and_one_that_says_more_is_seen_first(visit: Visit) -> None:
     page = opened(visit)
-    picture, button = page.get_by_alt_text(re.compile("Fig. 3")), figure(page, "Fig. 3").locator(".ss-switch")
-    assert picture.is_hidden()
+    still, button = picture(page, "fig3.svg"), figure(page, "fig3.svg").get_by_role("button", name="Show the")
+    assert still.is_hidden()
     assert button.inner_text() == "Show the printed figure"
     button.click()
-    assert picture.is_visible()
+    assert still.is_visible()
     assert chart(page).is_hidden()
     button.click()
     assert chart(page).is_visible()
-    timeline, picture = figure(page, "Fig. 2"), page.get_by_alt_text(re.compile("Fig. 2"))
-    assert picture.is_visible()
+    timeline, still = figure(page, "fig2.svg"), picture(page, "fig2.svg")
+    assert still.is_visible()
     timeline.get_by_role("button", name="Show the chart").click()
-    assert picture.is_hidden()
+    assert still.is_hidden()
     expect(timeline.locator(".ss-gantt-range")).to_have_text("steps 9 to 20")
 
 
-def test_on_paper_a_figure_is_its_picture(visit: Visit) -> None:
+def test_texts_of_a_figure_are_found_and_copied(visit: Visit) -> None:
+    page = opened(visit)
+    texts = picture(page, "costs.svg").locator("text").all_text_contents()
+    longest = max(texts, key=len)
+    assert page.evaluate("(text) => find(text)", longest)
+    assert page.evaluate("getSelection().toString()") == longest
+
+
+def test_on_paper_and_without_scripts_the_pictures_stand(visit: Visit, browser: Browser) -> None:
     page = opened(visit)
     page.emulate_media(media="print")
-    assert all(image.is_visible() for image in page.locator("figure img").all())
-    assert page.locator("canvas:visible, .ss-switch:visible, .ss-readout:visible").count() == 0
-
-
-def test_without_scripts_the_pictures_stand(browser: Browser) -> None:
+    assert_pictures_alone(page)
     context = browser.new_context(java_script_enabled=False)
     page = context.new_page()
     page.goto(page_of("steffes2014").as_uri())
-    assert all(image.is_visible() for image in page.locator("figure img").all())
-    assert page.locator("canvas").count() == 0
+    assert_pictures_alone(page)
+    assert page.locator(".table").first.get_attribute("tabindex") == "0"
     context.close()
 
 
-def test_no_rule_of_accessible_pages_is_broken(visit: Visit) -> None:
-    page = opened(visit)
+def assert_pictures_alone(page: Page) -> None:
+    assert all(still.is_visible() for still in page.locator(".ss-picture > svg").all())
+    assert page.locator("canvas:visible, button:visible, .ss-readout:visible").count() == 0
+
+
+@pytest.mark.parametrize("report", REPORTS)
+def test_on_paper_no_table_loses_a_column_and_heads_come_again(visit: Visit, report: str) -> None:
+    page = opened(visit, report)
+    page.emulate_media(media="print", color_scheme="dark")
+    for paper_mm in (A4_MM, LETTER_MM):
+        page.set_viewport_size({"width": int((paper_mm - 2 * MARGIN_MM) / 25.4 * 96), "height": 900})
+        assert page.evaluate(WIDER) == []
+    assert page.evaluate("getComputedStyle(document.querySelector('thead')).display") == "table-header-group"
+    assert page.evaluate("getComputedStyle(document.documentElement).backgroundColor") == "rgb(255, 255, 255)"
+    assert page.locator("nav:visible, header:visible").count() == 0
+
+
+@pytest.mark.parametrize("report", REPORTS)
+def test_no_rule_of_accessible_pages_is_broken_and_a_phone_shows_all(visit: Visit, report: str) -> None:
+    page = opened(visit, report)
+    page.set_viewport_size({"width": PHONE, "height": 800})
+    page.emulate_media(color_scheme="dark")
+    assert page.evaluate("document.documentElement.scrollWidth") == PHONE
+    assert page.evaluate(UNREACHED) == []
     assert broken(page) == []
-    page.set_viewport_size({"width": 360, "height": 800})
-    assert broken(page, "figure") == []
+    page.set_viewport_size({"width": 1280, "height": 900})
+    page.emulate_media(color_scheme="light")
+    assert broken(page) == []
 
 
-def broken(page: Page, within: str | None = None) -> list[tuple[str, list[str]]]:
-    """Rules, and where."""
-    found = Axe().run(page, context=within).response["violations"]
+def test_on_a_phone_a_figure_opens_to_full_size_by_button_and_by_tap(visit: Visit) -> None:
+    page = opened(visit)
+    costs, still = figure(page, "costs.svg"), picture(page, "costs.svg")
+    button = costs.get_by_role("button", name="Full size")
+    assert button.is_hidden()
+    page.set_viewport_size({"width": PHONE, "height": 800})
+    for touch in (lambda: button.press("Enter"), lambda: still.click(position={"x": 3, "y": 3})):
+        touch()
+        assert button.get_attribute("aria-pressed") == "true"
+        region = costs.get_by_role("region", name="at full size")
+        region.focus()
+        page.keyboard.press("ArrowRight")
+        assert page.evaluate("document.activeElement.scrollWidth") >= READABLE
+        assert page.evaluate("document.documentElement.scrollWidth") == PHONE
+        touch()
+        assert button.get_attribute("aria-pressed") == "false"
+        assert region.count() == 0
+
+
+def test_keys_skip_to_the_report_and_each_place_is_seen(visit: Visit) -> None:
+    page = opened(visit)
+    page.keyboard.press("Tab")
+    assert page.evaluate("document.activeElement.textContent") == "Skip to the report"
+    assert page.evaluate("document.activeElement.getBoundingClientRect().left") >= 0
+    page.keyboard.press("Enter")
+    page.keyboard.press("Tab")
+    assert page.evaluate("document.querySelector('main').contains(document.activeElement)")
+    page.locator(".table").first.focus()
+    page.keyboard.press("Shift+Tab")
+    page.keyboard.press("Tab")
+    assert page.evaluate("getComputedStyle(document.activeElement).outlineWidth") == "2px"
+
+
+def broken(page: Page) -> list[tuple[str, list[str]]]:
+    """Rules, and where; all rows of a table and all shapes of a picture are alike."""
+    page.evaluate(THINNED)
+    found = Axe().run(page).response["violations"]
     return [(rule["id"], [node["target"] for node in rule["nodes"]]) for rule in found]
