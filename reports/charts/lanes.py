@@ -11,6 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.patheffects import withStroke
 
+from reports.charts.boxes import Box, outlines, rectangles
 from reports.charts.callouts import Callout, callouts, label_fits, shown_label
 from reports.charts.scale import Scale
 from reports.drawing.style import FILLS, FONT_PT, GREY, INK, RED, SMALL_PT, TASK_FILLS, Fill, drawable, text_width_mm
@@ -33,6 +34,8 @@ STRIDES = (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10_000)
 MANY_BARS = 2000
 """From here on hatches are left out: too fine to see, and slow to draw."""
 LONGEST_NAME_MM = 28.0
+VEIL = (1, 1, 1, 0.55)
+"""Over work after its deadline."""
 
 
 class Lane(NamedTuple):
@@ -144,25 +147,20 @@ def _names(axes: Axes, places: Sequence[Lane], cpus: int, end: float) -> None:
         axes.text(-0.012, lane.middle - shift, label, size=SMALL_PT, color=GREY, **at)
 
 
-def _boxes(spans: Iterable[tuple[float, float, float, float]]) -> list[list[tuple[float, float]]]:
-    """Rectangles (left, right, foot, head)."""
-    return [[(left, foot), (right, foot), (right, head), (left, head)] for left, right, foot, head in spans]
-
-
 def _waits(axes: Axes, waiting: Iterable[tuple[Row, int, int]], lane_of: Mapping[Row, Lane], scale: Scale) -> None:
     boxes = []
     for row, start, end in waiting:
         middle = lane_of[row].middle
         boxes.append((scale.step(start), scale.step(end), middle - WAIT_MM / 2, middle + WAIT_MM / 2))
     axes.add_collection(
-        PolyCollection(_boxes(boxes), facecolor=GREY, linewidth=0, zorder=1.5, snap=False), autolim=False
+        PolyCollection(rectangles(boxes), facecolor=GREY, linewidth=0, zorder=1.5, snap=False), autolim=False
     )
 
 
 def _bars(
     axes: Axes, all_bars: Sequence[Bar], lane_of: Mapping[Row, Lane], scale: Scale, fills: Fills, least_mm: float
 ) -> None:
-    by_style: defaultdict[tuple[bool, str], list[tuple[float, float, float, float]]] = defaultdict(list)
+    by_style: defaultdict[tuple[bool, str], list[Box]] = defaultdict(list)
     for bar in all_bars:
         lane = lane_of[bar.row]
         start, end = scale.step(bar.start), scale.step(bar.end)
@@ -174,7 +172,7 @@ def _bars(
         hatch = fill.hatch if hatched else None
         axes.add_collection(
             PolyCollection(
-                _boxes(boxes),
+                rectangles(boxes),
                 facecolor=fill.colour,
                 edgecolor=fill.ink,
                 hatch=hatch or None,
@@ -184,6 +182,12 @@ def _bars(
             ),
             autolim=False,
         )
+        if hatched and fill.edge_pt:
+            edges = outlines(boxes, scale, fill.edge_pt / 72 * 25.4)
+            axes.add_collection(
+                LineCollection(edges, color=fill.ink, linewidth=fill.edge_pt, zorder=2.07, capstyle="butt"),
+                autolim=False,
+            )
 
 
 def _joints(axes: Axes, all_bars: Sequence[Bar], lane_of: Mapping[Row, Lane], scale: Scale) -> None:
@@ -205,7 +209,9 @@ def _overdue(axes: Axes, all_bars: Sequence[Bar], lane_of: Mapping[Row, Lane], s
         for row, start, end in overdue_work(all_bars)
     ]
     hatch = "xxxx" if len(all_bars) < MANY_BARS else None
-    late = PolyCollection(_boxes(boxes), facecolor=(1, 1, 1, 0.55), edgecolor=RED, hatch=hatch, linewidth=0, zorder=2.2)
+    late = PolyCollection(
+        rectangles(boxes), facecolor=(1, 1, 1, 0.55), edgecolor=RED, hatch=hatch, linewidth=0, zorder=2.2
+    )
     axes.add_collection(late, autolim=False)
 
 

@@ -97,7 +97,9 @@ def _broken(entries: Sequence[Entry], width_mm: float) -> list[list[tuple[float,
 
 def _swatch(fill: Fill) -> Callable[[Axes, float, float], None]:
     def draw(axes: Axes, x: float, y: float) -> None:
-        box = Rectangle((x, y - 1.3), SWATCH_MM, 2.6, facecolor=fill.colour, edgecolor=fill.ink, hatch=fill.hatch, lw=0)
+        half = fill.edge_pt / 2 / 72 * 25.4
+        box = Rectangle((x + half, y - 1.3), SWATCH_MM - 2 * half, 2.6, facecolor=fill.colour, edgecolor=fill.ink)
+        box.set(hatch=fill.hatch, linewidth=fill.edge_pt)
         axes.add_patch(box)
 
     return draw

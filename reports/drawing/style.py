@@ -62,13 +62,25 @@ MOST_LETTERS = 500
 """A name's: more are never set, however narrow."""
 
 
+EDGE_PT = 0.5
+"""Of the outline of work."""
+
+
 class Fill(NamedTuple):
-    """How one kind of work is drawn and named; hatch and grey level alone tell the kinds of one row apart."""
+    """How one kind of work is drawn and named; hatch and grey level alone tell the kinds of one row apart.
+
+    ink: of hatch, label, and the outline by which a pale fill stands out from the page.
+    """
 
     colour: str
     ink: str
     hatch: str
     meaning: str
+
+    @property
+    def edge_pt(self) -> float:
+        """Of its outline: none where the ink is the page's."""
+        return 0.0 if self.ink == "white" else EDGE_PT
 
 
 FILLS = {
@@ -85,12 +97,12 @@ FILLS = {
         "HRU": ("#11538c", "white", ""),
         "LRP": ("#fbe3b5", "#9a6200", "////"),
         "LRG": ("#f4e9d8", "#9a6200", "\\\\\\\\"),
-        "LRU": ("#dd9009", INK, ""),
+        "LRU": ("#bd7b05", INK, ""),
         "SU": ("#b3d4ee", INK, ""),
-        "CG": ("#dd9009", INK, ""),
+        "CG": ("#bd7b05", INK, ""),
         "OC": ("#f4e9d8", "#9a6200", "\\\\\\\\"),
         "IP": ("#b3d4ee", INK, ""),
-        "RS": ("#dd9009", INK, ""),
+        "RS": ("#bd7b05", INK, ""),
         "PR": ("#b3d4ee", INK, ""),
         "CO": ("#11538c", "white", ""),
         "RP": ("#dfe8f0", "#11538c", "\\\\\\\\"),
@@ -131,23 +143,17 @@ METHOD_LINES = {
     "fuse-as-fresh": Line("#7d7d7d", (0, (1.0, 2.4)), "X", 4.2),
 }
 
-SOURCE_LINES = (
-    Line(INK, "-", "|", 6.0),
-    Line("#11538c", "-", "o"),
-    Line("#dd9009", "-", "^"),
-    Line("#2e7d4f", "-", "s"),
-    Line("#8a3b73", "-", "D"),
-)
-"""For what else is told apart, in turn."""
-
 SOURCES = {
     "printed": Line(INK, "-", "|", 6.0),
-    "analysis": Line("#8a3b73", "-", "D"),
-    "counted": Line("#11538c", "-", "o"),
-    "measured": Line("#dd9009", "-", "^"),
-    "emulated": Line("#2e7d4f", "-", "s"),
+    "counted": Line("#11538c", (0, (7.0, 2.0)), "o"),
+    "measured": Line("#bd7b05", (0, (2.0, 1.5)), "^"),
+    "emulated": Line("#2e7d4f", (0, (5.0, 1.5, 1.0, 1.5)), "s"),
+    "analysis": Line("#8a3b73", (0, (10.0, 2.0, 2.0, 2.0)), "D"),
 }
 """Where a number comes from: the same in each figure. Printed: in the document that is regenerated."""
+
+SOURCE_LINES = tuple(SOURCES.values())
+"""For what else is told apart, in turn."""
 
 
 @contextmanager

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from math import ceil, floor, log10
 from typing import Literal, NamedTuple
 
@@ -16,7 +16,6 @@ from reports.drawing.axes import AXIS_MM, EDGE_MM, plain
 from reports.drawing.legend import Entry, draw_legend, legend_height, line_entry
 from reports.drawing.style import (
     GREY,
-    INK,
     METHOD_LINES,
     PALE,
     RED,
@@ -32,17 +31,6 @@ from studies.selection.front import Front, FrontPoint
 
 COLUMN_MM, PLOT_MM, LEFT_MM, TOP_MM = 88.0, 66.0, 11.5, 4.0
 
-LINES: Mapping[str, Line] = {
-    "clone": Line("#2e7d4f", "-", "s"),
-    "clone-split": Line("#2e7d4f", (0, (4.0, 1.5)), "v"),
-    "carried-gain": Line(INK, "-", "*", 5.4),
-    "augmentation": Line(GREY, (0, (1.0, 1.2)), "p"),
-    "delayed-horizon": Line("#2e9c9c", "-", "<"),
-    "px4-predictor": Line("#c00000", (0, (4.0, 1.5)), "X", 4.4),
-    "fuse-as-fresh": Line(GREY, (0, (4.0, 1.5)), ">"),
-    **METHOD_LINES,
-}
-"""Those of the house first; the others until it has them."""
 OTHER = Line(GREY, "-", "o")
 SHADE = "#c4c4c4"
 """Of the line below designs that no other one beats."""
@@ -82,7 +70,7 @@ def _plural(unit: str) -> str:
 
 
 def _line(method: str) -> Line:
-    return LINES.get(method, OTHER)
+    return METHOD_LINES.get(method, OTHER)
 
 
 def _entry(method: str, points: Sequence[FrontPoint]) -> Entry:

@@ -7,6 +7,7 @@ import { BAR_PX } from "./lanes.js";
 const NARROW_PX = 1.5;
 const WAIT_PX = 3.5;
 const JOINT_PX = 15;
+const EDGE_PX = 0.8;
 /** Hatches are too fine to be seen in less. */
 const HATCHED_PX = 3;
 /** What there is at all is seen. */
@@ -63,7 +64,7 @@ export function drawBars({ context, scale, ratio, layout, colours }, lane) {
 
 function drawBoxes(context, boxes, colours, lane, shift) {
   boxes.forEach((own, index) => {
-    const { fill, ink, hatch } = colours.fills[index];
+    const { fill, ink, hatch, edge } = colours.fills[index];
     if (!own.length) return;
     context.fillStyle = fill;
     for (let at = 0; at < own.length; at += 2) context.fillRect(own[at], lane.head, own[at + 1], BAR_PX);
@@ -73,10 +74,13 @@ function drawBoxes(context, boxes, colours, lane, shift) {
         if (own[at + 1] >= HATCHED_PX) context.fillRect(own[at], lane.head, own[at + 1], BAR_PX);
       }
     }
-    if (!colours.outlined) return;
-    context.strokeStyle = colours.ink;
-    context.lineWidth = 1;
-    for (let at = 0; at < own.length; at += 2) context.strokeRect(own[at], lane.head, own[at + 1], BAR_PX);
+    if (!edge) return;
+    context.strokeStyle = edge;
+    context.lineWidth = EDGE_PX;
+    for (let at = 0; at < own.length; at += 2) {
+      const wide = own[at + 1] - EDGE_PX;
+      if (own[at + 1] >= HATCHED_PX) context.strokeRect(own[at] + EDGE_PX / 2, lane.head, wide, BAR_PX);
+    }
   });
 }
 

@@ -32,7 +32,8 @@ export function barLabel({ label }) {
   return isTask(label) ? taskName(label) : label;
 }
 
-/** The colours that `element` has at present: {ground, ink, ...} and `fills` of the styles, each {fill, ink, hatch}. */
+/** The colours that `element` has at present: {ground, ink, ...} and `fills` of the styles, each {fill, ink,
+ *  hatch, edge}: of the outline, "" where the fill stands out from the ground. */
 export function coloursOf(element, styles) {
   const probe = document.createElement("span");
   probe.className = "ss-gantt-probe";
@@ -42,13 +43,26 @@ export function coloursOf(element, styles) {
     return getComputedStyle(probe).color;
   };
   const general = Object.fromEntries(GENERAL.map((name) => [name, seen(`var(--ss-${name})`)]));
-  const fills = fillNames(styles).map((name) => ({
-    fill: seen(`var(--ss-fill-${name}, var(--ss-fill-task0))`),
-    ink: seen(`var(--ss-ink-${name}, var(--ss-ink-task0))`),
-    hatch: name.startsWith("task") ? TASK_HATCHES[Number(name.slice(4))] : (HATCHES[name] ?? ""),
-  }));
+  const outlined = matchMedia("(forced-colors: active)").matches;
+  const fills = fillNames(styles).map((name) => {
+    const fill = seen(`var(--ss-fill-${name}, var(--ss-fill-task0))`);
+    const ink = seen(`var(--ss-ink-${name}, var(--ss-ink-task0))`);
+    const hatch = name.startsWith("task") ? TASK_HATCHES[Number(name.slice(4))] : (HATCHES[name] ?? "");
+    return { fill, ink, hatch, edge: outlined ? general.ink : contrastOf(fill, general.ground) < 3 ? ink : "" };
+  });
   probe.remove();
-  return { ...general, fills, outlined: matchMedia("(forced-colors: active)").matches };
+  return { ...general, fills };
+}
+
+/** Of two computed colours, as the Web Content Accessibility Guidelines define it. */
+function contrastOf(one, other) {
+  const [dark, light] = [one, other].map(luminanceOf).sort((a, b) => a - b);
+  return (light + 0.05) / (dark + 0.05);
+}
+
+function luminanceOf(colour) {
+  const parts = channels(colour).map((part) => (part <= 10 ? part / 3294.6 : ((part / 255 + 0.055) / 1.055) ** 2.4));
+  return 0.2126 * parts[0] + 0.7152 * parts[1] + 0.0722 * parts[2];
 }
 
 /** [red, green, blue] of a computed colour. */

@@ -20,7 +20,7 @@ export function ganttLegend({ line, colours }, every) {
   const late = line.rows.some((row) => row.late.some((from) => from < Infinity));
   const any = line.schedule.jobs.row.length > 0;
   return [
-    ...styles.map(([style, fill]) => drawn(workWords(style), SWATCH, (pen, box) => drawFill(pen, box, fill, colours))),
+    ...styles.map(([style, fill]) => drawn(workWords(style), SWATCH, (pen, box) => drawFill(pen, box, fill))),
     waiting && drawn("released, not running", SWATCH, (pen, box) => {
       pen.fillStyle = colours.grey;
       pen.fillRect(0, box.height / 2 - 1.75, box.width, 3.5);
@@ -85,14 +85,14 @@ function drawn(text, box, draw) {
   return { text, picture };
 }
 
-function drawFill(pen, { width, height }, { fill, ink, hatch }, colours) {
+function drawFill(pen, { width, height }, { fill, ink, hatch, edge }) {
   pen.fillStyle = fill;
   pen.fillRect(0, 0, width, height);
   if (hatch) {
     pen.fillStyle = hatchPattern(pen, hatch, ink);
     pen.fillRect(0, 0, width, height);
   }
-  if (!colours.outlined) return;
-  pen.strokeStyle = colours.ink;
+  if (!edge) return;
+  pen.strokeStyle = edge;
   pen.strokeRect(0.5, 0.5, width - 1, height - 1);
 }

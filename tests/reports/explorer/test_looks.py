@@ -11,10 +11,10 @@ from playwright.sync_api import Browser
 from reports.drawing.style import METHOD_LINES, SOURCE_LINES
 from reports.explorer.module import asset
 from tests.reports.explorer.scripts import Ask, asking
-from tests.reports.explorer.test_palette import COLOURS, DARK, LIGHT, contrast
+from tests.reports.explorer.test_palette import COLOURS, DARK, contrast
 
 STROKE_PX = 1.6
-SOURCES = re.findall(r"--ss-source-\d: light-dark\((#\w{6}), (#\w{6})\);", asset("plot.css"))
+PALETTE = re.findall(r"--ss-source-\d: light-dark\((#\w{6}), (#\w{6})\);", asset("plot.css"))
 
 
 @pytest.fixture(scope="module")
@@ -47,14 +47,15 @@ def test_no_two_looks_differ_in_colour_alone(ask: Ask) -> None:
     assert len({(look["dashes"], look["marker"]) for look in looks}) == len(looks)
 
 
-@pytest.mark.parametrize("number", range(len(SOURCE_LINES)))
-def test_sources_have_the_colours_of_print_where_these_stand_out_from_the_page(number: int) -> None:
-    light, dark = SOURCES[number]
-    printed = SOURCE_LINES[number].colour
-    assert contrast(light, COLOURS["ground"][LIGHT]) >= 3
-    assert contrast(dark, COLOURS["ground"][DARK]) >= 3
-    if contrast(printed, COLOURS["ground"][LIGHT]) >= 3:
-        assert light == printed
+def test_sources_have_the_colours_the_dashes_and_the_markers_of_print(ask: Ask) -> None:
+    looks = ask("return of.looksOf(a)", [f"other {number}" for number in range(len(SOURCE_LINES))])
+    for line, look, (light, dark) in zip(SOURCE_LINES, looks, PALETTE, strict=True):
+        assert look["marker"] == line.marker
+        assert [float(dash) for dash in look["dashes"].split()] == pytest.approx(
+            [STROKE_PX * dash for dash in ([] if isinstance(line.dashes, str) else line.dashes[1])], abs=0.05
+        )
+        assert light == line.colour
+        assert contrast(dark, COLOURS["ground"][DARK]) >= 3
 
 
 @pytest.mark.parametrize("marker", sorted({line.marker for line in (*METHOD_LINES.values(), *SOURCE_LINES)}))

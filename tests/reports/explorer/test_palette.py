@@ -7,7 +7,7 @@ import re
 import pytest
 from matplotlib.colors import to_hex, to_rgb
 
-from reports.drawing.style import FILLS, INK, METHOD_LINES, TASK_FILLS, Fill
+from reports.drawing.style import FILLS, INK, METHOD_LINES, SOURCES, TASK_FILLS, Fill
 from reports.explorer.module import asset
 
 COLOURS = {
@@ -41,6 +41,23 @@ def test_in_the_light_work_looks_as_in_print(label: str) -> None:
 @pytest.mark.parametrize("method", METHOD_LINES)
 def test_in_the_light_methods_look_as_in_print(method: str) -> None:
     assert COLOURS[f"method-{method}"][LIGHT] == METHOD_LINES[method].colour
+
+
+@pytest.mark.parametrize("label", WORK)
+def test_in_the_light_work_stands_out_from_the_page_by_itself_or_by_its_outline(label: str) -> None:
+    fill = WORK[label]
+    assert max(contrast(fill.colour, "white"), contrast(fill.ink, "white") if fill.edge_pt else 1) >= 3
+
+
+@pytest.mark.parametrize("source", SOURCES)
+def test_sources_stand_out_from_the_page(source: str) -> None:
+    assert contrast(SOURCES[source].colour, "white") >= 3
+
+
+def test_lines_differ_without_colour() -> None:
+    for lines in (METHOD_LINES, SOURCES):
+        assert len({line.marker for line in lines.values()}) == len(lines)
+        assert len({line.dashes for line in lines.values()}) == len(lines)
 
 
 def test_it_has_no_other_work_and_no_other_methods() -> None:
