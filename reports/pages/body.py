@@ -15,7 +15,8 @@ from reports.pages.pictures import Picture
 
 FIGURE = re.compile(
     r'<p><img src="(?P<file>[^":]+\.svg)" alt="(?P<alt>[^"]*)" /></p>\n'
-    r"<p><strong>Figure (?P<number>\d+)\.</strong> (?P<caption>.*?) <em>(?P<links>.*?)</em></p>",
+    r"<p><strong>Figure (?P<number>\d+)\.</strong> (?P<caption>(?:(?!</p>).)*) "
+    r"<em>(?P<links>(?:(?!</?em>).)*)</em></p>",
     re.DOTALL,
 )
 HEADING = re.compile(r"<h([23])>(.*?)</h\1>")

@@ -16,7 +16,7 @@ from markupsafe import Markup
 
 from reports.explorer.compact import compact
 from reports.explorer.module import PALETTE, asset
-from reports.pages.data_uri import data_uri
+from reports.pages.inline import inline
 from reports.pages.made import made_of
 from reports.pages.numbers import duration
 from sched_sim.errors import InputError
@@ -54,7 +54,7 @@ def overview(folder: Path, order: Iterable[str]) -> dict[str, bytes]:
         lstrip_blocks=True,
     )
     environment.filters["inline"] = lambda text: Markup(MarkdownIt("commonmark").renderInline(text))
-    environment.globals["uri"] = lambda report: Markup(data_uri((folder / report.name / report.figure).read_bytes()))
+    environment.filters["thumbnail"] = lambda report: Markup(_thumbnail(folder, report))
     values = {"title": TITLE, "reports": reports, "style": Markup(compact(asset(PALETTE)))}
     return {
         name: environment.get_template(f"{name}.j2").render(**values).encode() for name in ("index.md", "index.html")
@@ -86,3 +86,8 @@ def report_in(folder: Path) -> Report:
         figure[1] if figure and seen else "",
         f"made on {made.date} on {made.machine} in {duration(made.seconds)}" if made else "",
     )
+
+
+def _thumbnail(folder: Path, report: Report) -> str:
+    svg = (folder / report.name / report.figure).read_bytes()
+    return inline(svg, f"of-{report.name}", report.alt)

@@ -1,0 +1,57 @@
+"""The HTML of a report's Markdown: figures with their captions, headings to link to, tables that scroll."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from reports.pages.body import body_of
+from reports.pages.markdown import Figures
+from reports.pages.pictures import Picture
+
+SVG = b'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 60 20"><path d="M0 0 L60 20" stroke="#000"/></svg>'
+
+
+def html(*captions: str, before: str = "") -> str:
+    figures = Figures("sched-sim report late")
+    texts = [figures.figure(f"{number}.svg", "it is late", text, ["a.csv"]) for number, text in enumerate(captions)]
+    body = body_of(
+        before + "\n\n".join(texts), {f"{number}.svg": Picture(SVG, None) for number in range(len(captions))}
+    )
+    return body.lead + body.rest
+
+
+@pytest.mark.parametrize(
+    ("caption", "stressed"),
+    [("It is late.", 0), ("*Late* is late.", 1), ("Late is *late*.", 1), ("*It* is **very** *late*.", 2)],
+)
+def test_a_caption_may_stress_words_and_its_links_stand_behind_it(caption: str, stressed: int) -> None:
+    text = html(caption, "Another *one*.")
+    assert text.count("<figure") == text.count("<figcaption>") == text.count("</figcaption>") == 2
+    assert (
+        text.count("<em>") == text.count("</em>") == len(re.findall(r"\*+\w", caption + "*one")) - caption.count("**v")
+    )
+    for file in ("0.svg", "1.svg", "a.csv"):
+        assert f'<a href="{file}">' in text
+    assert text.count('<span class="files"><a href="a.csv">') == 2
+
+
+def test_a_figure_that_is_named_is_linked_to() -> None:
+    assert '<a href="#figure-1">Figure 1</a> shows' in html("It is late.", before="Figure 1 shows it.\n\n")
+
+
+def test_headings_of_one_text_have_ids_of_their_own() -> None:
+    body = body_of("# Title\n\nlead\n\n## Who\n\n### Who\n\n## Where & why\n", {})
+    assert [heading.id for heading in body.headings] == ["who", "who-", "where-why"]
+    assert body.lead.rstrip().endswith("<p>lead</p>")
+    assert all(f'id="{heading.id}"' in body.rest for heading in body.headings)
+
+
+def test_a_table_scrolls_by_keys_and_is_named_after_its_section() -> None:
+    table = body_of("## Who\n\n| a | b |\n| --- | --- |\n| 1 | 2 |\n", {}).rest
+    assert re.search(r'<div class="table" role="\w+" tabindex="0" aria-label="Table: Who"><table>', table)
+
+
+def test_the_answer_is_marked() -> None:
+    assert body_of("# T\n\n**Answer.** Half.\n", {}).lead.count('<p class="answer"><strong>Answer.</strong> Half.') == 1
