@@ -49,7 +49,13 @@ def _value(name: str, value: str) -> str:
         return _path(value)
     if name == "style":
         return plain(value)
-    return re.sub(r"-?\d+\.\d+", _rounded, value) if name in PLACES or name == "transform" else value
+    if name == "transform":
+        return re.sub(r"(?:translate|rotate)\([^)]*\)", lambda moved: _numbers(moved[0]), value)
+    return _numbers(value) if name in PLACES else value
+
+
+def _numbers(text: str) -> str:
+    return re.sub(r"-?\d+\.\d+", _rounded, text)
 
 
 def plain(declarations: str) -> str:
@@ -59,8 +65,7 @@ def plain(declarations: str) -> str:
 
 def _path(path: str) -> str:
     """The same outline: no spaces beside letters and signs, no zeros at the end of decimals."""
-    path = re.sub(r"-?\d+\.\d+", _rounded, path)
-    return re.sub(r"\s*([A-Za-z])\s*| (?=-)", lambda letter: letter[1] or "", " ".join(path.split()))
+    return re.sub(r"\s*([A-Za-z])\s*| (?=-)", lambda letter: letter[1] or "", " ".join(_numbers(path).split()))
 
 
 def _rounded(number: re.Match[str]) -> str:

@@ -46,3 +46,8 @@ def test_coordinates_are_moved_by_less_than_a_hundredth_of_a_point(svg: bytes) -
     )
     assert after == pytest.approx(before, abs=0.00501)
     assert any(number != round(number, 2) for number in before)
+
+
+def test_what_is_scaled_is_scaled_as_much() -> None:
+    svg = b'<svg xmlns="http://www.w3.org/2000/svg"><g transform="translate(1.23456 2) scale(0.015625 -0.015)"/></svg>'
+    assert 'transform="translate(1.23 2) scale(0.015625 -0.015)"' in shown(svg)
