@@ -11,6 +11,7 @@ from markdown_it import MarkdownIt
 
 from reports.pages import alive
 from reports.pages.inline import inline
+from reports.pages.numbers import unbroken
 from reports.pages.pictures import Picture
 
 FIGURE = re.compile(
@@ -43,7 +44,7 @@ class Body(NamedTuple):
 
 def body_of(markdown: str, figures: Mapping[str, Picture]) -> Body:
     """figures: by file name."""
-    html = MarkdownIt("commonmark", {"html": True}).enable("table").render(markdown)
+    html = unbroken(MarkdownIt("commonmark", {"html": True}).enable("table").render(markdown))
     html = MENTION.sub(lambda found: found[1] or f'<a href="#figure-{found[2]}">{found[0]}</a>', html)
     html = FIGURE.sub(lambda found: _captioned(figures[found["file"]], found), html)
     html = html.replace(ANSWER, ANSWER.replace("<p>", '<p class="answer">'), 1)

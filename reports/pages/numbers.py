@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from fractions import Fraction
+
+BEFORE_UNIT = re.compile(r"(<[^>]*>)|(?<=\d) (?=(?:%|(?:ms|µs|MHz|Hz|KB)\b))")
 
 
 def percent(share: Fraction) -> str:
@@ -44,3 +47,8 @@ def duration(seconds: float) -> str:
         return "less than 1 s"
     minutes, rest = divmod(round(seconds), 60)
     return f"{minutes} min {rest} s" if minutes else f"{rest} s"
+
+
+def unbroken(html: str) -> str:
+    """The same, with no end of a line between a number and its unit."""
+    return BEFORE_UNIT.sub(lambda found: found[1] or "\N{NO-BREAK SPACE}", html)

@@ -18,7 +18,7 @@ from reports.explorer.compact import compact
 from reports.explorer.module import PALETTE, asset
 from reports.pages.inline import inline
 from reports.pages.made import made_of
-from reports.pages.numbers import duration
+from reports.pages.numbers import duration, unbroken
 from sched_sim.errors import InputError
 
 TITLE = "Reports of sched_sim"
@@ -53,7 +53,7 @@ def overview(folder: Path, order: Iterable[str]) -> dict[str, bytes]:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    environment.filters["inline"] = lambda text: Markup(MarkdownIt("commonmark").renderInline(text))
+    environment.filters["inline"] = lambda text: Markup(unbroken(MarkdownIt("commonmark").renderInline(text)))
     environment.filters["thumbnail"] = lambda report: Markup(_thumbnail(folder, report))
     values = {"title": TITLE, "reports": reports, "style": Markup(compact(asset(PALETTE)))}
     return {

@@ -53,3 +53,8 @@ def test_a_table_scrolls_by_keys_and_is_named_after_its_section() -> None:
 
 def test_the_answer_is_marked() -> None:
     assert body_of("# T\n\n**Answer.** Half.\n", {}).lead.count('<p class="answer"><strong>Answer.</strong> Half.') == 1
+
+
+def test_no_line_ends_between_a_number_and_its_unit() -> None:
+    text = body_of('It takes 12.5 % of 40 ms <b title="at 50 %">and</b> 10 steps.\n', {}).lead
+    assert text == '<p>It takes 12.5~% of 40~ms <b title="at 50 %">and</b> 10 steps.</p>\n'.replace("~", "\xa0")
