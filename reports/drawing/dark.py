@@ -16,8 +16,8 @@ from matplotlib.colors import to_rgb
 DARK_GROUND = "#12161a"
 FLARE = 0.05
 """What is added to each luminance of a contrast."""
-PURER = 1.6
-"""A power: pale colours are grey to the eye where they are dark."""
+PURER = 0.6
+"""Added to a power, as far as a colour is made darker: pale ones are grey to the eye where they are dark."""
 SHARES = (0.2126, 0.7152, 0.0722)
 COLOUR = re.compile(r"(?<!\()#[0-9a-f]{6}\b")
 
@@ -35,7 +35,7 @@ def dark(colour: str) -> str:
     linear = [_linear(part) for part in to_rgb(colour)]
     wanted = min((luminance(DARK_GROUND) + FLARE) * raised(contrast(colour, "#ffffff")) - FLARE, 1.0)
     most = max(linear)
-    purer = PURER if wanted < luminance(colour) else 1.0
+    purer = 1 + PURER * max(1 - wanted / (luminance(colour) or 1), 0)
     full = [(part / most) ** purer for part in linear] if most else [1.0, 1.0, 1.0]
     reached = _luminance(full)
     if wanted <= reached:
