@@ -57,7 +57,7 @@ def body_of(markdown: str, figures: Mapping[str, Picture]) -> Body:
 
 def _captioned(picture: Picture, found: re.Match[str]) -> str:
     number, caption, links = found["number"], found["caption"], found["links"]
-    still = alive.picture(inline(picture.svg, f"figure{number}", unescape(found["alt"])))
+    still = alive.picture(inline(picture.svg, f"f{number}", unescape(found["alt"])))
     text = f'<figcaption><b>Figure {number}.</b> {caption} <span class="files">{links}</span></figcaption>'
     return alive.figure(still, picture.alive, caption=text, attributes=f' id="figure-{number}"')
 

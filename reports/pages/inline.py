@@ -10,6 +10,8 @@ from reports.drawing.dark import themed
 from reports.pages.smaller import plain, smaller
 
 RULE = re.compile(r"([\w*]+)\s*\{([^}]*)\}")
+ALONE = re.compile(r"(?:^|;)opacity:")
+"""Of an element, not of those in it."""
 PAINTS = ("fill", "stroke")
 
 
@@ -23,9 +25,11 @@ def inline(svg: bytes, name: str, title: str) -> str:
     common = _rules_of_file(root, name)
     root.attrib = {"class": name, "role": "img", "viewBox": rest["viewBox"]}
     _rename(root, name)
-    rules = [f".{name}{{fill:{themed('#000000')}}}", *common, *_classes(root, name)]
-    _titled(root, title, "".join(rules))
-    return ElementTree.tostring(root, encoding="unicode")
+    looks = _looks(root, name)
+    _hoist(root, {named for look, named in looks.items() if not ALONE.search(look)})
+    rules = [f".{named}{{{themed(look)}}}" for look, named in looks.items()]
+    _titled(root, title, "".join([f".{name}{{fill:{themed('#000000')}}}", *common, *rules]))
+    return ElementTree.tostring(root, encoding="unicode").replace(" />", "/>")
 
 
 def _rules_of_file(root: Element, name: str) -> list[str]:
@@ -40,7 +44,7 @@ def _rules_of_file(root: Element, name: str) -> list[str]:
 
 def _rename(root: Element, name: str) -> None:
     """Short, and none that another picture has."""
-    names = {old: f"{name}-{number}" for number, old in enumerate(_ids(root))}
+    names = {old: f"{name}i{number}" for number, old in enumerate(_ids(root))}
     for element in root.iter():
         for key, value in element.items():
             element.set(key, names[value] if key == "id" else _referring(value, names))
@@ -54,16 +58,31 @@ def _referring(value: str, names: dict[str, str]) -> str:
     return re.sub(r"#([\w-]+)", lambda old: f"#{names.get(old[1], old[1])}", value)
 
 
-def _classes(root: Element, name: str) -> list[str]:
-    """Rules, one for each look; elements have its class instead."""
+def _looks(root: Element, name: str) -> dict[str, str]:
+    """Names of classes by their declarations, which elements have instead."""
     looks: dict[str, str] = {}
     for element in root.iter():
         look = ";".join(filter(None, (element.attrib.pop("style", ""), *_paints(element))))
-        if look and look != "fill:none":
-            element.set("class", looks.setdefault(look, f"{name}-s{len(looks)}"))
-        elif look:
+        if look == "fill:none":
             element.set("fill", "none")
-    return [f".{named}{{{themed(look)}}}" for look, named in looks.items()]
+        elif look:
+            element.set("class", looks.setdefault(look, f"{name}s{len(looks)}"))
+    return looks
+
+
+def _hoist(root: Element, inherited: set[str]) -> None:
+    """Of signs in one group that all look alike, their group has the class, if it is one that is `inherited`."""
+    for group in root.iter("g"):
+        looks = {child.get("class", "") for child in group}
+        if (
+            {child.tag for child in group} == {"use"}
+            and len(looks) == 1
+            and looks <= inherited
+            and not group.get("class")
+        ):
+            group.set("class", looks.pop())
+            for child in group:
+                child.attrib.pop("class", None)
 
 
 def _paints(element: Element) -> list[str]:

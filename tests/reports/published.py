@@ -38,7 +38,7 @@ def is_self_contained(files: Files) -> None:
     page = files["index.html"].decode()
     figures = [name for name in files if name.endswith(".svg")]
     assert figures
-    assert len(re.findall(r'<svg class="figure\d+" role="img"', page)) == len(figures)
+    assert len(re.findall(r'<svg class="f\d+" role="img"', page)) == len(figures)
     assert not re.findall(r'(?:src|href)="(?:https?:)?//', page)
 
 
