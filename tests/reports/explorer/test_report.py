@@ -7,9 +7,11 @@ from pathlib import Path
 
 import pytest
 from axe_playwright_python.sync_playwright import Axe
+from matplotlib.colors import to_hex
 from playwright.sync_api import Browser, Locator, Page, expect
 
 from reports.charts.panels import method_panel
+from reports.drawing.dark import DARK_GROUND, contrast
 from reports.pages import alive
 from sched_sim.costs.table_file import load_costs
 from sched_sim.design.timing import Timing
@@ -31,6 +33,9 @@ UNREACHED = """[...document.querySelectorAll("table, pre")].filter(
     (it) => it.getBoundingClientRect().right > innerWidth && !it.closest("[tabindex='0']")
 ).map((it) => it.outerHTML)
 """
+FILLS = """(svg) => [":scope > path", "text"].map(
+    (which) => getComputedStyle(svg.querySelector(which)).fill.match(/[0-9]+/g).slice(0, 3).map(Number)
+)"""
 THINNED = """[...document.querySelectorAll(".ss-picture > svg > :not(title), tbody tr:nth-child(n + 3)")].forEach(
     (it) => it.remove()
 )"""
@@ -202,6 +207,18 @@ def test_on_a_phone_a_figure_opens_to_full_size_by_button_and_by_tap(visit: Visi
         touch()
         assert button.get_attribute("aria-pressed") == "false"
         assert region.count() == 0
+
+
+def test_figures_follow_the_theme_while_the_page_is_open(visit: Visit) -> None:
+    page = opened(visit)
+    still = picture(page, "costs.svg")
+    seen = []
+    for theme in ({"color_scheme": "light"}, {"color_scheme": "dark"}, {"forced_colors": "active"}):
+        page.emulate_media(**theme)  # type: ignore[arg-type]
+        ground, text = (to_hex([part / 255 for part in fill]) for fill in still.evaluate(FILLS))
+        seen.append(ground)
+        assert contrast(ground, text) >= 4.5
+    assert seen[:2] == ["#ffffff", DARK_GROUND]
 
 
 def test_keys_skip_to_the_report_and_each_place_is_seen(visit: Visit) -> None:
