@@ -1,36 +1,20 @@
-"""Numbers of several sources beside one another: what each job costs, and Table 4. Takes the numbers as they are."""
+"""What each job costs, by several sources beside one another."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import NamedTuple
+from collections.abc import Mapping
 
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from reports.charts.panels import METHOD_NAMES
-from reports.drawing.legend import draw_legend, legend_height, line_entry
-from reports.drawing.style import (
-    FONT_PT,
-    PALE,
-    SOURCE_LINES,
-    TITLE_PT,
-    WIDTH_MM,
-    axes_at,
-    drawing,
-    page,
-    text_width_mm,
-)
+from reports.drawing.legend import draw_legend, legend_height
+from reports.drawing.style import FONT_PT, PALE, WIDTH_MM, axes_at, drawing, page, text_width_mm
+from reports.steffes.signs import check_sources, row_name, sign, source_entries
 from sched_sim.costs.methods import KINDS
 from sched_sim.costs.table import CostTable
-from sched_sim.design.timing import Timing
-from sched_sim.errors import InputError
 
-ROW_MM, TITLE_MM, AXIS_MM, GAP_MM, EDGE_MM, RIGHT_MM = 4.6, 6.0, 10.5, 6.0, 2.0, 5.0
-SPEED_UNIT = "standard steps per HR period"
-NARROWEST = 0.15
-"""An axis shows at least this share of its numbers to either side, so that alike numbers look alike."""
+ROW_MM, AXIS_MM, EDGE_MM, RIGHT_MM = 4.6, 10.5, 2.0, 5.0
 
 KIND_NAMES = {
     "propagate": "propagate",
@@ -70,22 +54,15 @@ KIND_NAMES = {
 }
 
 
-class Speeds(NamedTuple):
-    """One cell of Table 4: the least speed of a method in a design, by each source that has it ("paper", ...)."""
-
-    timing: Timing
-    method: str
-    by_source: Mapping[str, float]
-
-
 def cost_figure(tables: Mapping[str, CostTable]) -> Figure:
     """What each job costs by each table, the standard filter's propagate + update being 1; one row for each job that
-    at least two tables have (all jobs, if there is one table). A line goes from the minimum to the 95th percentile.
+    at least two tables have (all jobs, if there is one table). A bar goes from the minimum to the 95th percentile.
 
-    tables: by the names that the legend gives them, at most five.
-    Raises InputError for more tables, and for one without the standard filter's costs.
+    tables: by their source, of `SOURCES`.
+    Raises InputError for another source, and for a table without the standard filter's costs.
     """
-    _check(list(tables))
+    sources = list(tables)
+    check_sources(sources)
     normalised = {name: table.normalised() for name, table in tables.items()}
     shown = [
         (method, kind)
@@ -98,7 +75,7 @@ def cost_figure(tables: Mapping[str, CostTable]) -> Figure:
         width = WIDTH_MM - left - RIGHT_MM
         methods = list(dict.fromkeys(method for method, _ in shown))
         height = ROW_MM * (len(shown) + len(methods))
-        legend = [line_entry(name, line, dashes=False) for name, line in zip(tables, SOURCE_LINES, strict=False)]
+        legend = source_entries(sources)
         figure = page(EDGE_MM + height + AXIS_MM + legend_height(legend, width) + EDGE_MM)
         axes = axes_at(figure, left, EDGE_MM, width, height)
         y, rows = 0, {}
@@ -107,95 +84,18 @@ def cost_figure(tables: Mapping[str, CostTable]) -> Figure:
             y += 1
             for kind in [kind for of_method, kind in shown if of_method == method]:
                 rows[y] = f"{METHOD_NAMES[method]}, {KIND_NAMES[kind]}"
-                _row_name(axes, y, KIND_NAMES[kind])
-                for number, (name, table) in enumerate(normalised.items()):
+                row_name(axes, y, KIND_NAMES[kind])
+                for source, table in normalised.items():
                     cost = table.costs.get(method, {}).get(kind)
                     if cost is not None:
-                        _dot(axes, float(cost.minimum), y, name, number, len(tables), until=float(cost.p95))
+                        ends = float(cost.minimum), float(cost.p95)
+                        sign(axes, ends[0], y, source, sources, interval=ends)
                 y += 1
         axes.fmt_ydata = lambda at: rows[round(at)]
         axes.set(xlim=(0, axes.get_xlim()[1]), ylim=(y - 0.5, -0.5), yticks=[])
-        _finish(axes, "cost (standard filter's propagate + update = 1)")
+        axes.spines[["left", "right", "top"]].set_visible(False)
+        axes.xaxis.set_major_locator(MaxNLocator(nbins=7, steps=[1, 2, 5, 10]))
+        axes.grid(axis="x", color=PALE, lw=0.5)
+        axes.set_xlabel("cost (standard filter's propagate + update = 1)", labelpad=2)
         draw_legend(figure, legend, left, EDGE_MM + height + AXIS_MM, width)
         return figure
-
-
-def table4_figure(cells: Sequence[Speeds]) -> Figure:
-    """Table 4 as dots: a row for each design, a plot for each method, a sign for each source.
-
-    At most five sources. Raises InputError for more.
-    """
-    sources = list(dict.fromkeys(source for cell in cells for source in cell.by_source))
-    _check(sources)
-    designs = list(dict.fromkeys(cell.timing for cell in cells))
-    methods = list(dict.fromkeys(cell.method for cell in cells))
-    with drawing():
-        left = EDGE_MM + 2.0 + max(text_width_mm(_design(timing)) for timing in designs)
-        across = WIDTH_MM - left - RIGHT_MM
-        width = (across - GAP_MM * (len(methods) - 1)) / len(methods)
-        height = 1.3 * ROW_MM * len(designs)
-        legend = [line_entry(name, line, dashes=False) for name, line in zip(sources, SOURCE_LINES, strict=False)]
-        legend_top = EDGE_MM + TITLE_MM + height + AXIS_MM
-        figure = page(legend_top + legend_height(legend, across) + EDGE_MM)
-        for column, method in enumerate(methods):
-            axes = axes_at(figure, left + column * (width + GAP_MM), EDGE_MM + TITLE_MM, width, height)
-            axes.set_title(METHOD_NAMES[method], loc="left", size=TITLE_PT, weight="bold")
-            for y, timing in enumerate(designs):
-                _row_name(axes, y, _design(timing) if column == 0 else "")
-                row_speeds = [cell.by_source for cell in cells if (cell.timing, cell.method) == (timing, method)]
-                for by_source in row_speeds:
-                    for source, speed in by_source.items():
-                        _dot(axes, speed, y, source, sources.index(source), len(sources))
-            axes.fmt_ydata = lambda at: _design(designs[round(at)])
-            speeds = [speed for cell in cells if cell.method == method for speed in cell.by_source.values()]
-            low, high = min(speeds), max(speeds)
-            room = max(0.06 * (high - low), NARROWEST * low)
-            axes.set(xlim=(low - room, high + room), ylim=(len(designs) - 0.5, -0.5), yticks=[])
-            _finish(axes, f"least speed ({SPEED_UNIT})" if column == len(methods) // 2 else "")
-        draw_legend(figure, legend, left, legend_top, across)
-        return figure
-
-
-def _check(sources: Sequence[str]) -> None:
-    if not 1 <= len(sources) <= len(SOURCE_LINES):
-        raise InputError(
-            f"{len(sources)} sources of numbers ({', '.join(sources)}): give 1 to {len(SOURCE_LINES)}, so that each "
-            f"has a sign of its own"
-        )
-
-
-def _design(timing: Timing) -> str:
-    return f"$N={timing.N}$, $M={timing.M}$, $L={timing.L}$"
-
-
-def _row_name(axes: Axes, y: float, name: str) -> None:
-    axes.axhline(y, color=PALE, lw=0.5, zorder=0.5)
-    axes.annotate(
-        name, (0, y), (-4, 0), xycoords=axes.get_yaxis_transform(), textcoords="offset points", ha="right", va="center"
-    )
-
-
-def _dot(
-    axes: Axes, value: float, y: float, source: str, number: int, count: int, *, until: float | None = None
-) -> None:
-    """The sign of a source, whose number it is, a little above or below the others of its row."""
-    line = SOURCE_LINES[number]
-    at = y + 0.62 * ((number + 0.5) / count - 0.5)
-    if until is not None and until > value:
-        axes.plot([value, until], [at, at], color=line.colour, lw=0.8, zorder=2)
-    axes.plot(
-        [value],
-        [at],
-        line.marker,
-        color=line.colour,
-        ms=line.size,
-        mew=1.3 if line.marker == "|" else 0,
-        zorder=3,
-        label=source,
-    )
-
-
-def _finish(axes: Axes, label: str) -> None:
-    axes.spines[["left", "right", "top"]].set_visible(False)
-    axes.xaxis.set_major_locator(MaxNLocator(nbins=7, steps=[1, 2, 5, 10]))
-    axes.set_xlabel(label, labelpad=2)

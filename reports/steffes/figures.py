@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from math import ceil, floor, log, log10
+from math import log
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.patheffects import AbstractPathEffect, withStroke
-from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullLocator
+from matplotlib.ticker import MaxNLocator
 
 from reports.charts.panels import METHOD_NAMES
 from reports.drawing.legend import draw_legend, legend_height, line_entry
 from reports.drawing.placing import spread
 from reports.drawing.style import GREY, INK, METHOD_LINES, PALE, SMALL_PT, TITLE_PT, WIDTH_MM, axes_at, drawing, page
-from reports.steffes.comparisons import SPEED_UNIT, Speeds, cost_figure, table4_figure
 from reports.steffes.curves import achieved_curve, hr_limit, knee, speed_grid
+from reports.steffes.signs import OUTLINE
+from reports.steffes.speeds import SPEED_UNIT, speed_ticks
 from sched_sim.costs.methods import PAPER_METHODS
 from sched_sim.costs.table import CostTable
 from sched_sim.design.least_speed import Stair, staircase
@@ -23,17 +23,12 @@ from sched_sim.design.methods import METHODS, select
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import DualRateCosts
 
-__all__ = ["Speeds", "achieved_figure", "cost_figure", "least_speed_figure", "table4_figure"]
-
 Design = tuple[int, int]
 """(N, M)."""
 
 LEFT_MM, RIGHT_MM, GAP_MM, TITLE_MM, PLOT_MM, AXIS_MM, EDGE_MM = 13.0, 11.0, 21.0, 6.0, 56.0, 12.0, 2.0
-SPEEDS_SHOWN = (1.0, 1.5, 2.0, 3.0, 5.0, 7.0)
-"""In each decade."""
 CURVE_POINTS = 400
 MARKER_PT = 3.5
-OUTLINE: list[AbstractPathEffect] = [withStroke(linewidth=2.5, foreground="white")]
 
 
 def least_speed_figure(
@@ -56,7 +51,7 @@ def least_speed_figure(
             axes.set(xlim=(M - margin, N + margin), ylim=limits)
             axes.set_xlabel("$L$ asked for (high-rate steps after $k$)", labelpad=2)
             axes.xaxis.set_major_locator(MaxNLocator(nbins=7, integer=True))
-            _speed_ticks(axes, "y", limits)
+            speed_ticks(axes, "y", limits)
             levels = []
             for method, stairs in flights[design].items():
                 line = METHOD_LINES[method]
@@ -108,7 +103,7 @@ def achieved_figure(
             axes.set(xlim=(slowest, fastest), ylim=(-0.05 * latest, 1.12 * latest))
             axes.yaxis.set_major_locator(MaxNLocator(nbins=7, integer=True))
             axes.grid(axis="y", color=PALE, lw=0.5)
-            _speed_ticks(axes, "x", (slowest, fastest))
+            speed_ticks(axes, "x", (slowest, fastest))
             axes.set_xlabel(f"speed ({SPEED_UNIT})", labelpad=2)
         plots[0].set_ylabel("$L$ achieved (high-rate steps after $k$)", labelpad=2)
         return figure
@@ -143,18 +138,6 @@ def _sheet(designs: Sequence[Design]) -> tuple[Figure, list[Axes]]:
         plots.append(axes)
     draw_legend(figure, legend, LEFT_MM, legend_top, across)
     return figure, plots
-
-
-def _speed_ticks(axes: Axes, which: str, limits: tuple[float, float]) -> None:
-    """A logarithmic axis of speeds with numbers as people write them."""
-    axis = axes.yaxis if which == "y" else axes.xaxis
-    (axes.set_yscale if which == "y" else axes.set_xscale)("log")
-    decades = range(floor(log10(limits[0])), ceil(log10(limits[1])))
-    speeds = [float(f"{speed}e{decade}") for decade in decades for speed in SPEEDS_SHOWN]
-    axis.set_major_locator(FixedLocator([speed for speed in speeds if limits[0] <= speed <= limits[1]]))
-    axis.set_minor_locator(NullLocator())
-    axis.set_major_formatter(FuncFormatter(lambda speed, _: f"{speed:g}"))
-    axes.grid(axis="y" if which == "y" else "x", color=PALE, lw=0.5)
 
 
 def _dual_rate_stairs(axes: Axes, stairs: Sequence[Stair]) -> None:

@@ -23,7 +23,7 @@ from sched_sim.design.options import Options
 from sched_sim.design.pieces import Statistic
 from sched_sim.design.simulate import simulate
 from sched_sim.design.timing import Timing
-from studies import steffes
+from studies.steffes import tables as steffes
 
 TITLE = "Steffes 2014, regenerated: which processor a delayed-measurement Kalman filter needs"
 FIGURE_3 = Timing(10, 4, 8)

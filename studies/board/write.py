@@ -83,6 +83,12 @@ def board_files(wanted: Filter) -> dict[str, str]:
     return assembled(about_filter(wanted), dense, in_c, _around(wanted, jobs, in_c))
 
 
+def array_sizes(wanted: Filter) -> Mapping[str, int]:
+    """How many numbers each array of state.h has, the model's not among them. Raises as `board_files`."""
+    jobs = _jobs(wanted)
+    return _around(wanted, jobs, translated(jobs, wanted.precision)).sizes
+
+
 def _jobs(wanted: Filter) -> Mapping[str, Job]:
     """The functions that are written."""
     jobs = ALL_METHODS[wanted.method].jobs(wanted.system, wanted.update, 0, wanted.x0)

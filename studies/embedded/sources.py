@@ -19,7 +19,7 @@ from sched_sim.design.timing import Timing
 from studies.measurement.emulation.targets import TARGETS
 from studies.measurement.job_times import Progress, silent
 from studies.measurement.methods import BackendName, measure
-from studies.steffes import cases
+from studies.steffes.tables import cases
 
 SIZES = (9, 3, 3)
 """States, inputs, measurements."""

@@ -6,7 +6,7 @@ import re
 
 from sched_sim.costs.table_file import load_costs
 from sched_sim.design.timing import Timing
-from studies.steffes import cells, least_speeds
+from studies.steffes.tables import cells, least_speeds
 from tests.docs.test_examples import ROOT
 
 

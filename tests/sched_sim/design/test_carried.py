@@ -19,7 +19,7 @@ from sched_sim.design.methods import method_of, select
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import CarriedGainInFlightCosts, CloneInFlightCosts
 from sched_sim.design.timing import Timing
-from studies.steffes import cases
+from studies.steffes.tables import cases
 from tests.designs import ticks
 
 COUNTED = load_costs("counted-9-3-3")

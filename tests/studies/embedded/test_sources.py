@@ -12,7 +12,7 @@ from reports.embedded.results import shipped
 from sched_sim.costs.table import Cost
 from studies.embedded.sources import DESIGNS, EMULATED, FIRST, FORMS, METHODS, NATIVE, counted, relative_speed, table_of
 from studies.measurement.methods import measure
-from studies.steffes import least_speeds
+from studies.steffes.tables import least_speeds
 
 
 def test_relative_speeds_are_those_of_table_4() -> None:

@@ -11,7 +11,7 @@ from filters.systems.example import example_system
 from sched_sim.costs.methods import PAPER_METHODS
 from sched_sim.costs.table_file import load_costs
 from studies.measurement.methods import measure
-from studies.steffes import cases, cells, deviation, entries, least_speeds
+from studies.steffes.tables import cases, cells, deviation, entries, least_speeds
 
 
 def test_the_printed_entries_are_what_the_shipped_table_says() -> None:
