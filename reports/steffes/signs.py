@@ -67,14 +67,17 @@ def sign(
     sources: Sequence[str],
     *,
     interval: tuple[float, float] | None = None,
+    scale: float = 1.0,
 ) -> None:
-    """A source's sign in its own lane of a row, with a bar over its interval."""
+    """A source's sign in its own lane of a row, with a bar over its interval. scale: of the sign."""
     line, lane = SOURCES[source], SHARE / len(sources)
     at = y + lane * (sources.index(source) + 0.5) - SHARE / 2
     if interval is not None and interval[0] < interval[1]:
         low, high = interval
         axes.add_patch(
-            Rectangle((low, at - 0.4 * lane), high - low, 0.8 * lane, facecolor=line.colour, alpha=0.35, lw=0, zorder=2)
+            Rectangle((low, at - 0.4 * lane), high - low, 0.8 * lane, facecolor=line.colour, alpha=0.45, lw=0, zorder=2)
         )
     edge = 1.3 if line.marker == "|" else 0
-    axes.plot([value], [at], line.marker, color=line.colour, ms=line.size, mew=edge, zorder=3, label=shown(source))
+    axes.plot(
+        [value], [at], line.marker, color=line.colour, ms=scale * line.size, mew=edge, zorder=3, label=shown(source)
+    )

@@ -15,7 +15,9 @@ from reports.steffes.signs import check_sources, row_name, sign, source_entries
 from reports.steffes.speeds import SPEED_UNIT, speed_ticks
 from sched_sim.design.timing import Timing
 
-ROW_MM, HEAD_MM, AXIS_MM, EDGE_MM, RIGHT_MM = 4.4, 4.2, 10.5, 2.0, 5.0
+ROW_MM, HEAD_MM, AXIS_MM, EDGE_MM, RIGHT_MM = 5.6, 4.6, 10.5, 2.0, 18.0
+SIGN_SCALE = 0.6
+"""So that intervals are seen behind signs."""
 
 
 class Speeds(NamedTuple):
@@ -51,7 +53,7 @@ def table4_figure(cells: Sequence[Speeds]) -> Figure:
         speed_ticks(axes, "x", limits)
         names, y = {}, -0.5
         for timing in designs:
-            text = f"$N={timing.N}$, $M={timing.M}$, $L={timing.L}$"
+            text = f"N = {timing.N}, M = {timing.M}, L = {timing.L}"
             axes.text(
                 0.0, y + head / 2, text, transform=axes.get_yaxis_transform(), va="center", weight="bold", size=FONT_PT
             )
@@ -60,7 +62,7 @@ def table4_figure(cells: Sequence[Speeds]) -> Figure:
                 names[round(y, 3)] = f"{METHOD_NAMES[cell.method]}, N = {timing.N}, M = {timing.M}, L = {timing.L}"
                 row_name(axes, y, METHOD_NAMES[cell.method])
                 for source, speed in cell.by_source.items():
-                    sign(axes, speed, y, source, sources, interval=cell.intervals.get(source))
+                    sign(axes, speed, y, source, sources, interval=cell.intervals.get(source), scale=SIGN_SCALE)
                 if cell.note:
                     beside = max([*cell.by_source.values(), *sum(cell.intervals.values(), ())])
                     axes.annotate(

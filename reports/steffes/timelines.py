@@ -32,10 +32,10 @@ from sched_sim.schedule.intervals import JobSpan, bars, jobs, rows
 LEFT_MM, RIGHT_MM, MARKS_MM, AXIS_MM, KEY_LINE_MM, EDGE_MM = 12.0, 7.0, 5.0, 6.5, 4.6, 2.0
 
 STEPS = (
-    r"each step $j$: $\hat{x}_{j^-}$, Eq. (6); $\Phi$, $Q$ from $k-N$ to $j$, Eqs. (15)-(18)",
+    r"each step $j$: $\hat{x}_{j^-}$, Eq. (6); $\Phi$, $Q$ from $k-N$ to $j$, Eqs. (15)–(18)",
     r"at $k$: $\Phi_{(k-N)\rightarrow k}$, $Q_{(k-N)\rightarrow k}$ to the LR task",
     r"LR propagate: $P_{k^-}$, Eq. (14)",
-    r"from $m$ on, LR update: $\delta\hat{x}_{k^+}$, $P_{k^+}$, Eqs. (9)-(11)",
+    r"from $m$ on, LR update: $\delta\hat{x}_{k^+}$, $P_{k^+}$, Eqs. (9)–(11)",
     r"$\delta\hat{x}_{k^+}$ to the HR task",
     r"at $l$, HR update: $\delta\hat{x}_{l^-}$, Eq. (13); reset, Eq. (19)",
 )

@@ -115,7 +115,12 @@ def _approximated(name: str, system: System, P0: FloatArray, cycles: int) -> Ite
     for number, noise in enumerate(APPROXIMATIONS, start=1):
         off = _beside(runs[noise].P_reference[-1], right) - 1
         more = np.sqrt(_beside(true[number], true[0]).max()) - 1
-        yield Approximated(name, noise, share, float(np.abs(off).max()), float(more))
+        yield Approximated(name, noise, *(_digits(value) for value in (share, np.abs(off).max(), more)))
+
+
+def _digits(value: float) -> float:
+    """Three of them, which are the same on every machine."""
+    return float(f"{value:.3g}")
 
 
 def _over_a_cycle(system: System, first: int) -> FloatArray:

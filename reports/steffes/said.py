@@ -1,0 +1,228 @@
+"""What the prose of the report says in numbers: each from the tables and figures it speaks of."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+from typing import Any
+
+from reports.charts.panels import METHOD_NAMES
+from reports.pages.machine import residue
+from reports.pages.numbers import significant
+from reports.steffes.processors import SWITCHES, Variant
+from reports.steffes.rows import BY_L, CYCLES, SMALL_DELAYS, ends, least, number, power, span
+from reports.steffes.timelines import serial_costs
+from reports.steffes.waiting import Waited, by_wait, off_the_curve
+from sched_sim.costs.table import CostTable
+from sched_sim.design.least_speed import achieved_l, least_speed
+from sched_sim.design.load import utilization
+from sched_sim.design.methods import select
+from sched_sim.design.options import Options
+from sched_sim.design.pieces import DualRateCosts
+from sched_sim.design.timing import Timing
+from studies.steffes import tables as steffes
+from studies.steffes.agreement import FLOOR, Agreement
+from studies.steffes.equations import EQUATIONS
+from studies.steffes.memory import Memory
+from studies.steffes.noise import Approximated
+from studies.steffes.products import Multiplies
+
+FIGURE_3 = Timing(10, 4, 8)
+WASTE = Timing(100, 10, 80)
+ONE_HUNDREDTH = Fraction(1, 100)
+
+
+def percent(share: Fraction | float, digits: int = 0) -> str:
+    return f"{100 * float(share):.{digits}f} %"
+
+
+def about_tables(tables: Mapping[str, CostTable], cells: Sequence[steffes.Cell]) -> dict[str, Any]:
+    """Of Tables 1 to 4."""
+    speeds = {
+        method: {name: ends(table, method, FIGURE_3) for name, table in tables.items()}
+        for method in ("larsen", "dual-rate")
+    }
+    shares = [speeds["dual-rate"][name][0] / speeds["larsen"][name][0] for name in ("printed", "counted")]
+    return {
+        "cells": len(cells),
+        "reached": sum(cell.reached for cell in cells),
+        "figures": len({(cell.method, cell.printed) for cell in cells if not cell.reached}),
+        "counted_deviation": f"{steffes.deviation(tables['counted']):.3f}",
+        "measured_deviation": f"{steffes.deviation(tables['measured']):.3f}",
+        "least": {name: span(*of) for name, of in speeds["dual-rate"].items()},
+        "larsen": {name: span(*of) for name, of in speeds["larsen"].items()},
+        "here": [number(speeds[method]["printed"][0], 2) for method in ("dual-rate", "larsen")],
+        "share": percent(shares[0]),
+        "counted_share": percent(shares[1]),
+        "later": FIGURE_3.L - FIGURE_3.M,
+        "cycles": CYCLES,
+    }
+
+
+def not_reached(cells: Sequence[steffes.Cell]) -> list[str]:
+    """One text for each printed figure that the rounding of Tables 1-3 cannot give."""
+    why = {
+        "recalculate": "Table 1 prints 2.36 for the update at M = 4, which is 0.56 and four replayed steps of 0.45; "
+        "ten replayed steps make 0.45 + 0.56 + 10 × 0.45 = 5.51. The printed figure lies 1 % below what its own "
+        "Table 1 extrapolates to.",
+        "dual-rate": "The printed figure is HR propagate + LR update / (L − M) = 0.63 + 0.56 / 70. But step l also "
+        "runs the HR update: that step alone needs 0.63 + 0.03 = 0.66.",
+    }
+    texts: dict[tuple[str, Fraction], str] = {}
+    for cell in cells:
+        if not cell.reached:
+            N, M, L = cell.timing.N, cell.timing.M, cell.timing.L
+            texts.setdefault(
+                (cell.method, cell.printed),
+                f"**{number(cell.printed, 2)}** ({METHOD_NAMES[cell.method]}, N = {N}, M = {M}"
+                + (f", L = {L}" if cell.method == "dual-rate" else ", printed for both values of L")
+                + f"), where the analysis gives {number(cell.computed.speed, 2)}. {why[cell.method]}",
+            )
+    return list(texts.values())
+
+
+def about_serial(paper: CostTable) -> dict[str, Any]:
+    """Of Fig. 1."""
+    costs = serial_costs(paper)
+    speed = least_speed(costs, FIGURE_3).speed
+    return {
+        "N": FIGURE_3.N,
+        "propagate": number(costs.propagate, 2),
+        "update": number(costs.update, 2),
+        "speed": number(speed, 2),
+        "unused": percent(1 - utilization(costs, FIGURE_3, speed)),
+    }
+
+
+def about_waiting(paper: CostTable, found: Sequence[Waited]) -> dict[str, Any]:
+    """Of least speed against L - M."""
+    costs = select(paper, "dual-rate")
+    assert isinstance(costs, DualRateCosts)
+    off = list(off_the_curve(found, paper))
+    floor = costs.hr + costs.hr_update
+    last = least(paper, "dual-rate", WASTE)
+    return {
+        "designs": len(found),
+        "on": len(found) - len(off),
+        "off": len(off),
+        "off_M": ", ".join(map(str, sorted({one.timing.M for one in off}))),
+        "off_speed": number(max(one.speed for one in off), 2),
+        "floor": number(floor, 2),
+        "one": number(by_wait(costs, 1), 2),
+        "enough": next(steps for steps in range(1, WASTE.N) if by_wait(costs, steps) == floor),
+        "waste": {
+            "N": WASTE.N,
+            "M": WASTE.M,
+            "L": WASTE.L,
+            "speed": number(last),
+            "achieved": achieved_l(costs, WASTE, last),
+        },
+    }
+
+
+def about_agreement(found: Agreement) -> dict[str, Any]:
+    low, high = found.while_waiting
+    return {
+        "state": power(residue(found.elsewhere)),
+        "covariance": power(residue(found.of_covariance)),
+        "floor": power(residue(FLOOR)),
+        "low": percent(low),
+        "high": percent(high),
+        "steps": len(found.waiting) - 1,
+    }
+
+
+def about_products(counted: Sequence[Multiplies], memory: Sequence[Memory]) -> dict[str, Any]:
+    exact, summed, larsen = (
+        ("dual-rate", "hr_propagate"),
+        ("dual-rate", "hr_propagate_sum"),
+        ("larsen", "propagate_accumulate"),
+    )
+    assert all(one.more(exact) == one.more(larsen) == -one.more(summed) == one.n**3 for one in counted)
+    of = {one.method: one for one in memory}
+    nine = next(one for one in counted if one.n == 9)
+    return {
+        "sizes": ", ".join(str(one.n) for one in counted),
+        "more": nine.more(exact),
+        "saved": f"{nine.by_job[exact] - nine.by_job[summed]:,}",
+        "of": f"{nine.by_job[exact]:,}",
+        "memory": f"{of['dual-rate'].total / of['larsen'].total:.2f}",
+        "larsen": f"{of['larsen'].total:,}",
+        "dual": f"{of['dual-rate'].total:,}",
+        "larsen_kept": of["larsen"].matrices,
+        "dual_kept": of["dual-rate"].matrices,
+    }
+
+
+def about_processors(found: Sequence[Variant], speeds: Mapping[str, Sequence[Fraction]]) -> dict[str, Any]:
+    """Of one CPU or two, the gain computed early, and of switches."""
+    by_name = {one.name: one for one in found}
+    one, two, early = by_name["one CPU"], by_name["two CPUs"], by_name["one CPU, early gain"]
+    at = SWITCHES.index(ONE_HUNDREDTH)
+    rises = {method: (of[at] - of[0]) / ONE_HUNDREDTH for method, of in speeds.items()}
+    even = (speeds["larsen"][0] - speeds["dual-rate"][0]) / (rises["dual-rate"] - rises["larsen"])
+    return {
+        "one": number(one.speed),
+        "two": number(two.speed),
+        "early": number(early.speed),
+        "lands": {"one": one.lands, "two": two.lands, "early": early.lands},
+        "two_saves": percent(1 - two.speed / one.speed),
+        "early_saves": percent(1 - early.speed / one.speed),
+        "no_switch": number(speeds["dual-rate"][0], 2),
+        "switch": number(speeds["dual-rate"][at], 2),
+        "rises": {method: f"{float(rise):.0f}" for method, rise in rises.items()},
+        "even": number(even, 1),
+    }
+
+
+def about_noise(found: Sequence[Approximated], paper: Mapping[str, CostTable]) -> dict[str, Any]:
+    """Of Q' and Q''."""
+    of = {
+        noise: {
+            "P": percent(max(one.covariance for one in found if one.noise == noise)),
+            "estimate": significant(100 * max(one.estimate for one in found if one.noise == noise), 1) + " %",
+            "small": significant(100 * min(one.covariance for one in found if one.noise == noise), 1) + " %",
+        }
+        for noise in ("sum", "euler")
+    }
+    counted = paper["counted"]
+    return {
+        **of,
+        "least_share": significant(100 * min(one.share for one in found), 1) + " %",
+        "most_share": percent(max(one.share for one in found)),
+        "exact_speed": number(least(counted, "dual-rate", FIGURE_3)),
+        "sum_speed": number(least(counted, "dual-rate", FIGURE_3, Options(low_rate_noise="sum"))),
+    }
+
+
+def about_deadlines(paper: CostTable) -> dict[str, Any]:
+    """Of the rules "by m" and "by l", over every design of the same N: for which M the second needs less, and what
+    share less, from and to."""
+    N, first = FIGURE_3.N, SMALL_DELAYS[0]
+    saved = {}
+    for timing in (Timing(N, M, L) for M in range(N) for L in range(M + 1, N + 1)):
+        by_m, by_l = (least(paper, "dual-rate", timing, options) for options in (Options(), BY_L))
+        saved[timing] = 1 - by_l / by_m
+    less = {timing: share for timing, share in saved.items() if share > 0}
+    return {
+        "by_m": number(least(paper, "dual-rate", first)),
+        "by_l": number(least(paper, "dual-rate", first, BY_L), 4),
+        "N": N,
+        "designs": len(saved),
+        "M": ", ".join(map(str, sorted({timing.M for timing in less}))),
+        "least": percent(min(less.values())),
+        "most": percent(max(less.values())),
+        "here": percent(less[first]),
+    }
+
+
+def equations() -> list[str]:
+    """Each as an item of a list: its maths, then the line of code and where it is."""
+    items = []
+    for one in EQUATIONS:
+        note = f" ({one.note})" if one.note else ""
+        run = (
+            f"`{one.line}`, in `{one.function.__name__}`, {one.file}{note}" if one.function else f"no line: {one.note}"
+        )
+        items.append(f"**({one.number})** {one.maths}<br>{run}")
+    return items
