@@ -11,10 +11,11 @@ from reports.drawing.legend import Entry, line_entry
 from reports.drawing.sheet import label, sheet
 from reports.drawing.style import SOURCE_LINES, Line, drawing
 from reports.steffes.signs import hollow_entry
+from reports.steffes.speeds import Dashes
 from studies.steffes.noise import Approximated
 
 HEIGHT_MM = 48.0
-SYSTEMS = {"turning": "-", "inertial": (0, (4.0, 1.5))}
+SYSTEMS: dict[str, Dashes] = {"turning": "-", "inertial": (0, (4.0, 1.5))}
 NOISES = {"sum": SOURCE_LINES[1], "euler": SOURCE_LINES[2]}
 NAMES = {"sum": "$Q'$", "euler": "$Q''$"}
 SHARE = "mean share of $Q_{k-N\\to k}$ in $P_{k^-}$"

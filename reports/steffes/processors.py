@@ -14,7 +14,7 @@ from reports.drawing.legend import line_entry
 from reports.drawing.sheet import label, sheet
 from reports.drawing.style import METHOD_LINES, PALE, SOURCE_LINES, drawing
 from reports.steffes.curves import achieved_curve, speed_grid
-from reports.steffes.speeds import SPEED_UNIT
+from reports.steffes.speeds import SPEED_UNIT, Dashes
 from sched_sim.costs.table import CostTable
 from sched_sim.design.least_speed import achieved_l, least_speed, staircase
 from sched_sim.design.methods import select
@@ -30,7 +30,7 @@ VARIANTS = {
     "two CPUs, early gain": Options(cpus=2, gain="precomputed"),
 }
 LINES = dict(zip(VARIANTS, SOURCE_LINES[1:], strict=False))
-DASHES = ("-", (0, (4.0, 1.5)), (0, (1.0, 1.2)), (0, (5.0, 1.5, 1.0, 1.5)))
+DASHES: tuple[Dashes, ...] = ("-", (0, (4.0, 1.5)), (0, (1.0, 1.2)), (0, (5.0, 1.5, 1.0, 1.5)))
 SWITCHES = tuple(Fraction(hundredths, 100) for hundredths in (0, 1, 2, 5, 10, 20, 40, 60, 80))
 """What a switch takes, in standard steps."""
 

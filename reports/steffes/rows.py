@@ -154,8 +154,8 @@ def agreement(found: Agreement) -> Rows:
     N, methods = found.timing.N, list(found.state)
     rows: Rows = [["step", "m to l − 1", *(f"{METHOD_NAMES[of]}, {what}" for what in ("state", "P") for of in methods)]]
     for j, waiting in enumerate(found.waiting.tolist()):
-        states = [f"{found.state[method][j]:.1e}" for method in methods]
-        covariances = ["" if j % N else f"{found.covariance[method][j // N]:.1e}" for method in methods]
+        states = [f"{found.state[method][j]:.2e}" for method in methods]
+        covariances = ["" if j % N else f"{found.covariance[method][j // N]:.2e}" for method in methods]
         rows.append([j, "yes" if waiting else "no", *states, *covariances])
     return rows
 

@@ -5,19 +5,22 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
 
 from reports.charts.panels import METHOD_NAMES
 from reports.drawing.axes import plain
 from reports.drawing.legend import draw_legend, legend_height
-from reports.drawing.style import FONT_PT, SMALL_PT, WIDTH_MM, axes_at, drawing, page, text_width_mm
+from reports.drawing.style import FONT_PT, SMALL_PT, SOURCES, WIDTH_MM, axes_at, drawing, page, text_width_mm
 from reports.steffes.signs import check_sources, row_name, sign, source_entries
 from reports.steffes.speeds import SPEED_UNIT, speed_ticks
 from sched_sim.design.timing import Timing
 
 ROW_MM, HEAD_MM, AXIS_MM, EDGE_MM, RIGHT_MM = 5.6, 4.6, 10.5, 2.0, 18.0
-SIGN_SCALE = 0.6
-"""So that intervals are seen behind signs."""
+SIGN_SCALE = 0.75
+BAND = "analysis"
+"""Whose interval goes over the whole row: what rounding leaves open to the printed figure too."""
 
 
 class Speeds(NamedTuple):
@@ -61,8 +64,10 @@ def table4_figure(cells: Sequence[Speeds]) -> Figure:
             for cell in (cell for cell in cells if cell.timing == timing):
                 names[round(y, 3)] = f"{METHOD_NAMES[cell.method]}, N = {timing.N}, M = {timing.M}, L = {timing.L}"
                 row_name(axes, y, METHOD_NAMES[cell.method])
+                _band(axes, cell, y)
                 for source, speed in cell.by_source.items():
-                    sign(axes, speed, y, source, sources, interval=cell.intervals.get(source), scale=SIGN_SCALE)
+                    interval = None if source == BAND else cell.intervals.get(source)
+                    sign(axes, speed, y, source, sources, interval=interval, scale=SIGN_SCALE)
                 if cell.note:
                     beside = max([*cell.by_source.values(), *sum(cell.intervals.values(), ())])
                     axes.annotate(
@@ -76,3 +81,10 @@ def table4_figure(cells: Sequence[Speeds]) -> Figure:
         axes.set_xlabel(f"least speed ({SPEED_UNIT})", labelpad=2)
         draw_legend(figure, legend, left, legend_top, across)
         return figure
+
+
+def _band(axes: Axes, cell: Speeds, y: float) -> None:
+    if BAND in cell.intervals:
+        low, high = cell.intervals[BAND]
+        box = Rectangle((low, y - 0.42), high - low, 0.84, facecolor=SOURCES[BAND].colour, alpha=0.35, lw=0, zorder=1)
+        axes.add_patch(box)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
@@ -96,7 +96,7 @@ def waiting_figure(table: CostTable) -> Figure:
         for family, line in LINES.items():
             of = sorted({(one.waits, one.speed) for one in found if one.family == family})
             across, up = [waits for waits, _ in of], [float(speed) for _, speed in of]
-            look = {"mfc": "white", "mec": line.colour, "mew": 0.9, "ms": SIZES[family]}
+            look: dict[str, Any] = {"mfc": "white", "mec": line.colour, "mew": 0.9, "ms": SIZES[family]}
             axes.plot(across, up, line.marker, color=line.colour, zorder=3, label=family, **look)
         knee = next(step for step in steps if by_wait(costs, step) == costs.hr + costs.hr_update)
         axes.axvline(knee, color=GREY, lw=0.7, ls=(0, (2, 1.5)), zorder=1)

@@ -118,14 +118,14 @@ def test_a_label_without_its_formula_signs(label: str, said: str) -> None:
 
 
 def test_dots_tell_their_row() -> None:
-    told = readout(cost_figure({"printed": COSTS, "again": COSTS}))
+    told = readout(cost_figure({"printed": COSTS, "counted": COSTS}))
     assert told is not None
     (plot,) = told["plots"]
     assert (plot["x"]["name"], plot["y"]["name"]) == ("cost (standard filter's propagate + update = 1)", "")
     rows = {
         (line["name"], plot["columns"][line["said"]["y"]][0]): plot["columns"][line["x"]][0] for line in plot["lines"]
     }
-    assert rows["printed", "Dual-rate, LR update"] == rows["again", "Dual-rate, LR update"] == 0.56
+    assert rows["printed", "Dual-rate, LR update"] == rows["counted", "Dual-rate, LR update"] == 0.56
     assert rows["printed", "Larsen, update"] == pytest.approx(0.81)
 
 

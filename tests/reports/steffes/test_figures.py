@@ -9,9 +9,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from reports.drawing.style import METHOD_LINES
+from reports.drawing.style import METHOD_LINES, SOURCES
+from reports.steffes.comparisons import cost_figure
 from reports.steffes.curves import achieved_curve, hr_limit, knee, speed_grid
-from reports.steffes.figures import Speeds, achieved_figure, cost_figure, least_speed_figure, table4_figure
+from reports.steffes.figures import achieved_figure, least_speed_figure
+from reports.steffes.signs import shown
+from sched_sim.costs.table import CostTable
 from sched_sim.costs.table_file import load_costs
 from sched_sim.design.least_speed import achieved_l, least_speed, staircase
 from sched_sim.design.methods import select
@@ -105,7 +108,7 @@ def test_plots_can_be_read(draw, table, plots, options) -> None:
 
 
 def test_costs_of_several_tables_beside_one_another() -> None:
-    figure = cost_figure({"paper": PAPER, "counted": COUNTED})
+    figure = cost_figure({"printed": PAPER, "counted": COUNTED})
     assert flaws(figure) == []
     shown = {float(line.get_xdata()[0]) for line in figure.axes[0].lines if line.get_marker() in "|o"}
     assert {0.45, 0.66, 0.81, 0.63, 0.04, 0.03, 0.41, 0.56} <= shown
@@ -118,23 +121,23 @@ def test_one_table_shows_all_its_jobs_and_how_far_they_spread() -> None:
     figure = cost_figure({"measured": spread_out})
     assert flaws(figure) == []
     normalised = spread_out.normalised().costs["larsen"]["update"]
-    ranges = [tuple(line.get_xdata()) for line in figure.axes[0].lines if len(line.get_xdata()) == 2]
-    assert (float(normalised.minimum), float(normalised.p95)) in ranges
+    bars = [(bar.get_x(), bar.get_x() + bar.get_width()) for bar in figure.axes[0].patches]
+    assert bars == [pytest.approx((float(normalised.minimum), float(normalised.p95)))]
 
 
-def test_table_4_as_dots() -> None:
-    rows = [(Timing(10, 4, 8), 2.81, 1.47, 0.78), (Timing(100, 10, 80), 5.45, 1.47, 0.64)]
-    cells = [
-        Speeds(timing, method, {"paper": speed, "counted": 1.04 * speed})
-        for timing, *speeds in rows
-        for method, speed in zip(("recalculate", "larsen", "dual-rate"), speeds, strict=True)
-    ]
-    figure = table4_figure(cells)
-    assert flaws(figure) == []
-    dots = [[x for line in axes.lines if line.get_marker() == "|" for x in line.get_xdata()] for axes in figure.axes]
-    assert dots[:3] == [[2.81, 5.45], [1.47, 1.47], [0.78, 0.64]]
+def test_a_source_has_the_same_sign_in_every_figure_and_a_dagger_if_measured() -> None:
+    """By its name, whatever its place."""
+    for tables in (
+        {"counted": COUNTED, "measured": COUNTED},
+        {"measured": COUNTED, "printed": PAPER, "counted": COUNTED},
+    ):
+        lines = [line for line in cost_figure(tables).axes[0].lines if not str(line.get_label()).startswith("_")]
+        looks = {line.get_label(): (line.get_marker(), line.get_color()) for line in lines}
+        assert looks == {shown(source): (SOURCES[source].marker, SOURCES[source].colour) for source in tables}
+        assert "measured †" in looks
 
 
-def test_more_sources_than_signs_are_refused() -> None:
-    with pytest.raises(InputError, match="6 sources of numbers"):
-        cost_figure({str(number): PAPER for number in range(6)})
+@pytest.mark.parametrize("tables", [{}, {"printed": PAPER, "guessed": PAPER}])
+def test_a_source_without_a_sign_is_refused(tables: dict[str, CostTable]) -> None:
+    with pytest.raises(InputError, match=r"sources of numbers .*: give some of 'printed'"):
+        cost_figure(tables)

@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
+import math
+import re
 from dataclasses import replace
 from functools import cache
 
 import pytest
 
+from reports.pages.machine import residue
 from reports.steffes.report import build
+from reports.steffes.rows import power
 from sched_sim.costs.table import Cost, CostTable
 from sched_sim.costs.table_file import read_costs
 from tests.reports import published
+
+METHODS = ("Larsen", "Recalculate")
 
 
 @cache
@@ -44,6 +50,137 @@ def test_another_machine_changes_only_what_is_marked_as_measured() -> None:
     }
     other = build(replace(table, costs=slower, provenance={**table.provenance, "machine": "another"}))
     published.differs_only_where_marked(rebuilt(), other, ["costs.svg", "table4.svg"])
+
+
+def said(pattern: str) -> tuple[str, ...]:
+    """What stands in the text in place of the groups; it must stand there once or always the same."""
+    (found,) = set(re.findall(pattern, published.text(rebuilt())))
+    return (found,) if isinstance(found, str) else found
+
+
+def test_the_answer_is_short_and_that_of_table_4() -> None:
+    answer = published.text(rebuilt()).partition("**Answer.**")[2].partition(" ![")[0]
+    assert len(answer.split()) <= 50
+    least = {
+        row["Method"]: float(row["analysis"])
+        for row in published.rows(rebuilt(), "table-4.csv")
+        if row["N, M, L"] == "10, 4, 8"
+    }
+    assert f"least speed {least['Dual-rate']:.2f} against {least['Larsen']:.2f}" in answer
+    assert f"{100 * least['Dual-rate'] / least['Larsen']:.0f} % of Larsen's" in answer
+
+
+def test_the_first_figure_is_low_enough_for_the_first_screen() -> None:
+    (height,) = re.findall(r'<svg[^>]* height="([\d.]+)pt"', rebuilt()["fig3.svg"].decode())
+    assert float(height) / 72 * 25.4 < 95
+
+
+def test_cells_are_reached_where_the_interval_from_rounding_meets_the_printed_one() -> None:
+    rows = published.rows(rebuilt(), "table-4.csv")
+    for row in rows:
+        low, high = map(float, row["from rounding"].split(" to "))
+        printed = float(row["printed"])
+        assert (row["reached"] == "yes") == (low <= printed + 0.005 + 1e-9 and printed - 0.005 - 1e-9 <= high)
+    assert said(r"(\d+) of (\d+) cells of") == (str(sum(row["reached"] == "yes" for row in rows)), str(len(rows)))
+    for row in rows:
+        if row["reached"] == "no":
+            assert f"**{row['printed']}** ({row['Method']}" in published.text(rebuilt())
+
+
+def test_deviations_are_those_of_the_table_of_costs() -> None:
+    rows = published.rows(rebuilt(), "tables-1-3.csv")
+    for source, heading in (("Operation counts of the real filters", "counted"), ("compiled code", "measured †")):
+        (value,) = said(rf"{source}(?: come)? within ([\d.]+)")
+        squares = [(float(row[heading]) - float(row["printed"])) ** 2 for row in rows]
+        assert float(value) == pytest.approx(math.sqrt(sum(squares) / len(squares)), abs=0.0006)
+
+
+def test_misses_are_said_of_how_many_jobs_and_cycles() -> None:
+    (cycles,) = map(int, said(r"simulated over (\d+) cycles"))
+    for row in published.rows(rebuilt(), "simulated.csv"):
+        N = int(row["N, M, L"].split(",")[0])
+        jobs = cycles * (N + 2) if row["Method"] == "Dual-rate" else cycles * N
+        assert row["misses"] == f"0 of {jobs}"
+        assert row["misses, one tick slower"] == f"{cycles} of {jobs}"
+
+
+def test_states_agree_outside_m_to_l_minus_1_as_said() -> None:
+    rows = published.rows(rebuilt(), "agreement.csv")
+    apart = {
+        waits: [float(row[f"{method}, state"]) for row in rows if row["m to l − 1"] == waits for method in METHODS]
+        for waits in ("yes", "no")
+    }
+    assert f"differ by {power(residue(max(apart['no'])))} of the largest" in published.text(rebuilt())
+    low, high = said(r"states differ by (\d+) % to (\d+) %")
+    assert (low, high) == (f"{100 * min(apart['yes']):.0f}", f"{100 * max(apart['yes']):.0f}")
+    of_P = [float(row[f"{method}, P"]) for row in rows for method in METHODS if row[f"{method}, P"]]
+    assert f"P<sub>k⁻</sub> than {power(residue(max(of_P)))}." in published.text(rebuilt())
+
+
+def test_products_and_memory_are_those_of_their_tables() -> None:
+    products = published.rows(rebuilt(), "products.csv")
+    for row in products:
+        assert row["more than standard"] == row["n³"]
+        assert int(row["saved by Q′"]) == 2 * int(row["n³"])
+        assert row["Larsen"] == row["Dual-rate"]
+        assert row["Dual-rate, Q′"] == row["Dual-rate, Q″"]
+    assert said(r"for n = ([\d, ]+); Larsen's") == (", ".join(row["n"] for row in products),)
+    larsen, dual = published.rows(rebuilt(), "memory.csv")
+    (factor,) = said(r"([\d.]+) times Larsen's memory")
+    numbers = [int(row["numbers in all"].replace(",", "")) for row in (dual, larsen)]
+    assert float(factor) == pytest.approx(numbers[0] / numbers[1], abs=0.005)
+    assert said(r"It keeps (\d) matrices of n × n instead of (\d)") == (dual["n × n kept"], larsen["n × n kept"])
+
+
+def test_least_speed_depends_on_l_minus_m_alone_as_said() -> None:
+    rows = published.rows(rebuilt(), "waiting.csv")
+    on = [row for row in rows if int(row["M"]) >= 2]
+    speeds = {row["L − M"]: row["least speed"] for row in on}
+    assert all(row["least speed"] == speeds[row["L − M"]] for row in on)
+    count, first, floor, enough = said(
+        r"all (\d+) such designs .*? of ([\d.]+) for one step down to ([\d.]+) from (\d+)"
+    )
+    assert int(count) == len(on)
+    assert float(first) == float(speeds["1"])
+    assert {speeds[waits] for waits in speeds if int(waits) >= int(enough)} == {f"{float(floor):.4f}"}
+    assert float(speeds[str(int(enough) - 1)]) > float(floor)
+    assert said(r"The (\d+) designs with M = 1 do not") == (str(len(rows) - len(on)),)
+    stairs = published.rows(rebuilt(), "stairs.csv")
+    (waste,) = [row for row in stairs if (row["N"], row["Method"], row["L"]) == ("100", "Dual-rate", "80")]
+    assert said(r"already lands at L = (\d+)") == (waste["lands at L"],)
+
+
+def test_processors_gain_and_switches_are_those_of_their_tables() -> None:
+    one, early, two, both = published.rows(rebuilt(), "processors.csv")
+    assert said(r"each needs ([\d.]+) instead of ([\d.]+)") == (two["least speed"], one["least speed"])
+    assert said(r"lands at L = (\d+) instead of (\d+)") == (two["lands there at L"], one["lands there at L"])
+    assert said(r"on one processor ([\d.]+) do, and L = (\d+)") == (early["least speed"], early["lands there at L"])
+    assert [*both.values()][1:] == [*two.values()][1:]  # "Both together gain nothing"
+    switches = published.rows(rebuilt(), "switches.csv")
+    by_cost = {float(row["context switch"]): (float(row["Larsen"]), float(row["Dual-rate"])) for row in switches}
+    low, high = map(float, said(r"least speed from ([\d.]+) to ([\d.]+), for"))
+    assert (low, high) == (by_cost[0][1], by_cost[0.01][1])
+    (even,) = map(float, said(r"takes more than ([\d.]+) of a standard step"))
+    assert all((dual > larsen) == (cost > even) for cost, (larsen, dual) in by_cost.items())
+
+
+def test_errors_by_approximate_noise_are_those_of_their_table() -> None:
+    rows = published.rows(rebuilt(), "noise.csv")
+    most = {heading: 100 * max(float(row[heading]) for row in rows) for heading in rows[0] if heading != "System"}
+    assert said(r"P wrong by up to (\d+) %, the estimate by ([\d.]+) %") == (
+        f"{most['P wrong, Q′']:.0f}",
+        f"{most['σ larger, Q′']:.1f}",
+    )
+    assert said(r"to (\d+) % with Q″") == (f"{most['P wrong, Q″']:.0f}",)
+    assert said(r"with Q″ by ([\d.]+) %") == (f"{most['σ larger, Q″']:.2f}",)
+    assert said(r"this share from [\d.]+ % to (\d+) %") == (f"{most['share of Q in P']:.0f}",)
+
+
+def test_every_equation_is_listed_with_its_line() -> None:
+    text = rebuilt()["index.md"].decode()
+    items = re.findall(r"^- \*\*\((\d+)\)\*\* .+<br>(.+)$", text, re.MULTILINE)
+    assert [int(number) for number, _ in items] == list(range(5, 25))
+    assert [number for number, run in items if not run.startswith("`")] == ["7", "22"]
 
 
 def test_it_names_the_machine_and_both_findings() -> None:
