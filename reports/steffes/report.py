@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 
-from reports.charts.panels import Panel, method_panel
+from reports.charts.panels import Panel
 from reports.pages.machine import legend, timed_on
-from reports.pages.pictures import Annotated, files, pictures
+from reports.pages.pictures import Annotated, Sliding, files, pictures
 from reports.pages.render import csv_bytes, render
 from reports.pages.stored import Rows
 from reports.steffes import rows, said
@@ -18,6 +18,7 @@ from reports.steffes.noise import noise_figure
 from reports.steffes.processors import processors_figure, switched, switches_figure, variants
 from reports.steffes.products import products_figure
 from reports.steffes.said import FIGURE_3
+from reports.steffes.sliding import SPEEDS, frames_over_l, frames_over_speed
 from reports.steffes.table4 import Speeds, table4_figure
 from reports.steffes.timelines import dual_rate_panel, dual_rate_timeline, serial_costs, serial_panel, serial_timeline
 from reports.steffes.waiting import waited, waiting_figure
@@ -32,6 +33,9 @@ from studies.steffes.products import multiplies
 
 TITLE = "Steffes 2014, regenerated: which processor a delayed-measurement Kalman filter needs"
 
+AT_L, AT_SPEED = FIGURE_3.L - FIGURE_3.M - 1, SPEEDS.index(Fraction(4, 5))
+"""Which schedules are shown first: that of Fig. 3, and the slowest of several that lands as early."""
+
 
 def build(measured: CostTable) -> dict[str, bytes]:
     """All files of the report by name, as a pure function of one measured cost table."""
@@ -41,7 +45,8 @@ def build(measured: CostTable) -> dict[str, bytes]:
     agreed, noises, counted = agreement(FIGURE_3), approximations(), multiplies()
     kept = [memory(method) for method in ("larsen", "dual-rate")]
     on, switches = variants(tables["counted"], FIGURE_3), switched(paper, FIGURE_3)
-    panels = _panels(paper)
+    panels, (N, M) = _panels(paper), rows.STAIRS[0]
+    over_l = frames_over_l(paper, FIGURE_3.N, FIGURE_3.M)
     shown: dict[str, Rows] = {
         "tables-1-3": rows.entries(tables),
         "table-4": rows.table4(tables, cells),
@@ -55,11 +60,11 @@ def build(measured: CostTable) -> dict[str, bytes]:
         "processors": rows.processors(on),
         "switches": rows.switches(switches),
         "noise": rows.noise(noises),
-        **{name: rows.bars_of(of) for name, of in panels.items()},
+        **{name: rows.bars_of(of) for name, of in {**panels, "fig3": over_l[AT_L].panels}.items()},
     }
     figures = pictures(
         {
-            "fig3.svg": panels["fig3"],
+            "fig3.svg": Sliding("L asked for", over_l, at=AT_L),
             "costs.svg": cost_figure(tables),
             "table4.svg": table4_figure(_speeds(tables, cells)),
             "fig1.svg": Annotated(serial_timeline(paper, FIGURE_3, _serial_speed(paper)), panels["fig1"]),
@@ -70,7 +75,9 @@ def build(measured: CostTable) -> dict[str, bytes]:
             "products.svg": products_figure(counted),
             "waiting.svg": waiting_figure(paper),
             "least-speed.svg": least_speed_figure(paper, rows.STAIRS),
-            "achieved-l.svg": achieved_figure(paper, rows.STAIRS),
+            "achieved-l.svg": Sliding(
+                "speed", frames_over_speed(paper, N, M), at=AT_SPEED, figure=achieved_figure(paper, rows.STAIRS)
+            ),
             "processors.svg": processors_figure(tables["counted"], FIGURE_3),
             "switches.svg": switches_figure(switches),
             "noise.svg": noise_figure(noises),
@@ -93,9 +100,8 @@ def build(measured: CostTable) -> dict[str, bytes]:
         by=said.about_deadlines(paper),
         equations=said.equations(),
         rows={
-            **{name.replace("-", "_"): of for name, of in shown.items()},
-            "table_4": rows.without(shown["table-4"], "exactly"),
-            "noise": rows.readable(shown["noise"]),
+            name.replace("-", "_"): rows.on_page(of)
+            for name, of in {**shown, "table-4": rows.without(shown["table-4"], "exactly")}.items()
         },
     )
     return {
@@ -111,12 +117,10 @@ def _serial_speed(paper: CostTable) -> Fraction:
 
 
 def _panels(paper: CostTable) -> dict[str, list[Panel]]:
-    """Figs 1 to 3, each filter at its own least speed."""
-    speeds = {method: rows.least(paper, method, FIGURE_3) for method in ("larsen", "dual-rate")}
+    """Figs 1 and 2, each filter at its own least speed."""
     return {
         "fig1": [serial_panel(paper, FIGURE_3, _serial_speed(paper))],
-        "fig2": [dual_rate_panel(paper, FIGURE_3, speeds["dual-rate"])],
-        "fig3": [method_panel(paper, method, FIGURE_3, speed) for method, speed in speeds.items()],
+        "fig2": [dual_rate_panel(paper, FIGURE_3, rows.least(paper, "dual-rate", FIGURE_3))],
     }
 
 

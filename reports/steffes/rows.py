@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from itertools import pairwise
@@ -34,6 +35,9 @@ BY_L = Options(lr_propagate_by="l")
 STAIRS = ((10, 4), (100, 10))
 """N and M of the figures of least speed and of landing."""
 
+SMALL = r"[\d.]+e-\d+"
+TOGETHER = r"\d+ of \d+|\d+(, \d+)+|N, M, L|LR update, .*|[\d.]+ × 10\S+"
+NO_BREAK = "\N{NO-BREAK SPACE}"
 RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
@@ -219,9 +223,13 @@ def noise(found: Sequence[Approximated]) -> Rows:
     return rows
 
 
-def readable(rows: Rows) -> Rows:
-    """The same with small numbers as powers of ten, as people write them."""
-    return [[power(cell) if isinstance(cell, str) and "e-" in cell else cell for cell in row] for row in rows]
+def on_page(rows: Rows) -> Rows:
+    """The same as people write them: small numbers as powers of ten, and no line ends within what belongs together."""
+    return [[_whole(power(cell) if re.fullmatch(SMALL, str(cell)) else str(cell)) for cell in row] for row in rows]
+
+
+def _whole(cell: str) -> str:
+    return cell.replace(" ", NO_BREAK) if re.fullmatch(TOGETHER, cell) else cell
 
 
 def power(number: str) -> str:

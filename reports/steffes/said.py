@@ -220,9 +220,10 @@ def equations() -> list[str]:
     """Each as an item of a list: its maths, then the line of code and where it is."""
     items = []
     for one in EQUATIONS:
-        note = f" ({one.note})" if one.note else ""
-        run = (
-            f"`{one.line}`, in `{one.function.__name__}`, {one.file}{note}" if one.function else f"no line: {one.note}"
-        )
+        run = f"no line: {one.note}"
+        if one.function is not None:
+            folder, _, file = one.file.rpartition("/")
+            note = f"; {one.note}" if one.note else ""
+            run = f"`{one.line}` in `{one.function.__name__}`, {file} in {folder}{note}"
         items.append(f"**({one.number})** {one.maths}<br>{run}")
     return items

@@ -12,7 +12,7 @@ STATES = (3, 6, 9, 12)
 INPUTS = MEASUREMENTS = 3
 STANDARD = ("standard", "propagate")
 STEPS = {
-    STANDARD: "Standard",
+    STANDARD: "Standard (no delay)",
     ("larsen", "propagate_accumulate"): "Larsen",
     ("dual-rate", "hr_propagate"): "Dual-rate",
     ("dual-rate", "hr_propagate_sum"): "Dual-rate, Q′",

@@ -76,7 +76,7 @@ def test_no_difference_at_all_is_drawn_at_the_zero_of_the_axis() -> None:
 
 def test_products_are_drawn_in_units_of_n_cubed() -> None:
     figure = products_figure(COUNTS)
-    assert curves(figure, "Standard") == [[2.0, 2.0]]
+    assert curves(figure, "Standard (no delay)") == [[2.0, 2.0]]
     assert curves(figure, "Larsen") == curves(figure, "Dual-rate") == [[3.0, 3.0]]
 
 
