@@ -30,6 +30,14 @@ def _patent_multirate() -> Mapping[str, object]:
     return {name: content.decode() for name, content in build(results()).items()}
 
 
+def _steffes() -> Mapping[str, object]:
+    from reports.steffes.report import build
+    from sched_sim.costs.table_file import read_costs
+
+    measured = read_costs(ROOT / "reports" / "published" / "steffes2014" / "measured.toml")
+    return {name: content.decode() for name, content in build(measured).items()}
+
+
 def _erkf() -> Mapping[str, object]:
     from reports.erkf.results import simulated
     from reports.pages.stored import as_stored
@@ -45,6 +53,7 @@ def _modular() -> Mapping[str, object]:
 
 STUDIES: Mapping[str, Callable[[], Mapping[str, object]]] = {
     "patent-multirate": _patent_multirate,
+    "steffes2014": _steffes,
     "erkf": _erkf,
     "modular": _modular,
 }

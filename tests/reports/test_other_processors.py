@@ -80,9 +80,10 @@ def test_the_drives_errors_do_not_depend_on_the_last_digits(method: AttitudeMeth
 
 
 @pytest.mark.exhaust
-def test_the_multirate_report_is_the_same_on_a_plain_processor(tmp_path: Path) -> None:
-    for name, content in regenerated("patent-multirate", tmp_path).items():
-        assert content == (published.FOLDER / "patent-multirate" / name).read_text(encoding="utf-8"), name
+@pytest.mark.parametrize("report", ["patent-multirate", "steffes2014"])
+def test_what_is_computed_at_once_is_the_same_on_a_plain_processor(report: str, tmp_path: Path) -> None:
+    for name, content in regenerated(report, tmp_path).items():
+        assert content == (published.FOLDER / report / name).read_text(encoding="utf-8"), name
 
 
 @pytest.mark.exhaust
