@@ -90,7 +90,7 @@ def build(measured: CostTable) -> dict[str, bytes]:
         legend=legend(timed_on(measured.provenance)),
         form=measured.provenance["update_form"],
         table=said.about_tables(tables, cells),
-        not_reached=said.not_reached(cells),
+        not_reached=said.not_reached(paper, cells),
         serial=said.about_serial(paper),
         wait=said.about_waiting(paper, waits),
         agreed=said.about_agreement(agreed),

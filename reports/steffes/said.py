@@ -18,7 +18,7 @@ from sched_sim.design.least_speed import achieved_l, least_speed
 from sched_sim.design.load import utilization
 from sched_sim.design.methods import select
 from sched_sim.design.options import Options
-from sched_sim.design.pieces import DualRateCosts
+from sched_sim.design.pieces import DualRateCosts, RecalculateCosts
 from sched_sim.design.timing import Timing
 from studies.steffes import tables as steffes
 from studies.steffes.agreement import FLOOR, Agreement
@@ -59,15 +59,8 @@ def about_tables(tables: Mapping[str, CostTable], cells: Sequence[steffes.Cell])
     }
 
 
-def not_reached(cells: Sequence[steffes.Cell]) -> list[str]:
+def not_reached(paper: CostTable, cells: Sequence[steffes.Cell]) -> list[str]:
     """One text for each printed figure that the rounding of Tables 1-3 cannot give."""
-    why = {
-        "recalculate": "Table 1 prints 2.36 for the update at M = 4, which is 0.56 and four replayed steps of 0.45; "
-        "ten replayed steps make 0.45 + 0.56 + 10 × 0.45 = 5.51. The printed figure lies 1 % below what its own "
-        "Table 1 extrapolates to.",
-        "dual-rate": "The printed figure is HR propagate + LR update / (L − M) = 0.63 + 0.56 / 70. But step l also "
-        "runs the HR update: that step alone needs 0.63 + 0.03 = 0.66.",
-    }
     texts: dict[tuple[str, Fraction], str] = {}
     for cell in cells:
         if not cell.reached:
@@ -76,9 +69,29 @@ def not_reached(cells: Sequence[steffes.Cell]) -> list[str]:
                 (cell.method, cell.printed),
                 f"**{number(cell.printed, 2)}** ({METHOD_NAMES[cell.method]}, N = {N}, M = {M}"
                 + (f", L = {L}" if cell.method == "dual-rate" else ", printed for both values of L")
-                + f"), where the analysis gives {number(cell.computed.speed, 2)}. {why[cell.method]}",
+                + f"), where the analysis gives {number(cell.computed.speed, 2)}. {_why(paper, cell)}",
             )
     return list(texts.values())
+
+
+def _why(paper: CostTable, cell: steffes.Cell) -> str:
+    costs = select(paper, cell.method)
+    if isinstance(costs, RecalculateCosts):
+        (entry,) = [one for one in steffes.entries() if (one.table, one.step, one.column) == (1, "m", "update")]
+        of, M, speed = FIGURE_3.M, cell.timing.M, cell.computed.speed
+        first, fixed, step = (number(cost, 2) for cost in (costs.propagate, costs.update, costs.replay))
+        return (
+            f"Table 1 prints {number(entry.printed, 2)} for the update at M = {of}, which is {fixed} and {of} replayed "
+            f"steps of {step}; {M} of them make {first} + {fixed} + {M} × {step} = {number(speed, 2)}. The printed "
+            f"figure lies {percent(1 - cell.printed / speed)} below what its own Table 1 extrapolates to."
+        )
+    assert isinstance(costs, DualRateCosts)
+    hr, update, correct = (number(cost, 2) for cost in (costs.hr, costs.lr_update, costs.hr_update))
+    return (
+        f"The printed figure is HR propagate + LR update / (L − M) = {hr} + {update} / "
+        f"{cell.timing.L - cell.timing.M}. But step l also runs the HR update: it alone needs {hr} + {correct} = "
+        f"{number(costs.hr + costs.hr_update, 2)}."
+    )
 
 
 def about_serial(paper: CostTable) -> dict[str, Any]:
