@@ -36,7 +36,7 @@ STAIRS = ((10, 4), (100, 10))
 """N and M of the figures of least speed and of landing."""
 
 SMALL = r"[\d.]+e-\d+"
-TOGETHER = r"\d+ of \d+|\d+(, \d+)+|N, M, L|LR update, .*|[\d.]+ × 10\S+"
+TOGETHER = r"\d+ of \d+|\d+(, \d+)+|N, M, L|LR update, .*"
 NO_BREAK = "\N{NO-BREAK SPACE}"
 RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
@@ -235,4 +235,4 @@ def _whole(cell: str) -> str:
 def power(number: str) -> str:
     """Such as 3 × 10⁻¹⁶, for 3e-16."""
     digits, _, exponent = number.partition("e")
-    return f"{digits} × 10{str(int(exponent)).translate(RAISED)}"
+    return f"{digits} × 10{str(int(exponent)).translate(RAISED)}".replace(" ", NO_BREAK)
