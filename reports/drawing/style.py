@@ -143,6 +143,12 @@ METHOD_LINES = {
     "fuse-as-fresh": Line("#7d7d7d", (0, (1.0, 2.4)), "X", 4.2),
 }
 
+NOISE_LINES = {
+    "sum": Line("#3a7fb8", (0, (7.0, 1.5)), "d", 4.6),
+    "euler": Line("#7b5fc4", (0, (3.0, 1.2, 3.0, 1.2, 1.0, 1.2)), "H", 4.2),
+}
+"""The dual-rate filter with an approximate process noise: "Dual-rate, Q′" and "Dual-rate, Q″"."""
+
 SOURCES = {
     "printed": Line(INK, "-", "|", 6.0),
     "counted": Line("#11538c", (0, (7.0, 2.0)), "o"),
