@@ -9,26 +9,20 @@ from matplotlib.figure import Figure
 from reports.drawing.axes import decades
 from reports.drawing.legend import Entry, line_entry
 from reports.drawing.sheet import label, sheet
-from reports.drawing.style import SOURCE_LINES, Line, drawing
+from reports.drawing.style import NOISE_LINES, Line, drawing
 from reports.steffes.signs import hollow_entry
-from reports.steffes.speeds import Dashes
 from studies.steffes.noise import Approximated
 
 HEIGHT_MM = 48.0
-SYSTEMS: dict[str, Dashes] = {"turning": "-", "inertial": (0, (4.0, 1.5))}
-NOISES = {"sum": SOURCE_LINES[1], "euler": SOURCE_LINES[2]}
-NAMES = {"sum": "$Q'$", "euler": "$Q''$"}
+NAMES = {"sum": "Q′", "euler": "Q″"}
 SHARE = "mean share of $Q_{k-N\\to k}$ in $P_{k^-}$"
-
-HOLLOW = "inertial"
+SYSTEMS, HOLLOW = ("turning", "inertial"), "inertial"
 
 
 def noise_figure(found: Sequence[Approximated]) -> Figure:
     """Left: of the covariance that the filter believes; right: of its estimate."""
     lines: dict[tuple[str, str], Line] = {
-        (noise, system): line._replace(dashes=dashes)
-        for noise, line in NOISES.items()
-        for system, dashes in SYSTEMS.items()
+        (noise, system): line for noise, line in NOISE_LINES.items() for system in SYSTEMS
     }
     with drawing():
         legend = [

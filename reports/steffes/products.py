@@ -10,7 +10,7 @@ from matplotlib.ticker import FixedLocator
 from reports.drawing.axes import end_labels
 from reports.drawing.legend import line_entry
 from reports.drawing.sheet import label, sheet
-from reports.drawing.style import METHOD_LINES, SOURCE_LINES, Line, drawing
+from reports.drawing.style import METHOD_LINES, NOISE_LINES, Line, drawing
 from reports.steffes.signs import hollow_entry
 from studies.steffes.products import STEPS, Multiplies
 
@@ -19,8 +19,8 @@ LINES: dict[tuple[str, str], Line] = {
     ("standard", "propagate"): METHOD_LINES["standard"],
     ("larsen", "propagate_accumulate"): METHOD_LINES["larsen"]._replace(size=7.0),
     ("dual-rate", "hr_propagate"): METHOD_LINES["dual-rate"],
-    ("dual-rate", "hr_propagate_sum"): SOURCE_LINES[3]._replace(size=6.5),
-    ("dual-rate", "hr_propagate_euler"): SOURCE_LINES[4],
+    ("dual-rate", "hr_propagate_sum"): NOISE_LINES["sum"]._replace(size=7.0),
+    ("dual-rate", "hr_propagate_euler"): NOISE_LINES["euler"],
 }
 
 BEHIND = (("larsen", "propagate_accumulate"), ("dual-rate", "hr_propagate_sum"))

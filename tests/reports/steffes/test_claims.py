@@ -81,7 +81,7 @@ def test_products_are_drawn_in_units_of_n_cubed() -> None:
 
 
 def test_errors_by_approximate_noise_are_drawn_as_they_are() -> None:
-    assert curves(noise_figure(NOISES), "$Q''$, inertial") == [[0.01, 0.5], [1e-6, 0.0025]]
+    assert curves(noise_figure(NOISES), "Q″, inertial") == [[0.01, 0.5], [1e-6, 0.0025]]
 
 
 @given(st.integers(3, 60), st.data())
