@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from filters.arrays import FloatArray
 from filters.kernels.elimination import back_substitute, eliminate_dense, eliminate_pivoted, eliminate_unpivoted
+from filters.kernels.faddeev import faddeev
 from filters.kernels.givens import triangularise
+from filters.kernels.householder import triangularise_by_reflections
 from filters.kernels.inversion import invert_by_columns, invert_dense, invert_nonzero
 from filters.robust.block_step import BlockWorkspace
 
@@ -27,6 +29,25 @@ def by_givens_per_column(work: BlockWorkspace) -> None:
         back_substitute(work.single, work.last_column)
         for i in range(len(work.last)):
             work.last[i, column] = work.last_column[i, 0]
+
+
+def by_householder(work: BlockWorkspace) -> None:
+    """`by_givens` with one reflection for each column instead of its rotations."""
+    triangularise_by_reflections(work.T)
+    back_substitute(work.T, work.last)
+
+
+def by_faddeev(work: BlockWorkspace) -> None:
+    """0 + C A^-1 b by Faddeev's algorithm, with the rows of C that pick the last unknowns."""
+    n = len(work.last)
+    first = len(work.T) - n
+    for i in range(n):
+        for j in range(len(work.T)):
+            work.square[i, j] = 0.0
+        work.square[i, first + i] = 1.0
+        for column in range(work.last.shape[1]):
+            work.last[i, column] = 0.0
+    faddeev(work.T, work.square, work.last)
 
 
 def by_lu(work: BlockWorkspace) -> None:

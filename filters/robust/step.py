@@ -20,8 +20,10 @@ from filters.robust.model import prepared, weights
 from filters.robust.records import Predicted, RobustModel
 from filters.robust.solvers import (
     by_dense_lu,
+    by_faddeev,
     by_givens,
     by_givens_per_column,
+    by_householder,
     by_inverse,
     by_lu,
     by_nonzero_inverse,
@@ -56,6 +58,10 @@ WAYS: tuple[WayName, ...] = tuple(JOBS)
 STUDIED: dict[str, StepJob] = {
     "givens, natural order": _blocks(by_givens, NATURAL),
     "givens per column, natural order": _blocks(by_givens_per_column, NATURAL),
+    "householder": _blocks(by_householder, RECOMMENDED),
+    "householder, natural order": _blocks(by_householder, NATURAL),
+    "faddeev": _blocks(by_faddeev, RECOMMENDED),
+    "faddeev, natural order": _blocks(by_faddeev, NATURAL),
     "lu, natural order": _blocks(by_lu, NATURAL),
     "dense lu": _blocks(by_dense_lu, NATURAL),
     "lu without pivoting": _blocks(by_unpivoted_lu, NATURAL),

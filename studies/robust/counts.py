@@ -26,7 +26,10 @@ from studies.robust.costs import SYSTEMS, SystemName, robust_case
 Penalty: TypeAlias = Literal["infinite", "finite"]
 PENALTIES: tuple[Penalty, ...] = get_args(Penalty)
 
-COUNTED = ("givens, natural order", "lu, natural order", "dense lu", "inverse, nonzero entries")
+COUNTED = (
+    *("givens, natural order", "householder", "householder, natural order", "faddeev", "faddeev, natural order"),
+    *("lu, natural order", "dense lu", "inverse, nonzero entries"),
+)
 """Ways of `STUDIED` that are counted in a run."""
 
 
@@ -45,11 +48,14 @@ class DenseCounts(NamedTuple):
 
     givens: all right-hand sides at once; givens_per_column: each anew, as the paper does; inverse: Gauss-Jordan with
     partial pivoting, then the last n rows times b; repeated: one elimination for each column of the inverse, as the
-    paper counts it; lu: with partial pivoting.
+    paper counts it; lu: with partial pivoting. householder: a reflection for each column. faddeev: n more rows are
+    eliminated with those of A, and nothing is substituted back.
     """
 
     givens: Operations
     givens_per_column: Operations
+    householder: Operations
+    faddeev: Operations
     inverse: Operations
     repeated: Operations
     lu: Operations
@@ -86,6 +92,17 @@ def dense_counts(N: int, n: int) -> DenseCounts:
     return DenseCounts(
         givens=_givens(N, n, r),
         givens_per_column=Operations(*(r * number for number in _givens(N, n, 1))),
+        householder=Operations(
+            multiply=2 * cubes + (2 * r + 4) * pairs + (3 * r + 2) * (N - 1) + r * substitution,
+            add=2 * cubes + (2 * r + 2) * pairs + (r + 2) * (N - 1) + r * substitution,
+            divide=N - 1 + r * n,
+            sqrt=N - 1,
+        ),
+        faddeev=Operations(
+            multiply=cubes + r * pairs + n * (pairs + r * N),
+            add=cubes + r * pairs + n * (pairs + r * N),
+            divide=pairs + n * N,
+        ),
         inverse=Operations(multiply=N**3 + n * N * r, add=N**2 * (N - 1) + n * (N - 1) * r, divide=N),
         repeated=Operations(
             multiply=N * eliminated + n * N * r, add=N * eliminated + n * (N - 1) * r, divide=N * (pairs + N)

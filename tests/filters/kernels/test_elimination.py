@@ -1,4 +1,4 @@
-"""The kernels of `givens`, `elimination`, `inversion`, `place` and `schur`, in each version, against NumPy."""
+"""The kernels of `givens`, `householder`, `faddeev`, `elimination`, `inversion`, `place` and `schur`, in each version, against NumPy."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from filters.backends.choose import BACKENDS, BackendName, function_for
-from filters.kernels import elimination, givens, inversion, place, schur
+from filters.kernels import elimination, faddeev, givens, householder, inversion, place, schur
 from tests.filters.few_sizes import few
 
 sizes = st.integers(1, 7)
@@ -47,6 +47,7 @@ def test_last_unknowns(backend: BackendName, N: int, r: int, n: int, seed: int) 
     expected = np.linalg.solve(T[:, :N], T[:, N:])[N - n :]
     kernels: tuple[Callable[..., Any], ...] = (
         givens.triangularise,
+        householder.triangularise_by_reflections,
         elimination.eliminate_dense,
         elimination.eliminate_pivoted,
     )
@@ -56,6 +57,27 @@ def test_last_unknowns(backend: BackendName, N: int, r: int, n: int, seed: int) 
         assert not np.tril(reduced[:, :N], -1).any()
         function_for(backend, elimination.back_substitute)(reduced, out)
         close(out, expected)
+
+
+@each_backend
+@settings(max_examples=20, deadline=None)
+@given(N=sizes, r=st.integers(1, 3), n=sizes, seed=seeds)
+def test_faddeev(backend: BackendName, N: int, r: int, n: int, seed: int) -> None:
+    N, r, n = few(backend, N, r, n)
+    T, random = system(seed, N, r), np.random.default_rng(seed)
+    C, D = random.normal(size=(n, N)), random.normal(size=(n, r))
+    expected = D + C @ np.linalg.solve(T[:, :N], T[:, N:])
+    function_for(backend, faddeev.faddeev)(T, C, D)
+    close(D, expected)
+
+
+@settings(max_examples=20, deadline=None)
+@given(N=sizes, r=st.integers(1, 3), seed=seeds)
+def test_reflections_keep_the_length_of_each_column(N: int, r: int, seed: int) -> None:
+    T = system(seed, N, r)
+    reflected = T.copy()
+    householder.triangularise_by_reflections(reflected)
+    close(np.linalg.norm(reflected, axis=0), np.linalg.norm(T, axis=0))
 
 
 @each_backend

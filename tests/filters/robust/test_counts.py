@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from filters.backends.counted import Operations, count
+from filters.kernels.faddeev import faddeev
 from filters.kernels.givens import triangularise
 from filters.robust.block_step import BlockWorkspace, new_block_workspace
 from filters.robust.blocks import NATURAL, RECOMMENDED
@@ -17,12 +18,14 @@ from filters.robust.solvers import (
     by_dense_lu,
     by_givens,
     by_givens_per_column,
+    by_householder,
     by_inverse,
     by_lu,
     by_nonzero_inverse,
     by_repeated_elimination,
 )
 from filters.robust.step import JOBS, STUDIED
+from studies.robust.counts import dense_counts
 from tests.filters.robust.cases import Array, attitude_model, block_system, position_model, random_model, start
 
 
@@ -76,6 +79,19 @@ def test_dense_matrices(
 ) -> None:
     work = dense_work(random_model(0, n, m, p, t, t))
     assert count(solve_last, work) == formula(len(work.T), n, n + 1)
+
+
+@pytest.mark.parametrize(("n", "N"), [(1, 5), (2, 9), (3, 7)])
+def test_dense_reflections_and_faddeevs_elimination(n: int, N: int) -> None:
+    """Householder takes two thirds of what Givens does in the end, Faddeev a little more than LU."""
+    work = dense_work(random_model(0, n, 1, 1, 1, 1))
+    assert count(by_householder, work) == dense_counts(len(work.T), n).householder
+    random = np.random.default_rng(0)
+    found = count(faddeev, *(random.normal(size=size) for size in ((N, N + n + 1), (n, N), (n, n + 1))))
+    assert found == dense_counts(N, n).faddeev
+    large = dense_counts(1000, 10)
+    assert large.householder.total == pytest.approx(2 / 3 * large.givens.total, rel=0.01)
+    assert large.lu.total < large.faddeev.total < 1.05 * large.lu.total
 
 
 def test_one_factorisation_per_column() -> None:

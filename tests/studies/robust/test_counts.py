@@ -74,3 +74,18 @@ def test_pivoted_lu_and_the_closed_form_are_far_cheaper(system: str, penalty: st
     assert givens > 5 * total(system, penalty, "lu")
     assert givens > 6 * total(system, penalty, "closed")
     assert total(system, penalty, "closed") < 1.2 * kalman_counts(system).total
+
+
+@pytest.mark.parametrize("system", SYSTEMS)
+def test_reflections_take_less_than_rotations_but_in_the_natural_order_where_mu_is_infinite(system: str) -> None:
+    for penalty in PENALTIES:
+        assert total(system, penalty, "householder") < total(system, penalty, "givens")
+        rotations = total(system, penalty, "givens, natural order")
+        assert (total(system, penalty, "householder, natural order") > rotations) == (penalty == "infinite")
+
+
+@pytest.mark.parametrize("penalty", PENALTIES)
+@pytest.mark.parametrize("system", SYSTEMS)
+def test_faddeevs_algorithm_takes_what_lu_does(system: str, penalty: str) -> None:
+    assert total(system, penalty, "faddeev") == pytest.approx(total(system, penalty, "lu"), rel=0.06)
+    assert total(system, penalty, "givens") > 4 * total(system, penalty, "faddeev")
