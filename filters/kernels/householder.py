@@ -43,6 +43,6 @@ def reflect(T: FloatArray, j: int) -> None:
 
 
 def triangularise_by_reflections(T: FloatArray) -> None:
-    """The first N columns of T (N, N + r) become upper triangular, one reflection for each; T = [A b] gives Q^T [A b]."""
+    """The first N columns of T (N, N + r) become upper triangular by one reflection each; T = [A b] gives Q^T [A b]."""
     for j in range(len(T) - 1):
         reflect(T, j)

@@ -1,4 +1,4 @@
-"""The kernels of `givens`, `householder`, `faddeev`, `elimination`, `inversion`, `place` and `schur`, in each version, against NumPy."""
+"""The kernels of linear systems, in each version, against NumPy."""
 
 from __future__ import annotations
 
