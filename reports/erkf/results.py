@@ -15,6 +15,7 @@ import numpy as np
 
 from filters.arrays import FloatArray
 from filters.systems.drive import FIX_EVERY, simulate_cargo_drive
+from reports.erkf.stability import stability_tables
 from reports.pages.stored import Rows, digits, read_tables, rows_of, table_files
 from reports.pages.stored import columns as columns_of
 from reports.pages.stored import records as records_of
@@ -36,7 +37,10 @@ AXES = ("north", "east", "up")
 ANGLES = ("roll", "pitch", "yaw")
 CURVES = (singular.CASES[2], singular.CASES[4])
 """The filters that Figs. 7 and 8 are drawn of: attitude and position, with the finite mu of the other figures."""
-TABLES = ("attitude", "position", "raw", "agreement", "singular-values", "drive", "close-up")
+TABLES = (
+    *("attitude", "position", "raw", "agreement", "singular-values", "drive", "close-up"),
+    *("linear", "linear-curves", "linear-sample"),
+)
 
 
 class Results(NamedTuple):
@@ -81,7 +85,7 @@ def simulated(progress: Progress = lambda _done, _total, _what: None) -> dict[st
     errors = drive.SCALE_ERRORS
     asked = [(method, error) for error in errors for method in drive.ATTITUDE_METHODS]
     asked_position = [(method, error) for error in errors for method in drive.POSITION_METHODS]
-    total = len(asked) + len(asked_position) + len(singular.CASES) + 1
+    total = len(asked) + len(asked_position) + len(singular.CASES) + 2
     done = 0
 
     def tell(what: str) -> None:
@@ -108,6 +112,8 @@ def simulated(progress: Progress = lambda _done, _total, _what: None) -> dict[st
             curves |= _curves(case, compared)
     tell("the drive of the figures")
     course, close_up = _drives()
+    tell("linear systems")
+    linear = stability_tables()
     progress(total, total, "done")
     return {
         "attitude": attitude,
@@ -120,6 +126,7 @@ def simulated(progress: Progress = lambda _done, _total, _what: None) -> dict[st
         "singular-values": rows_of(curves, "{:.4g}"),
         "drive": rows_of(course, "{:.3f}"),
         "close-up": rows_of(close_up, "{:.4f}"),
+        **linear,
     }
 
 
