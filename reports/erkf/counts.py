@@ -22,6 +22,12 @@ PER_COLUMN = "Givens: a QR per column, as in the paper"
 GIVENS = "Givens: one QR, dense"
 GIVENS_NATURAL = "Givens: zeros skipped"
 GIVENS_ORDERED = "Givens: zeros skipped, reordered"
+HOUSEHOLDER = "Householder: one QR, dense"
+HOUSEHOLDER_NATURAL = "Householder: zeros skipped"
+HOUSEHOLDER_ORDERED = "Householder: zeros skipped, reordered"
+FADDEEV = "Faddeev: dense"
+FADDEEV_NATURAL = "Faddeev: zeros skipped"
+FADDEEV_ORDERED = "Faddeev: zeros skipped, reordered"
 LU = "pivoted LU: dense"
 LU_NATURAL = "pivoted LU: zeros skipped"
 LU_ORDERED = "pivoted LU: zeros skipped, reordered"
@@ -31,6 +37,8 @@ KALMAN = "plain Kalman filter: dense"
 ALL_WAYS = (
     *(REPEATED, INVERSE, INVERSE_SKIPPING),
     *(PER_COLUMN, GIVENS, GIVENS_NATURAL, GIVENS_ORDERED),
+    *(HOUSEHOLDER, HOUSEHOLDER_NATURAL, HOUSEHOLDER_ORDERED),
+    *(FADDEEV, FADDEEV_NATURAL, FADDEEV_ORDERED),
     *(LU, LU_NATURAL, LU_ORDERED),
     *(CLOSED, KALMAN),
 )
@@ -41,6 +49,10 @@ _COUNTED = {
     INVERSE_SKIPPING: "inverse, nonzero entries",
     GIVENS_NATURAL: "givens, natural order",
     GIVENS_ORDERED: "givens",
+    HOUSEHOLDER_NATURAL: "householder, natural order",
+    HOUSEHOLDER_ORDERED: "householder",
+    FADDEEV_NATURAL: "faddeev, natural order",
+    FADDEEV_ORDERED: "faddeev",
     LU: "dense lu",
     LU_NATURAL: "lu, natural order",
     LU_ORDERED: "lu",
@@ -48,7 +60,7 @@ _COUNTED = {
 }
 
 PROCESSORS = (1, 4, 16, 64, 256, 1024)
-SCHEDULES = ("dense, Sameh and Kuck", "sparse, greedy", "sparse, greedy, reordered")
+SCHEDULES = ("dense, Sameh and Kuck", "zeros skipped, greedy", "zeros skipped, reordered, greedy")
 
 
 class Counts(NamedTuple):
@@ -77,6 +89,8 @@ def all_counts() -> Counts:
                 INVERSE: dense.inverse,
                 PER_COLUMN: dense.givens_per_column,
                 GIVENS: dense.givens,
+                HOUSEHOLDER: dense.householder,
+                FADDEEV: dense.faddeev,
                 KALMAN: kalman_counts(system),
             }
             for penalty in PENALTIES:

@@ -10,14 +10,16 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from reports.drawing.axes import AXIS_MM, EDGE_MM, TITLE_MM, decades, end_labels, plain
 from reports.drawing.legend import draw_legend, legend_height, line_entry
-from reports.drawing.style import SOURCE_LINES, TITLE_PT, WIDTH_MM, axes_at, drawing, page
+from reports.drawing.style import GREY, TITLE_PT, WIDTH_MM, Line, axes_at, drawing, page
+from reports.erkf.styles import WAYS
 
 LEFT_MM, RIGHT_MM, GAP_MM, PLOT_MM = 18.0, 10.0, 24.0, 56.0
-LINES = SOURCE_LINES[1:]
+LINES = (Line(GREY, (0, (1.0, 1.2)), "<"), Line("#2f7fb8", (0, (4.0, 1.5)), ">"), WAYS["Givens"])
+"""The last schedule is that of Givens rotations as they are counted elsewhere."""
 
 
 def parallel_figure(times: Mapping[str, Mapping[str, Mapping[int, int]]]) -> Figure:
-    """A plot for each system: its time in units against the processors P, a curve for each schedule, at most four.
+    """A plot for each system: its time in units against the processors P, a curve for each schedule, at most three.
 
     times: by system, schedule and P. At the right end of each curve stands its speed-up there.
     """

@@ -36,7 +36,7 @@ SHOWN = {"EKF": (drive.EKF, drive.POSITION_EKF), "ERKF": (drive.MORE_ROBUST, dri
 AXES = ("north", "east", "up")
 ANGLES = ("roll", "pitch", "yaw")
 CURVES = (singular.CASES[2], singular.CASES[4])
-"""The filters that Figs. 7 and 8 are drawn of: attitude and position, with the finite mu of the other figures."""
+"""The filters that Figs. 7 and 8 are drawn of: attitude and position, each with a finite mu."""
 TABLES = (
     *("attitude", "position", "raw", "agreement", "singular-values", "drive", "close-up"),
     *("linear", "linear-curves", "linear-sample"),

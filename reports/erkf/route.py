@@ -50,8 +50,9 @@ def route_figure(drive: Columns, close_up: Columns, error: str) -> Figure:
 
 def projected(east: FloatArray, north: FloatArray, up: FloatArray) -> FloatArray:
     """On the page (2, any), from metres."""
-    level = np.multiply.outer(EAST, east) + np.multiply.outer(NORTH, north)
-    return level + np.multiply.outer([0.0, HEIGHT_TIMES], up)
+    directions = np.column_stack([EAST, NORTH, [0.0, HEIGHT_TIMES]])
+    on_page: FloatArray = directions @ np.array([east, north, up])
+    return on_page
 
 
 def _route(axes: Axes, drive: Columns, error: str) -> None:
@@ -82,7 +83,9 @@ def _directions(axes: Axes, origin: FloatArray) -> None:
     ):
         end = origin + projected(*np.transpose([step]))[:, 0]
         axes.plot(*np.transpose([origin, end]), color=INK, lw=0.9, solid_capstyle="round")
-        axes.annotate(text, end, beside, textcoords="offset points", ha=align, va="baseline", size=SMALL_PT)
+        axes.annotate(
+            text, (end[0], end[1]), beside, textcoords="offset points", ha=align, va="baseline", size=SMALL_PT
+        )
 
 
 def _close_up(figure: Figure, drive: Columns, close_up: Columns, error: str, left: float, width: float) -> None:

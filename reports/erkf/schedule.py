@@ -12,7 +12,8 @@ from matplotlib.ticker import FixedLocator, NullLocator
 from reports.charts.panels import Panel
 from reports.drawing.axes import AXIS_MM, EDGE_MM, TITLE_MM, decades, plain
 from reports.drawing.legend import draw_legend, legend_height, line_entry
-from reports.drawing.style import SOURCE_LINES, TITLE_PT, WIDTH_MM, axes_at, drawing, page
+from reports.drawing.style import TITLE_PT, WIDTH_MM, axes_at, drawing, page
+from reports.erkf.styles import WAYS
 from sched_sim.design.cycle_marks import cycle_marks
 from sched_sim.design.least_speed import achieved_l, least_speed
 from sched_sim.design.pieces import RobustCosts, StandardCosts
@@ -20,18 +21,17 @@ from sched_sim.design.simulate import simulate
 from sched_sim.design.timing import Timing
 
 LEFT_MM, RIGHT_MM, GAP_MM, PLOT_MM = 15.0, 4.0, 16.0, 56.0
-LINES = SOURCE_LINES[1:]
 IN_ONE = {"P": "IP", "U": "RS"}
 
 
 def speed_figure(costs: Mapping[str, Mapping[str, RobustCosts[Fraction]]], N: int, hr_hz: int) -> Figure:
-    """A plot for each system: millions of operations a second against L, a curve for each way, at most four.
+    """A plot for each system: millions of operations a second against L, a curve for each way.
 
     costs: in operations, by system and way. At the left end, L = 1, a curve is at what the whole step in one HR
     period needs.
     """
     ways = list(dict.fromkeys(way for of_system in costs.values() for way in of_system))
-    lines = dict(zip(ways, LINES, strict=False))
+    lines = {way: WAYS[way] for way in ways}
     speeds = {
         (system, way): [millions(least_speed(of_way, Timing(N, 0, L)).speed, hr_hz) for L in range(1, N + 1)]
         for system, of_system in costs.items()

@@ -11,11 +11,12 @@ from matplotlib.figure import Figure
 from filters.arrays import FloatArray
 from reports.drawing.axes import AXIS_MM, EDGE_MM, TITLE_MM, decades, plain
 from reports.drawing.legend import draw_legend, legend_height, line_entry
-from reports.drawing.style import INK, SMALL_PT, SOURCE_LINES, TITLE_PT, WIDTH_MM, axes_at, drawing, page
+from reports.drawing.style import INK, SMALL_PT, TITLE_PT, WIDTH_MM, axes_at, drawing, page
+from reports.erkf.styles import WAYS as LINES
+from reports.pages.machine import marked
 
 LEFT_MM, RIGHT_MM, GAP_MM, VALUES_MM, DIFFERENCES_MM, BETWEEN_MM = 14.0, 4.0, 16.0, 44.0, 44.0, 9.0
-WAYS = {"givens": "Givens rotations", "lu": "LU with pivoting", "lu without pivoting": "LU without pivoting"}
-LINES = dict(zip(WAYS, SOURCE_LINES[1:], strict=False))
+WAYS = {"givens": "Givens", "lu": "pivoted LU", "lu without pivoting": "unpivoted LU"}
 MARKED = 10
 """Signs along a curve."""
 
@@ -30,8 +31,8 @@ def singular_figure(curves: Mapping[str, FloatArray], systems: Mapping[str, str]
     with drawing():
         across = WIDTH_MM - LEFT_MM - RIGHT_MM
         width = (across - GAP_MM * (len(systems) - 1)) / len(systems)
-        legend = [line_entry("explicit inverse", SOURCE_LINES[0]._replace(marker=""))]
-        legend += [line_entry(name, LINES[way]) for way, name in WAYS.items()]
+        legend = [line_entry("inverse", LINES["inverse"]._replace(marker=""))]
+        legend += [line_entry(name, LINES[name]._replace(dashes="-")) for name in WAYS.values()]
         second = EDGE_MM + TITLE_MM + VALUES_MM + BETWEEN_MM
         legend_top = second + DIFFERENCES_MM + AXIS_MM
         figure = page(legend_top + legend_height(legend, across) + EDGE_MM)
@@ -57,7 +58,7 @@ def singular_figure(curves: Mapping[str, FloatArray], systems: Mapping[str, str]
             values.tick_params(axis="x", labelbottom=False)
             if column == 0:
                 values.set_ylabel("singular value of $P$", labelpad=2)
-                differences.set_ylabel("difference of the largest", labelpad=2)
+                differences.set_ylabel(marked("difference of the largest"), labelpad=2)
         draw_legend(figure, legend, LEFT_MM, legend_top, across)
         return figure
 
@@ -67,9 +68,9 @@ _ENDS = (("smallest", np.min), ("largest", np.max))
 
 def _values(axes: Axes, time_s: FloatArray, values: FloatArray, which: str) -> None:
     """The inverse as a line, Givens as signs on it, for the two cannot be told apart."""
-    axes.plot(time_s, values, color=INK, lw=0.8, label=f"{which}, explicit inverse")
+    axes.plot(time_s, values, color=INK, lw=0.8, label=f"{which}, inverse")
     signs = slice(len(time_s) // (2 * MARKED), None, max(len(time_s) // MARKED, 1))
-    line = LINES["givens"]
+    line = LINES["Givens"]
     axes.plot(time_s[signs], values[signs], line.marker, color=line.colour, ms=line.size, mew=0, ls="none")
     middle = len(time_s) // 2
     axes.annotate(
@@ -80,7 +81,7 @@ def _values(axes: Axes, time_s: FloatArray, values: FloatArray, which: str) -> N
 
 def _differences(axes: Axes, time_s: FloatArray, differences: Mapping[str, FloatArray]) -> None:
     for number, (way, curve) in enumerate(differences.items()):
-        line = LINES[way]
+        line = LINES[WAYS[way]]
         every = max(len(time_s) // MARKED, 1)
         positive = np.where(curve > 0, curve, np.nan)
         axes.plot(

@@ -9,6 +9,7 @@ from typing import Any
 from reports.erkf.counts import ALL_WAYS, PROCESSORS, TIMED, Counts, Parallel
 from reports.erkf.results import Results
 from reports.erkf.schedule import millions
+from reports.erkf.ways import Response
 from reports.pages.machine import marked, residue
 from reports.pages.numbers import percent, plus_minus, significant, span
 from sched_sim.costs.methods import ROBUST_METHODS
@@ -17,7 +18,7 @@ from sched_sim.design.fit import fit
 from sched_sim.design.least_speed import achieved_l, least_speed
 from sched_sim.design.methods import select
 from sched_sim.design.options import Options
-from sched_sim.design.pieces import RobustCosts, StandardCosts, Statistic
+from sched_sim.design.pieces import RobustCosts, Statistic
 from sched_sim.design.timing import Timing
 from sched_sim.processors.part import Part, on_part
 from studies.robust.costs import HR_HZ, SYSTEMS, N, SystemName, parallel_costs
@@ -25,7 +26,7 @@ from studies.robust.costs import HR_HZ, SYSTEMS, N, SystemName, parallel_costs
 Rows = list[list[Any]]
 
 WAYS = {
-    "robust-inverse": "explicit inverse",
+    "robust-inverse": "inverse",
     "robust-givens": "Givens",
     "robust-lu": "pivoted LU",
     "robust-closed": "closed form",
@@ -87,15 +88,25 @@ def parallel_rows(devices: Mapping[SystemName, Parallel]) -> Rows:
     return rows
 
 
+def typeset(rows: Rows) -> Rows:
+    """The same with true minus signs, for the page; files have what programs read."""
+    return [[signed(str(cell)) for cell in row] for row in rows]
+
+
+def signed(number: str) -> str:
+    """With a true minus sign in its power of ten."""
+    return number.replace("e-", "e\N{MINUS SIGN}")
+
+
 def agreement_rows(results: Results) -> Rows:
     """How far each way is from the inverse: at most, in a whole drive. Nothing but rounding."""
     rows: Rows = [["Filter", "Way", *map(marked, ("max, abs.", "min, abs.", "max, rel.", "min, rel.")), "fails in"]]
-    names = {"givens": "Givens", "lu": "LU, pivoting", "lu without pivoting": "LU, no pivoting"}
+    names = {"givens": "Givens", "lu": "pivoted LU", "lu without pivoting": "unpivoted LU"}
     for record in results.records("agreement"):
         values = [record[key] for key in ("largest", "smallest", "relative_largest", "relative_smallest")]
         failed = record["fails_in_step"]
         shown = [residue(float(value)) if failed == "" else "-" for value in values]
-        rows.append([record["case"], names[record["way"]], *shown, f"step {failed}" if failed else "-"])
+        rows.append([spoken(record["case"]), names[record["way"]], *shown, f"step {failed}" if failed else "-"])
     return rows
 
 
@@ -103,7 +114,7 @@ def attitude_rows(results: Results) -> Rows:
     rows: Rows = [["Scale error", "Filter", "roll", "pitch", "yaw", "yaw, GPS out"]]
     for record in results.records("attitude"):
         values = [with_error(record, f"{name}_deg") for name in ("roll", "pitch", "yaw", "outage")]
-        rows.append([f"{100 * float(record['scale_error']):g} %", record["method"], *values])
+        rows.append([f"{100 * float(record['scale_error']):g} %", spoken(record["method"]), *values])
     return rows
 
 
@@ -111,7 +122,7 @@ def position_rows(results: Results) -> Rows:
     rows: Rows = [["Scale error", "Filter", "north", "east", "down", "GPS out, end"]]
     for record in results.records("position"):
         values = [with_error(record, name) for name in OF_POSITION]
-        rows.append([f"{100 * float(record['scale_error']):g} %", record["method"], *values])
+        rows.append([f"{100 * float(record['scale_error']):g} %", spoken(record["method"]), *values])
     return rows
 
 
@@ -127,22 +138,86 @@ def with_error(record: Mapping[str, str], name: str) -> str:
     return plus_minus(float(record[name]), float(record[f"{name} se"]))
 
 
+def spoken(method: str) -> str:
+    """A filter's name of the studies as the page says it."""
+    name = f"E{method}" if method.startswith("KF") else method
+    signs = (("mu=inf", "μ = ∞"), ("mu=", "μ = "), ("I/mu", "I/μ"), (" x ", " × "))
+    for written, said in signs:
+        name = name.replace(written, said)
+    return name
+
+
+def response_rows(responses: Sequence[Response]) -> Rows:
+    """What the lead figure draws."""
+    return [
+        ["System", "Way", "from fix to result, ms"],
+        *([r.system, r.way, f"{1e3 * r.seconds:.3f}"] for r in responses),
+    ]
+
+
+def linear_rows(results: Results) -> Rows:
+    """Of each filter on a linear system what makes it stable, and its error where nothing is wrong with the model."""
+    rows: Rows = [
+        ["System", "Filter", "radius of F", "radius of the filter", "steps to one P", "error, step 50", "step 200"]
+    ]
+    for record in results.records("linear"):
+        errors = [significant(float(record[f"error_{step}"])) for step in (50, 200)]
+        rows.append(
+            [record["system"], record["filter"], record["of_system"], record["radius"], record["steps"], *errors]
+        )
+    return rows
+
+
+def sample_rows(results: Results) -> Rows:
+    rows: Rows = [["Random systems", "tried", "stable and convergent", "largest radius"]]
+    for record in results.records("linear-sample"):
+        rows.append([record["name"], *(f"{int(record[key]):,}" for key in ("systems", "kept")), record["radius"]])
+    return rows
+
+
+def part_rows(table: CostTable, processors: Sequence[Part]) -> Rows:
+    """For each processor that can time all of it, by way, the load in percent with a robust step for each fix and with
+    one in each period; "no" where a deadline is missed."""
+    rows: Rows = [["Processor", *WAYS.values()]]
+    for part in processors:
+        costs = [of_method for method in ROBUST_METHODS if (of_method := on(table, part, method)) is not None]
+        if len(costs) == len(ROBUST_METHODS):
+            rows.append([part.name, *(f"{_load(c, Timing(N, 0, N))} / {_load(c, Timing(1, 0, 1))}" for c in costs)])
+    return rows
+
+
+def _load(costs: RobustCosts[Fraction], timing: Timing) -> str:
+    """In percent of the processor's time."""
+    verdict = fit(costs, timing, Fraction(HR_HZ))
+    return significant(100 * verdict.load) if verdict.fits else "no"
+
+
 def speed_rows(tables: Mapping[SystemName, CostTable], measured: Mapping[SystemName, CostTable]) -> Rows:
-    """The least speed by L in millions of operations a second, the L achieved with that for L = N, and what the whole
-    step in one HR period needs; measured: the share of this machine for L = N, from least costs to their 95th
-    percentile."""
+    """The least speed by L in millions of operations a second; measured: the share of this machine for L = N, from
+    least costs to their 95th percentile. L = 1 is what the whole step in one HR period needs."""
     heads = [f"L = {L}" for L in ASKED]
-    rows: Rows = [["System", "Way", "in one period", *heads, "lands at", marked("load, %")]]
+    rows: Rows = [["System", "Way", *heads, marked("load, %")]]
     for system, table in tables.items():
         for method in ROBUST_METHODS:
             costs = robust_costs_of(table, method)
-            serial = least_speed(StandardCosts(costs.inertial, costs.robust_step), Timing(N, 0, N)).speed
             speeds = [least_speed(costs, Timing(N, 0, L)).speed for L in ASKED]
-            landed = achieved_l(costs, Timing(N, 0, N), speeds[-1])
             timed = (robust_costs_of(measured[system], method, statistic) for statistic in ENDS)
             low, high = (percent(fit(costs_here, Timing(N, 0, N), Fraction(HR_HZ)).load) for costs_here in timed)
-            numbers = [f"{millions(speed, HR_HZ):#.3g}".rstrip(".") for speed in (serial, *speeds)]
-            rows.append([system, WAYS[method], *numbers, landed, span(low, high)])
+            numbers = [f"{millions(speed, HR_HZ):#.3g}".rstrip(".") for speed in speeds]
+            rows.append([system, WAYS[method], *numbers, span(low, high)])
+    return rows
+
+
+def least_speed_rows(tables: Mapping[SystemName, CostTable]) -> Rows:
+    """What the figure of least speeds draws, in millions of operations a second."""
+    rows: Rows = [["System", "Way", "L", "million operations a second"]]
+    for system, table in tables.items():
+        for method in ROBUST_METHODS:
+            costs = robust_costs_of(table, method)
+            for L in range(1, N + 1):
+                rows.append(
+                    [system, WAYS[method], L, f"{millions(least_speed(costs, Timing(N, 0, L)).speed, HR_HZ):.5g}"]
+                )
     return rows
 
 

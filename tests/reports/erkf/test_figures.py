@@ -8,21 +8,26 @@ import numpy as np
 import pytest
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
 
 from filters.arrays import FloatArray
 from reports.charts.chart import gantt
+from reports.erkf import styles
 from reports.erkf.cost_figure import Way, cost_figure
 from reports.erkf.drive import (
     attitude_figure,
     errors_figure,
     position_figure,
-    route_figure,
     windowed_rms,
     wrapped_deg,
 )
 from reports.erkf.parallel import parallel_figure
+from reports.erkf.route import HEIGHT_TIMES, projected, route_figure
 from reports.erkf.schedule import millions, one_period, speed_figure, two_rates
+from reports.erkf.scheme import filters_figure, imu_figure
 from reports.erkf.singular import WAYS, singular_figure
+from reports.erkf.stability import LEAST, LINES, TITLES, stability_figure
+from reports.erkf.ways import Response, response_s, ways_figure
 from sched_sim.design.least_speed import least_speed
 from sched_sim.design.pieces import RobustCosts
 from sched_sim.design.timing import Timing
@@ -41,6 +46,10 @@ def curves(figure: Figure, axes: int, points: int) -> list[tuple[list[float], li
     ]
 
 
+def written(figure: Figure) -> set[str]:
+    return {text.get_text() for text, _ in texts(figure)}
+
+
 def test_costs() -> None:
     ways = [
         Way(
@@ -50,13 +59,18 @@ def test_costs() -> None:
         ),
         Way("closed form", {"attitude": 1_900, "position": 3_500}),
     ]
-    figure = cost_figure(ways, 1 / 400)
+    figure = cost_figure(ways, {"attitude": 47, "position": 67}, 1 / 400)
     assert flaws(figure) == []
-    assert [(x[0], y[0]) for x, y in curves(figure, 0, 1)] == [(2e5, 1), (6e5, 1), (1900, 2), (3500, 2)]
+    signs = curves(figure, 0, 1)
+    assert [x[0] for x, _ in signs] == [2e5, 6e5, 1900, 3500]
+    (first, same, second, _) = (y[0] for _, y in signs)
+    assert first == same < second
     assert [x[0] for x, _ in curves(figure, 1, 1)] == pytest.approx([20, 50])
     (until,) = (lines for lines in figure.axes[1].collections if isinstance(lines, LineCollection))
-    np.testing.assert_allclose(until.get_segments(), [[(50, 1), (70, 1)]])
-    assert {"closed form", "Compiled code †", "one step at 400 Hz"} <= {text.get_text() for text, _ in texts(figure)}
+    np.testing.assert_allclose(until.get_segments(), [[(50, first), (70, first)]])
+    assert {"attitude filter, N = 47", "closed form", "Compiled code †", "one step at 400 Hz"} <= {
+        text.get_text() for text, _ in texts(figure)
+    }
 
 
 def test_parallel_times() -> None:
@@ -120,6 +134,65 @@ def test_the_drive() -> None:
         assert flaws(figure) == []
 
 
+def test_the_attitude_has_the_yaw_of_gps_and_of_the_inertial_unit() -> None:
+    named = {str(line.get_label()): line for line in attitude_figure(course(), "10 %").axes[2].lines}
+    assert {"true", "GPS", "IMU", "EKF", "ERKF"} <= set(named)
+    truth = np.asarray(named["true"].get_ydata(), dtype=float)
+    np.testing.assert_allclose(np.asarray(named["IMU"].get_ydata(), dtype=float) - truth, 8.0)
+    np.testing.assert_allclose(np.asarray(named["GPS"].get_ydata(), dtype=float) - truth[::20], 0.3)
+
+
+def test_the_route_is_in_three_dimensions() -> None:
+    """East and north go different ways on the page, up goes up, and it is said that heights are larger."""
+    east, north, up = (projected(*np.transpose([axis]))[:, 0] for axis in np.eye(3))
+    assert abs(np.linalg.det([east, north])) > 0.5
+    np.testing.assert_array_equal(up, [0.0, HEIGHT_TIMES])
+    figure = route_figure(course(), {name: values[400:411] for name, values in course().items()}, "2 %")
+    assert {"The route; heights 10 times", "60 m east", "60 m north", "5 m up"} <= written(figure)
+
+
+def test_the_drawn_figures_can_be_read() -> None:
+    for figure in (imu_figure(), filters_figure()):
+        assert flaws(figure) == []
+    said = " ".join(written(imu_figure()))
+    assert all(sign in said for sign in (r"\delta_g", r"\delta_a", "b_g", "b_a", r"\eta_g", r"\eta_a"))
+
+
+def test_responses_are_bars_that_end_where_the_result_is_there() -> None:
+    costs = RobustCosts(Fraction(1, 40_000), Fraction(1, 1000))
+    late = RobustCosts(Fraction(1, 40_000), Fraction(4, 1000))
+    timing = Timing(40, 0, 40)
+    assert response_s(costs, timing, 400) == pytest.approx(1e-3 + 25e-6)
+    assert response_s(late, timing, 400) == pytest.approx(4e-3 + 2 * 25e-6)  # the next propagation comes between
+    with pytest.raises(ValueError, match="before the next fix"):
+        response_s(RobustCosts(Fraction(1, 40_000), Fraction(1)), timing, 400)
+    found = [Response(system, "Givens", seconds) for system, seconds in (("attitude", 1e-3), ("position", 4e-3))]
+    figure = ways_figure(found, {"robust step in each period": 2.5e-3, "one for each fix": 0.1})
+    assert flaws(figure) == []
+    bars = [bar for bar in figure.axes[0].patches if isinstance(bar, Rectangle)]
+    assert [bar.get_x() + bar.get_width() for bar in bars] == pytest.approx([1.0, 4.0])
+    deadlines = {"robust step in each period: 2.5 ms", "one for each fix: 100 ms"}
+    assert {"1.00 ms", "4.00 ms", *deadlines} <= written(figure)
+
+
+def test_stability() -> None:
+    steps = np.arange(61.0)
+    found: dict[str, FloatArray] = {"step": steps}
+    for system in TITLES:
+        for name in LINES:
+            found |= {f"{system}, {name}: P from {start:g}": start ** (0.9**steps) for start in (1e-2, 1.0, 1e4)}
+            found[f"{system}, {name}: apart"] = np.where(0.8**steps >= LEAST, 0.8**steps, np.nan)
+    figure = stability_figure(found)
+    assert flaws(figure) == []
+    assert len(curves(figure, 0, 61)) == 9
+    np.testing.assert_allclose(curves(figure, 1, 61)[0][1][:5], 0.8 ** np.arange(5))
+
+
+def test_what_is_told_apart_looks_different_without_colour() -> None:
+    for looks in ([*styles.WAYS.values()], [*styles.FILTERS.values(), styles.LIMIT]):
+        assert len({line.marker for line in looks}) == len(looks)
+
+
 def test_yaw_has_no_jump_where_the_vehicle_has_none() -> None:
     figure = attitude_figure(course(), "10 %")
     for _, yaw in curves(figure, 2, 1000):
@@ -142,7 +215,7 @@ def test_errors_are_root_mean_squares_of_5_s() -> None:
 
 
 def test_least_speeds() -> None:
-    figure = speed_figure({"Attitude": {"one": COSTS}, "Position": {"one": COSTS}}, 40, 400)
+    figure = speed_figure({"Attitude": {"Givens": COSTS}, "Position": {"Givens": COSTS}}, 40, 400)
     assert flaws(figure) == []
     ((L, speeds),) = curves(figure, 0, 40)
     assert list(range(1, 41)) == L

@@ -1,0 +1,293 @@
+"""The numbers of the text of the report on the robust filter."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+
+from filters.arrays import FloatArray
+from reports.erkf import counts as ways
+from reports.erkf import tables
+from reports.erkf.counts import Parallel, all_counts
+from reports.erkf.drive import ANGLES, windowed_rms, wrapped_deg
+from reports.erkf.results import Results
+from reports.erkf.schedule import millions
+from reports.erkf.styles import FILTERS
+from reports.pages.machine import residue
+from reports.pages.numbers import percent, span
+from sched_sim.costs.methods import ROBUST_METHODS, RobustMethod
+from sched_sim.costs.table import CostTable
+from sched_sim.design.fit import Fit, fit
+from sched_sim.design.least_speed import least_speed
+from sched_sim.design.timing import Timing
+from sched_sim.processors.part import Part
+from studies.robust import drive
+from studies.robust.costs import HR_HZ, SYSTEMS, N, SystemName, between_fixes
+from studies.robust.counts import PENALTIES
+from studies.robust.linear import KALMAN
+
+SOON = 10
+"""The L of the Gantt charts other than N."""
+
+
+def cost_said(results: Results) -> dict[str, Any]:
+    counts = all_counts()
+
+    def both(way: str, reference: str, digits: int = 1) -> list[str]:
+        return [f"{counts.ratio(way, reference, system):.{digits}f}" for system in SYSTEMS]
+
+    def by_system_and_penalty(way: str, reference: str) -> str:
+        ratios = [counts.ratio(way, reference, s, penalty) for s in SYSTEMS for penalty in ("infinite", "finite")]
+        return f"{min(ratios):.2f} to {max(ratios):.2f}"
+
+    timed = {
+        method: [tables.seconds(results.measured[system], method) for system in SYSTEMS] for method in ROBUST_METHODS
+    }
+    position = {way: f"{numbers['position', 'finite']:,}" for way, numbers in counts.operations.items()}
+    return {
+        "unknowns": counts.unknowns,
+        "repeated": position[ways.REPEATED],
+        "inverse": position[ways.INVERSE],
+        "givens": position[ways.GIVENS_ORDERED],
+        "lu": position[ways.LU_ORDERED],
+        "closed": position[ways.CLOSED],
+        "householder": position[ways.HOUSEHOLDER_ORDERED],
+        "faddeev": position[ways.FADDEEV_ORDERED],
+        "paper": both(ways.REPEATED, ways.PER_COLUMN, 2),
+        "against_one": both(ways.GIVENS, ways.INVERSE, 2),
+        "columns_against_one": both(ways.PER_COLUMN, ways.INVERSE),
+        "natural": by_system_and_penalty(ways.GIVENS_NATURAL, ways.INVERSE_SKIPPING),
+        "order": both(ways.GIVENS_NATURAL, ways.GIVENS_ORDERED),
+        "householder_dense": both(ways.HOUSEHOLDER, ways.GIVENS, 2),
+        "householder_ordered": both(ways.HOUSEHOLDER_ORDERED, ways.GIVENS_ORDERED, 2),
+        "householder_natural": {
+            penalty: [
+                f"{counts.ratio(ways.HOUSEHOLDER_NATURAL, ways.GIVENS_NATURAL, system, penalty):.2f}"
+                for system in SYSTEMS
+            ]
+            for penalty in PENALTIES
+        },
+        "faddeev_dense": both(ways.FADDEEV, ways.LU, 2),
+        "faddeev_ordered": both(ways.FADDEEV_ORDERED, ways.LU_ORDERED, 2),
+        "over_faddeev": both(ways.GIVENS_ORDERED, ways.FADDEEV_ORDERED),
+        "over_lu": both(ways.GIVENS_ORDERED, ways.LU_ORDERED),
+        "over_closed": both(ways.GIVENS_ORDERED, ways.CLOSED),
+        "over_kalman": both(ways.CLOSED, ways.KALMAN, 2),
+        "inverse_over_givens": both(ways.INVERSE, ways.GIVENS_ORDERED),
+        "slowest": tables.micros(results.measured["position"], "robust-inverse"),
+        "slowest_share": span(*(f"{100 * time * HR_HZ:.1f}" for time in timed["robust-inverse"][-1])),
+        "time_ratio": {
+            "inverse": _ratios(timed, "robust-inverse", "robust-givens"),
+            "lu": _ratios(timed, "robust-givens", "robust-lu"),
+            "closed": _ratios(timed, "robust-givens", "robust-closed"),
+        },
+    }
+
+
+def _ratios(
+    timed: Mapping[RobustMethod, list[tuple[float, float]]], first: RobustMethod, second: RobustMethod
+) -> list[str]:
+    """For each system how many times as long `first` takes: by the least times, and by the 95th percentiles."""
+    both = zip(timed[first], timed[second], strict=True)
+    ratios = [sorted(long / short for long, short in zip(*ends, strict=True)) for ends in both]
+    return [span(f"{least:.1f}", f"{most:.1f}") for least, most in ratios]
+
+
+def parallel_said(devices: Mapping[SystemName, Parallel]) -> dict[str, Any]:
+    first, last = ways.PROCESSORS[0], ways.PROCESSORS[-1]
+    dense, _, ordered = ways.SCHEDULES
+
+    def gain(name: str, P: int = last) -> list[str]:
+        return [f"{devices[s].times[name][first] / devices[s].times[name][P]:.0f}" for s in SYSTEMS]
+
+    return {
+        "dense": gain(dense),
+        "ordered": gain(ordered),
+        "ordered_16": gain(ordered, 16),
+        "last": last,
+        "by_sparsity": [f"{devices[s].times[dense][first] / devices[s].times[ordered][first]:.0f}" for s in SYSTEMS],
+        "one": [f"{devices[s].times[ordered][first]:,}" for s in SYSTEMS],
+        "ordered_at_16": [f"{devices[s].times[ordered][16]:,}" for s in SYSTEMS],
+        "dense_last": [f"{devices[s].times[dense][last]:,}" for s in SYSTEMS],
+        "dense_16": [f"{devices[s].times[dense][16]:,}" for s in SYSTEMS],
+        "stages": [(devices[s].stages[dense], devices[s].stages[ordered]) for s in SYSTEMS],
+    }
+
+
+def rounding_said(results: Results) -> dict[str, Any]:
+    """How far each way is from the inverse. Residues, but for what fails."""
+    records = results.records("agreement")
+    scaled = [record for record in records if "radians" not in record["case"]]
+
+    def worst(rows: Sequence[Mapping[str, str]], *keys: str) -> str:
+        return tables.signed(residue(max(float(row[key]) for row in rows for key in keys)))
+
+    by_way = {way: [record for record in scaled if record["way"] == way] for way in ("givens", "lu")}
+    (radians,) = [r for r in records if "radians" in r["case"] and r["way"] == "givens"]
+    unpivoted = [r for r in records if r["way"] == "lu without pivoting"]
+    kept, failing = ([r for r in unpivoted if bool(r["fails_in_step"]) == fails] for fails in (False, True))
+    limits = [record for record in unpivoted if "mu=inf" in record["case"]]
+    return {
+        "absolute": worst(by_way["givens"], "largest", "smallest"),
+        "relative": worst(by_way["givens"], "relative_largest", "relative_smallest"),
+        "lu_absolute": worst(by_way["lu"], "largest", "smallest"),
+        "lu_relative": worst(by_way["lu"], "relative_largest", "relative_smallest"),
+        "radians_absolute": worst([radians], "largest", "smallest"),
+        "radians_percent": f"{100 * float(radians['relative_smallest']):.0f}",
+        "failing": len(failing),
+        "of": len(unpivoted),
+        "the_limits_fail": failing == limits,
+        "step": max(int(record["fails_in_step"]) for record in failing),
+        "unpivoted": worst(kept, "relative_largest"),
+        "pivoted": worst([r for r in by_way["lu"] if _same(r, kept)], "relative_largest"),
+    }
+
+
+def _same(record: Mapping[str, str], others: list[dict[str, str]]) -> bool:
+    return record["case"] in [candidate["case"] for candidate in others]
+
+
+def drive_said(results: Results) -> dict[str, Any]:
+    """Errors with twice their standard errors."""
+    attitude = {(float(r["scale_error"]), r["method"]): r for r in results.records("attitude")}
+    at = {(float(r["scale_error"]), r["method"]): r for r in results.records("position")}
+    small, large = drive.SCALE_ERRORS
+    (raw,) = results.records("raw")
+    mild, strong = drive.POSITION_EKF.name, drive.POSITION_ROBUST.name
+
+    def error(scale: float, method: drive.AttitudeMethod, angle: str = "yaw") -> str:
+        return tables.with_error(attitude[scale, method.name], f"{angle}_deg")
+
+    def both(method: drive.AttitudeMethod) -> list[str]:
+        return [error(scale, method) for scale in (small, large)]
+
+    def worse(scale: float, method: drive.AttitudeMethod, angle: str) -> str:
+        """Than the EKF, in percent; negative if it is better."""
+        robust, plain = (float(attitude[scale, candidate.name][f"{angle}_deg"]) for candidate in (method, drive.EKF))
+        return f"{100 * (robust / plain - 1):.0f}"
+
+    def sides(record: Mapping[str, str], what: str) -> str:
+        return ", ".join(record[f"{what}_{axis}_m"] for axis in ("north", "east", "down"))
+
+    return {
+        "seeds": len(drive.SEEDS),
+        "ekf": both(drive.EKF),
+        "robust": both(drive.ROBUST),
+        "more": both(drive.MORE_ROBUST),
+        "inflated": both(drive.INFLATED),
+        "noisier": both(drive.NOISIER),
+        "limits": [error(small, method) for method in (drive.LIMIT_GYRO, drive.LIMIT_BIAS, drive.LIMIT_ALL)],
+        "pitch": [error(large, method, "pitch") for method in (drive.EKF, drive.MORE_ROBUST)],
+        "roll": [error(small, method, "roll") for method in (drive.EKF, drive.MORE_ROBUST)],
+        "worse": [
+            {angle: worse(scale, drive.MORE_ROBUST, angle) for angle in ("roll", "pitch")}
+            for scale in drive.SCALE_ERRORS
+        ],
+        "from_gps": attitude[small, drive.ROBUST.name]["gps_deg"],
+        "from_imu": attitude[small, drive.ROBUST.name]["imu_deg"],
+        "ekf_from_gps": attitude[small, drive.EKF.name]["gps_deg"],
+        "raw": raw,
+        "fix": sides(at[small, strong], "fix"),
+        "between": sides(at[small, strong], "between"),
+        "ekf_between": sides(at[small, mild], "between"),
+        "gps": sides(raw, "gps"),
+        "held": sides(raw, "held"),
+        "position_differs": any(
+            tables.differ(at[scale, mild], at[scale, strong], name)
+            for scale in drive.SCALE_ERRORS
+            for name in tables.OF_POSITION
+        ),
+        "outage": [tables.with_error(at[small, name], "outage_end_m") for name in (mild, strong)],
+    }
+
+
+def shown_drive_said(results: Results) -> dict[str, Any]:
+    """What the figures of one drive show, at the large scale error; degrees."""
+    course, large = results.columns("drive"), f"{100 * drive.SCALE_ERRORS[-1]:g} %"
+    settled = course["time_s"] >= drive.SETTLED_S
+
+    def off(what: str, angle: str) -> FloatArray:
+        return wrapped_deg(course[f"{what} {angle}"] - course[f"true {angle}"])
+
+    rms = {(name, angle): windowed_rms(off(f"{name} {large}", angle))[1:] for name in FILTERS for angle in ANGLES}
+    worse = float(np.mean(rms["ERKF", "pitch"] > rms["EKF", "pitch"]))
+    return {
+        "robust_yaw": f"{rms['ERKF', 'yaw'].max():.2f}",
+        "ekf_yaw": f"{rms['EKF', 'yaw'].max():.2f}",
+        "pitch_worse": "throughout" if worse == 1 else f"in {100 * worse:.0f} % of them",
+        "yaw_off": f"{max(np.abs(off(f'{name} {large}', 'yaw')[settled]).max() for name in FILTERS):.1f}",
+        "drift": f"{np.abs(off('imu', 'yaw')).max():.0f}",
+    }
+
+
+def linear_said(results: Results) -> dict[str, Any]:
+    """Stability and convergence, of two systems and of random ones."""
+    found = {(record["system"], record["filter"]): record for record in results.records("linear")}
+    samples = results.records("linear-sample")
+    robust = [record for (_, name), record in found.items() if name != KALMAN]
+    whole = [record for record in samples if record["kept"] == record["systems"]]
+    (broken,) = (record for record in samples if record not in whole)
+    systems = min(int(record["systems"]) for record in whole)
+    return {
+        "radius": max(float(record["radius"]) for record in robust),
+        "steps": max(int(record["steps"]) for record in robust),
+        "systems": f"{systems:,}",
+        "whole": len(whole),
+        "at_most": f"{100 * (1 - 0.05 ** (1 / systems)):.1f}",
+        "broken": int(broken["systems"]) - int(broken["kept"]),
+        "growing": {name: record for (system, name), record in found.items() if system == "growing"},
+        "kalman": found["growing", KALMAN]["error_200"],
+        "finite": f"{float(found['growing', 'robust, μ = 1']['error_200']):,.0f}",
+        "limit": f"{float(found['growing', 'robust, μ = ∞']['error_200']):,.0f}",
+    }
+
+
+def schedule_said(counted: Mapping[SystemName, CostTable], parts: list[Part], slowest: Part) -> dict[str, Any]:
+    position = counted["position"]
+    costs = {method: tables.robust_costs_of(position, method) for method in ROBUST_METHODS}
+    least = {method: least_speed(work, Timing(N, 0, N)).speed for method, work in costs.items()}
+    serial = {method: work.inertial + work.robust_step for method, work in costs.items()}
+    able: dict[str, dict[RobustMethod, Fit]] = {}
+    in_every_step: dict[str, dict[RobustMethod, Fit]] = {}
+    for part in parts:
+        on = {method: tables.on(position, part, method) for method in ROBUST_METHODS}
+        if all(work is not None for work in on.values()):
+            for fits, timing in ((able, Timing(N, 0, N)), (in_every_step, Timing(1, 0, 1))):
+                fits[part.name] = {m: fit(work, timing, Fraction(HR_HZ)) for m, work in on.items() if work is not None}
+    here, here_in_every_step = able[slowest.name], in_every_step[slowest.name]
+    alone = {m: tables.on(position, slowest, m) for m in ROBUST_METHODS}
+    every_way = [name for name, of_part in able.items() if all(verdict.fits for verdict in of_part.values())]
+    lacking = [part.name for part in parts if part.name not in able]
+    failing = [tables.WAYS[method] for method, verdict in here_in_every_step.items() if not verdict.fits]
+    return {
+        "serial": {method: f"{millions(speed, HR_HZ):.3g}" for method, speed in serial.items()},
+        "least": {method: f"{millions(speed, HR_HZ):.2g}" for method, speed in least.items()},
+        "gain": {method: f"{float(serial[method] / least[method]):.0f}" for method in costs},
+        "load": {method: percent(verdict.load) for method, verdict in here.items()},
+        "landed": {method: verdict.landed for method, verdict in here.items()},
+        "one_period": {m: percent((work.inertial + work.robust_step) * HR_HZ) for m, work in alone.items() if work},
+        "inertial": f"{float(100 * HR_HZ * _inertial(position, slowest)):.2f}",
+        "able": len(able),
+        "every_way": every_way,
+        "not_every_way": f", not {' and '.join(name for name in able if name not in every_way)}"
+        * (every_way != list(able)),
+        "single": [part.name for part in parts if part.precision == "single"],
+        "lacking": lacking,
+        "every_step": {method: percent(verdict.needed) for method, verdict in here_in_every_step.items()},
+        "every_step_fails": f": the processor is too slow for {' and '.join(failing)}" if failing else "",
+        "every_step_all": [
+            name for name, of_part in in_every_step.items() if all(verdict.fits for verdict in of_part.values())
+        ],
+        "without_fix": {f"robust-{way}": f"{float(share):.2f}" for way, share in between_fixes("position").items()},
+        "least_soon": f"{millions(least_speed(costs['robust-givens'], Timing(N, 0, SOON)).speed, HR_HZ):.3g}",
+    }
+
+
+def _inertial(table: CostTable, part: Part) -> Fraction:
+    """Seconds of the propagation alone."""
+    costs = tables.on(table, part, "robust-closed")
+    assert costs is not None
+    return Fraction(costs.inertial)
