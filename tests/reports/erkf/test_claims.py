@@ -1,0 +1,266 @@
+"""What the report on the robust filter says is true, by its own tables."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from reports.erkf import counts as ways
+from reports.erkf import tables
+from reports.erkf.counts import all_counts, parallel
+from reports.erkf.drive import windowed_rms, wrapped_deg
+from reports.erkf.results import CURVES
+from sched_sim.costs.methods import ROBUST_METHODS
+from sched_sim.costs.table import Cost, CostTable
+from sched_sim.costs.table_file import load_costs
+from sched_sim.design.fit import fit
+from sched_sim.design.least_speed import achieved_l, least_speed
+from sched_sim.design.pieces import StandardCosts
+from sched_sim.design.timing import Timing
+from sched_sim.processors.part_file import load_part, shipped_parts
+from studies.robust.costs import HR_HZ, SYSTEMS, N, between_fixes
+from tests.reports.erkf.page import costs_of, rebuilt, rows, stored, text
+
+pytestmark = pytest.mark.exhaust  # the study takes a quarter of a minute; `studies/robust` has its tests
+
+
+def test_the_verdict_on_givens() -> None:
+    counts = all_counts()
+    for system in SYSTEMS:
+        assert counts.ratio(ways.REPEATED, ways.PER_COLUMN, system) == pytest.approx(2.26, abs=0.03)
+        assert counts.ratio(ways.GIVENS, ways.INVERSE, system) == pytest.approx(1.21, abs=0.01)
+        for penalty in ("infinite", "finite"):
+            assert counts.ratio(ways.GIVENS_ORDERED, ways.LU_ORDERED, system, penalty) > 5
+            assert counts.ratio(ways.LU_ORDERED, ways.CLOSED, system, penalty) > 1.2
+    assert "(2.26 and 2.25 times fewer operations)" in text()
+
+
+def test_the_answer_is_short_and_its_times_are_those_of_the_figure() -> None:
+    answer = text().partition("**Answer.** ")[2].partition("![")[0]
+    assert len(answer.split()) <= 50
+    milliseconds = {(row["System"], row["Way"]): float(row["from fix to result, ms"]) for row in rows("ways.csv")}
+    for way, words in (("closed form", " ms with it"), ("Givens", " ms by Givens"), ("inverse", " ms by an inverse")):
+        assert f"{milliseconds['position', way]:#.3g}{words}" in answer
+    in_time = {way for (system, way), time in milliseconds.items() if system == "position" and time <= 2.5}
+    assert in_time == {"pivoted LU", "closed form"}
+    assert max(milliseconds.values()) < 100
+
+
+def test_reflections_beat_rotations_but_in_the_natural_order_where_mu_is_infinite() -> None:
+    skipped = {}
+    for column in ("attitude, μ = ∞", "position, μ = ∞", "attitude", "position"):
+        skipped[column] = costs_of(ways.HOUSEHOLDER_NATURAL, column) / costs_of(ways.GIVENS_NATURAL, column)
+        assert (skipped[column] > 1) == ("∞" in column)
+        assert costs_of(ways.HOUSEHOLDER_ORDERED, column) < costs_of(ways.GIVENS_ORDERED, column)
+        assert costs_of(ways.HOUSEHOLDER, column) < costs_of(ways.GIVENS, column)
+    of_attitude, of_position, finite_attitude, finite_position = (f"{ratio:.2f}" for ratio in skipped.values())
+    assert f"reflections take {of_attitude} and {of_position} times the operations of the rotations" in text()
+    assert f"with finite μ {finite_attitude} and {finite_position}." in text()
+
+
+def test_faddeevs_algorithm_takes_what_lu_does_and_givens_several_times_that() -> None:
+    over_lu, under_givens = [], []
+    for system in SYSTEMS:
+        faddeev = costs_of(ways.FADDEEV_ORDERED, system)
+        over_lu.append(f"{faddeev / costs_of(ways.LU_ORDERED, system):.2f}")
+        under_givens.append(f"{costs_of(ways.GIVENS_ORDERED, system) / faddeev:.1f}")
+        assert faddeev == pytest.approx(costs_of(ways.LU_ORDERED, system), rel=0.06)
+    assert f"it takes {' and '.join(over_lu)} times what LU does" in text()
+    assert f"Givens {' and '.join(under_givens)} times as many." in text()
+
+
+def test_stability_and_convergence_of_linear_systems() -> None:
+    found = rows("linear.csv")
+    robust = [row for row in found if "robust" in row["Filter"]]
+    assert max(float(row["radius of the filter"]) for row in found) < 1
+    largest = max(float(row["radius of the filter"]) for row in robust)
+    steps = max(int(row["steps to one P"]) for row in robust)
+    assert f"at most {largest}, and P is one after at most {steps} steps" in text()
+    grown = {row["Filter"]: float(row["step 200"].replace(",", "")) for row in found if row["System"] == "growing"}
+    assert grown["robust, μ = ∞"] > grown["robust, μ = 1"] > 100 * grown["Kalman filter"]
+    decayed = [float(row["step 200"]) / float(row["error, step 50"]) for row in found if row["System"] == "decaying"]
+    assert max(decayed) < 1.2
+
+
+def test_random_linear_systems() -> None:
+    first, second, third = rows("linear-sample.csv")
+    for whole in (first, second):
+        assert whole["tried"] == whole["stable and convergent"] == "1,000"
+        assert float(whole["largest radius"]) < 1
+    assert 0.997**1000 < 0.05 < 0.9971**1000
+    assert "with 95 % confidence at most 0.3 % of such systems do not" in text()
+    broken = 1000 - int(third["stable and convergent"])
+    assert broken > 0
+    assert f"{broken} of 1,000 random systems have no solution at some step" in text()
+
+
+def test_what_the_figures_of_one_drive_are_said_to_show() -> None:
+    course = stored().columns("drive")
+    rms = {
+        (name, angle): windowed_rms(wrapped_deg(course[f"{name} 10 % {angle}"] - course[f"true {angle}"]))[1:]
+        for name in ("EKF", "ERKF")
+        for angle in ("pitch", "yaw")
+    }
+    assert (rms["ERKF", "pitch"] > rms["EKF", "pitch"]).all()
+    said = f"yaw error goes up to {rms['ERKF', 'yaw'].max():.2f} degrees, the EKF's to {rms['EKF', 'yaw'].max():.2f};"
+    assert said in text()
+    assert "pitch error is larger throughout" in text()
+    assert np.ptp(course["true up"]) > 1
+    assert "the inertial unit's drifts away by 8 degrees" in text()
+
+
+def test_the_page_says_which_filters_figures_7_and_8_show() -> None:
+    attitude, position = CURVES
+    assert (attitude.name, position.name) == ("attitude, gyro row, mu=1e5", "position, bias row, mu=1e8")
+    assert "attitude, gyro row, μ = 1e5, and position, bias row, μ = 1e8" in text()
+
+
+def test_the_table_of_processors_is_that_of_all_its_verdicts() -> None:
+    of = {(row["Processor"], row["Way"]): row for row in rows("processors.csv") if row["System"] == "position"}
+    heading, *body = tables.part_rows(load_costs("erkf-position"), [load_part(name) for name in shipped_parts()])
+    assert len(body) == 10
+    for name, *cells in body:
+        for way, cell in zip(heading[1:], cells, strict=True):
+            at_fixes, in_each = cell.split(" / ")
+            assert (at_fixes == "no") == (of[name, way]["fits"] == "no")
+            assert (in_each == "no") == (float(of[name, way]["in one period, %"]) > 100)
+
+
+def test_sparsity_against_processors() -> None:
+    """One processor that skips zeros is about as fast as 16 that do not, and 16 faster than 1024 that do not."""
+    dense, _, ordered = ways.SCHEDULES
+    for system in SYSTEMS:
+        times = parallel(system).times
+        assert times[ordered][1] == pytest.approx(times[dense][16], rel=0.05)
+        assert times[ordered][16] < times[dense][1024]
+        assert times[ordered][64] < 1.25 * times[ordered][1024]
+
+
+def test_in_one_period_is_what_l_1_asks_for() -> None:
+    for system in SYSTEMS:
+        for method in ROBUST_METHODS:
+            costs = tables.robust_costs_of(load_costs(f"erkf-{system}"), method)
+            serial = least_speed(StandardCosts(costs.inertial, costs.robust_step), Timing(N, 0, N)).speed
+            assert serial == least_speed(costs, Timing(N, 0, 1)).speed
+            assert achieved_l(costs, Timing(N, 0, N), least_speed(costs, Timing(N, 0, N)).speed) == N
+
+
+def test_every_processor_has_a_verdict_on_every_way() -> None:
+    of = rows("processors.csv")
+    assert [row["Processor"] for row in of] == [n for _ in SYSTEMS for n in shipped_parts() for _ in tables.WAYS]
+    assert {row["fits"] for row in of} == {"yes", "no", "no sqrt"}
+    for row in of:
+        assert (row["fits"] == "no sqrt") == (row["load, %"] == "-")
+        assert (row["fits"] == "yes") == (row["in use at l"] != "-")
+    slow = {row["Processor"] for row in of if row["System"] == "position" and row["fits"] == "no"}
+    assert slow == {"cortex-m0plus", "rp2040"}
+    said = "8 of these 10 run every way with one robust step for each fix, not cortex-m0plus and rp2040;"
+    assert said in text()
+
+
+def test_the_filter_of_the_drive_is_not_the_one_that_is_scheduled_and_the_page_says_what_it_would_take() -> None:
+    """A robust step in every period, N = 1, takes the whole speed that a step in one period does."""
+    leon3 = {
+        row["Way"]: row for row in rows("processors.csv") if (row["System"], row["Processor"]) == ("position", "leon3")
+    }
+    part, needed = load_part("leon3"), {}
+    for method, way in tables.WAYS.items():
+        costs = tables.on(load_costs("erkf-position"), part, method)
+        assert costs is not None
+        found = fit(costs, Timing(1, 0, 1), Fraction(HR_HZ))
+        needed[way] = f"{100 * float(found.needed):.2f}"
+        assert needed[way] == leon3[way]["in one period, %"]
+        assert found.fits == (way in ("pivoted LU", "closed form"))
+    inverse, givens, lu, closed = needed.values()
+    assert (inverse, givens, lu, closed) == ("1955.65", "116.44", "23.72", "16.74")
+    claim = (
+        f"With a robust step in every 400 Hz step the inverse needs {inverse} % of the leon3's speed, Givens {givens} "
+        f"%, pivoted LU {lu} % and the closed form {closed} %: the processor is too slow for inverse and Givens."
+    )
+    assert claim in text()
+    assert f"{inverse} % of the leon3's speed by the inverse, {givens} % by Givens, {lu} % by pivoted LU and" in text()
+    assert "**These filters take a robust step in every 400 Hz step**" in text()
+    assert "with one in every period only desktop" in text()
+
+
+def test_a_step_without_a_measurement_is_compared_with_one_that_has_it() -> None:
+    shares = between_fixes("position")
+    assert shares["inverse"] < shares["closed"] < 0.5 < shares["givens"] < 1 < shares["lu"]
+    assert (
+        "0.40 times the operations by the inverse, 0.98 by Givens, 1.52 by pivoted LU and 0.47 in closed form" in text()
+    )
+
+
+def test_givens_and_pivoted_lu_agree_with_the_inverse_and_unpivoted_lu_does_not() -> None:
+    for record in stored().records("agreement"):
+        if record["way"] == "lu without pivoting":
+            assert (record["fails_in_step"] == "1") == ("inf" in record["case"])
+        else:
+            assert record["fails_in_step"] == ""
+            assert max(float(record["largest"]), float(record["smallest"])) < 1e-10
+
+
+def test_lu_without_pivoting_fails_where_mu_is_infinite_and_the_page_counts_them() -> None:
+    unpivoted = [row for row in rows("agreements.csv") if row["Way"] == "unpivoted LU"]
+    failing = [row for row in unpivoted if row["fails in"] != "-"]
+    assert failing == [row for row in unpivoted if "μ = ∞" in row["Filter"]]
+    assert f"fails in step 1 in {len(failing)} of {len(unpivoted)} filters, those with μ = ∞" in text()
+
+
+def test_measured_figures_are_ranges_from_minimum_to_p95() -> None:
+    step = stored().measured["position"].entry("robust-inverse", "robust_step")
+    low, high = (f"{1e6 * float(time):.1f}" for time in (step.minimum, step.p95))
+    assert f"{low} to {high}" in rebuilt()["costs.csv"].decode()
+    assert f"even the slowest, {low} to {high} µs, takes" in text()
+    for row in rows("speeds.csv"):
+        least, most = map(float, row["load, % †"].split(" to "))
+        assert least < most
+    alone = {name: one_number(table) for name, table in stored().measured.items()}
+    assert " to " not in str(tables.cost_rows(all_counts(), alone))
+
+
+def one_number(table: CostTable) -> CostTable:
+    """The table by its least costs alone."""
+    costs = {
+        method: {kind: Cost.of(cost.minimum) for kind, cost in kinds.items()} for method, kinds in table.costs.items()
+    }
+    return replace(table, costs=costs)
+
+
+def test_what_is_only_rounding_has_one_digit() -> None:
+    (heading, *body) = (line for line in rebuilt()["agreements.csv"].decode().splitlines())
+    assert heading.count("†") == 4
+    assert body
+    assert all(re.fullmatch(r"-|\de-\d\d", row[head]) for row in rows("agreements.csv") for head in row if "†" in head)
+
+
+def test_at_a_large_scale_error_the_price_of_a_better_yaw_is_said() -> None:
+    """Roll and pitch of the robust filter are worse than the EKF's, by more than the errors of both."""
+    of = {row["method"]: row for row in stored().records("attitude") if row["scale_error"] == "0.1"}
+    robust, plain = of["ERKF mu=1e4, gyro row"], of["EKF"]
+    for angle in ("roll_deg", "pitch_deg"):
+        assert float(robust[angle]) > float(plain[angle])
+        assert tables.differ(robust, plain, angle)
+        assert f"{100 * (float(robust[angle]) / float(plain[angle]) - 1):.0f} %" in text()
+
+
+def test_where_robustness_pays() -> None:
+    yaw = {
+        (row["Scale error"], row["Filter"]): float(row["yaw"].split(" ± ")[0]) for row in rows("attitude-errors.csv")
+    }
+    assert yaw["10 %", "ERKF μ = 1e4, gyro row"] < 0.65 * yaw["10 %", "EKF"]
+    assert yaw["10 %", "EKF with I/μ only, μ = 1e4"] == pytest.approx(yaw["10 %", "ERKF μ = 1e4, gyro row"], rel=0.05)
+    assert yaw["2 %", "ERKF μ = 1e4, gyro row"] > yaw["2 %", "EKF"]
+    for rows_said in ("gyro row", "bias row", "all rows"):
+        assert yaw["2 %", f"ERKF μ = ∞, {rows_said}"] > 4 * yaw["2 %", "EKF"]
+
+
+def test_a_device_of_more_units_is_faster() -> None:
+    for system in SYSTEMS:
+        times = [float(row["step, ms"]) for row in rows("device.csv") if row["System"] == system]
+        assert times == sorted(times, reverse=True)
+        assert Fraction(str(times[0])) > 0
