@@ -169,7 +169,7 @@ def linear_rows(results: Results) -> Rows:
 
 
 def sample_rows(results: Results) -> Rows:
-    rows: Rows = [["Random systems", "tried", "stable and convergent", "largest radius"]]
+    rows: Rows = [["Random systems", "tried", marked("stable and convergent"), marked("largest radius")]]
     for record in results.records("linear-sample"):
         rows.append([record["name"], *(f"{int(record[key]):,}" for key in ("systems", "kept")), record["radius"]])
     return rows

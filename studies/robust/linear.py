@@ -53,11 +53,11 @@ CASES = tuple(
 """The Kalman filter is the robust one of which nothing is uncertain."""
 
 
-def random_system(seed: int, more_noises: int) -> RobustModel:
-    """The spectral radius of F is between 0.5 and 1.2."""
+def random_system(seed: int, noises: int) -> RobustModel:
+    """Of 1 to 4 states, with one uncertain row; the spectral radius of F is between 0.5 and 1.2."""
     random = np.random.default_rng(seed)
     n = int(random.integers(1, 5))
-    p, m = int(random.integers(1, n + 1)), n + more_noises
+    p, m = int(random.integers(1, n + 1)), noises
     F = random.normal(size=(n, n))
     F *= random.uniform(0.5, 1.2) / spectral_radius(F)
     return RobustModel(

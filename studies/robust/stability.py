@@ -82,9 +82,9 @@ def convergence(case: Linear) -> Convergence:
     return Convergence(np.array(largest), apart / apart[0])
 
 
-def sample(name: str, mu: float, more_noises: int, systems: int = 1000) -> Sample:
-    """Random systems of 1 to 4 states, stable and not, with one uncertain row; more_noises: than states."""
-    radii = [_radius_if_it_converges(random_system(seed, more_noises), mu) for seed in range(systems)]
+def sample(name: str, mu: float, noises: int, systems: int = 1000) -> Sample:
+    """Random systems of 1 to 4 states, stable and not, with one uncertain row and so many noises."""
+    radii = [_radius_if_it_converges(random_system(seed, noises), mu) for seed in range(systems)]
     kept = [radius for radius in radii if radius is not None and radius < 1]
     return Sample(name, systems, len(kept), max(kept))
 
