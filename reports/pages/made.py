@@ -1,4 +1,4 @@
-"""When, where and how long a report was made: `made.toml` beside it, and the last line of its page.
+"""When, where and how long a report was made: a file beside it, and the last line of its page.
 
 A report itself is a pure function of its results; this is what differs from one making of it to the next.
 """
@@ -51,7 +51,7 @@ def made_of(folder: Path) -> Made | None:
 
 
 def with_made(files: Mapping[str, bytes], made: Made | None) -> dict[str, bytes]:
-    """The report's files as they are written: its page says when and where it was made, and so does `made.toml`."""
+    """The report's files as they are written: its page says when and where it was made, and so does a file beside it."""
     if made is None:
         return dict(files)
     before, end, after = files["index.html"].decode().rpartition("</main>")

@@ -73,7 +73,7 @@ def check_overview(folder: Path) -> None:
 
 
 def report_in(folder: Path) -> Report:
-    """What its Markdown and its `made.toml` say."""
+    """What its Markdown says, and what stands beside it of its making."""
     text = (folder / "index.md").read_text(encoding="utf-8")
     title, answer, figure = HEADING.search(text), ANSWER.search(text), FIRST_FIGURE.search(text)
     seen = figure is not None and (folder / figure[2]).exists()
