@@ -51,7 +51,7 @@ def made_of(folder: Path) -> Made | None:
 
 
 def with_made(files: Mapping[str, bytes], made: Made | None) -> dict[str, bytes]:
-    """The report's files as they are written: its page says when and where it was made, and so does a file beside it."""
+    """The report's files as they are written: its page says when and where it was made, a file beside it too."""
     if made is None:
         return dict(files)
     before, end, after = files["index.html"].decode().rpartition("</main>")
