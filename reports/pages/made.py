@@ -10,7 +10,7 @@ from datetime import UTC, datetime
 from html import escape
 from importlib.metadata import version
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from reports.pages.numbers import duration
 from sched_sim.errors import InputError
@@ -22,20 +22,27 @@ REMEDY = "delete it, or make the report anew"
 
 
 class Made(NamedTuple):
-    """date: such as 2026-11-29; machine: its processor's name; versions: of what made it, by name; seconds: it took."""
+    """date: such as 2026-11-29; machine: its processor's name; versions: of what made it, by name; seconds: it took,
+    None where it was made from stored results."""
 
     date: str
     machine: str
     versions: Mapping[str, str]
-    seconds: float
+    seconds: float | None
+
+    @property
+    def words(self) -> str:
+        """When, where and in how long."""
+        how = "from stored results" if self.seconds is None else f"in {duration(self.seconds)}"
+        return f"made on {self.date} on {self.machine} {how}"
 
 
-def made_here(seconds: float) -> Made:
+def made_here(seconds: float | None) -> Made:
     """By this process, today."""
     from studies.measurement.methods import machine, versions
 
     own = {"sched_sim": version("sched-sim"), **versions()}
-    return Made(datetime.now(UTC).date().isoformat(), machine(), own, round(seconds, 1))
+    return Made(datetime.now(UTC).date().isoformat(), machine(), own, seconds if seconds is None else round(seconds, 1))
 
 
 def made_of(folder: Path) -> Made | None:
@@ -45,9 +52,13 @@ def made_of(folder: Path) -> Made | None:
         return None
     about = read_toml(path, str(path), REMEDY)
     try:
-        return Made(about["date"], about["machine"], about["versions"], float(about["seconds"]))
+        return Made(about["date"], about["machine"], about["versions"], _seconds(about))
     except KeyError as missing:
         raise InputError(f"{path} lacks {missing}: {REMEDY}") from None
+
+
+def _seconds(about: Mapping[str, Any]) -> float | None:
+    return float(about["seconds"]) if "seconds" in about else None
 
 
 def with_made(files: Mapping[str, bytes], made: Made | None) -> dict[str, bytes]:
@@ -60,11 +71,11 @@ def with_made(files: Mapping[str, bytes], made: Made | None) -> dict[str, bytes]
 
 def _footer(made: Made) -> str:
     versions = ", ".join(f"{name} {number}" for name, number in made.versions.items())
-    said = escape(f"Made on {made.date} in {duration(made.seconds)} on {made.machine} ({versions}): ")
+    said = escape(f"This page was {made.words} ({versions}): ")
     return f'<footer class="files">{said}<a href="{FILE}">{FILE}</a></footer>\n'
 
 
 def _toml(made: Made) -> bytes:
     single = {"date": made.date, "machine": made.machine, "seconds": made.seconds}
-    lines = [f"{key} = {toml_value(value)}" for key, value in single.items()]
+    lines = [f"{key} = {toml_value(value)}" for key, value in single.items() if value is not None]
     return "\n".join([*lines, *toml_tables("versions", made.versions), ""]).encode()

@@ -18,7 +18,7 @@ from reports.explorer.compact import compact
 from reports.explorer.module import PALETTE, asset
 from reports.pages.inline import inline
 from reports.pages.made import made_of
-from reports.pages.numbers import duration, unbroken
+from reports.pages.numbers import unbroken
 from sched_sim.errors import InputError
 
 TITLE = "Reports of sched_sim"
@@ -84,7 +84,7 @@ def report_in(folder: Path) -> Report:
         " ".join(answer[1].split()) if answer else "",
         figure[2] if figure and seen else "",
         figure[1] if figure and seen else "",
-        f"made on {made.date} on {made.machine} in {duration(made.seconds)}" if made else "",
+        made.words if made else "",
     )
 
 

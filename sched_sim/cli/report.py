@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from time import monotonic
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import Annotated, Literal
 
 import typer
 
@@ -13,9 +13,6 @@ from sched_sim.cli.measured_note import say_busy
 from sched_sim.cli.output import say
 from sched_sim.cli.progress import Progress, progress_bar
 from sched_sim.errors import InputError
-
-if TYPE_CHECKING:
-    from reports.pages.made import Made
 
 Name = Annotated[
     Literal["steffes2014", "patent-multirate", "erkf", "modular", "accuracy", "embedded"] | None,
@@ -67,8 +64,8 @@ def report(
     say(f"Wrote {_page(output / name)}, the same as index.md, its figures and tables; all reports: {_page(output)}")
 
 
-def _make(name: str, thorough: bool, output: Path, progress: Progress) -> Made:
-    """Writes the report, and the page of all reports anew."""
+def _make(name: str, thorough: bool, output: Path, progress: Progress) -> float:
+    """Writes the report, and the page of all reports anew; the seconds that it took to make it."""
     from reports.pages.made import made_here, with_made
     from reports.pages.overview import overview
     from reports.pages.render import make_folder, write_report
@@ -77,10 +74,10 @@ def _make(name: str, thorough: bool, output: Path, progress: Progress) -> Made:
     make_folder(folder)
     begun = monotonic()
     files = REPORTS[name](thorough, progress)
-    made = made_here(monotonic() - begun)
-    write_report(with_made(files, made), folder)
+    seconds = monotonic() - begun
+    write_report(with_made(files, made_here(seconds)), folder)
     write_report(overview(output, REPORTS), output)
-    return made
+    return seconds
 
 
 def _make_all(thorough: bool, output: Path) -> None:
@@ -99,12 +96,12 @@ def _make_all(thorough: bool, output: Path) -> None:
 
             show(0, None, which)
             try:
-                made = _make(name, thorough, output, progress)
+                seconds = _make(name, thorough, output, progress)
             except Exception as error:  # of any kind: the other reports are to be made
                 failed.append(name)
                 say(f"{name}: not made: {error or type(error).__name__}")
             else:
-                say(f"{name}: {duration(made.seconds)}, {_page(output / name)}")
+                say(f"{name}: {duration(seconds)}, {_page(output / name)}")
     if failed:
         raise InputError(
             f"{len(failed)} of {len(REPORTS)} reports could not be made; the others are in {output}. To see why: "
@@ -121,7 +118,7 @@ def _expected(output: Path) -> str:
 
     published = Path(reports.__file__).parent / "published"
     last = {name: made_of(output / name) or made_of(published / name) for name in REPORTS}
-    seconds = {name: made.seconds for name, made in last.items() if made is not None}
+    seconds = {name: made.seconds for name, made in last.items() if made is not None and made.seconds is not None}
     if not seconds:
         return f"{len(REPORTS)} reports; how long they take is not known here: some minutes"
     each = ", ".join(f"{name} {duration(seconds[name])}" if name in seconds else f"{name} ?" for name in REPORTS)

@@ -1,7 +1,7 @@
 """Published reports anew from what is stored beside them: python -m tests.reports.rebuild [NAME...].
 
-For a change of how reports look, or of what they say. Nothing is measured: `made.toml` stays what it is. The page of
-all reports is written anew, too.
+For a change of how reports look, or of what they say. Nothing is measured: what says when a report was made stays what
+it is, if it is there. The page of all reports is written anew, too.
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ from __future__ import annotations
 import sys
 from importlib import import_module
 
-from reports.pages.made import made_of, with_made
+from reports.pages.made import made_here, made_of, with_made
 from reports.pages.overview import overview
 from sched_sim.cli.report import REPORTS
 from tests.reports.published import FOLDER
@@ -22,7 +22,7 @@ def rebuild(report: str) -> list[str]:
     """The files that differ from those that were there, which are deleted if they are no more."""
     test = import_module(f"tests.reports.{PACKAGES.get(report, report)}.test_report")
     folder = FOLDER / report
-    new = with_made(test.rebuilt(), made_of(folder))
+    new = with_made(test.rebuilt(), made_of(folder) or made_here(None))
     old = {path.name: path.read_bytes() for path in folder.iterdir()}
     for name, content in new.items():
         (folder / name).write_bytes(content)
