@@ -47,8 +47,9 @@ def dark(colour: str) -> str:
 
 
 def raised(ratio: float) -> float:
-    """A contrast on white, as it is on `DARK_GROUND`."""
-    return float(ratio ** (1 + 0.8 * exp(-(log(ratio) ** 2))))
+    """A contrast on white, as it is on `DARK_GROUND`: more by half or so where it is small, and no more than dark text
+    on such a fill bears."""
+    return float(ratio ** (1 + 0.8 * exp(-((log(ratio) / 0.8) ** 2))))
 
 
 def luminance(colour: str) -> float:

@@ -40,5 +40,12 @@ def test_work_stands_out_by_its_fill_or_its_ink(fill: Fill) -> None:
     assert min(in_both(to_hex(fill.ink) if pale else fill.colour)) >= MARK
 
 
+@pytest.mark.parametrize("fill", [*FILLS.values(), *TASK_FILLS], ids=lambda fill: f"{fill.meaning} {fill.colour}")
+def test_labels_in_the_dark_can_be_read_if_they_can_on_paper(fill: Fill) -> None:
+    for ink in (INK, "#ffffff"):
+        if contrast(ink, fill.colour) >= TEXT:
+            assert contrast(dark(ink), dark(fill.colour)) >= TEXT
+
+
 def test_scenery_is_there_and_no_louder_than_marks() -> None:
     assert all(1.3 < ratio < MARK for colour in SCENERY for ratio in in_both(colour))
