@@ -45,6 +45,8 @@ METHOD_NAMES = {
 
 MOST_STEPS, MOST_JOBS = 20_000, 100_000
 """A picture's."""
+LEAST_PERCENT = 0.001
+"""That is written."""
 
 
 @dataclass(frozen=True)
@@ -139,12 +141,20 @@ def method_panel(
     panel = Panel(
         title=METHOD_NAMES[method] if title is None else title,
         schedule=schedule,
-        notes=(*notes, *_cost_notes(table), *option_notes(options), f"{100 * float(schedule.utilization):.0f} % busy"),
+        notes=(*notes, *_cost_notes(table), *option_notes(options), busy(schedule.utilization)),
         marks=cycle_marks(delay, cycles, landings, arrives=not two_rate, end=schedule.horizon // schedule.period),
     )
     if first == 0 and last is None:
         return panel
     return zoomed(panel, first, panel.end if last is None else last)
+
+
+def busy(share: Fraction) -> str:
+    """Of a processor, in words: whole percents, below ten of them two digits, so that little is not nothing."""
+    percent = 100 * float(share)
+    if 0 < percent < LEAST_PERCENT:
+        return f"under {LEAST_PERCENT:g} % busy"
+    return f"{percent:.0f} % busy" if percent >= 9.95 else f"{percent:.2g} % busy"
 
 
 def _pace(table: CostTable, speed: Fraction) -> str:
