@@ -3,8 +3,8 @@
 The filter that tracks a mass without knowing of its spring, 200 steps in a period; the position is measured in every
 tenth step and comes up to ten steps late. Alone, or beside an accelerometer that measures in every step, in time.
 
-Four ways: `filters.modular.run` with late = "recalculate", "larsen" or "dual-rate" (for one sensor), and to take the
-measurement as if it were new, which is what a filter does that knows nothing of delays.
+Four ways: `filters.modular.run` with late = "recalculate", "larsen" or "dual-rate" (for one sensor), and
+"fuse-as-fresh": to take the measurement as if it were new, which is what a filter does that knows nothing of delays.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ from studies.modular.oscillator_run import (
 )
 from studies.modular.rms import Rms, rms
 
-Way: TypeAlias = Literal["recalculate", "larsen", "dual-rate", "as new"]
+Way: TypeAlias = Literal["recalculate", "larsen", "dual-rate", "fuse-as-fresh"]
 Sensors: TypeAlias = Literal["position", "position and acceleration"]
 Progress: TypeAlias = Callable[[int, int, str], None]
 
@@ -126,7 +126,7 @@ def estimate(
     """
     x0, P0 = start()
     inputs = np.zeros((steps, 0))
-    if way == "as new":
+    if way == "fuse-as-fresh":
         new = [measurement._replace(taken=measurement.arrives) for measurement in measurements]
         return run(composed, x0, P0, inputs, new, history=0, backend=backend)
     by = "reference" if way == "dual-rate" else backend

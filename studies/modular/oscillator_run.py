@@ -91,11 +91,11 @@ def start() -> tuple[FloatArray, FloatArray]:
     return np.zeros(3), np.diag(AMPLITUDES**2 / 2)
 
 
-def oscillation(setting: Setting, seed: int) -> Record:
-    """The oscillator, from a random phase."""
+def oscillation(setting: Setting, seed: int, oscillator: Oscillator = OSCILLATOR) -> Record:
+    """The oscillator, from a random phase; of whichever mass and spring, the filter is told of `OSCILLATOR` only."""
     phase = np.random.default_rng([seed, PHASE]).uniform(0, 2 * np.pi)
     time_s = step_s(setting) * np.arange(PERIODS * setting.rate + 1)
-    truth = motion(OSCILLATOR, time_s, np.cos(phase), -frequency(OSCILLATOR) * np.sin(phase))
+    truth = motion(oscillator, time_s, np.cos(phase), -frequency(oscillator) * np.sin(phase))
     return Record(seed, truth, observe(filter_of(setting), truth, seed))
 
 

@@ -26,7 +26,7 @@ TRUTH = oscillation(SETTING, 1).truth[: SETTLED_PERIODS * SETTING.rate + 121]
 
 def test_without_delay_all_ways_but_the_dual_rate_filter_are_one() -> None:
     for sensors in SENSORS:
-        found = [errors(sensors, way, 0, TRUTH, 1, "reference") for way in ("recalculate", "larsen", "as new")]
+        found = [errors(sensors, way, 0, TRUTH, 1, "reference") for way in ("recalculate", "larsen", "fuse-as-fresh")]
         np.testing.assert_allclose(found[1], found[0], atol=1e-9)
         np.testing.assert_allclose(found[2], found[0], atol=1e-9)
 
@@ -48,7 +48,7 @@ def test_as_new_uses_what_is_old() -> None:
     still = np.zeros((101, 3))
     moved = still.copy()
     moved[50:, 0] = 1.0
-    found = estimate(composed, "as new", observe(composed, moved, 0), 100, "reference")
+    found = estimate(composed, "fuse-as-fresh", observe(composed, moved, 0), 100, "reference")
     assert abs(found.x[59, 0]) < 0.3
     assert found.x[100, 0] == pytest.approx(1, abs=0.3)
 
@@ -56,7 +56,7 @@ def test_as_new_uses_what_is_old() -> None:
 def test_work() -> None:
     """Recalculating does one more step again for each step of delay; Larsen's longest step does not grow."""
     longest = [work("position and acceleration", "recalculate", delay).longest for delay in (2, 4, 6)]
-    ordinary = work("position", "as new", 0)
+    ordinary = work("position", "fuse-as-fresh", 0)
     assert longest[2] - longest[1] == longest[1] - longest[0] > 0
     assert len({work("position and acceleration", "larsen", delay).longest for delay in (2, 10)}) == 1
     assert work("position", "recalculate", 0) == work("position", "larsen", 0) == ordinary
