@@ -5,39 +5,47 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TypeAlias
 
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from reports.drawing.axes import decades
-from reports.drawing.legend import line_entry
+from reports.drawing.legend import Entry, line_entry
 from reports.drawing.sheet import label, sheet
-from reports.drawing.style import SOURCE_LINES, drawing
+from reports.drawing.style import INK, drawing
+from reports.modular.styles import KIND_LINES
 from reports.pages.machine import marked
 
 Record: TypeAlias = Mapping[str, str]
 
-LINES = dict(zip(("linear", "extended", "unscented"), SOURCE_LINES[1:], strict=False))
+WIDTHS = {"linear": 2.6}
+"""The curve of the extended parts lies on it."""
 OPERATIONS, SECONDS, MEDIAN = "operations", marked("minimum, µs"), marked("median, µs")
 """Names of the columns."""
 
 
 def cost_figure(rows: Sequence[Record]) -> Figure:
-    """Above, operations; below, times, with a line up to their median: of predict at the left, of correct at the
+    """Above, operations; below, times, with a bar up to their median: of predict at the left, of correct at the
     right."""
     shown = {OPERATIONS: ("operations", 60, 40_000), SECONDS: (f"time, {marked('compiled')} (µs)", 0.015, 5)}
     states = sorted({int(row["states"]) for row in rows})
     with drawing():
-        figure, plots = sheet(2, 2, [line_entry(kind, line) for kind, line in LINES.items()], height_mm=36.0)
+        legend = [
+            *(line_entry(kind, line) for kind, line in KIND_LINES.items()),
+            Entry(marked("least to median"), 1.2, _bar),
+        ]
+        figure, plots = sheet(2, 2, legend, height_mm=36.0)
         for of_row, (column, (up, low, high)) in zip(plots, shown.items(), strict=True):
             for axes, part in zip(of_row, ("predict", "correct"), strict=True):
-                for kind, line in LINES.items():
+                for kind, line in KIND_LINES.items():
                     of_kind = [row for row in rows if (row["kind"], row["part"]) == (kind, part)]
                     for row in of_kind if column == SECONDS else ():
                         least, median = (float(row[end]) for end in (SECONDS, MEDIAN))
-                        axes.vlines(int(row["states"]), least, median, color=line.colour, lw=0.8, zorder=2)
+                        axes.vlines(int(row["states"]), least, median, color=INK, lw=0.8, zorder=3)
                     axes.plot(
                         [int(row["states"]) for row in of_kind], [float(row[column]) for row in of_kind], line.marker,
-                        color=line.colour, ms=line.size, mew=0, ls=line.dashes, lw=1.0, label=kind,
+                        color=line.colour, ms=line.size, mew=0, ls=line.dashes, lw=WIDTHS.get(kind, 1.1),
+                        label=kind,
                     )  # fmt: skip
                 axes.set_xscale("log")
                 axes.set_xlim(states[0] / 1.1, states[-1] * 1.1)
@@ -49,3 +57,7 @@ def cost_figure(rows: Sequence[Record]) -> Figure:
                 title = part.capitalize() if column == OPERATIONS else ""
                 label(axes, title, "states", up if part == "predict" else "")
         return figure
+
+
+def _bar(axes: Axes, x: float, y: float) -> None:
+    axes.plot([x + 0.6] * 2, [y - 1.4, y + 1.4], color=INK, lw=0.8)

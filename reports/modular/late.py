@@ -14,14 +14,12 @@ from reports.drawing.legend import line_entry
 from reports.drawing.sheet import label, sheet
 from reports.drawing.style import METHOD_LINES, Line, drawing
 from reports.modular.oscillator import OSCILLATOR_AMPLITUDES
+from studies.modular.late_measurements import WAYS
 
 Record: TypeAlias = Mapping[str, str]
 
-LINES = {
-    "recalculate": METHOD_LINES["recalculate"]._replace(dashes="-", size=5.5),
-    "larsen": METHOD_LINES["larsen"],
-    "dual-rate": METHOD_LINES["dual-rate"],
-    "as new": Line("#2e7d4f", (0, (1.0, 1.2)), "s"),
+LINES: dict[str, Line] = {str(way): METHOD_LINES[way] for way in WAYS} | {
+    "recalculate": METHOD_LINES["recalculate"]._replace(size=5.5)
 }
 WIDTHS = {"recalculate": 2.2}
 """Its curve lies under Larsen's, and is to be seen at both sides of it."""

@@ -15,6 +15,7 @@ from reports.drawing.axes import decades
 from reports.drawing.legend import fill_entries, line_entry
 from reports.drawing.sheet import label, sheet
 from reports.drawing.style import GREY, INK, PALE, SMALL_PT, SOURCE_LINES, Fill, Line, drawing
+from reports.modular.styles import QUANTITY_LINES
 from studies.modular.oscillator_run import ACCELERATION_SIGMA, AMPLITUDES, POSITION_SIGMA_M
 
 Columns: TypeAlias = Mapping[str, FloatArray]
@@ -24,7 +25,7 @@ QUANTITIES = {"position": "m", "velocity": "m/s", "acceleration": "m/s²"}
 UNITS = {"position": "m", "velocity": "m_s", "acceleration": "m_s2"}
 """Units in the columns' names."""
 SENSORS = ("position", "acceleration")
-LINES = dict(zip(QUANTITIES, SOURCE_LINES[1:4], strict=True))
+LINES = {name: QUANTITY_LINES[name] for name in QUANTITIES}
 
 TRUE = Line(INK, "-", "")
 ESTIMATE = Line("#11538c", "-", "")

@@ -10,9 +10,10 @@ from matplotlib.figure import Figure
 from filters.systems.rocket import BURN_S
 from filters.systems.spring_mass import period_s
 from reports.charts.panels import Panel
-from reports.modular import oscillator, rocket, schedule, tables, words
+from reports.modular import future, future_tables, future_words, oscillator, rocket, schedule, tables, words
 from reports.modular.costs import cost_figure
 from reports.modular.late import late_figure
+from reports.modular.residual_time import residual_time_figure
 from reports.modular.results import OWN_MODEL, SHOWN_PERIODS, Results
 from reports.modular.rocket_rows import READINGS
 from reports.modular.schedule_gantt import fix_panels
@@ -43,6 +44,10 @@ def build(results: Results) -> dict[str, bytes]:
         "parts": tables.part_rows(results),
         "processors": tables.verdict_on_processors(results),
         "spent": tables.spent_on(results),
+        "residual-time": future_tables.residual_time_rows(results),
+        "uncertain": future_tables.uncertain_rows(results),
+        "stiffness": future_tables.stiffness_rows(results),
+        "covariances": future_tables.covariance_rows(results),
     }
     figures = pictures(_figures(results))
     pages = render(
@@ -50,7 +55,14 @@ def build(results: Results) -> dict[str, bytes]:
         TITLE,
         figures,
         **{name.replace("-", "_"): table for name, table in rows.items()},
+        rocket_errors_shown=tables.without(rows["rocket-errors"], "flights", "acceleration", "turn rate"),
+        late_shown=tables.without(rows["late"], "4 late", "6 late"),
+        parts_counted=tables.without(rows["parts"], *tables.TIMED),
+        parts_timed=tables.without(rows["parts"], *tables.COUNTED),
         points=words.sigma_point_words(),
+        course=future_words.residual_time_words(results),
+        future=future_words.future_words(results),
+        made=future_words.made_words(),
         spring=words.oscillator_words(results),
         rocket=words.rocket_words(results),
         delayed=words.late_words(results),
@@ -73,6 +85,7 @@ def _figures(results: Results) -> dict[str, Figure | Sequence[Panel]]:
             results.columns("oscillator"), SHOWN_PERIODS * period_s(OSCILLATOR)
         ),
         "dropout.svg": oscillator.dropout_figure(results.records("dropout", group="usual")),
+        "residual-time.svg": residual_time_figure(results.columns("residual-run"), results.records("residual-course")),
         "rates.svg": oscillator.rate_figure(
             {rate: results.records("dropout", group=tables.group_of(rate)) for rate in words.RATES}, spring_mass.reach()
         ),
@@ -83,7 +96,9 @@ def _figures(results: Results) -> dict[str, Figure | Sequence[Panel]]:
         ),
         "flight.svg": rocket.flight_figure(results.columns("flight"), BURN_S),
         "residuals.svg": rocket.residual_figure(results.columns("rocket-residual-course"), READINGS),
-        "rocket-consistency.svg": _rocket_consistency(results),
+        **_rocket_consistency(results),
+        "stiffness.svg": future.stiffness_figure(results.records("stiffness")),
+        "covariances.svg": future.covariance_figure(results.records("covariances")),
         "late.svg": late_figure({sensors: results.records("late", sensors=sensors) for sensors in SENSORS}),
         "parts.svg": cost_figure(results.records("parts")),
         "misses.svg": schedule.miss_figure(misses),
@@ -93,11 +108,14 @@ def _figures(results: Results) -> dict[str, Figure | Sequence[Panel]]:
     }
 
 
-def _rocket_consistency(results: Results) -> Figure:
+def _rocket_consistency(results: Results) -> dict[str, Figure]:
     rows = results.records("rocket-nees", case=BASE.name)
     bounds = {row["n"]: (float(row["low"]), float(row["high"])) for row in rows}
     of_phase = {
         phase: [(float(row["mean"]), float(row["se"])) for row in rows if row["phase"] == phase and row["of"] != "all"]
         for phase in PHASES
     }
-    return rocket.nees_figure(results.columns("rocket-nees-course"), of_phase, bounds["15"], bounds["3"])
+    return {
+        "rocket-consistency.svg": rocket.nees_figure(results.columns("rocket-nees-course"), bounds["15"]),
+        "rocket-phases.svg": rocket.phase_figure(of_phase, bounds["3"]),
+    }

@@ -16,6 +16,8 @@ import numpy as np
 from filters.arrays import FloatArray
 from filters.systems.spring_mass import period_s
 from reports.modular.costs import MEDIAN, OPERATIONS, SECONDS
+from reports.modular.future_rows import TABLES as FUTURE_TABLES
+from reports.modular.future_rows import future_tables
 from reports.modular.oscillator import QUANTITIES, SENSORS, UNITS
 from reports.modular.rocket_rows import rocket_tables
 from reports.modular.schedule import TABLES as SCHEDULE_TABLES
@@ -47,7 +49,7 @@ OWN_MODEL = "usual, its own model true"
 TABLES = (
     "oscillator", "dropout", "consistency", "rocket-errors", "rocket-residuals", "rocket-nees",
     "rocket-residual-course", "rocket-nees-course", "rocket-apogee", "flight", "late",
-    "parts", "machine", *SCHEDULE_TABLES,
+    "parts", "machine", *SCHEDULE_TABLES, *FUTURE_TABLES,
 )  # fmt: skip
 
 
@@ -75,7 +77,7 @@ def read(folder: Path) -> Results:
 
 
 def results(thorough: bool = False, progress: Progress = lambda _done, _total, _what: None) -> Results:
-    """Runs the studies and times the code: about ten minutes, and two more if nothing was compiled before."""
+    """Runs the studies and times the code: about fifteen minutes, and two more if nothing was compiled before."""
     times = modular_costs.times(thorough=thorough, progress=progress)
     return Results({**simulated(progress), **as_stored(part_tables(modular_costs.operations(), times))})
 
@@ -88,6 +90,7 @@ def simulated(progress: Progress = lambda _done, _total, _what: None) -> dict[st
             **rocket_tables(rocket.rocket_study(progress=progress)),
             "late": late_rows(late_measurements.late_study(progress=progress)),
             **schedule_tables(rocket_schedule.counted(), progress),
+            **future_tables(progress),
         }
     )
 

@@ -14,21 +14,20 @@ from filters.arrays import FloatArray
 from reports.drawing.axes import decades
 from reports.drawing.legend import fill_entries, line_entry
 from reports.drawing.sheet import label, sheet
-from reports.drawing.style import GREY, INK, PALE, RED, SOURCE_LINES, Fill, Line, drawing
+from reports.drawing.style import GREY, INK, PALE, RED, Fill, Line, drawing
 from reports.modular.oscillator import BAND, ESTIMATE, TRUE
+from reports.modular.styles import DROPOUT_LINES, QUANTITY_LINES, apart
 from studies.modular.rocket import CLAIM_PERCENT
 
 Columns: TypeAlias = Mapping[str, FloatArray]
 
 SHOWN = {"height": "m", "climb": "m/s", "acceleration": "m/s²", "tilt": "deg"}
 """All upward; tilt is that of the nose from the vertical, its error that about one axis across the nose."""
-DROPOUTS = ("0 %", "50 %", "80 %", "95 %")
-LINES = dict(zip(DROPOUTS, SOURCE_LINES[1:], strict=True))
-QUANTITIES = ("position", "velocity", "acceleration", "turn rate", "orientation")
+DROPOUTS = tuple(DROPOUT_LINES)
+QUANTITIES = tuple(QUANTITY_LINES)
 BOUNDS = {"bounds:": Fill(PALE, PALE, "", "95 % bounds")}
 HALVES: Mapping[str, str | tuple[int, tuple[float, ...]]] = {"half of the flights": "-", "95 %": (0, (1.0, 1.2))}
-"""Below which so many of them are."""
-SIGNS = dict(zip(QUANTITIES, (*SOURCE_LINES[1:], Line(INK, "-", "v")), strict=True))
+"""So many of them are below the curve."""
 CLAIM = Line(RED, (0, (4.0, 1.5)), "")
 
 
@@ -64,15 +63,17 @@ def residual_figure(series: Columns, readings: Sequence[str]) -> Figure:
     series: "time_s", and "READING, DROPOUT, WHICH" in percent, which of `HALVES`.
     """
     with drawing():
-        legend = [
-            *(line_entry(f"dropout {dropout}", line) for dropout, line in LINES.items()),
-            *(line_entry(name, Line(INK, dashes, "")) for name, dashes in HALVES.items()),
-            line_entry(f"{CLAIM_PERCENT:g} %", CLAIM),
-        ]
+        legend = apart(
+            {
+                "Dropout": [line_entry(dropout, line) for dropout, line in DROPOUT_LINES.items()],
+                "Below the curve are": [line_entry(name, Line(INK, dashes, "")) for name, dashes in HALVES.items()],
+                "The claim": [line_entry(f"{CLAIM_PERCENT:g} %", CLAIM)],
+            }
+        )
         figure, rows = sheet(2, 2, legend, height_mm=42.0)
         for number, reading in enumerate(readings):
             axes = rows[number // 2][number % 2]
-            for start, (dropout, line) in enumerate(LINES.items()):
+            for start, (dropout, line) in enumerate(DROPOUT_LINES.items()):
                 for name, dashes in HALVES.items():
                     curve = series[f"{reading}, {dropout}, {name}"]
                     axes.plot(
@@ -88,25 +89,16 @@ def residual_figure(series: Columns, readings: Sequence[str]) -> Figure:
         return figure
 
 
-def nees_figure(
-    series: Columns,
-    of_phase: Mapping[str, Sequence[tuple[float, float]]],
-    bounds: tuple[float, float],
-    bounds_of_three: tuple[float, float],
-) -> Figure:
-    """Above, NEES of all 15 errors over time by dropout; below, of each quantity's three in each phase, no dropout.
-
-    series: "time_s" and the dropouts. of_phase: by phase, mean and standard error of each quantity.
-    """
+def nees_figure(series: Columns, bounds: tuple[float, float]) -> Figure:
+    """NEES of all 15 errors over time, by dropout. series: "time_s" and the dropouts."""
     with drawing():
         legend = [
-            *(line_entry(f"dropout {dropout}", line) for dropout, line in LINES.items()),
+            *(line_entry(f"dropout {dropout}", line) for dropout, line in DROPOUT_LINES.items()),
             *fill_entries(BOUNDS),
-            *(line_entry(name, line, dashes=False) for name, line in SIGNS.items()),
         ]
-        figure, [[above], [below]] = sheet(2, 1, legend, height_mm=38.0)
+        figure, [[above]] = sheet(1, 1, legend, height_mm=42.0)
         above.axhspan(*bounds, color=PALE, lw=0, zorder=0.3)
-        for start, (dropout, line) in enumerate(LINES.items()):
+        for start, (dropout, line) in enumerate(DROPOUT_LINES.items()):
             above.plot(
                 series["time_s"], series[dropout], line.marker, color=line.colour, ls="-", lw=0.9, ms=0.8 * line.size,
                 mew=0, markevery=(9 * start, 37), label=f"dropout {dropout}",
@@ -114,10 +106,23 @@ def nees_figure(
         decades(above, "y", 3, 2000)
         above.set_xlim(series["time_s"][0], series["time_s"][-1])
         above.xaxis.set_major_locator(MaxNLocator(nbins=12, steps=[1, 2, 5, 10]))
-        label(above, "All 15 errors", "time since ignition (s)", "NEES, mean over flights")
+        above.axhline(15.0, color=INK, lw=0.7, zorder=1)
+        label(above, "", "time since ignition (s)", "NEES, mean over flights")
+        return figure
+
+
+def phase_figure(of_phase: Mapping[str, Sequence[tuple[float, float]]], bounds_of_three: tuple[float, float]) -> Figure:
+    """NEES of each quantity's three errors in each phase, without dropout. of_phase: mean and standard error of each
+    quantity."""
+    with drawing():
+        legend = [
+            *(line_entry(name, line, dashes=False) for name, line in QUANTITY_LINES.items()),
+            *fill_entries(BOUNDS),
+        ]
+        figure, [[below]] = sheet(1, 1, legend, height_mm=42.0)
         below.axhspan(*bounds_of_three, color=PALE, lw=0, zorder=0.3)
         for at, values in enumerate(of_phase.values()):
-            for number, ((mean, error), line) in enumerate(zip(values, SIGNS.values(), strict=True)):
+            for number, ((mean, error), line) in enumerate(zip(values, QUANTITY_LINES.values(), strict=True)):
                 below.errorbar(
                     [at + 0.14 * (number - 2)], [mean], [2 * error], fmt=line.marker, color=line.colour,
                     ms=line.size + 0.8, mew=0, elinewidth=0.9,
@@ -126,7 +131,7 @@ def nees_figure(
         below.set(xlim=(-0.6, len(of_phase) - 0.4), ylim=(0, None))
         below.xaxis.set_major_locator(FixedLocator(list(range(len(of_phase)))))
         below.set_xticklabels(list(of_phase))
-        label(below, "Three errors each, no dropout", "phase of the flight", "NEES, mean over the phase")
+        label(below, "", "phase of the flight", "NEES, mean over the phase")
         return figure
 
 

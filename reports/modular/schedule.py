@@ -16,7 +16,8 @@ from filters.systems.rocket_filter import GPS
 from reports.drawing.axes import decades
 from reports.drawing.legend import fill_entries, line_entry
 from reports.drawing.sheet import label, sheet
-from reports.drawing.style import GREY, PALE, RED, SMALL_PT, SOURCE_LINES, Fill, Line, drawing
+from reports.drawing.style import GREY, PALE, RED, SMALL_PT, Fill, Line, drawing
+from reports.modular.styles import WAY_LINES
 from reports.pages.stored import Rows, digits, rows_of
 from studies.modular.rocket_schedule import (
     CONTROL_EVERY,
@@ -43,7 +44,6 @@ from studies.modular.rocket_schedule import (
 Columns = Mapping[str, FloatArray]
 Record = Mapping[str, str]
 
-LINES = dict(zip((way.name for way in WAYS), SOURCE_LINES[1:], strict=False))
 TITLES = {"loop": "Loop: predict, IMU", "control": "Control task", "GPS": "GPS correction"}
 URGENCY_TITLES = {"preempted": "GPS correction preempted", "in the loop": "GPS correction in the loop"}
 BAND = {"band:": Fill(PALE, PALE, "", "95 % band")}
@@ -176,11 +176,11 @@ def miss_figure(rows: Sequence[MissRow]) -> Figure:
     """The probability of a miss against the clock of the processor; a row of plots for each urgency."""
     ends = min(row.clock_mhz for row in rows) / 1.15, 1.15 * max(row.clock_mhz for row in rows)
     with drawing():
-        legend = [*(line_entry(name, line) for name, line in LINES.items()), *fill_entries(BAND)]
+        legend = [*(line_entry(name, line) for name, line in WAY_LINES.items()), *fill_entries(BAND)]
         figure, plots = sheet(len(URGENCIES), len(JOBS), legend, height_mm=38.0, gap_mm=9.0)
         for of_urgency, urgency in zip(plots, URGENCIES, strict=True):
             for axes, job in zip(of_urgency, JOBS, strict=True):
-                for name, line in LINES.items():
+                for name, line in WAY_LINES.items():
                     of_way = [row for row in rows if (row.way, row.urgency, row.job) == (name, urgency, job)]
                     _miss_curve(axes, of_way, name, line)
                 _clock_axis(axes, ends)
@@ -194,16 +194,16 @@ def miss_figure(rows: Sequence[MissRow]) -> Figure:
 def response_figure(columns: Columns) -> Figure:
     """The share of jobs that take longer than a time, from their release; columns: from `responses`."""
     with drawing():
-        legend = [*(line_entry(name, _solid(line)) for name, line in LINES.items()), *fill_entries(DEADLINES)]
+        legend = [*(line_entry(name, line) for name, line in WAY_LINES.items()), *fill_entries(DEADLINES)]
         figure, plots = sheet(len(URGENCIES), len(JOBS), legend, height_mm=38.0, gap_mm=9.0)
         times = {job: [columns[name] for name in columns if name.startswith(f"{job}, ")] for job in JOBS}
         for of_urgency, urgency in zip(plots, URGENCIES, strict=True):
             for axes, job in zip(of_urgency, JOBS, strict=True):
                 for start, way in enumerate(WAYS):
-                    line = LINES[way.name]
+                    line = WAY_LINES[way.name]
                     values = columns[f"{job}, {way.name}, {urgency}"]
                     axes.plot(
-                        values, 100 * columns["share"], line.marker, color=line.colour, ls="-", lw=1.2,
+                        values, 100 * columns["share"], line.marker, color=line.colour, ls=line.dashes, lw=1.2,
                         ms=0.9 * line.size, mew=0, markevery=(5 * start, 15), label=way.name,
                     )  # fmt: skip
                 decades(axes, "y", 100 * LEAST_SHARE, 130)
@@ -233,7 +233,7 @@ def landing_figure(columns: Columns) -> Figure:
         seen = [columns["l - k"][columns[_landing(*case)] > 0] for case in SHOWN_LANDINGS]
         last = max([LAND_BY, *(steps.max() for steps in seen if len(steps))])
         for axes, (way, urgency) in zip((axes for row in plots for axes in row), SHOWN_LANDINGS, strict=True):
-            colour = LINES[way.name].colour
+            colour = WAY_LINES[way.name].colour
             axes.bar(columns["l - k"], columns[_landing(way, urgency)], 0.8, color=colour, lw=0)
             axes.stairs(columns["arrivals"], np.arange(len(columns["l - k"]) + 1) - 0.5, color=ARRIVALS.colour, lw=1.1)
             axes.set(xlim=(0, last + 1), ylim=(0, 1.15 * highest))
@@ -250,10 +250,6 @@ def landing_figure(columns: Columns) -> Figure:
 
 def _landing(way: Way, urgency: str) -> str:
     return f"GPS, {way.name}, {urgency}"
-
-
-def _solid(line: Line) -> Line:
-    return line._replace(dashes="-")
 
 
 def _miss_curve(axes: Axes, rows: Sequence[MissRow], name: str, line: Line) -> None:

@@ -24,7 +24,7 @@ from studies.modular.rocket_schedule import (
     scenario,
 )
 
-DELAY, BEFORE, AFTER = 15, 2, 8
+DELAY, BEFORE, AFTER = 15, 1, 4
 """Steps that the fix is late, and that are shown before its arrival and after."""
 ON_TIME = "correct on time"
 

@@ -190,11 +190,14 @@ def late_error(row: Record) -> str:
 # -------------------------------------------------------------------------------------------------------------- costs
 
 
+COUNTED = [f"n = {states}" for states in modular_costs.STATES]
+TIMED = [marked(f"n = {states}, µs") for states in modular_costs.STATES]
+"""Headings of `part_rows`."""
+
+
 def part_rows(results: Results) -> Rows:
     """Operations and times, from minimum to median, by kind, part and states."""
-    rows: Rows = [["Filter", "Part"]]
-    for states in modular_costs.STATES:
-        rows[0] = [*rows[0], f"n = {states}", marked(f"{states}: µs")]
+    rows: Rows = [["Filter", "Part", *(head for of_size in zip(COUNTED, TIMED, strict=True) for head in of_size)]]
     for part in modular_costs.PARTS:
         for kind in modular_costs.KINDS:
             records = [results.records("parts", kind=kind, part=part, states=str(n))[0] for n in modular_costs.STATES]
@@ -229,6 +232,12 @@ def spent_on(results: Results) -> Rows:
     kept = ("late GPS fix", "its correction", *heads.values())
     records = results.records("schedule-shares")
     return [["Late fix", "correction", *heads], *([row[name] for name in kept] for row in records)]
+
+
+def without(rows: Rows, *heads: str) -> Rows:
+    """A table less some of its columns."""
+    kept = [at for at, head in enumerate(rows[0]) if head not in heads]
+    return [[row[at] for at in kept] for row in rows]
 
 
 def _never(seconds: str) -> str:

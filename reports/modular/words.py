@@ -93,16 +93,13 @@ def oscillator_words(results: Results) -> dict[str, Any]:
         "noise": f"{100 * float(POSITION_SIGMA_M / AMPLITUDES[0]):g}",
         "error": {dropout: percent_of_amplitude(row, "position") for dropout, row in usual.items()},
         "times": {dropout: over(row, "error", "position") for dropout, row in usual.items()},
-        "speed_times": over(high, "error", "velocity"),
-        "jerky_times": over(high, "error", "acceleration"),
+        "plain_times": significant(interval_of(high, "error", "position", "times")[0], 2),
         "innovation": over(high, "innovation", "position"),
         "felt": over(high, "innovation", "acceleration"),
         "after": over(high, "after", "position"),
         "reach": f"{spring_mass.reach():.2f}",
         "few": RATES[0],
         "few_error": percent_of_amplitude(few, "position"),
-        "few_unlucky": percent_of_amplitude(few, "position", "unlucky"),
-        "still": f"{100 * float(few['still']):.0f}",
         "least_times": significant(
             min(interval_of(rows["0.8"], "error", "position", "times")[1] for rows in by_rate.values())
         ),
@@ -196,19 +193,20 @@ def late_words(results: Results) -> dict[str, Any]:
     def percent(sensors: str, way: str, delay: int) -> str:
         return late_error(rows[sensors, way, delay])
 
-    longest = {way: int(rows[both, way, 10]["longest"]) for way in ("recalculate", "larsen", "as new")}
+    longest = {way: int(rows[both, way, 10]["longest"]) for way in ("recalculate", "larsen", "fuse-as-fresh")}
     return {
         "runs": rows[both, "larsen", 0]["runs"],
         "rate": late_measurements.SETTING.rate,
         "every": late_measurements.EVERY,
-        "in_time": {"alone": percent(alone, "as new", 0), "both": percent(both, "as new", 0)},
+        "in_time": {"alone": percent(alone, "fuse-as-fresh", 0), "both": percent(both, "fuse-as-fresh", 0)},
         "late": {
-            way: {"alone": percent(alone, way, 10), "both": percent(both, way, 10)} for way in ("recalculate", "as new")
+            way: {"alone": percent(alone, way, 10), "both": percent(both, way, 10)}
+            for way in ("recalculate", "fuse-as-fresh")
         },
-        "soon": {way: percent(alone, way, 2) for way in ("recalculate", "as new")},
+        "soon": {way: percent(alone, way, 2) for way in ("recalculate", "fuse-as-fresh")},
         "dual": percent(alone, "dual-rate", 2),
-        "peak": significant(longest["recalculate"] / longest["as new"]),
-        "larsen_peak": significant(longest["larsen"] / longest["as new"]),
+        "peak": significant(longest["recalculate"] / longest["fuse-as-fresh"]),
+        "larsen_peak": significant(longest["larsen"] / longest["fuse-as-fresh"]),
     }
 
 

@@ -9,7 +9,8 @@ oscillator, whose jerk is not white. Each set is then used on another run, which
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from itertools import repeat
 from typing import Literal, NamedTuple, TypeAlias, get_args
 
 import numpy as np
@@ -103,25 +104,40 @@ def found(records: Sequence[Record]) -> FloatArray:
     return scales
 
 
+class Correction(NamedTuple):
+    """Of one step: the inverse of the innovations' covariance, the logarithm of its determinant, and the gain."""
+
+    inverse: FloatArray
+    size: float
+    gain: FloatArray
+
+
 def log_likelihood(scales: FloatArray, measured: FloatArray) -> float:
     """Of measurements (steps, sensors, runs), none of them lost, but for a constant: by their innovations, which are
-    independent. Their covariance is the same for all runs, and stays what it is once it has settled."""
+    independent."""
+    F = transition(step_s(USUAL))
+    x, total = np.zeros((3, measured.shape[2])), 0.0
+    for y, correction in zip(measured, corrections(scales), strict=False):
+        innovation = y - x[SEEN]
+        total += measured.shape[2] * correction.size + float(np.sum(innovation * (correction.inverse @ innovation)))
+        x = F @ (x + correction.gain @ innovation)
+    return -0.5 * total
+
+
+def corrections(scales: FloatArray) -> Iterator[Correction]:
+    """Of one step after the other, without end: the same for all runs, and once they have settled the same for ever."""
     F, Q = transition(step_s(USUAL)), white_jerk(step_s(USUAL), scales[2] * _jerk_noise())
     R = np.diag((scales[:2] * [POSITION_SIGMA_M, ACCELERATION_SIGMA]) ** 2)
-    x, P = np.zeros((3, measured.shape[2])), start()[1]
-    total, is_settled = 0.0, False
-    for y in measured:
-        if not is_settled:
-            S = P[np.ix_(SEEN, SEEN)] + R
-            inverse, size = np.linalg.inv(S), float(np.log(np.linalg.det(S)))
-            K = P[:, SEEN] @ inverse
-            following = F @ (P - K @ P[SEEN]) @ F.T + Q
-            is_settled = np.allclose(following, P, rtol=SETTLED, atol=0.0)
-            P = following
-        innovation = y - x[SEEN]
-        total += measured.shape[2] * size + float(np.sum(innovation * (inverse @ innovation)))
-        x = F @ (x + K @ innovation)
-    return -0.5 * total
+    P, is_settled = start()[1], False
+    while not is_settled:
+        S = P[np.ix_(SEEN, SEEN)] + R
+        inverse = np.asarray(np.linalg.inv(S), dtype=np.float64)
+        gain: FloatArray = P[:, SEEN] @ inverse
+        correction = Correction(inverse, float(np.log(np.linalg.det(S))), gain)
+        following = F @ (P - gain @ P[SEEN]) @ F.T + Q
+        is_settled = np.allclose(following, P, rtol=SETTLED, atol=0.0)
+        P = following
+        yield from repeat(correction) if is_settled else (correction,)
 
 
 def compared(scales: FloatArray, record: Record, backend: BackendName = "compiled") -> tuple[float, float, float]:

@@ -64,7 +64,7 @@ def _course(records: Sequence[Record], setting: Setting, dropout: float, backend
     return Course(
         dropout,
         len(records),
-        window_s * (np.arange(errors.shape[1]) + 0.5),
+        window_s * (np.arange(float(errors.shape[1])) + 0.5),
         tuple(quantile(column) for column in errors.T),
         tuple(quantile(column, UNLUCKY) for column in errors.T),
         tuple(quantile(column) for column in innovations.T),
@@ -88,4 +88,5 @@ def windowed(residuals: FloatArray, setting: Setting) -> FloatArray:
     squares = (residuals**2).reshape(len(residuals), -1, setting.rate // WINDOWS)
     counts = np.sum(~np.isnan(squares), axis=2)
     sums = np.nansum(squares, axis=2)
-    return np.sqrt(np.divide(sums, counts, out=np.full(sums.shape, np.nan), where=counts > 0))
+    roots: FloatArray = np.sqrt(np.divide(sums, counts, out=np.full(sums.shape, np.nan), where=counts > 0))
+    return roots

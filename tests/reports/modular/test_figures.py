@@ -151,7 +151,7 @@ def test_consistency_of_the_rocket() -> None:
 
 
 def test_late_measurements() -> None:
-    ways = {"recalculate": 2, "larsen": 2, "dual-rate": 4, "as new": 8}
+    ways = {"recalculate": 2, "larsen": 2, "dual-rate": 4, "fuse-as-fresh": 8}
     rows = [
         {"way": way, "delay": str(delay), "error": str(0.01 * factor), "se": "0.001", "longest": str(100 * factor)}
         for way, factor in ways.items()

@@ -155,8 +155,8 @@ def test_the_filter_is_surprised_by_thrust_alone() -> None:
 def test_what_ignoring_a_delay_costs() -> None:
     of = {(row["Sensors"], row["Way"]): row for row in rows("late.csv")}
     both, alone = "position, acceleration", "position"
-    assert number(of[both, "as new"]["10 late"]) > 6 * number(of[both, "recalculate"]["10 late"])
-    assert number(of[alone, "as new"]["2 late"]) < number(of[alone, "recalculate"]["2 late"])
+    assert number(of[both, "fuse-as-fresh"]["10 late"]) > 6 * number(of[both, "recalculate"]["10 late"])
+    assert number(of[alone, "fuse-as-fresh"]["2 late"]) < number(of[alone, "recalculate"]["2 late"])
     for sensors in (both, alone):
         for name in (f"{delay} late" for delay in (0, 2, 4, 6, 8, 10)):
             larsen, recalculate = (number(of[sensors, way][name]) for way in ("larsen", "recalculate"))
