@@ -81,7 +81,7 @@ def covariance_figure(rows: Sequence[Record]) -> Figure:
             axes.set_xlim(-0.6, len(PART_LINES) - 0.4)
             axes.xaxis.set_major_locator(FixedLocator(range(len(PART_LINES))))
             axes.set_xticklabels(list(PART_LINES))
-            label(axes, f"The truth is {row['truth']}", "", "found over usual" if axes is plots[0] else "")
+            label(axes, f"Truth: {row['truth']}", "", "found over usual" if axes is plots[0] else "")
         return figure
 
 

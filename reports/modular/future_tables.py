@@ -6,7 +6,7 @@ from reports.modular.future_rows import ENDS, QUANTILES
 from reports.modular.oscillator import OSCILLATOR_AMPLITUDES, Record
 from reports.modular.results import Results
 from reports.modular.tables import share_that_holds
-from reports.pages.numbers import between, span
+from reports.pages.numbers import between, significant, span
 from reports.pages.stored import Rows
 from studies.modular.found_covariances import PARTS
 from studies.modular.residual_course import WINDOWS
@@ -39,10 +39,13 @@ def uncertain_rows(results: Results) -> Rows:
     return rows
 
 
+STIFFNESS = "stiffness off by, %"
+
+
 def stiffness_rows(results: Results) -> Rows:
     """Errors of position in percent of the amplitude, of the filters with and without the spring."""
-    heads = ("no spring", "stiffness as a state", "1 run in 20 above", "NEES", "stiffness off by, %")
-    rows: Rows = [["Dropout, %", *heads]]
+    heads = ("no spring", "stiffness as a state", "1 run in 20 above", "NEES", STIFFNESS)
+    rows: Rows = [["Lost, %", *heads]]
     for row in results.records("stiffness"):
         errors = [in_percent(row, what) for what in ("unaware", "aware", "unlucky")]
         stiffness = between(*(100 * value for value in interval_of(row, "stiffness")))
@@ -56,7 +59,7 @@ def covariance_rows(results: Results) -> Rows:
     for row in results.records("covariances"):
         for part in PARTS:
             low, middle, high = (interval_of(row, f"{part} {level}") for level in QUANTILES)
-            rows.append([row["truth"], part, between(*middle), span(f"{low[0]:.3g}", f"{high[0]:.3g}")])
+            rows.append([row["truth"], part, between(*middle), span(significant(low[0]), significant(high[0]))])
     return rows
 
 

@@ -10,17 +10,16 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from filters.arrays import FloatArray
+from reports.charts.panels import METHOD_NAMES
 from reports.drawing.legend import line_entry
 from reports.drawing.sheet import label, sheet
-from reports.drawing.style import METHOD_LINES, Line, drawing
+from reports.drawing.style import METHOD_LINES, drawing
 from reports.modular.oscillator import OSCILLATOR_AMPLITUDES
 from studies.modular.late_measurements import WAYS
 
 Record: TypeAlias = Mapping[str, str]
 
-LINES: dict[str, Line] = {str(way): METHOD_LINES[way] for way in WAYS} | {
-    "recalculate": METHOD_LINES["recalculate"]._replace(size=5.5)
-}
+LINES = {str(way): METHOD_LINES[way] for way in WAYS}
 WIDTHS = {"recalculate": 2.2}
 """Its curve lies under Larsen's, and is to be seen at both sides of it."""
 
@@ -29,7 +28,7 @@ def late_figure(by_sensors: Mapping[str, Sequence[Record]]) -> Figure:
     """A column for each set of sensors: above, the error of position; below, the work of the longest step."""
     unit = 0.01 * OSCILLATOR_AMPLITUDES["position"]
     with drawing():
-        legend = [line_entry(way, line) for way, line in LINES.items()]
+        legend = [line_entry(METHOD_NAMES[way], line) for way, line in LINES.items()]
         figure, rows = sheet(2, len(by_sensors), legend, height_mm=38.0, stacked=True)
         for column, (sensors, records) in enumerate(by_sensors.items()):
             for way in dict.fromkeys(row["way"] for row in records):
@@ -41,10 +40,10 @@ def late_figure(by_sensors: Mapping[str, Sequence[Record]]) -> Figure:
                     delay, error, 2 * bar, fmt=line.marker, color=line.colour, ms=line.size, mew=0, ls=line.dashes,
                     lw=width, elinewidth=0.8,
                 )  # fmt: skip
-                drawn.lines[0].set_label(way)
+                drawn.lines[0].set_label(METHOD_NAMES[way])
                 rows[1][column].plot(
                     delay, _column(of_way, "longest"), line.marker, color=line.colour, ms=line.size, mew=0,
-                    ls=line.dashes, lw=width, label=way,
+                    ls=line.dashes, lw=width, label=METHOD_NAMES[way],
                 )  # fmt: skip
             for row in rows:
                 row[column].set_ylim(0, None)

@@ -29,9 +29,9 @@ LINES = {name: QUANTITY_LINES[name] for name in QUANTITIES}
 
 TRUE = Line(INK, "-", "")
 ESTIMATE = Line("#11538c", "-", "")
-MEASURED = Line("#c77d00", "-", ".", 5.0)
-BAND = {"band:": Fill("#cfdde9", "#cfdde9", "", "twice the standard deviation that the filter gives")}
-BOUNDS = (Fill(PALE, PALE, "", "95 % bounds"), Fill("#bdbdbd", "#bdbdbd", "", "95 % bounds"))
+MEASURED = Line("#a5620a", "-", ".", 5.0)
+BAND = {"band:": Fill("#cfdde9", ESTIMATE.colour, "", "twice the standard deviation that the filter gives")}
+BOUNDS = (Fill(PALE, GREY, "", "95 % bounds"), Fill("#bdbdbd", INK, "", "95 % bounds"))
 """The wider ones first."""
 
 SHOWN = (0.1, 0.5, 0.8, 0.9, 0.95, 0.98, 0.99)

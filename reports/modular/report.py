@@ -57,6 +57,7 @@ def build(results: Results) -> dict[str, bytes]:
         **{name.replace("-", "_"): table for name, table in rows.items()},
         rocket_errors_shown=tables.without(rows["rocket-errors"], "flights", "acceleration", "turn rate"),
         late_shown=tables.without(rows["late"], "4 late", "6 late"),
+        stiffness_shown=tables.without(rows["stiffness"], future_tables.STIFFNESS),
         parts_counted=tables.without(rows["parts"], *tables.TIMED),
         parts_timed=tables.without(rows["parts"], *tables.COUNTED),
         points=words.sigma_point_words(),

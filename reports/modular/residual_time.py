@@ -16,6 +16,7 @@ from reports.drawing.legend import fill_entries, line_entry
 from reports.drawing.sheet import label, sheet
 from reports.drawing.style import INK, Fill, Line, drawing
 from reports.modular.oscillator import BAND, ESTIMATE, NOISES, OSCILLATOR_AMPLITUDES
+from reports.modular.styles import apart
 
 Columns: TypeAlias = Mapping[str, FloatArray]
 Record: TypeAlias = Mapping[str, str]
@@ -31,8 +32,10 @@ NAMES = {
     "innovation": "innovation, typical run",
 }
 NOISE = Line(INK, (0, (6.0, 1.5, 1.0, 1.5)), "")
-INTERVAL = {"interval:": Fill("#9dbbd6", "#9dbbd6", "", "95 % interval of a curve")}
+INTERVAL = {"interval:": Fill("#9dbbd6", ESTIMATE.colour, "", "95 % interval of a curve")}
 SHADES = {"error": "#9dbbd6", "unlucky": "#9dbbd6", "innovation": "#ecc99a"}
+LARGE = 1000.0
+"""Percent: what is larger is drawn in hundreds of them."""
 HIGH = 200.0
 """Percent: the end of the axis where nothing is above."""
 UNIT_M = 0.01 * OSCILLATOR_AMPLITUDES["position"]
@@ -43,21 +46,29 @@ def residual_time_figure(run: Columns, course: Sequence[Record]) -> Figure:
     `future_rows.course_rows`; all in m."""
     dropouts = list(dict.fromkeys(row["dropout"] for row in course))
     with drawing():
-        legend = [
-            line_entry("error of one run", ESTIMATE),
-            *fill_entries(BAND),
-            *(line_entry(NAMES[what], line) for what, line in CURVES.items()),
-            line_entry("noise of a measurement", NOISE),
-            *fill_entries(INTERVAL),
-        ]
+        legend = apart(
+            {
+                "Left": [line_entry("error of one run", ESTIMATE), *fill_entries(BAND)],
+                "Right": [line_entry(NAMES[what], line) for what, line in CURVES.items()],
+                "Beside them": [line_entry("noise of a measurement", NOISE), *fill_entries(INTERVAL)],
+            }
+        )
         figure, rows = sheet(len(dropouts), 2, legend, height_mm=27.0, stacked=True)
         for (left, right), dropout in zip(rows, dropouts, strict=True):
-            _one_run(left, run["time_s"], run[f"error {dropout}"] / UNIT_M, run[f"sigma {dropout}"] / UNIT_M)
+            error, sigma = (run[f"{what} {dropout}"] / UNIT_M for what in ("error", "sigma"))
+            is_large = np.abs(error).max() > LARGE
+            scale = 100.0 if is_large else 1.0
+            _one_run(left, run["time_s"], error / scale, sigma / scale)
             _all_runs(right, [row for row in course if row["dropout"] == dropout])
             first, last = dropout == dropouts[0], dropout == dropouts[-1]
             across = "time (s)" if last else ""
             runs = course[0]["runs"]
-            label(left, "One run" if first else "", across, f"{100 * float(dropout):g} % lost: error (%)")
+            label(
+                left,
+                "One run, by dropout" if first else "",
+                across,
+                f"{100 * float(dropout):g} %: error ({'×100 %' if is_large else '%'})",
+            )
             label(right, f"{runs} runs, root mean square in 0.1 periods" if first else "", across)
             for axes in (left, right):
                 axes.set_xlim(0, run["time_s"][-1])

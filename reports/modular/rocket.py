@@ -25,7 +25,7 @@ SHOWN = {"height": "m", "climb": "m/s", "acceleration": "m/s²", "tilt": "deg"}
 """All upward; tilt is that of the nose from the vertical, its error that about one axis across the nose."""
 DROPOUTS = tuple(DROPOUT_LINES)
 QUANTITIES = tuple(QUANTITY_LINES)
-BOUNDS = {"bounds:": Fill(PALE, PALE, "", "95 % bounds")}
+BOUNDS = {"bounds:": Fill(PALE, GREY, "", "95 % bounds")}
 HALVES: Mapping[str, str | tuple[int, tuple[float, ...]]] = {"half of the flights": "-", "95 %": (0, (1.0, 1.2))}
 """So many of them are below the curve."""
 CLAIM = Line(RED, (0, (4.0, 1.5)), "")

@@ -17,7 +17,7 @@ from reports.drawing.axes import decades
 from reports.drawing.legend import fill_entries, line_entry
 from reports.drawing.sheet import label, sheet
 from reports.drawing.style import GREY, PALE, RED, SMALL_PT, Fill, Line, drawing
-from reports.modular.styles import WAY_LINES
+from reports.modular.styles import WAY_LINES, WAY_NAMES
 from reports.pages.stored import Rows, digits, rows_of
 from studies.modular.rocket_schedule import (
     CONTROL_EVERY,
@@ -46,8 +46,8 @@ Record = Mapping[str, str]
 
 TITLES = {"loop": "Loop: predict, IMU", "control": "Control task", "GPS": "GPS correction"}
 URGENCY_TITLES = {"preempted": "GPS correction preempted", "in the loop": "GPS correction in the loop"}
-BAND = {"band:": Fill(PALE, PALE, "", "95 % band")}
-DEADLINES = {"band:": Fill("#f6e0e0", "#f6e0e0", "", "from the first to the last deadline")}
+BAND = {"band:": Fill(PALE, GREY, "", "95 % band")}
+DEADLINES = {"band:": Fill("#f6e0e0", RED, "", "from the first to the last deadline")}
 ARRIVALS = Line(GREY, "-", "")
 SHOWN = (10, 20, 50, 100, 200, 500, 1000, 2000)
 """MHz with a number on the axis."""
@@ -141,11 +141,11 @@ def verdict_rows(rows: Sequence[MissRow], at: int) -> Rows:
             there = {row.job: row for row in rows if (row.way, row.urgency, row.clock_mhz) == (way.name, urgency, at)}
             held = slowest_that_holds(rows, way.name, urgency)
             if not there:
-                table.append([way.name, urgency, "-" if held is None else held, *["-"] * 5])
+                table.append([WAY_NAMES[way.name], urgency, "-" if held is None else held, *["-"] * 5])
                 continue
             loop, control, gps = (there[job] for job in JOBS)
             table.append([
-                way.name, urgency, "-" if held is None else held, f"{100 * loop.utilization:.0f}",
+                WAY_NAMES[way.name], urgency, "-" if held is None else held, f"{100 * loop.utilization:.0f}",
                 missed_percent(loop), f"{loop.late_ms:.0f}", missed_percent(control), missed_percent(gps),
             ])  # fmt: skip
     return table
@@ -154,7 +154,7 @@ def verdict_rows(rows: Sequence[MissRow], at: int) -> Rows:
 def missed_percent(row: MissRow) -> str:
     """The share of deadlines missed, with its interval; where none is, only what it may be."""
     share, low, high = (f"{100 * value:.1f}" for value in (row.probability, *row.interval))
-    return f"{share} ({low} to {high})" if row.misses else f"none (up to {high})"
+    return f"{share} ({low} to {high})" if row.misses else f"none (≤ {high})"
 
 
 def share_rows(runs: Iterable[Run]) -> Rows:
@@ -176,13 +176,13 @@ def miss_figure(rows: Sequence[MissRow]) -> Figure:
     """The probability of a miss against the clock of the processor; a row of plots for each urgency."""
     ends = min(row.clock_mhz for row in rows) / 1.15, 1.15 * max(row.clock_mhz for row in rows)
     with drawing():
-        legend = [*(line_entry(name, line) for name, line in WAY_LINES.items()), *fill_entries(BAND)]
+        legend = [*(line_entry(WAY_NAMES[name], line) for name, line in WAY_LINES.items()), *fill_entries(BAND)]
         figure, plots = sheet(len(URGENCIES), len(JOBS), legend, height_mm=38.0, gap_mm=9.0)
         for of_urgency, urgency in zip(plots, URGENCIES, strict=True):
             for axes, job in zip(of_urgency, JOBS, strict=True):
                 for name, line in WAY_LINES.items():
                     of_way = [row for row in rows if (row.way, row.urgency, row.job) == (name, urgency, job)]
-                    _miss_curve(axes, of_way, name, line)
+                    _miss_curve(axes, of_way, WAY_NAMES[name], line)
                 _clock_axis(axes, ends)
                 _probability_axis(axes)
                 _titles(axes, urgency, job, "deadlines missed (%)")
@@ -194,7 +194,7 @@ def miss_figure(rows: Sequence[MissRow]) -> Figure:
 def response_figure(columns: Columns) -> Figure:
     """The share of jobs that take longer than a time, from their release; columns: from `responses`."""
     with drawing():
-        legend = [*(line_entry(name, line) for name, line in WAY_LINES.items()), *fill_entries(DEADLINES)]
+        legend = [*(line_entry(WAY_NAMES[name], line) for name, line in WAY_LINES.items()), *fill_entries(DEADLINES)]
         figure, plots = sheet(len(URGENCIES), len(JOBS), legend, height_mm=38.0, gap_mm=9.0)
         times = {job: [columns[name] for name in columns if name.startswith(f"{job}, ")] for job in JOBS}
         for of_urgency, urgency in zip(plots, URGENCIES, strict=True):
@@ -204,7 +204,7 @@ def response_figure(columns: Columns) -> Figure:
                     values = columns[f"{job}, {way.name}, {urgency}"]
                     axes.plot(
                         values, 100 * columns["share"], line.marker, color=line.colour, ls=line.dashes, lw=1.2,
-                        ms=0.9 * line.size, mew=0, markevery=(5 * start, 15), label=way.name,
+                        ms=0.9 * line.size, mew=0, markevery=(5 * start, 15), label=WAY_NAMES[way.name],
                     )  # fmt: skip
                 decades(axes, "y", 100 * LEAST_SHARE, 130)
                 axes.yaxis.set_major_formatter(FuncFormatter(lambda share, _: f"{share:g}"))
@@ -240,7 +240,7 @@ def landing_figure(columns: Columns) -> Figure:
             axes.xaxis.set_major_locator(MaxNLocator(nbins=8, integer=True))
             axes.yaxis.set_major_locator(MaxNLocator(nbins=4))
             _line(axes, LAND_BY + 0.5, "deadline")
-            label(axes, f"{way.name}: {urgency}")
+            label(axes, f"{WAY_NAMES[way.name]}: {urgency}")
         for row in plots:
             label(row[0], up="share of fixes (%)")
         for axes in plots[-1]:

@@ -8,6 +8,7 @@ from itertools import count
 
 from filters.systems.rocket_filter import GPS
 from reports.charts.panels import Panel
+from reports.modular.styles import WAY_NAMES
 from sched_sim.design.cycle_marks import Mark
 from sched_sim.scenario.draws import fates
 from sched_sim.scenario.run import run_scenario
@@ -56,7 +57,7 @@ def _panel(costs: Costs, way: Way, urgency: str, clock_mhz: int) -> Panel:
     late_ms = PERIOD_MS / outcome.schedule.period * outcome.schedule.responses[JOBS["loop"]].worst_lateness
     notes = [lands, f"loop late by {late_ms:.0f} ms" if late_ms else "loop in time"]
     schedule = replace(outcome.schedule, slices=shown, responses=responses)
-    return Panel(f"{way.name}: {urgency}", schedule, notes, marks, first, steps)
+    return Panel(f"{WAY_NAMES[way.name]}: {urgency}", schedule, notes, marks, first, steps)
 
 
 _KINDS = ("predict", JOBS["GPS"], JOBS["control"])

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from matplotlib.axes import Axes
 
+from reports.charts.panels import METHOD_NAMES
 from reports.drawing.legend import BESIDE_MM, GAP_MM, Entry
 from reports.drawing.sheet import LEFT_MM, RIGHT_MM
 from reports.drawing.style import INK, METHOD_LINES, SOURCE_LINES, WIDTH_MM, Line
@@ -41,6 +42,8 @@ WAY_LINES = {
     for way in WAYS
 }
 """The look of the method; with unscented parts it is dotted and has their sign."""
+
+WAY_NAMES = {way.name: f"{METHOD_NAMES[way.late]}, {way.predictor}" for way in WAYS}
 
 
 def apart(groups: Mapping[str, Sequence[Entry]]) -> list[Entry]:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from reports.charts.panels import METHOD_NAMES
 from reports.modular.costs import MEDIAN, OPERATIONS, SECONDS
 from reports.modular.oscillator import OSCILLATOR_AMPLITUDES, QUANTITIES, SENSORS, UNITS, Record
 from reports.modular.results import OWN_MODEL, Results
 from reports.modular.rocket import QUANTITIES as OF_ROCKET
 from reports.modular.rocket_rows import CASES
 from reports.modular.schedule import miss_rows_of, verdict_rows
+from reports.modular.styles import WAY_NAMES
 from reports.pages.machine import marked
 from reports.pages.numbers import between, plus_minus, significant, span
 from reports.pages.stored import Rows
@@ -178,7 +180,7 @@ def late_rows(results: Results) -> Rows:
                 asked = [of_way.get(str(delay)) for delay in late_measurements.DELAYS]
                 errors = ["-" if row is None else late_error(row) for row in asked]
                 work = [f"{float(of_way[str(COSTED)][name]):,.0f}" for name in ("mean", "longest")]
-                rows.append([sensors.replace(" and ", ", "), way, *errors, *work])
+                rows.append(["both" if " and " in sensors else sensors, METHOD_NAMES[way], *errors, *work])
     return rows
 
 
@@ -214,9 +216,8 @@ def part_rows(results: Results) -> Rows:
 def verdict_on_processors(results: Results) -> Rows:
     """Down to which clock each way holds, and what is late on one of the processors."""
     misses = miss_rows_of(results.records("schedule-misses"))
-    at = compared_at(misses)
-    heads = ("holds from, MHz", f"busy at {at} MHz, %", "loop, %", "by, ms", "control, %", "GPS, %")
-    return [["Late fix", "correction", *heads], *verdict_rows(misses, at)[1:]]
+    heads = ("from, MHz", "busy, %", "loop, %", "by, ms", "control, %", "GPS, %")
+    return [["Late fix", "correction", *heads], *verdict_rows(misses, compared_at(misses))[1:]]
 
 
 def spent_on(results: Results) -> Rows:
@@ -231,7 +232,10 @@ def spent_on(results: Results) -> Rows:
     }
     kept = ("late GPS fix", "its correction", *heads.values())
     records = results.records("schedule-shares")
-    return [["Late fix", "correction", *heads], *([row[name] for name in kept] for row in records)]
+    return [
+        ["Late fix", "correction", *heads],
+        *([WAY_NAMES[row[kept[0]]], *(row[name] for name in kept[1:])] for row in records),
+    ]
 
 
 def without(rows: Rows, *heads: str) -> Rows:

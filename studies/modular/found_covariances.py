@@ -36,7 +36,7 @@ from studies.modular.oscillator_run import (
 from studies.modular.typical import UNLUCKY, Quantile, quantile
 
 Progress: TypeAlias = Callable[[int, int, str], None]
-Truth: TypeAlias = Literal["its own model", "the oscillator"]
+Truth: TypeAlias = Literal["the filter's own model", "the oscillator"]
 
 TRUTHS: tuple[Truth, ...] = get_args(Truth)
 FITS, RUNS = 40, 10
@@ -87,7 +87,7 @@ def covariance_study(
 
 def record_of(truth: Truth, seed: int) -> Record:
     """A run of either."""
-    return own_model(USUAL, seed) if truth == "its own model" else oscillation(USUAL, seed)
+    return own_model(USUAL, seed) if truth == "the filter's own model" else oscillation(USUAL, seed)
 
 
 def found(records: Sequence[Record]) -> FloatArray:

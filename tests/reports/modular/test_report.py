@@ -45,8 +45,8 @@ def number(cell: str) -> float:
 
 
 def interval(cell: str) -> tuple[float, float]:
-    """Of "3.2 (3.1 to 3.4)", or "none (up to 0.4)"."""
-    if none := re.fullmatch(r"none \(up to (.*)\)", cell):
+    """Of "3.2 (3.1 to 3.4)", or "none (≤ 0.4)"."""
+    if none := re.fullmatch(r"none \(≤ (.*)\)", cell):
         return 0.0, float(none[1])
     low, high = re.fullmatch(r".* \((.*) to (.*)\)", cell).groups()  # type: ignore[union-attr]
     return float(low.replace(",", "")), float(high.replace(",", ""))

@@ -46,7 +46,7 @@ def test_the_likelihood_is_that_of_all_measurements_at_once(scales: FloatArray, 
 
 
 def test_it_is_greatest_near_the_true_covariances() -> None:
-    records = [study.record_of("its own model", seed) for seed in range(2)]
+    records = [study.record_of("the filter's own model", seed) for seed in range(2)]
     measured = np.stack([study._measured(record.measurements) for record in records], axis=-1)
     best = study.log_likelihood(np.ones(3), measured)
     for wrong in ([2, 1, 1], [0.5, 1, 1], [1, 4, 1], [1, 1, 2], [1, 1, 0.5]):
@@ -55,12 +55,12 @@ def test_it_is_greatest_near_the_true_covariances() -> None:
 
 @pytest.mark.exhaust
 def test_known_covariances_are_found() -> None:
-    position, _, jerk = study.found([study.record_of("its own model", seed) for seed in range(3)])
+    position, _, jerk = study.found([study.record_of("the filter's own model", seed) for seed in range(3)])
     assert position == pytest.approx(1.0, abs=0.1)
     assert jerk == pytest.approx(1.0, abs=0.15)
 
 
 def test_with_the_usual_covariances_a_run_is_as_usual() -> None:
-    times, own, usual = study.compared(np.ones(3), study.record_of("its own model", 0), "reference")
+    times, own, usual = study.compared(np.ones(3), study.record_of("the filter's own model", 0), "reference")
     assert (times, own) == (1.0, usual)
     assert 1 < usual < 6
