@@ -8,7 +8,11 @@ from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 
 from filters.arrays import FloatArray
+from reports.drawing.legend import _lines, line_entry
+from reports.drawing.sheet import LEFT_MM, RIGHT_MM
+from reports.drawing.style import METHOD_LINES, WIDTH_MM
 from reports.modular.costs import MEDIAN, OPERATIONS, SECONDS, cost_figure
+from reports.modular.future import covariance_figure, stiffness_figure
 from reports.modular.late import late_figure
 from reports.modular.oscillator import (
     NOISES,
@@ -21,8 +25,11 @@ from reports.modular.oscillator import (
     nees_figure,
     rate_figure,
 )
-from reports.modular.rocket import DROPOUTS, HALVES, SHOWN, flight_figure, residual_figure
+from reports.modular.residual_time import HIGH, UNIT_M, residual_time_figure
+from reports.modular.rocket import DROPOUTS, HALVES, SHOWN, flight_figure, phase_figure, residual_figure
 from reports.modular.rocket import nees_figure as rocket_nees_figure
+from reports.modular.styles import DROPOUT_LINES, KIND_LINES, QUANTITY_LINES, WAY_LINES, apart
+from tests.reports.explorer.test_palette import contrast
 from tests.reports.layout import flaws, texts
 
 
@@ -144,10 +151,95 @@ def test_readings_of_the_claim_over_time() -> None:
 def test_consistency_of_the_rocket() -> None:
     time_s = np.linspace(-0.5, 22, 450)
     course = {"time_s": time_s, **{dropout: np.full(450, 15.0 + at) for at, dropout in enumerate(DROPOUTS)}}
-    phases = {name: [(3.0, 0.5)] * 5 for name in ("on the pad", "thrust onset", "powered", "burnout", "coast")}
-    figure = rocket_nees_figure(course, phases, (13.1, 17.0), (2.2, 3.9))
+    figure = rocket_nees_figure(course, (13.1, 17.0))
     assert flaws(figure) == []
     assert [curve[1][0] for curve in curves(figure, 0, 450)] == [15, 16, 17, 18]
+
+
+def test_each_quantity_in_each_phase_of_the_flight() -> None:
+    names = ("on the pad", "thrust onset", "powered", "burnout", "coast")
+    phases = {name: [(3.0 + at, 0.5)] * 5 for at, name in enumerate(names)}
+    figure = phase_figure(phases, (2.2, 3.9))
+    assert flaws(figure) == []
+    bars = [drawn for drawn in figure.axes[0].collections if isinstance(drawn, LineCollection)]
+    ends = [np.array(drawn.get_segments()[0])[:, 1] for drawn in bars]
+    np.testing.assert_allclose(ends, [(3.0 + at - 1.0, 3.0 + at + 1.0) for at in range(5) for _ in range(5)])
+
+
+def test_dropout_and_quantity_never_look_alike() -> None:
+    """Nor do the methods, and a way with unscented parts has their sign."""
+    looks = [(line.colour, line.marker) for lines in (DROPOUT_LINES, QUANTITY_LINES) for line in lines.values()]
+    assert len({colour for colour, _ in looks}) == len({marker for _, marker in looks}) == len(looks)
+    assert WAY_LINES["larsen, extended"] == METHOD_LINES["larsen"]
+    assert WAY_LINES["recalculate, unscented"].marker == KIND_LINES["unscented"].marker
+    assert WAY_LINES["recalculate, unscented"].colour == METHOD_LINES["recalculate"].colour
+
+
+def test_what_is_drawn_stands_out_from_the_page() -> None:
+    for lines in (DROPOUT_LINES, QUANTITY_LINES, KIND_LINES, WAY_LINES):
+        for line in lines.values():
+            assert contrast(line.colour, "#ffffff") >= 3
+
+
+def test_each_group_of_a_legend_begins_a_line() -> None:
+    entries = apart({"one": [line_entry("a", WAY_LINES["larsen, extended"])], "two": [], "three": []})
+    lines = _lines(entries, WIDTH_MM - LEFT_MM - RIGHT_MM)
+    assert [line[0][1].text for line in lines] == ["one:", "two:", "three:"]
+
+
+def course_rows(dropouts: tuple[str, ...], windows: int = 20) -> list[dict[str, str]]:
+    found = []
+    for dropout in dropouts:
+        for window in range(windows):
+            row = {"dropout": dropout, "runs": "7", "time_s": str(window)}
+            for what, factor in (("error", 1.0), ("unlucky", 2.0), ("innovation", 3.0)):
+                value = UNIT_M * factor / (1.0 - float(dropout))
+                row |= {what: str(value), f"{what} low": str(0.9 * value), f"{what} high": str(1.1 * value)}
+            found.append(row)
+    return found
+
+
+def test_residuals_against_time() -> None:
+    dropouts = ("0.1", "0.5", "0.8", "0.999")
+    time_s = np.linspace(0, 20, 51)
+    run = {"time_s": time_s}
+    for dropout in dropouts:
+        error = UNIT_M / (1.0 - float(dropout)) * np.sin(time_s)
+        run |= {f"error {dropout}": 2 * error, f"sigma {dropout}": np.full(51, UNIT_M)}
+    figure = residual_time_figure(run, course_rows(dropouts))
+    assert flaws(figure) == []
+    for row, (dropout, scale) in enumerate(zip(dropouts, (1, 1, 1, 100), strict=True)):
+        level = 1.0 / (1.0 - float(dropout))
+        (drawn,) = curves(figure, 2 * row, 51)
+        np.testing.assert_allclose(drawn[1], 2 * level * np.sin(time_s) / scale)
+        of_all = [curve[1][0] for curve in curves(figure, 2 * row + 1, 20)]
+        assert of_all == pytest.approx([level, 2 * level, 3 * level])
+    assert [figure.axes[2 * row + 1].get_ylim()[1] for row in range(4)] == [HIGH] * 3 + [20_000]
+    assert "99.9 %: error (×100 %)" in {text.get_text() for text, _ in texts(figure)}
+
+
+def test_errors_with_and_without_the_spring() -> None:
+    rows = []
+    for dropout in ("0.1", "0.8", "0.99"):
+        row = {"dropout": dropout}
+        for what, value in (("unaware", 0.05), ("aware", 0.01)):
+            row |= {what: str(value), f"{what} low": str(0.8 * value), f"{what} high": str(1.5 * value)}
+        rows.append(row)
+    figure = stiffness_figure(rows)
+    assert flaws(figure) == []
+    assert [curve[1][0] for curve in curves(figure, 0, 3)] == pytest.approx([5, 1])
+
+
+def test_covariances_found() -> None:
+    row = {"truth": "one"}
+    for part, factor in (("position", 1.0), ("acceleration", 0.5), ("jerk", 2.0)):
+        for level, value in (("5 %", 0.9), ("50 %", 1.0), ("95 %", 1.1)):
+            row |= {f"{part} {level}{end}": str(factor * value) for end in ("", " low", " high")}
+    figure = covariance_figure([row, row | {"truth": "two"}])
+    assert flaws(figure) == []
+    ranges = [curve[1] for curve in curves(figure, 0, 2)][0:6:2]
+    np.testing.assert_allclose(ranges, [(0.9, 1.1), (0.45, 0.55), (1.8, 2.2)])
+    assert {"Truth: one", "Truth: two"} <= {text.get_text() for text, _ in texts(figure)}
 
 
 def test_late_measurements() -> None:

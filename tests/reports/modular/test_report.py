@@ -10,13 +10,16 @@ import numpy as np
 import pytest
 
 from reports.modular.costs import MEDIAN, OPERATIONS, SECONDS
+from reports.modular.oscillator import NOISES
 from reports.modular.report import build
 from reports.modular.results import TABLES, Results, read
 from reports.modular.schedule import miss_rows_of
+from reports.modular.schedule_gantt import fix_panels
+from reports.modular.styles import WAY_NAMES
 from reports.pages.machine import MARK
 from studies.modular import costs as modular_costs
 from studies.modular import late_measurements
-from studies.modular.rocket_schedule import LAND_BY, compared_at
+from studies.modular.rocket_schedule import LAND_BY, PERIOD_MS, compared_at, counted
 from tests.command_line import Run
 from tests.reports import published
 
@@ -58,7 +61,7 @@ def test_the_report_is_complete_and_opens_offline() -> None:
 
 
 def test_the_page_is_not_too_large() -> None:
-    assert len(rebuilt()["index.html"]) < 1_500_000
+    assert len(rebuilt()["index.html"]) < 1_800_000
 
 
 @pytest.mark.parametrize("name", published.names("modular"))
@@ -154,14 +157,14 @@ def test_the_filter_is_surprised_by_thrust_alone() -> None:
 
 def test_what_ignoring_a_delay_costs() -> None:
     of = {(row["Sensors"], row["Way"]): row for row in rows("late.csv")}
-    both, alone = "position, acceleration", "position"
-    assert number(of[both, "fuse-as-fresh"]["10 late"]) > 6 * number(of[both, "recalculate"]["10 late"])
-    assert number(of[alone, "fuse-as-fresh"]["2 late"]) < number(of[alone, "recalculate"]["2 late"])
+    both, alone = "both", "position"
+    assert number(of[both, "Fuse as fresh"]["10 late"]) > 6 * number(of[both, "Recalculate"]["10 late"])
+    assert number(of[alone, "Fuse as fresh"]["2 late"]) < number(of[alone, "Recalculate"]["2 late"])
     for sensors in (both, alone):
         for name in (f"{delay} late" for delay in (0, 2, 4, 6, 8, 10)):
-            larsen, recalculate = (number(of[sensors, way][name]) for way in ("larsen", "recalculate"))
+            larsen, recalculate = (number(of[sensors, way][name]) for way in ("Larsen", "Recalculate"))
             assert larsen == pytest.approx(recalculate, rel=0.01)
-    assert len({of[alone, "dual-rate"][f"{delay} late"] for delay in (0, 2, 4, 6, 8)}) == 1
+    assert len({of[alone, "Dual-rate"][f"{delay} late"] for delay in (0, 2, 4, 6, 8)}) == 1
 
 
 def test_linear_and_extended_cost_the_same() -> None:
@@ -203,7 +206,7 @@ def test_measured_figures_are_ranges_from_minimum_to_median() -> None:
     assert f"takes {slowest[SECONDS]} to {slowest[MEDIAN]} µs" in text()
     for row in rows("parts.csv"):
         for n in (3, 6, 9, 15):
-            least, most = map(float, row[f"{n}: µs †"].split(" to "))
+            least, most = map(float, row[f"n = {n}, µs †"].split(" to "))
             assert least < most
 
 
@@ -212,20 +215,22 @@ def test_a_processor_holds_only_where_the_interval_and_the_landings_say_so() -> 
     misses = miss_rows_of(stored().records("schedule-misses"))
     at = compared_at(misses)
     found = stored().columns("schedule-landings")
+    ways = {name: way for way, name in WAY_NAMES.items()}
     for row in rows("processors.csv"):
-        gps = [m for m in misses if (m.way, m.urgency, m.job) == (row["Late fix"], row["correction"], "GPS")]
-        for held in (m for m in misses if (m.way, m.urgency) == (row["Late fix"], row["correction"])):
-            if row["holds from, MHz"] != "-" and held.clock_mhz >= int(row["holds from, MHz"]):
+        way = ways[row["Late fix"]]
+        gps = [m for m in misses if (m.way, m.urgency, m.job) == (way, row["correction"], "GPS")]
+        for held in (m for m in misses if (m.way, m.urgency) == (way, row["correction"])):
+            if row["from, MHz"] != "-" and held.clock_mhz >= int(row["from, MHz"]):
                 assert held.interval[1] <= 0.01
         (there,) = (m for m in gps if m.clock_mhz == at)
-        landed = found[f"GPS, {row['Late fix']}, {row['correction']}"]
+        landed = found[f"GPS, {way}, {row['correction']}"]
         beyond = landed[found["l - k"] > LAND_BY].sum()
         assert beyond == pytest.approx(100 * there.probability, abs=0.5)
 
 
 def test_no_probability_of_a_miss_rests_on_measured_samples() -> None:
     """The schedule is the same on every machine: none of it is marked, and no samples are stored."""
-    section = rebuilt()["index.md"].decode().partition("## When corrections land")[2]
+    section = rebuilt()["index.md"].decode().partition("## When corrections land")[2].partition("\n## ")[0]
     assert section
     assert MARK not in section
     assert not [name for name in rebuilt() if name.startswith("samples")]
@@ -234,17 +239,164 @@ def test_no_probability_of_a_miss_rests_on_measured_samples() -> None:
 
 def test_recalculating_in_the_loop_is_late_on_an_idle_processor() -> None:
     of = {(row["Late fix"], row["correction"]): row for row in rows("processors.csv")}
-    (busy,) = (head for head in rows("processors.csv")[0] if head.startswith("busy"))
-    loop = of["recalculate, extended", "in the loop"]
+    busy = "busy, %"
+    loop = of["Recalculate, extended", "in the loop"]
     assert float(loop[busy]) < 50
     assert interval(loop["loop, %"])[0] > 1
-    assert interval(of["recalculate, extended", "preempted"]["loop, %"])[1] < 1
+    assert interval(of["Recalculate, extended", "preempted"]["loop, %"])[1] < 1
     clocks = [
-        int(of[case]["holds from, MHz"])
+        int(of[case]["from, MHz"])
         for case in (
-            ("larsen, extended", "preempted"),
-            ("recalculate, extended", "preempted"),
-            ("recalculate, extended", "in the loop"),
+            ("Larsen, extended", "preempted"),
+            ("Recalculate, extended", "preempted"),
+            ("Recalculate, extended", "in the loop"),
         )
     ]
     assert clocks == sorted(set(clocks))
+
+
+# ----------------------------------------------------------------------------------------- answers, figures, future
+
+
+def test_the_answer_is_short_and_its_numbers_are_in_the_tables() -> None:
+    answer = re.search(r"\*\*Answer\.\*\* (.*?)\n\n", rebuilt()["index.md"].decode(), re.DOTALL)
+    assert answer
+    assert len(answer[1].split()) <= 50
+    times = number(rows("claim.csv")[0]["position"])
+    (holds,) = (row["all, from s"] for row in rows("readings.csv") if row["Residual"].startswith("position"))
+    assert f"the error {times:.1f} times that at 10 %" in answer[1]
+    assert f"from {holds} s on" in answer[1]
+
+
+def test_what_the_gap_decides() -> None:
+    """Up to a twentieth of a period the error is near a measurement's, or below, at any rate; beyond it is not."""
+    noise = float(NOISES["position"])
+    for group in ("usual", "rate 20", "rate 50", "rate 200", "rate 400"):
+        for row in stored().records("dropout", group=group):
+            if float(row["interval"]) <= 0.05:
+                assert float(row["error high m"]) < 1.2 * noise
+            if float(row["interval"]) >= 0.1:
+                assert float(row["error low m"]) > 1.5 * noise
+
+
+def test_residuals_settle_within_a_period_up_to_80_percent_and_never_at_99() -> None:
+    *settling, lost = rows("residual-time.csv")
+    for row in settling:
+        early, late = (interval(row[f"error after {when}"]) for when in ("1 period", "10 periods"))
+        assert number(row["error at the start"]) > 2 * late[1]
+        assert early[0] < late[1]
+        assert late[0] < early[1]
+        assert 5 * 0.97 < number(row["innovation after 10"]) < 5 * 1.4
+    assert interval(lost["error after 10 periods"])[0] > 2 * interval(lost["error after 1 period"])[0] > 200
+    low, high = interval(lost["innovation after 10"])
+    assert low < number(lost["error after 10 periods"]) < high
+
+
+def test_uncertain_parameters_do_not_mislead_a_filter_that_knows_none() -> None:
+    for row in rows("uncertain.csv"):
+        if row["spread, %"] != "0":
+            low, high = interval(row["times"])
+            assert low <= 1.0 <= high
+            assert low > 0.98
+            assert high < 1.02
+            assert interval(row["1 in 20 above"])[1] < 1.5
+        if row["System"].startswith("rocket"):
+            assert number(row["hold, %"]) == 100
+
+
+def test_the_stiffness_as_a_state_bears_dropout() -> None:
+    found = rows("stiffness.csv")
+    for row in found:
+        assert interval(row["stiffness as a state"])[1] < 0.3 * interval(row["no spring"])[0]
+    of = {row["Lost, %"]: row for row in found}
+    assert interval(of["80"]["NEES"])[1] < 3 < interval(of["99"]["NEES"])[0]
+    assert float(of["80"]["stiffness off by, %"].split(" (")[0]) < 0.1
+
+
+def test_covariances_are_found_but_for_the_accelerometer() -> None:
+    of = {(row["The truth is"], row["noise of"]): row for row in rows("covariances.csv")}
+    for truth, part in (("filter", "position"), ("filter", "jerk"), ("oscillator", "position")):
+        (row,) = (row for (said, what), row in of.items() if truth in said and what == part)
+        low, high = map(float, row["nine fits in ten"].split(" to "))
+        assert 0.95 < low < high < 1.05
+    low, high = map(float, of["the filter's own model", "acceleration"]["nine fits in ten"].split(" to "))
+    assert low < 0.5
+    assert high > 1
+    assert interval(of["the oscillator", "jerk"]["median of the fits"])[1] < 0.34
+    model, oscillator = stored().records("covariances")
+    assert 0.99 < float(model["times low"]) <= float(model["times high"]) < 1.01
+    assert float(oscillator["times high"]) < 1.02
+    assert float(oscillator["usual nees high"]) < 3 < 5 < float(oscillator["nees low"])
+
+
+def test_nearly_all_errors_that_are_drawn_are_within_the_band() -> None:
+    flight, run = stored().columns("flight"), stored().columns("oscillator")
+    for name in ("height", "climb", "acceleration", "tilt"):
+        assert np.mean(np.abs(flight[f"{name} error"]) <= 2 * flight[f"{name} sigma"]) > 0.95
+    for name in ("position", "velocity", "acceleration"):
+        error = run[f"{name} estimate"] - run[f"{name} true"]
+        assert np.mean(np.abs(error) <= 2 * run[f"{name} sigma"]) > 0.95
+
+
+def test_only_acceleration_at_thrust_onset_is_far_from_three() -> None:
+    for row in stored().records("rocket-nees", case="unscented"):
+        if row["of"] != "all":
+            surprised = (row["phase"], row["of"]) == ("thrust onset", "acceleration")
+            assert (abs(float(row["mean"]) - 3) > 1) == surprised
+
+
+def test_with_dropout_the_rockets_filter_is_surprised_by_thrust_and_cautious_afterwards() -> None:
+    course = stored().columns("rocket-nees-course")
+    later = course["time_s"] > 6
+    for dropout in ("50 %", "80 %", "95 %"):
+        assert course[dropout].max() > 10 * 15
+        assert np.median(course[dropout][later]) < 12
+    assert 11 < course["0 %"][course["time_s"] > 0.5].min() <= course["0 %"][course["time_s"] > 0.5].max() < 15.5
+
+
+def test_less_process_noise_makes_a_filter_that_is_lost_and_does_not_know() -> None:
+    of = {(row["Filter"], row["dropout, %"]): number(row["NEES"]) for row in rows("consistency.csv")}
+    assert of["less process noise", "95"] > 3 > of["usual", "95"]
+
+
+def test_position_keeps_to_the_claim_unless_nearly_all_is_lost() -> None:
+    row = next(row for row in rows("lost.csv") if row["Residual"].startswith("position"))
+    assert [number(row[f"dropout {dropout} %"]) for dropout in (0, 50, 80)] == [100] * 3
+    assert number(row["dropout 95 %"]) < 90
+
+
+def test_what_the_accelerometer_stands_in_for() -> None:
+    of = {row["Filter"]: row for row in rows("rocket-errors.csv")}
+    assert number(of["no accelerometer"]["velocity"]) > 10 * number(of["unscented"]["velocity"])
+    assert number(of["no accelerometer"]["position"]) < 1.5 * number(of["unscented"]["position"])
+
+
+def test_one_late_fix_delays_the_loop_only_if_it_is_replayed_within_it() -> None:
+    at = compared_at(miss_rows_of(stored().records("schedule-misses")))
+    preempted, in_the_loop, larsen = (panel.schedule for panel in fix_panels(counted(), at))
+    assert preempted.misses == larsen.misses == 0
+    assert in_the_loop.misses > 1
+
+
+def test_larsen_lands_as_fixes_arrive_and_unscented_replays_land_late_too() -> None:
+    found = stored().columns("schedule-landings")
+    beyond = found["l - k"] > LAND_BY
+    np.testing.assert_allclose(found["GPS, larsen, extended, preempted"], found["arrivals"], atol=0.3)
+    assert found["GPS, recalculate, unscented, preempted"][beyond].sum() > 10
+    assert found["GPS, recalculate, extended, preempted"][beyond].sum() == 0
+
+
+def test_in_the_loop_about_one_step_in_ten_responds_late() -> None:
+    found = stored().columns("schedule-responses")
+    for predictor in ("unscented", "extended"):
+        late = found[f"loop, recalculate, {predictor}, in the loop"] > PERIOD_MS
+        assert 0.05 < found["share"][late].max() < 0.2
+        assert found[f"loop, recalculate, {predictor}, in the loop"].max() > 3 * PERIOD_MS
+        assert found[f"loop, recalculate, {predictor}, preempted"].max() < PERIOD_MS
+
+
+def test_tables_are_narrow_enough_for_paper() -> None:
+    tables = re.findall(r"(?:^\|.*\n)+", rebuilt()["index.md"].decode(), re.MULTILINE)
+    assert tables
+    for table in tables:
+        assert table.splitlines()[0].count("|") - 1 <= 9

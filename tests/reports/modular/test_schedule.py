@@ -30,6 +30,7 @@ from reports.modular.schedule import (
     verdict_rows,
 )
 from reports.modular.schedule_gantt import DELAY, fix_panels
+from reports.modular.styles import WAY_NAMES
 from reports.pages.stored import Rows, records
 from sched_sim.costs.sample_file import SampledCosts
 from sched_sim.schedule.intervals import bars as bars_of
@@ -143,7 +144,7 @@ def test_landing_figure_shows_them(runs: list[Run]) -> None:
 
 def test_figures_say_what_is_what(runs: list[Run]) -> None:
     said = {text.get_text() for text, _ in texts(response_figure(responses(runs)))}
-    assert {way.name for way in WAYS} <= said
+    assert set(WAY_NAMES.values()) <= said
     assert {"Loop: predict, IMU", "Control task", "GPS correction", "deadline"} <= said
 
 
@@ -153,13 +154,13 @@ def test_verdicts_say_from_which_clock_on_a_processor_holds_and_how_often_it_is_
     assert [row[2] for row in table[1:]] == [1000] * 6
     by_case = {(row[0], row[1]): row for row in table}
     missed = "66.7 (62.4 to 70.7)"
-    assert by_case[WAYS[0].name, "in the loop"][3:] == ["20", missed, "57", missed, missed]
+    assert by_case[WAY_NAMES[WAYS[0].name], "in the loop"][3:] == ["20", missed, "57", missed, missed]
 
 
 def test_a_way_that_was_not_tried_at_that_clock_has_no_verdict() -> None:
     fast = [row for row in rows() if row.clock_mhz > 40 or row.way != WAYS[0].name]
     by_case = {(row[0], row[1]): row for row in verdict_rows(fast, 40)}
-    assert by_case[WAYS[0].name, "preempted"][2:] == [1000, *["-"] * 5]
+    assert by_case[WAY_NAMES[WAYS[0].name], "preempted"][2:] == [1000, *["-"] * 5]
 
 
 def test_shares_add_up(runs: list[Run]) -> None:
