@@ -23,7 +23,7 @@ from studies.modular.found_covariances import FACTOR, PARTS
 Record: TypeAlias = Mapping[str, str]
 
 FILTERS = {
-    "unaware": ("linear, no spring in it", KIND_LINES["linear"]._replace(colour="#6b6b6b")),
+    "unaware": ("linear, no spring in it", KIND_LINES["linear"]),
     "aware": ("unscented, stiffness as a state", KIND_LINES["unscented"]),
 }
 PART_LINES = {

@@ -93,7 +93,7 @@ def dropout_figure(rows: Sequence[Record]) -> Figure:
         decades(plots[0], "y", 1, 20_000)
         _level(plots[0], 100 * float(rows[0]["still"]), "motion ignored")
         decades(plots[1], "y", 0.7, 2_000)
-        decades(plots[2], "y", 0.01, 3)
+        decades(plots[2], "y", 0.005, 3)
         plots[2].yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
         return figure
 

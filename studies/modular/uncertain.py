@@ -59,15 +59,15 @@ def uncertain_study(
     progress: Progress = lambda _done, _total, _what: None,
 ) -> tuple[Row, ...]:
     """A row for each spread, of either system."""
-    progress(0, 3, "uncertain mass and spring")
-    found = [
-        row
-        for dropout in DROPOUTS
-        for row in _rows("oscillator", dropout, partial(swung, dropout=dropout, backend=backend), seeds)
+    cases: list[tuple[Name, float, Callable[..., tuple[float, float]], Sequence[int]]] = [
+        *(("oscillator", dropout, partial(swung, dropout=dropout, backend=backend), seeds) for dropout in DROPOUTS),
+        ("rocket", BASE.dropout, partial(flown, backend=backend), rocket_seeds),
     ]
-    progress(1, 3, "uncertain mass and thrust")
-    found += _rows("rocket", BASE.dropout, partial(flown, backend=backend), rocket_seeds)
-    progress(3, 3, "uncertain parameters")
+    found: list[Row] = []
+    for done, (of, dropout, run, drawn) in enumerate(cases):
+        progress(done, len(cases), f"uncertain parameters of the {of}")
+        found += _rows(of, dropout, run, drawn)
+    progress(len(cases), len(cases), "uncertain parameters")
     return tuple(found)
 
 
