@@ -117,7 +117,8 @@ def rocket_error_rows(results: Results) -> Rows:
     rows: Rows = [["Filter", "flights", *OF_ROCKET, "position, largest"]]
     for row in results.records("rocket-errors"):
         errors = [rocket_error(row, name) for name in OF_ROCKET]
-        rows.append([row["case"].replace(" x ", " × "), row["runs"], *errors, significant(float(row["position largest"]))])
+        largest = significant(float(row["position largest"]))
+        rows.append([row["case"].replace(" x ", " × "), row["runs"], *errors, largest])
     return rows
 
 
