@@ -23,6 +23,8 @@ from studies.modular.rocket_schedule import LAND_BY, PERIOD_MS, compared_at, cou
 from tests.command_line import Run
 from tests.reports import published
 
+REPRODUCED = Path(__file__).parents[3] / "docs" / "reproduced.md"
+
 
 @cache
 def stored() -> Results:
@@ -400,3 +402,16 @@ def test_tables_are_narrow_enough_for_paper() -> None:
     assert tables
     for table in tables:
         assert table.splitlines()[0].count("|") - 1 <= 9
+
+
+def test_what_is_said_to_be_reproduced_of_the_poster_has_the_same_numbers() -> None:
+    said = REPRODUCED.read_text(encoding="utf-8").partition("MacCormack")[2]
+    error, innovation, _ = rows("claim.csv")
+    (bridged,) = (row for row in rows("stiffness.csv") if row["Lost, %"] == "80")
+    aware, unaware = (bridged[name].partition(" (")[0] for name in ("stiffness as a state", "no spring"))
+    for words in (
+        f"not of the error: {error['position'].partition(' (')[0]} times",
+        f"innovation of position, {innovation['position'].partition(' (')[0]} times",
+        f"at 80 % dropout {aware} % error instead of {unaware} %",
+    ):
+        assert words in said
