@@ -69,4 +69,5 @@ def made_words() -> dict[str, Any]:
         "last_flight": rocket.SEEDS[-1],
         "last_uncertain": uncertain.ROCKET_SEEDS[-1],
         "schedule_seed": rocket_schedule.SEED,
+        "last_fit": (found_covariances.RUNS + 1) * found_covariances.FITS - 1,
     }

@@ -17,6 +17,7 @@ from reports.modular.residual_time import residual_time_figure
 from reports.modular.results import OWN_MODEL, SHOWN_PERIODS, Results
 from reports.modular.rocket_rows import READINGS
 from reports.modular.schedule_gantt import fix_panels
+from reports.modular.setting_words import setting_words
 from reports.pages.pictures import files, pictures
 from reports.pages.render import csv_bytes, render
 from studies.modular import oscillator as spring_mass
@@ -66,6 +67,7 @@ def build(results: Results) -> dict[str, bytes]:
         made=future_words.made_words(),
         spring=words.oscillator_words(results),
         rocket=words.rocket_words(results),
+        setting=setting_words(results),
         delayed=words.late_words(results),
         cost=words.cost_words(results),
         schedule=words.schedule_words(results),

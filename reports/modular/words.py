@@ -90,6 +90,8 @@ def oscillator_words(results: Results) -> dict[str, Any]:
         "half": f"{100 * HALF:g}",
         "period_s": f"{period_s(OSCILLATOR):.2f}",
         "inside": [f"{100 * share:.0f}" for share in _inside(results)],
+        "rate": spring_mass.USUAL.rate,
+        "amplitude": f"{AMPLITUDES[0]:g}",
         "noise": f"{100 * float(POSITION_SIGMA_M / AMPLITUDES[0]):g}",
         "error": {dropout: percent_of_amplitude(row, "position") for dropout, row in usual.items()},
         "times": {dropout: over(row, "error", "position") for dropout, row in usual.items()},

@@ -19,6 +19,7 @@ from reports.modular.styles import WAY_NAMES
 from reports.pages.machine import MARK
 from studies.modular import costs as modular_costs
 from studies.modular import late_measurements
+from studies.modular.rocket_readings import chord
 from studies.modular.rocket_schedule import LAND_BY, PERIOD_MS, compared_at, counted
 from tests.command_line import Run
 from tests.reports import published
@@ -415,3 +416,12 @@ def test_what_is_said_to_be_reproduced_of_the_poster_has_the_same_numbers() -> N
         f"at 80 % dropout {aware} % error instead of {unaware} %",
     ):
         assert words in said
+
+
+def test_what_15_percent_of_a_quaternion_are() -> None:
+    """A rotation by this angle is so far from none."""
+    said = re.search(r"but there (\d+) % are (\d+)°", text())
+    assert said
+    half = np.radians(float(said[2])) / 2
+    turned, still = np.array([np.cos(half), np.sin(half), 0.0, 0.0]), np.eye(4)[0]
+    assert 100 * chord(turned, still) == pytest.approx(float(said[1]), abs=0.5)
