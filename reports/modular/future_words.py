@@ -21,7 +21,6 @@ def residual_time_words(results: Results) -> dict[str, Any]:
     return {
         "runs": last["0.1"]["runs"],
         "error": {lost: in_percent(row, "error") for lost, row in last.items()},
-        "innovation": {lost: in_percent(row, "innovation") for lost, row in last.items()},
     }
 
 

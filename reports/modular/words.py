@@ -24,7 +24,6 @@ from reports.modular.tables import (
     over,
     percent_of_amplitude,
     rocket_error,
-    share_that_holds,
 )
 from reports.pages.machine import legend, marked
 from reports.pages.numbers import plus_minus, significant, span
@@ -82,7 +81,6 @@ def oscillator_words(results: Results) -> dict[str, Any]:
     ]
     return {
         "runs": high["runs"],
-        "few_runs": few["runs"],
         "sensor_runs": sensors[0]["runs"],
         "periods": PERIODS,
         "settled": SETTLED_PERIODS,
@@ -111,7 +109,6 @@ def oscillator_words(results: Results) -> dict[str, Any]:
         "gap": f"{spring_mass.BORNE:g}",
         "nees": {name: nees_of(rows["0.5"]) for name, rows in (("usual", usual), ("own", own))},
         "keen_error": percent_of_amplitude(keen["0.8"], "position"),
-        "keen_high": nees_of(keen["0.8"]),
         "keen_late": nees_of(keen["0.95"]),
     }
 
@@ -162,9 +159,6 @@ def rocket_words(results: Results) -> dict[str, Any]:
         "from_s": {
             dropout: {name: _time(row["holds from s"]) for name, row in rows.items()}
             for dropout, rows in readings.items()
-        },
-        "hold": {
-            dropout: {name: share_that_holds(row) for name, row in rows.items()} for dropout, rows in readings.items()
         },
         "onset": plus_minus(float(onset["mean"]), float(onset["se"])),
         "nees": {
