@@ -64,7 +64,7 @@ def test_the_report_is_complete_and_opens_offline() -> None:
 
 
 def test_the_page_is_not_too_large() -> None:
-    assert len(rebuilt()["index.html"]) < 1_800_000
+    assert len(rebuilt()["index.html"]) < 1_200_000
 
 
 @pytest.mark.parametrize("name", published.names("modular"))
