@@ -8,6 +8,8 @@ from typing import Any
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
+from reports.pages.minus import true_minus
+
 Row = Sequence[Any]
 
 
@@ -17,6 +19,8 @@ def markdown_of(template: str, **values: Any) -> str:
     {{ rows | table }}, see `markdown_table`;
     {{ figure("late.svg", "what is seen, for who does not see it", "The caption.", data=["late.csv"]) }};
     {{ number("late.svg") }}, such as "Figure 3": of any figure of the report, before or behind it.
+
+    Numbers that are negative have a true minus sign on the page, whatever they have in the values.
 
     Below a figure stand links to its data and to itself, and the command that makes both; command: by default that of
     the report.
@@ -29,7 +33,7 @@ def markdown_of(template: str, **values: Any) -> str:
     environment.globals.update(figure=figures.figure, number=figures.number)
     page = environment.get_template(f"{template}.md.j2")
     page.render(**values)  # by then all figures have their numbers
-    return page.render(**values)
+    return true_minus(page.render(**values))
 
 
 class Figures:
@@ -58,7 +62,7 @@ def markdown_table(rows: Sequence[Row]) -> str:
 
 def _unbroken(cell: str) -> str:
     """A line may end before an interval, not in it."""
-    return re.sub(r"(?<=[\d.%]) (to|±) (?=[-\d])", "\N{NO-BREAK SPACE}\\1\N{NO-BREAK SPACE}", cell)
+    return re.sub(r"(?<=[\d.%]) (to|±) (?=[-−\d])", "\N{NO-BREAK SPACE}\\1\N{NO-BREAK SPACE}", cell)
 
 
 def _is_number(cell: Any) -> bool:
