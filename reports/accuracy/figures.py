@@ -13,7 +13,7 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullLoca
 from reports.accuracy.words import MODELS, heading, method_name, ordinal
 from reports.drawing.legend import line_entry
 from reports.drawing.sheet import label, sheet
-from reports.drawing.style import GREY, INK, METHOD_LINES, SMALL_PT, Line, drawing
+from reports.drawing.style import GREY, INK, METHOD_LINES, NOISE_LINES, SMALL_PT, Line, drawing
 from reports.pages.numbers import significant
 from studies.accuracy.given import Given
 from studies.accuracy.landing import Curve, Landing
@@ -26,7 +26,7 @@ EVERY_LINES = {
     3: Line("#2e7d4f", (0, (6.0, 1.5, 1.0, 1.5)), "s"),
     4: Line("#8a3b73", (0, (1.5, 1.2)), "D"),
 }
-LINES: Mapping[str, Line] = {**METHOD_LINES, SUMMED: Line("#4a90c8", (0, (7.0, 1.5)), "d", 4.2)}
+LINES: Mapping[str, Line] = {**METHOD_LINES, SUMMED: NOISE_LINES["sum"]}
 FLIGHT_LINES = {False: Line(GREY, (0, (4.0, 1.5)), "v"), True: Line("#1d8a8a", "-", "P", 4.2)}
 """By whether several frames are under way."""
 SHADE = "#8f8f8f"

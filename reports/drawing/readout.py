@@ -1,7 +1,7 @@
 """What a reader may ask of the curves of a figure: their names and values, and where they are on the page.
 
-A curve that has a label is told, one without is scenery. Where an axis has numbers of another kind than its data,
-`fmt_xdata` or `fmt_ydata` of the axes, matplotlib's own, says them in words.
+A curve that has a label is told, with its marker if it has one; a curve without is scenery. Where an axis has numbers
+of another kind than its data, `fmt_xdata` or `fmt_ydata` of the axes, matplotlib's own, says them in words.
 """
 
 from __future__ import annotations
@@ -23,6 +23,7 @@ from sched_sim.text import visible
 MOST_POINTS = 100
 """Of a curve: of more, so many evenly among them."""
 DIGITS = 4
+NO_MARKER = ("", " ", "none")
 INTERVALS = 32
 """Of an axis that is neither linear nor logarithmic."""
 
@@ -103,7 +104,9 @@ def _line(axes: Axes, line: Line2D, columns: list[list[float] | list[str]]) -> d
         for which, values, say in (("x", across, axes.fmt_xdata), ("y", up, axes.fmt_ydata))
         if say is not None
     }
-    return {**told, **({"step": 1} if is_step else {}), **({"said": said} if said else {})}
+    marker = str(line.get_marker())
+    shape = {} if marker.lower() in NO_MARKER else {"marker": marker}
+    return {**told, **shape, **({"step": 1} if is_step else {}), **({"said": said} if said else {})}
 
 
 def _is_inside(axes: Axes, across: FloatArray, up: FloatArray) -> Any:
@@ -147,6 +150,7 @@ def plain_text(text: str) -> str:
 def _plain_formula(formula: str) -> str:
     for sign, letter in SIGNS.items():
         formula = formula.replace(sign, letter)
+    formula = formula.replace("''", "″").replace("'", "′")
     formula = re.sub(r"\\sqrt\{([^}]*)\}", r"√(\1)", formula)
     formula = re.sub(r"\\[a-z]+\{([^}]*)\}", r"\1", formula)
     return re.sub(r"[{}]", "", formula).replace("^3", "³").replace("^2", "²")

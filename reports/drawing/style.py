@@ -144,7 +144,7 @@ METHOD_LINES = {
 }
 
 NOISE_LINES = {
-    "sum": Line("#3a7fb8", (0, (7.0, 1.5)), "d", 4.6),
+    "sum": Line("#4a90c8", (0, (7.0, 1.5)), "d", 4.2),
     "euler": Line("#7b5fc4", (0, (3.0, 1.2, 3.0, 1.2, 1.0, 1.2)), "H", 4.2),
 }
 """The dual-rate filter with an approximate process noise: "Dual-rate, Q′" and "Dual-rate, Q″"."""

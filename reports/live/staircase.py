@@ -6,51 +6,53 @@ from collections import Counter
 from collections.abc import Sequence
 from fractions import Fraction
 from itertools import pairwise
+from typing import Any
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
 from matplotlib.ticker import MaxNLocator
 
 from reports.drawing.axes import AXIS_MM, EDGE_MM, TITLE_MM, plain
-from reports.drawing.legend import draw_legend, legend_height, line_entry
+from reports.drawing.band import band, band_entry
+from reports.drawing.legend import SWATCH_MM, Entry, draw_legend, legend_height, line_entry
 from reports.drawing.sheet import label
-from reports.drawing.style import INK, PALE, RED, WIDTH_MM, Line, axes_at, drawing, page
+from reports.drawing.style import FILLS, INK, PALE, RED, SOURCES, WIDTH_MM, Line, axes_at, drawing, page
 from studies.live.measure import Measured
 from studies.live.stairs import steps
 from studies.live.taken import NEAR
 
 LEFT_MM, RIGHT_MM, UPPER_MM, LOWER_MM, BETWEEN_MM = 15.0, 4.0, 44.0, 34.0, 4.0
-MEASURED = Line("#11538c", "-", "o", 4.5)
-CALM = Line("#11538c", "-", "o", 3.2)
-ALL = Line("#dd9009", "-", "s", 5.0)
-UNDISTURBED = "#b3d4ee"
+MEASURED = SOURCES["measured"]._replace(size=5.0)
+CALM = Line(INK, "-", "o", 2.6)
+ALL = Line(MEASURED.colour, "-", "s", 5.4)
+UNDISTURBED = FILLS["CA"]
 PREDICTED = Line(INK, "-", "None")
-NEAR_STEP = Line(PALE, "-", "s", 5.0)
-LATER = Line(RED, "-", "^", 4.5)
+LATER = Line(RED, "-", "*", 6.0)
 MOST_LATER = 3
 """Steps that the axis goes beyond the latest predicted landing."""
-ELSEWHERE = Line(RED, "-", "o", 4.5)
-LARGEST = 5.5
+ELSEWHERE = Line(RED, "-", "X", 4.5)
+LARGEST = 6.5
 """Of a sign for all cycles of a speed, in points."""
 LEAST = 5.0
 """Area of the sign of a single cycle, in square points."""
 
 
-def staircase_figure(runs: Sequence[Measured]) -> Figure:
-    """runs: at ascending speeds, of one design."""
+def staircase_figure(runs: Sequence[Measured], mark: str = "") -> Figure:
+    """runs: at ascending speeds, of one design; mark: behind what was measured, in the legend."""
     legend = [
         line_entry("predicted l", PREDICTED),
-        line_entry("measured l, its area the share of the cycles", MEASURED, dashes=False),
-        line_entry("as predicted, of undisturbed cycles", CALM, dashes=False),
-        line_entry("as predicted, of all cycles", ALL, dashes=False),
-        line_entry("undisturbed", Line(UNDISTURBED, "-", "s", 5.0), dashes=False),
-        line_entry(f"within {float(100 * NEAR):g} % of a step", NEAR_STEP, dashes=False),
+        line_entry(f"measured l{mark}, its area the share of the cycles", MEASURED, dashes=False),
+        line_entry(f"as predicted, of undisturbed cycles{mark}", CALM, dashes=False),
+        line_entry(f"as predicted, of all cycles{mark}", ALL, dashes=False),
+        Entry(f"undisturbed{mark}", SWATCH_MM, _undisturbed),
+        band_entry(f"within {float(100 * NEAR):g} % of a step"),
     ]
     elsewhere = [l for run in runs for l in run.achieved if l is not None and l != run.predicted]
     if any(l > _top(runs) for l in elsewhere):
-        legend.insert(2, line_entry("later than shown", LATER, dashes=False))
+        legend.insert(2, line_entry(f"later than shown{mark}", LATER, dashes=False))
     if any(l <= _top(runs) for l in elsewhere):
-        legend.insert(2, line_entry("measured elsewhere", ELSEWHERE, dashes=False))
+        legend.insert(2, line_entry(f"measured elsewhere{mark}", ELSEWHERE, dashes=False))
     with drawing():
         across = WIDTH_MM - LEFT_MM - RIGHT_MM
         top = EDGE_MM + TITLE_MM
@@ -69,13 +71,21 @@ def staircase_figure(runs: Sequence[Measured]) -> Figure:
         return figure
 
 
+def _undisturbed(axes: Axes, x: float, y: float) -> None:
+    axes.add_patch(Rectangle((x, y - 1.3), SWATCH_MM, 2.6, **_bar_style()))
+
+
+def _bar_style() -> dict[str, Any]:
+    return {"facecolor": UNDISTURBED.colour, "edgecolor": UNDISTURBED.ink, "lw": UNDISTURBED.edge_pt}
+
+
 def _frame(axes: Axes, runs: Sequence[Measured]) -> None:
     """The axis of speed, shaded where a step is near."""
     speeds = [float(run.design.speed) for run in runs]
     free = 0.03 * (speeds[-1] - speeds[0]) or 0.05
     axes.set_xlim(speeds[0] - free, speeds[-1] + free)
     for step in map(float, steps(runs[0].design)):
-        axes.axvspan(step * (1 - float(NEAR)), step * (1 + float(NEAR)), color=PALE, alpha=0.6, lw=0, zorder=0.2)
+        band(axes, step * (1 - float(NEAR)), step * (1 + float(NEAR)))
 
 
 def _landings(axes: Axes, runs: Sequence[Measured]) -> None:
@@ -91,8 +101,16 @@ def _landings(axes: Axes, runs: Sequence[Measured]) -> None:
                 axes.plot([float(run.design.speed)], [top + 0.5], LATER.marker, color=RED, ms=LATER.size, mew=0)
             elif l is not None:
                 size = LARGEST**2 * count / len(run.achieved)
-                colour = MEASURED.colour if l == run.predicted else ELSEWHERE.colour
-                axes.scatter([float(run.design.speed)], [l], s=max(size, LEAST), color=colour, lw=0, zorder=3)
+                line = MEASURED if l == run.predicted else ELSEWHERE
+                axes.scatter(
+                    [float(run.design.speed)],
+                    [l],
+                    s=max(size, LEAST),
+                    marker=line.marker,
+                    color=line.colour,
+                    lw=0,
+                    zorder=3,
+                )
     axes.yaxis.set_major_locator(MaxNLocator(nbins=8, integer=True))
     predicted = [run.predicted for run in runs]
     least = min([*predicted, *(l for run in runs for l in run.achieved if l is not None)])
@@ -113,7 +131,7 @@ def _shares(axes: Axes, runs: Sequence[Measured]) -> None:
     undisturbed = [100 * of.undisturbed / of.cycles for of in agreements]
     everything = [float(100 * of.share) for of in agreements]
     low, high = axes.get_xlim()
-    axes.bar(speeds, undisturbed, 0.012 * (high - low), color=UNDISTURBED, lw=0, zorder=1)
+    axes.bar(speeds, undisturbed, 0.012 * (high - low), zorder=1, **_bar_style())
     for name, line, values in (("of all cycles", ALL, everything), ("of undisturbed cycles", CALM, calm)):
         axes.plot(
             speeds, values, line.marker, color=line.colour, ms=line.size, mew=0, clip_on=False, zorder=3, label=name

@@ -27,12 +27,13 @@ from reports.drawing.style import (
     page,
     text_width_mm,
 )
+from reports.pages.minus import true_minus
 from studies.selection.front import Front, FrontPoint
 
 COLUMN_MM, PLOT_MM, LEFT_MM, TOP_MM = 88.0, 66.0, 11.5, 4.0
 
 OTHER = Line(GREY, "-", "o")
-SHADE = "#c4c4c4"
+SHADE = "#8f8f8f"
 """Of the line below designs that no other one beats."""
 
 
@@ -124,7 +125,7 @@ WHOLE_FROM, PLAIN_TO = 1.0, 3e6
 
 NAMES_SHARE, LANDINGS_SHARE = 0.25, 0.14
 """Of the width: right of all designs for the names of groups, left of them for landings."""
-WIDE = 2.0
+WIDE = 1.8
 """So many powers of ten have ticks at these alone."""
 
 LEAST_PERCENT = 1e-3
@@ -136,7 +137,7 @@ def _ticks(axis: Axis, ends: tuple[float, float], leads: Sequence[int], words: C
     low, high = ends
     axis.set_major_locator(FixedLocator([tick for tick in _places(low, high, leads) if low <= tick <= high]))
     axis.set_minor_locator(NullLocator())
-    axis.set_major_formatter(FuncFormatter(lambda value, _: words(value)))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: true_minus(words(value))))
 
 
 def _places(low: float, high: float, leads: Sequence[int]) -> list[float]:
@@ -203,7 +204,7 @@ def _beaten_by_none(axes: Axes, front: Front) -> None:
             [*deviations, deviations[-1]],
             where="post",
             color=SHADE,
-            lw=4.0,
+            lw=3.0,
             zorder=1,
             solid_capstyle="butt",
         )

@@ -34,9 +34,9 @@ function lookOf(colour, dashes, marker) {
   return { colour: `var(${colour})`, dashes: inPixels.join(" "), marker };
 }
 
-/** Path data of a marker about the point where the path is: to be put behind an `M x y`. */
+/** Path data of a marker about the point where the path is: to be put behind an `M x y`; "" of one that is not here. */
 export function markerPath(marker, radius = MARKER_PX) {
-  return MARKER_SHAPES[marker](radius);
+  return MARKER_SHAPES[marker]?.(radius) ?? "";
 }
 
 const MARKER_SHAPES = {

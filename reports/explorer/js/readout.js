@@ -1,4 +1,5 @@
 import { digits, html, svg } from "./svg.js";
+import { markerPath } from "./looks.js";
 
 // Tells the values of the curves of a printed figure: a picture with, over each of its plots, a crosshair.
 
@@ -101,7 +102,7 @@ function curveOf(line, columns) {
     const index = line.step ? x.findLastIndex((value) => value <= wanted) : x.indexOf(wanted);
     return index < 0 || (line.step && wanted > x[x.length - 1]) ? null : tell(index);
   };
-  return { name: line.name, colour: line.colour, step: Boolean(line.step), x, y, at };
+  return { name: line.name, colour: line.colour, marker: line.marker, step: Boolean(line.step), x, y, at };
 }
 
 /** Where values are told: of curves of points all their x, of steps alone where one begins. */
@@ -142,8 +143,10 @@ function drawCross(cross, across, rows) {
 }
 
 function toldRow({ curve, text }) {
-  const key = html("span", { class: "ss-told-key", "aria-hidden": "true" });
-  key.style.background = curve.colour;
+  const { colour, marker } = curve;
+  const line = svg("path", { d: "M-10 0h20", stroke: colour, "stroke-width": 2 });
+  const sign = svg("path", { d: `M0 0${markerPath(marker, 4)}`, stroke: colour, fill: colour });
+  const key = svg("svg", { class: "ss-told-key", viewBox: "-10 -6 20 12", "aria-hidden": "true" }, line, ...(marker ? [sign] : []));
   return html("div", { class: "ss-told-row" }, key, html("span", {}, curve.name), html("b", {}, text));
 }
 

@@ -53,6 +53,15 @@ def test_a_step_of_a_staircase_is_told_where_it_begins() -> None:
         assert achieved_l(costs, Timing(10, 4, 10), f"{speed:.4f}") in (L, L + 1)  # the speed is told to four digits
 
 
+def test_a_marker_is_told_where_there_is_one() -> None:
+    axes = (figure := Figure()).add_subplot()
+    axes.plot([0, 1], [0, 1], "^-", label="signs")
+    axes.plot([0, 1], [1, 0], label="none")
+    told = readout(figure)
+    assert told is not None
+    assert [line.get("marker") for line in told["plots"][0]["lines"]] == ["^", None]
+
+
 def test_what_has_no_name_is_not_told() -> None:
     figure = Figure()
     figure.add_subplot().plot([0, 1], [0, 1])
@@ -109,6 +118,7 @@ def test_an_axis_of_another_scale_is_told_by_the_values_at_even_places() -> None
         ("$L$ asked for", "L asked for"),
         (r"Tracker, by $\sqrt{q\,\Delta T^3/R}$", "Tracker, by √(q ΔT³/R)"),
         (r"costs 3 \$", "costs 3 $"),
+        ("Dual-rate, $Q'$ or $Q''$", "Dual-rate, Q′ or Q″"),
         (r"$\hat{x}_{k^+}$", "x_k^+"),
         ("no formula", "no formula"),
     ],

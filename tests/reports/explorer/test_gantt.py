@@ -18,7 +18,8 @@ from sched_sim.design.timing import Timing
 from sched_sim.schedule.tasks import Task
 from tests.browser import Visit
 from tests.reports.explorer.drawn import Chart, by_hand, late, nothing, schedule
-from tests.reports.explorer.scripts import asking
+from tests.reports.explorer.scripts import asking, loaded
+from tests.reports.explorer.test_palette import contrast
 
 BLUE = FILLS["HRP"].colour
 TASKS = [Task("control", "2", "0.3", 5, "0"), Task("<b>telemetry</b>", "5", "0.7", 15, "1")]
@@ -39,6 +40,19 @@ def test_tasks_have_their_fills_in_turn_by_name_as_in_print(browser: Browser) ->
     with asking(browser, "colours") as colours:
         names = colours("return of.fillNames(a);", [{"label": label} for label in labels])
     assert names == ["task0", "HRP", "task0", "task1", "task2", "task3"]
+
+
+def test_pale_work_has_an_outline_in_the_light_and_none_in_the_dark(visit: Visit) -> None:
+    """In the dark every fill stands out; with the user's own colours all have the outline of texts."""
+    loaded(visit, "colours", styles=("palette.css", "gantt.css"))
+    ask = """labels => colours.coloursOf(document.body, labels.map((label) => ({label})))"""
+    of_print = {label: fill for label, fill in FILLS.items() if contrast(fill.colour, "white") < 3}
+    for scheme, forced in (("light", "none"), ("dark", "none"), ("light", "active")):
+        visit.page.emulate_media(color_scheme=scheme, forced_colors=forced)  # type: ignore[arg-type]
+        found = visit.page.evaluate(ask, list(FILLS))
+        edged = {label for label, fill in zip(FILLS, found["fills"], strict=True) if fill["edge"]}
+        assert edged == (set(FILLS) if forced == "active" else set(of_print) if scheme == "light" else set())
+    visit.page.emulate_media(color_scheme="light", forced_colors="none")
 
 
 def test_work_is_drawn_where_it_is_done_and_nowhere_else(visit: Visit) -> None:

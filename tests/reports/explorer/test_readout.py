@@ -41,6 +41,10 @@ def point_at(visit: Visit, plot: Locator, across: float, up: float) -> None:
     visit.page.mouse.move(box["x"] + across * box["width"], box["y"] + (1 - up) * box["height"])
 
 
+def keys(visit: Visit) -> list[Locator]:
+    return visit.page.locator(".ss-told-key").all()
+
+
 def test_it_lies_over_the_plot(plot: Locator) -> None:
     box, axes = plot.bounding_box(), figure().axes[0].get_position()
     assert box is not None
@@ -57,6 +61,8 @@ def test_under_the_pointer_the_nearest_values_are_told_where_they_are(visit: Vis
         "Larsen",
         "20",
     ]
+    lengths = [[len(path.get_attribute("d") or "") > 12 for path in key.locator("path").all()] for key in keys(visit)]
+    assert lengths == [[False, True], [False]], "the line, and the marker where there is one"
     ring = visit.page.locator("circle").first
     assert (ring.get_attribute("cx"), ring.get_attribute("cy")) == ("40.00%", "50.00%")
     point_at(visit, plot, 0.41, -0.5)
