@@ -71,6 +71,19 @@ def memory_bytes(results: Results, core: str, form: CovarianceFormName) -> dict[
     return found
 
 
+def whole_bytes(results: Results) -> dict[str, dict[str, dict[str, int]]]:
+    """Of the folder of each method: RAM and code, in bytes, by core and method, in the order of all methods."""
+    found = {(row["method"], row["precision"]): row for row in results.records("folders")}
+    return {
+        SOURCES[core]: {
+            method: {part: int(found[method, precision][part]) for part in ("ram", "code")}
+            for method in METHOD_NAMES
+            if (method, precision) in found
+        }
+        for precision, core in IN_PRECISION.items()
+    }
+
+
 def memory(results: Results, form: CovarianceFormName) -> Rows:
     """By method, in single and in double precision: code, RAM of its tasks, stacks."""
     rows: Rows = [["Method", "precision", "code", "RAM, HR", "RAM, LR", "stack, HR", "stack, LR", "RAM and stacks, KB"]]

@@ -43,6 +43,10 @@ def instructions_figure(of_jobs: PerOperation, assumed: float) -> Figure:
                 numbers_at(axes.xaxis, (10, 30, 100, 300, 1000, 3000, 10_000))
             label(above, f"{form} update")
             label(below, across="operations of the job (logarithmic)")
+        for row in rows:
+            highest = max(axes.get_ylim()[1] for axes in row)
+            for axes in row:
+                axes.set_ylim(0, highest)
         rows[0][0].set_ylabel("instructions for each", labelpad=2)
         rows[1][0].set_ylabel("instructions for each", labelpad=2)
         return figure

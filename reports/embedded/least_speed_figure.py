@@ -10,10 +10,11 @@ from matplotlib.figure import Figure
 
 from reports.charts.panels import METHOD_NAMES
 from reports.drawing.axes import AXIS_MM, EDGE_MM, TITLE_MM, plain
+from reports.drawing.band import band, band_entry
 from reports.drawing.legend import draw_legend, legend_height, line_entry
 from reports.drawing.style import INK, PALE, SMALL_PT, TITLE_PT, WIDTH_MM, Line, axes_at, drawing, page, text_width_mm
 from reports.embedded.compared import Compared
-from reports.embedded.signs import BAND, beside, numbers_at, swatch_entry
+from reports.embedded.signs import beside, numbers_at
 from reports.embedded.words import LINES, SOURCES
 from studies.embedded.sources import FIRST
 
@@ -37,14 +38,14 @@ def least_speed_figure(found: Sequence[Compared]) -> Figure:
         row_mm = SLOT_MM * len(sources) + BETWEEN_MM
         height = row_mm * len(methods)
         legend = [line_entry(SOURCES[name], LINES[name]) for name in sources]
-        legend.append(swatch_entry(f"within {WITHIN} % of counted", BAND))
+        legend.append(band_entry(f"within {WITHIN} % of counted"))
         top = EDGE_MM + TITLE_MM
         legend_top = top + height + AXIS_MM
         figure = page(legend_top + legend_height(legend, across) + EDGE_MM)
         for column, form in enumerate(forms):
             axes = axes_at(figure, left + column * (width + GAP_MM), top, width, height)
             axes.set(xlim=(-widest, widest), ylim=(height, 0), yticks=[])
-            axes.axvspan(-WITHIN, WITHIN, color=BAND, lw=0, zorder=0)
+            band(axes, -WITHIN, WITHIN)
             axes.axvline(0, color=INK, lw=0.7, zorder=0.6)
             for y, method in enumerate(methods):
                 of_method = [one for one in shown if (one.form, one.method) == (form, method)]

@@ -9,6 +9,7 @@ from math import floor
 from typing import Any, NamedTuple
 
 from reports.pages.machine import marked
+from reports.pages.minus import true_minus
 from reports.pages.stored import Rows, Tables, records
 from studies.embedded.stairs import Record, judged
 from studies.live.agreement import ALIKE, CONFIDENCE, ENOUGH, Agreement, Word, together, would_do
@@ -58,7 +59,7 @@ def live_rows(runs: Sequence[Measured]) -> Rows:
         of, from_step = run.agreement, nearest_step(run.design)
         calm = "-" if of.share_undisturbed is None else _percent(of.share_undisturbed)
         verdict = "near" if abs(from_step) < NEAR else _verdict(of)
-        row = [f"{float(run.design.speed):.4f}", f"{float(100 * from_step):+.0f}".replace("-", "−"), run.predicted]
+        row = [f"{float(run.design.speed):.4f}", true_minus(f"{float(100 * from_step):+.0f}"), run.predicted]
         rows.append([*row, _percent(of.share), _percent(Fraction(of.undisturbed, of.cycles)), calm, verdict])
     return rows
 

@@ -10,59 +10,64 @@ from matplotlib.ticker import MaxNLocator
 
 from reports.charts.panels import METHOD_NAMES
 from reports.drawing.axes import AXIS_MM, EDGE_MM, TITLE_MM, plain
-from reports.drawing.legend import draw_legend, legend_height
-from reports.drawing.style import PALE, TITLE_PT, WIDTH_MM, axes_at, drawing, page, text_width_mm
-from reports.embedded.signs import beside, swatch_entry
-from reports.embedded.words import SOURCES
+from reports.drawing.legend import draw_legend, fill_entries, legend_height
+from reports.drawing.style import INK, PALE, TITLE_PT, WIDTH_MM, Fill, axes_at, drawing, page, text_width_mm
+from reports.embedded.signs import beside
 
-ROW_MM, BAR_SHARE, GAP_MM = 7.0, 0.36, 8.0
+ROW_MM, BAR_SHARE, GAP_MM = 5.6, 0.36, 8.0
 KB = 1024
 PARTS = {
-    "HR": ("#11538c", "RAM of the HR task"),
-    "LR": ("#dd9009", "RAM of the LR task"),
-    "stack": ("#8f8f8f", "stacks"),
-    "code": ("#dcdcdc", "code, in flash"),
+    "ram": Fill("#11538c", "white", "", "RAM"),
+    "HR": Fill("#11538c", "white", "", "RAM of the HR task"),
+    "LR": Fill("#fbe3b5", "#9a6200", "////", "RAM of the LR task"),
+    "stack": Fill(INK, "white", "", "stacks"),
+    "code": Fill("#f2f2f2", INK, "....", "code, in flash"),
 }
-"""Colours of bars, and what they are."""
+"""How bars look, and what they are."""
 FLASH = "code"
 
+Parts = Mapping[str, int]
+"""Bytes, by part as in `PARTS`."""
 
-def memory_figure(memory: Mapping[str, Mapping[str, Mapping[str, int]]]) -> Figure:
-    """A plot for each core, two bars for each method: above RAM by task and stacks, one behind the other, below code.
 
-    memory: bytes by core, method and part, as in `PARTS`.
+def memory_figure(memory: Mapping[str, Mapping[str, Parts]]) -> Figure:
+    """A plot for each key, two bars for each method: above what is in RAM, one behind the other, below code.
+
+    memory: by title of the plot and method.
     """
     methods = list(dict.fromkeys(method for of in memory.values() for method in of))
+    bars = [bar for of in memory.values() for parts in of.values() for bar in _bars(parts)]
     with drawing():
         left = EDGE_MM + 2.0 + max(text_width_mm(METHOD_NAMES[method]) for method in methods)
         across = WIDTH_MM - left - 4.0
         width = (across - GAP_MM * (len(memory) - 1)) / len(memory)
         height, top = ROW_MM * len(methods), EDGE_MM + TITLE_MM
-        legend = [swatch_entry(text, colour) for colour, text in PARTS.values()]
+        legend = fill_entries({f"{part}:": fill for part, fill in PARTS.items() if any(part in bar for bar in bars)})
         figure = page(top + height + AXIS_MM + legend_height(legend, across) + EDGE_MM)
-        bars = [bar for of in memory.values() for parts in of.values() for bar in _bars(parts)]
         most = max(sum(bar.values()) for bar in bars) / KB
-        for column, (core, of) in enumerate(memory.items()):
+        for column, (title, of) in enumerate(memory.items()):
             axes = axes_at(figure, left + column * (width + GAP_MM), top, width, height)
             axes.set(xlim=(0, 1.03 * most), ylim=(len(methods) - 0.5, -0.5), yticks=[])
             axes.grid(axis="x", color=PALE, lw=0.5)
             axes.xaxis.set_major_locator(MaxNLocator(nbins=6, integer=True))
             for y, method in enumerate(methods):
-                for top_at, bar in zip((y - BAR_SHARE, y), _bars(of[method]), strict=True):
+                for foot, bar in zip((y - BAR_SHARE, y), _bars(of[method]), strict=True):
                     at = 0.0
                     for part, size in bar.items():
-                        colour, _ = PARTS[part]
-                        axes.add_patch(Rectangle((at, top_at), size / KB, BAR_SHARE, facecolor=colour, lw=0))
+                        fill = PARTS[part]
+                        box = Rectangle((at, foot), size / KB, BAR_SHARE, facecolor=fill.colour, edgecolor=fill.ink)
+                        axes.add_patch(box)
+                        box.set(hatch=fill.hatch, linewidth=fill.edge_pt)
                         at += size / KB
                 if column == 0:
                     beside(axes, y, METHOD_NAMES[method], left=True)
-            axes.set_title(SOURCES[core], loc="left", size=TITLE_PT)
+            axes.set_title(title, loc="left", size=TITLE_PT)
             axes.set_xlabel("KB", labelpad=2)
             plain(axes)
         draw_legend(figure, legend, left, top + height + AXIS_MM, across)
         return figure
 
 
-def _bars(parts: Mapping[str, int]) -> tuple[dict[str, int], dict[str, int]]:
+def _bars(parts: Parts) -> tuple[dict[str, int], dict[str, int]]:
     """Of RAM, by part in the order of `PARTS`, and of flash."""
     return {part: parts[part] for part in PARTS if part in parts and part != FLASH}, {FLASH: parts[FLASH]}

@@ -8,9 +8,10 @@ from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
 
 from reports.drawing.axes import AXIS_MM, EDGE_MM, plain
+from reports.drawing.band import band, band_entry
 from reports.drawing.legend import draw_legend, legend_height, line_entry
 from reports.drawing.style import GREY, INK, PALE, SMALL_PT, WIDTH_MM, Line, axes_at, drawing, page, text_width_mm
-from reports.embedded.signs import BAND, beside, numbers_at, swatch_entry
+from reports.embedded.signs import beside, numbers_at
 from reports.embedded.words import WRITTEN
 from studies.measurement.published_timings import PublishedTiming, Written
 
@@ -35,11 +36,11 @@ def published_figure(timings: Mapping[str, PublishedTiming], within: float) -> F
         across = WIDTH_MM - left - 4.0
         height = ROW_MM * len(timings) + 1.0
         legend = [line_entry(WRITTEN[written], line, dashes=False) for written, line in LINES.items()]
-        legend.append(swatch_entry(f"within a factor of {within:.2g}", BAND))
+        legend.append(band_entry(f"within a factor of {within:.2g}"))
         figure = page(EDGE_MM + height + AXIS_MM + legend_height(legend, across) + EDGE_MM)
         axes = axes_at(figure, left, EDGE_MM, across, height)
         axes.set(xscale="log", xlim=(LOW, HIGH), ylim=(len(timings) - 0.4, -0.6), yticks=[])
-        axes.axvspan(1 / within, within, color=BAND, lw=0, zorder=0)
+        band(axes, 1 / within, within)
         axes.axvline(1, color=INK, lw=0.7, zorder=0.6)
         for y, (name, timing) in enumerate(grouped(timings)):
             line, ends = LINES[timing.written], [float(ratio) for ratio in timing.ratios]

@@ -11,8 +11,9 @@ from reports.embedded.memory_figure import memory_figure
 from reports.embedded.published_figure import published_figure
 from reports.embedded.results import Results
 from reports.embedded.said import ASSUMED, about_boards, about_jobs, about_memory, about_speeds, provenance
-from reports.embedded.words import SHOWN, on_page
+from reports.embedded.words import CORES, HERE, OTHERS, PAPERS, SHOWN, SOURCES, on_page
 from reports.live.staircase import staircase_figure
+from reports.pages.machine import marked
 from reports.pages.pictures import files, pictures
 from reports.pages.render import csv_bytes, render
 from studies.embedded.sources import FORMS
@@ -38,14 +39,19 @@ def build(results: Results) -> dict[str, bytes]:
         "staircase": live_rows(live.runs),
     }
     boards = about_boards(results)
-    memory = {core: board_tables.memory_bytes(results, core, "textbook") for core in board_tables.IN_PRECISION.values()}
+    by_jobs = {
+        SOURCES[core]: board_tables.memory_bytes(results, core, "textbook")
+        for core in board_tables.IN_PRECISION.values()
+    }
     figures = pictures(
         {
-            "least-speed.svg": least_speed_figure(found),
+            "least-speed.svg": least_speed_figure([one for one in found if one.method in PAPERS]),
+            "least-speed-others.svg": least_speed_figure([one for one in found if one.method in OTHERS]),
             "instructions.svg": instructions_figure(tables.per_operation(results), ASSUMED),
             "published.svg": published_figure(board_tables.timings(), boards["within"]),
-            "memory.svg": memory_figure(memory),
-            "staircase.svg": staircase_figure(live.runs),
+            "memory.svg": memory_figure(board_tables.whole_bytes(results)),
+            "memory-jobs.svg": memory_figure(by_jobs),
+            "staircase.svg": staircase_figure(live.runs, marked("")),
         }
     )
     shown = {
@@ -53,6 +59,8 @@ def build(results: Results) -> dict[str, bytes]:
         "published": board_tables.published(results),
         **{f"jobs-{form}": tables.jobs(results, form, SHOWN) for form in FORMS},
         **{f"times-{form}": tables.times(results, form, SHOWN) for form in FORMS},
+        **{f"emulated-{form}": tables.without(rows[f"speeds-{form}"], HERE) for form in FORMS},
+        **{f"timed-{form}": tables.without(rows[f"speeds-{form}"], CORES) for form in FORMS},
     }
     pages = render(
         "embedded",

@@ -1,4 +1,4 @@
-"""What figures on boards share: names beside rows, and swatches of the legend."""
+"""What figures on boards share: names beside rows, and numbers at ticks."""
 
 from __future__ import annotations
 
@@ -6,13 +6,9 @@ from collections.abc import Sequence
 
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
-from matplotlib.patches import Rectangle
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
-from reports.drawing.legend import SWATCH_MM, Entry
-
-BAND = "#e3edf5"
-"""Of where figures should be."""
+from reports.pages.minus import true_minus
 
 
 def beside(axes: Axes, y: float, text: str, *, left: bool) -> None:
@@ -23,19 +19,10 @@ def beside(axes: Axes, y: float, text: str, *, left: bool) -> None:
     )  # fmt: skip
 
 
-def swatch_entry(text: str, colour: str) -> Entry:
-    """A filled box in the legend."""
-
-    def draw(axes: Axes, x: float, y: float) -> None:
-        axes.add_patch(Rectangle((x, y - 1.3), SWATCH_MM, 2.6, facecolor=colour, lw=0))
-
-    return Entry(text, SWATCH_MM, draw)
-
-
 def numbers_at(axis: Axis, ticks: Sequence[float], *, signed: bool = False) -> None:
     """Numbers at those of these that are on the axis."""
     low, high = sorted(axis.get_view_interval())
     axis.set_major_locator(FixedLocator([tick for tick in ticks if low <= tick <= high]))
     axis.set_minor_locator(NullLocator())
     written = "{:+g}" if signed else "{:,g}"
-    axis.set_major_formatter(FuncFormatter(lambda value, _: written.format(value).replace("-", "−").replace("+0", "0")))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: true_minus(written.format(value)).replace("+0", "0")))

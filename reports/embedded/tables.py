@@ -24,6 +24,8 @@ from sched_sim.costs.table import CostTable
 from studies.embedded.sources import FIRST, FORMS, METHODS, counted
 from studies.measurement.emulation.memory import ONLY_IF_ASKED
 
+DIFFER = "emulated differ by, %"
+
 
 def jobs(results: Results, form: CovarianceFormName, methods: Sequence[str] = METHODS) -> Rows:
     """Of each job: operations, instructions on each core, and instructions for each operation."""
@@ -87,7 +89,7 @@ def ratios(results: Results) -> Rows:
 def speeds(found: Sequence[Compared], form: CovarianceFormName) -> Rows:
     """Least speeds of the first design, in units of the standard filter's, by every source."""
     names = list(dict.fromkeys(one.source for one in found))
-    rows: Rows = [["Method", "counted", *(SOURCES[name] for name in names), "emulated differ by, %"]]
+    rows: Rows = [["Method", "counted", *(SOURCES[name] for name in names), DIFFER]]
     for method in METHODS[1:]:
         of_method = {one.source: one for one in found if (one.form, one.method, one.timing) == (form, method, FIRST)}
         first = next(iter(of_method.values()))
@@ -95,6 +97,13 @@ def speeds(found: Sequence[Compared], form: CovarianceFormName) -> Rows:
         emulated = largest(one for one in of_method.values() if one.source in CORES)
         rows.append([METHOD_NAMES[method], f"{float(first.counted):.3f}", *cells, signed(emulated.deviation)])
     return rows
+
+
+def without(rows: Rows, sources: Sequence[str]) -> Rows:
+    """Of `speeds`, without the columns of these sources, and of what is said of them."""
+    left_out = {SOURCES[name] for name in sources} | ({DIFFER} if set(sources) == set(CORES) else set())
+    kept = [number for number, heading in enumerate(rows[0]) if heading not in left_out]
+    return [[row[number] for number in kept] for row in rows]
 
 
 def _speed(one: Compared) -> str:

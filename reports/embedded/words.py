@@ -6,8 +6,10 @@ import re
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
 
+from reports.drawing.style import SOURCES as KINDS
 from reports.drawing.style import Line
 from reports.pages.machine import marked
+from reports.pages.minus import true_minus
 from reports.pages.numbers import significant, span
 from reports.pages.stored import Rows
 from sched_sim.costs.table import Cost
@@ -26,14 +28,16 @@ SOURCES: Mapping[str, str] = {
 CORES = ("cortex-m4f", "cortex-m33", "cortex-m7", "cortex-m4-soft")
 IN_HARDWARE = CORES[:3]
 HERE = ("c", "numba", "numpy")
+EMULATED, MEASURED = KINDS["emulated"], KINDS["measured"]
 LINES: Mapping[str, Line] = {
-    "cortex-m4f": Line("#11538c", "-", "o", 4.8),
-    "cortex-m33": Line("#4fb8b8", "-", "D", 2.8),
-    "cortex-m7": Line("#dd9009", "-", "^", 4.4),
-    "cortex-m4-soft": Line("#8a3b73", "-", "s", 3.8),
-    "c": Line("#2e7d4f", "-", "v", 4.4),
-    "numba": Line("#6b6b6b", "-", "P", 4.6),
+    "cortex-m4f": Line(EMULATED.colour, "-", EMULATED.marker, 4.8),
+    "cortex-m33": Line("#0d2b1a", "-", "D", 2.6),
+    "cortex-m7": Line("#5c7a1f", "-", "o", 4.4),
+    "cortex-m4-soft": Line("#1d8a5f", "-", "X", 4.6),
+    "c": Line(MEASURED.colour, "-", MEASURED.marker, 4.6),
+    "numba": Line("#8a5800", "-", "v", 4.6),
 }
+"""Greens of emulated cores, browns of what is timed here; no two have one shape."""
 PAPERS = ("recalculate", "larsen", "dual-rate")
 """Methods of Steffes 2014, beside the standard filter."""
 OTHERS = ("clone", "clone-split", "carried-gain", "delayed-horizon")
@@ -57,7 +61,7 @@ def microseconds(cost: Cost) -> str:
 def signed(deviation: float | Fraction) -> str:
     """In percent with one decimal, and its sign."""
     text = f"{100 * float(deviation):+.1f}"
-    return "0.0" if text in ("+0.0", "-0.0") else text.replace("-", "−")
+    return "0.0" if text in ("+0.0", "-0.0") else true_minus(text)
 
 
 def percent_up(share: float | Fraction) -> str:
@@ -71,8 +75,8 @@ def factor(ratios: Sequence[Fraction]) -> str:
 
 
 def on_page(rows: Rows) -> Rows:
-    """The first cell of a row is empty where it is that of the row above, and a line may not end within "15, 3" or "168
-    MHz"."""
+    """The first cell of a row is empty where it is that of the row above, and a line may not end within "15, 3", "168
+    MHz" or "cortex-m4f"."""
     heading, *body = rows
     above = [None, *(row[0] for row in body[:-1])]
     shown = [["" if row[0] == before else row[0], *row[1:]] for row, before in zip(body, above, strict=True)]
@@ -80,4 +84,5 @@ def on_page(rows: Rows) -> Rows:
 
 
 def _unbroken(cell: str) -> str:
-    return re.sub(r"(?<=[\d,]) (?=\d|MHz)", "\N{NO-BREAK SPACE}", cell)
+    together = re.sub(r"(?<=\d,) (?=\d)|(?<=\d) (?=MHz)", "\N{NO-BREAK SPACE}", cell)
+    return re.sub(r"cortex-[\w-]+", lambda name: name[0].replace("-", "\N{NON-BREAKING HYPHEN}"), together)

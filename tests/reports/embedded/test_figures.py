@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from functools import cache
 
 import numpy as np
+import pytest
 from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
 
-from reports.embedded.board_tables import KB, memory_bytes, timings
+from reports.drawing.style import Line
+from reports.embedded.board_tables import KB, memory_bytes, timings, whole_bytes
 from reports.embedded.compared import Compared, compared
 from reports.embedded.instructions_figure import instructions_figure
 from reports.embedded.least_speed_figure import WITHIN, least_speed_figure
@@ -17,9 +20,10 @@ from reports.embedded.published_figure import LINES as WAYS
 from reports.embedded.published_figure import grouped, published_figure
 from reports.embedded.results import Results, read
 from reports.embedded.tables import per_operation
-from reports.embedded.words import CORES, LINES
+from reports.embedded.words import CORES, LINES, OTHERS, PAPERS
 from studies.embedded.sources import FIRST, FORMS
 from tests.reports import published
+from tests.reports.explorer.test_palette import contrast, luminance
 from tests.reports.layout import flaws, texts
 
 
@@ -33,16 +37,21 @@ def found() -> list[Compared]:
     return compared(stored())
 
 
+def of_methods(methods: Sequence[str]) -> list[Compared]:
+    return [one for one in found() if one.method in methods]
+
+
 @cache
-def speeds() -> Figure:
-    return least_speed_figure(found())
+def speeds(methods: Sequence[str]) -> Figure:
+    return least_speed_figure(of_methods(methods))
 
 
-def test_least_speeds() -> None:
-    assert flaws(speeds()) == []
-    for axes, form in zip(speeds().axes, FORMS, strict=False):
+@pytest.mark.parametrize("methods", [PAPERS, OTHERS])
+def test_least_speeds(methods: Sequence[str]) -> None:
+    assert flaws(speeds(methods)) == []
+    for axes, form in zip(speeds(methods).axes, FORMS, strict=False):
         for source, line in LINES.items():
-            of = [one for one in found() if (one.form, one.source) == (form, source)]
+            of = [one for one in of_methods(methods) if (one.form, one.source) == (form, source)]
             drawn = [one for one in axes.lines if one.get_color() == line.colour]
             signs = [float(one.get_xdata()[0]) for one in drawn if one.get_marker() == line.marker]
             first = [100 * float(one.deviation) for one in of if one.timing == FIRST]
@@ -53,18 +62,24 @@ def test_least_speeds() -> None:
             )
 
 
-def test_nothing_lies_beyond_the_axes() -> None:
-    furthest = max(abs(100 * float(one.deviation)) for one in found() if one.source in LINES)
-    for axes in speeds().axes[:2]:
+@pytest.mark.parametrize("methods", [PAPERS, OTHERS])
+def test_nothing_lies_beyond_the_axes(methods: Sequence[str]) -> None:
+    furthest = max(abs(100 * float(one.deviation)) for one in of_methods(methods) if one.source in LINES)
+    for axes in speeds(methods).axes[:2]:
         low, high = axes.get_xlim()
         assert low == -high
         assert high > max(furthest, WITHIN)
 
 
-def test_the_counted_speed_stands_beside_each_row() -> None:
-    shown = [text.get_text() for text, _ in texts(speeds())]
-    for form in FORMS:
-        assert {f"{float(one.counted):.2f}" for one in found() if (one.form, one.timing) == (form, FIRST)} <= set(shown)
+def test_the_first_figure_leaves_room_on_the_first_screen() -> None:
+    assert 25.4 * speeds(PAPERS).get_size_inches()[1] <= 95
+
+
+@pytest.mark.parametrize("methods", [PAPERS, OTHERS])
+def test_the_counted_speed_stands_beside_each_row(methods: Sequence[str]) -> None:
+    shown = {text.get_text() for text, _ in texts(speeds(methods))}
+    of_first = [one for one in of_methods(methods) if one.timing == FIRST]
+    assert {f"{float(one.counted):.2f}" for one in of_first} <= shown
 
 
 def test_instructions_for_each_operation() -> None:
@@ -91,20 +106,28 @@ def test_published_timings() -> None:
     assert [line.get_color() for line in signs] == [WAYS[of.written].colour for _, of in rows]
 
 
-def test_memory() -> None:
-    memory = {core: memory_bytes(stored(), core, "textbook") for core in ("cortex-m4f", "cortex-m7")}
+def by_task() -> dict[str, dict[str, dict[str, int]]]:
+    return {core: memory_bytes(stored(), core, "textbook") for core in ("cortex-m4f", "cortex-m7")}
+
+
+@pytest.mark.parametrize("whole", [True, False], ids=["whole", "by task"])
+def test_memory(*, whole: bool) -> None:
+    memory = whole_bytes(stored()) if whole else by_task()
     figure = memory_figure(memory)
     assert flaws(figure) == []
     for axes, of in zip(figure.axes, memory.values(), strict=False):
         drawn = sum(bar.get_width() for bar in axes.patches) * KB
         np.testing.assert_allclose(drawn, sum(sum(parts.values()) for parts in of.values()))
+        flash = [bar for bar in axes.patches if bar.get_facecolor() == to_rgba(PARTS["code"].colour)]
+        assert [bar.get_x() for bar in flash] == [0] * len(of), "flash is not stacked on RAM"
+        assert [round(bar.get_width() * KB) for bar in flash] == [parts["code"] for parts in of.values()]
 
 
-def test_flash_is_not_stacked_on_ram() -> None:
-    memory = {core: memory_bytes(stored(), core, "textbook") for core in ("cortex-m4f", "cortex-m7")}
-    for axes, of in zip(memory_figure(memory).axes, memory.values(), strict=False):
-        flash = [bar for bar in axes.patches if bar.get_facecolor() == to_rgba(PARTS["code"][0])]
-        assert [(bar.get_x(), bar.get_width() * KB) for bar in flash] == [(0, parts["code"]) for parts in of.values()]
+def test_parts_of_memory_differ_without_colour() -> None:
+    parts = [fill for part, fill in PARTS.items() if part != "ram"]
+    assert len({(fill.hatch, round(luminance(fill.colour), 1)) for fill in parts}) == len(parts)
+    for fill in parts:
+        assert max(contrast(fill.colour, "white"), contrast(fill.ink, "white") if fill.edge_pt else 1) >= 3
 
 
 def test_logarithmic_axes_say_that_they_are() -> None:
@@ -114,8 +137,19 @@ def test_logarithmic_axes_say_that_they_are() -> None:
                 assert (axes.get_xscale() == "log") == ("logarithmic" in axes.get_xlabel())
 
 
-def test_every_source_and_every_way_to_write_code_has_a_sign_of_its_own() -> None:
-    for lines in (LINES, WAYS):
-        assert len({(line.colour, line.marker) for line in lines.values()}) == len(lines)
-        assert len({line.marker for line in lines.values()}) == len(lines)
-    assert {line.colour for line in LINES.values()} & {line.colour for line in WAYS.values()} <= {LINES["numba"].colour}
+@pytest.mark.parametrize("lines", [LINES, WAYS], ids=["sources", "ways"])
+def test_every_source_and_every_way_to_write_code_has_a_sign_of_its_own(lines: Mapping[str, Line]) -> None:
+    assert len({line.marker for line in lines.values()}) == len(lines)
+    assert len({line.colour for line in lines.values()}) == len(lines)
+    assert min(contrast(line.colour, "white") for line in lines.values()) >= 3
+
+
+def test_where_two_cores_lie_on_one_another_both_are_seen() -> None:
+    """They take the same instructions."""
+    below, above = LINES["cortex-m4f"], LINES["cortex-m33"]
+    assert above.size < 0.7 * below.size
+    assert contrast(below.colour, above.colour) >= 3
+
+
+def test_ways_to_write_code_do_not_look_like_sources() -> None:
+    assert not {line.colour for line in LINES.values()} & {line.colour for line in WAYS.values()}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
@@ -9,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from reports.embedded import results as results_of
+from reports.embedded import tables
 from reports.embedded.board_tables import memory_bytes
 from reports.embedded.compared import compared
 from reports.embedded.live import recorded
@@ -16,7 +18,7 @@ from reports.embedded.report import build
 from reports.embedded.results import SHIPPED, Results, read, shipped
 from reports.embedded.said import ASSUMED, WITHIN, about_boards, about_memory, about_speeds, provenance
 from reports.embedded.tables import per_operation
-from reports.embedded.words import CORES, IN_HARDWARE, PAPERS, factor, microseconds, on_page, signed
+from reports.embedded.words import CORES, HERE, IN_HARDWARE, PAPERS, factor, microseconds, on_page, signed
 from sched_sim.costs.methods import KINDS
 from sched_sim.costs.table import Cost, CostTable
 from sched_sim.errors import InputError
@@ -86,7 +88,9 @@ def test_another_machine_changes_only_what_is_marked() -> None:
     costs = {key: slower(table) if key[0] in native else table for key, table in stored().costs.items()}
     tables = {**stored().tables, "live": [[*row[:3], row[3].replace("0", "1")] for row in stored().tables["live"]]}
     other = build(stored()._replace(costs=costs, tables=tables))
-    published.differs_only_where_marked(rebuilt(), other, ["least-speed.svg", "staircase.svg"])
+    published.differs_only_where_marked(
+        rebuilt(), other, ["least-speed.svg", "least-speed-others.svg", "staircase.svg"]
+    )
 
 
 def test_what_is_shipped_is_what_was_published() -> None:
@@ -157,9 +161,39 @@ def test_emulated_least_speeds_are_the_counted_ones_within_two_percent() -> None
     papers = [one for one in found if one.form == "textbook" and one.source in CORES and one.method in PAPERS]
     assert len(papers) == 6 * 4 * 3
     assert max(abs(one.deviation) for one in papers) <= WITHIN
-    assert f"within {about_speeds(stored(), found)['papers']} % for the filters of Steffes 2014" in text()
+    assert (
+        f"within {about_speeds(stored(), found)['papers']} % for the filters of Steffes 2014 (textbook update)"
+        in text()
+    )
     emulated = [one for one in found if one.source in CORES]
-    assert f"within {100 * float(max(abs(one.deviation) for one in emulated)):.1f} % where the jobs" in text()
+    assert f"within {100 * float(max(abs(one.deviation) for one in emulated)):.1f} % for all here." in text()
+
+
+def test_the_answer_is_short_and_its_factor_is_that_of_plain_loops() -> None:
+    answer = text().partition("**Answer.** ")[2].partition(" ![")[0]
+    assert len(re.findall(r"[^\W\d_]{2,}", answer)) <= 50
+    plain = [ratio for timing in published_timings() if timing.written == "plain loops" for ratio in timing.ratios]
+    within = float(answer.partition("within a factor of ")[2].partition(",")[0])
+    assert max(max(ratio, 1 / ratio) for ratio in plain) == pytest.approx(within, abs=0.05)
+
+
+def test_tables_of_the_page_have_at_most_nine_columns() -> None:
+    """More are not printed on A4 without loss."""
+    widths = [line.count("|") - 1 for line in rebuilt()["index.md"].decode().splitlines() if line.startswith("| ---")]
+    assert len(widths) > 10
+    assert max(widths) <= 9
+
+
+def test_speeds_on_the_page_are_those_of_the_file() -> None:
+    for form in FORMS:
+        found = tables.speeds(compared(stored()), form)
+        emulated, timed = tables.without(found, HERE), tables.without(found, CORES)
+        assert [*emulated[0], *timed[0][2:]] == [*found[0][:6], found[0][-1], *found[0][6:-1]]
+        for table in (emulated, timed):
+            assert [row[:2] for row in table] == [row[:2] for row in found]
+        assert published.rows(rebuilt(), f"speeds-{form}.csv") == [
+            dict(zip(found[0], row, strict=True)) for row in found[1:]
+        ]
 
 
 def test_least_speeds_of_the_first_design() -> None:
@@ -313,11 +347,11 @@ def test_figures_as_they_are_written() -> None:
     assert [signed(of) for of in (0.0123, -0.1, 0.0001)] == ["+1.2", "−10.0", "0.0"]
     assert microseconds(Cost(*(value / 10**6 for value in (1, 2, 3)))) == "2.00 (1.00 to 3.00)"  # type: ignore[arg-type]
     assert factor([load_part("cortex-m4f").clock_hz / 168_000_000 / 2]) == "2"
-    assert on_page([["a", "b"], ["x", "1"], ["x", "15, 3"], ["y", "168 MHz"]]) == [
+    assert on_page([["a", "b"], ["x", "1"], ["x", "15, 3"], ["y", "cortex-m4f, 168 MHz"]]) == [
         ["a", "b"],
         ["x", "1"],
         ["", "15,\N{NO-BREAK SPACE}3"],
-        ["y", "168\N{NO-BREAK SPACE}MHz"],
+        ["y", "cortex\N{NON-BREAKING HYPHEN}m4f, 168\N{NO-BREAK SPACE}MHz"],
     ]
 
 
