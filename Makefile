@@ -25,7 +25,7 @@ LOCK_ENV = env -u VIRTUAL_ENV -u UV_INDEX -u UV_DEFAULT_INDEX -u UV_INDEX_URL -u
 LOCK_UV  = $(or $(UV),build/uv/bin/uv)
 
 .DEFAULT_GOAL := help
-.PHONY: help run publish docs test lint types imports unit exhaust bench install lock clean
+.PHONY: help run publish times docs test lint types imports unit exhaust bench install lock clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z]*\):.*## /\1|/p' Makefile | while IFS='|' read -r name what; do \
@@ -38,6 +38,11 @@ publish: $(STAMP) ## write all reports anew where they are kept, in reports/publ
 	$(BIN)/sched-sim report --all --output reports/published
 	cd reports/published/embedded && cp cortex-*.toml stored-boards.csv stored-checks.csv stored-folders.csv stored-live*.csv \
 		$(CURDIR)/studies/data/embedded
+	cd reports/published && $(CURDIR)/$(BIN)/python -m studies.machines steffes2014/measured.toml erkf/measured-*.toml
+
+times: $(STAMP) ## time this machine for the reports, keep it in studies/data/measurements, write them anew with it
+	$(BIN)/python -m studies.machines
+	$(BIN)/python -m tests.reports.rebuild steffes2014 erkf
 
 docs: $(STAMP) ## the documentation as a site, in build/docs; needs no network
 	$(BIN)/sphinx-build --quiet --fail-on-warning --nitpicky --fresh-env --write-all -d build/doctrees docs build/docs

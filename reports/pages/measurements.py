@@ -1,0 +1,51 @@
+"""Several measurements of the same jobs, in words and as a table: on which machines, when, and what each gives."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+
+from reports.pages.machine import MARK, marked
+from reports.pages.stored import Rows
+from sched_sim.costs.table import CostTable
+from studies.machines.ranges import machines
+
+Figure = Callable[[CostTable], str]
+"""What one measurement makes of a figure, as it is shown."""
+
+
+def counted_on(measurements: Sequence[CostTable]) -> str:
+    """How many there are, and of which machines: "3 measurements on 1 machine (AMD EPYC)"."""
+    of = machines(measurements)
+    names = [f"{name} {len(dates)}" if len(of) > 1 else name for name, dates in of.items()]
+    return f"{_number(len(measurements), 'measurement')} on {_number(len(of), 'machine')} ({', '.join(names)})"
+
+
+def who_measured(measurements: Sequence[CostTable]) -> str:
+    """The same for the end of a report: with the dates, what of a measurement counts, and who has not measured yet."""
+    of = machines(measurements)
+    days = sorted(day for dates in of.values() for day in dates)
+    when = days[0] if days[0] == days[-1] else f"{days[0]} to {days[-1]}"
+    alone = f" No other machine has measured yet{_no_xeon(of)}: its times may lie outside." if len(of) == 1 else ""
+    return (
+        f"Measured figures {MARK} are ranges over {counted_on(measurements)}, {when}, each by the least times of its "
+        f"rounds, which other programs disturb least; a machine is called what its processor calls itself.{alone} "
+        f"`make times` adds one."
+    )
+
+
+def measurement_rows(measurements: Sequence[CostTable], figures: Mapping[str, Figure]) -> Rows:
+    """A row for each measurement, which says so where the machine was busy; figures: by their heading."""
+    rows: Rows = [[*map(marked, ("machine", "date", *figures))]]
+    for table in measurements:
+        about = table.provenance
+        date = f"{about['date']}, busy" if table.measured_on_busy_machine else about["date"]
+        rows.append([about["machine"], date, *(figure(table) for figure in figures.values())])
+    return rows
+
+
+def _no_xeon(of: Mapping[str, Sequence[str]]) -> str:
+    return "" if any("xeon" in name.lower() for name in of) else ", no Intel Xeon either"
+
+
+def _number(count: int, noun: str) -> str:
+    return f"{count} {noun}" if count == 1 else f"{count} {noun}s"
