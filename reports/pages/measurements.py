@@ -9,7 +9,7 @@ from reports.pages.stored import Rows
 from sched_sim.costs.table import CostTable
 from studies.machines.ranges import machines
 
-Figure = Callable[[CostTable], str]
+Shown = Callable[[CostTable], str]
 """What one measurement makes of a figure, as it is shown."""
 
 
@@ -29,11 +29,11 @@ def who_measured(measurements: Sequence[CostTable]) -> str:
     return (
         f"Measured figures {MARK} are ranges over {counted_on(measurements)}, {when}, each by the least times of its "
         f"rounds, which other programs disturb least; a machine is called what its processor calls itself.{alone} "
-        f"`make times` adds one."
+        f"In a clone, `make times` adds yours."
     )
 
 
-def measurement_rows(measurements: Sequence[CostTable], figures: Mapping[str, Figure]) -> Rows:
+def measurement_rows(measurements: Sequence[CostTable], figures: Mapping[str, Shown]) -> Rows:
     """A row for each measurement, which says so where the machine was busy; figures: by their heading."""
     rows: Rows = [[*map(marked, ("machine", "date", *figures))]]
     for table in measurements:

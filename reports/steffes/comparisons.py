@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
@@ -10,9 +10,10 @@ from matplotlib.ticker import MaxNLocator
 from reports.charts.panels import METHOD_NAMES
 from reports.drawing.legend import draw_legend, legend_height
 from reports.drawing.style import FONT_PT, PALE, WIDTH_MM, axes_at, drawing, page, text_width_mm
-from reports.steffes.signs import check_sources, row_name, sign, source_entries
+from reports.steffes.signs import MEASURED, check_sources, row_name, sign, source_entries
 from sched_sim.costs.methods import KINDS
 from sched_sim.costs.table import CostTable
+from studies.machines.ranges import Range, range_of
 
 ROW_MM, AXIS_MM, EDGE_MM, RIGHT_MM = 4.6, 10.5, 2.0, 5.0
 
@@ -54,15 +55,16 @@ KIND_NAMES = {
 }
 
 
-def cost_figure(tables: Mapping[str, CostTable]) -> Figure:
+def cost_figure(tables: Mapping[str, CostTable], measured: Sequence[CostTable] = ()) -> Figure:
     """What each job costs by each table, the standard filter's propagate + update being 1; one row for each job that
-    at least two tables have (all jobs, if there is one table). A bar goes from the minimum to the 95th percentile.
+    at least two tables have (all jobs, if there is one table). Signs are at least costs.
 
-    tables: by their source, of `SOURCES`.
+    tables: by their source, of `SOURCES`. measured: all measurements, over whose least costs a bar goes.
     Raises InputError for another source, and for a table without the standard filter's costs.
     """
     sources = list(tables)
     check_sources(sources)
+    alike = [table.normalised() for table in measured]
     normalised = {name: table.normalised() for name, table in tables.items()}
     shown = [
         (method, kind)
@@ -86,10 +88,9 @@ def cost_figure(tables: Mapping[str, CostTable]) -> Figure:
                 rows[y] = f"{METHOD_NAMES[method]}, {KIND_NAMES[kind]}"
                 row_name(axes, y, KIND_NAMES[kind])
                 for source, table in normalised.items():
-                    cost = table.costs.get(method, {}).get(kind)
-                    if cost is not None:
-                        ends = float(cost.minimum), float(cost.p95)
-                        sign(axes, ends[0], y, source, sources, interval=ends)
+                    if table.has(method, kind):
+                        bar = _over(alike, method, kind) if source == MEASURED and alike else None
+                        sign(axes, _least(table, method, kind), y, source, sources, interval=bar)
                 y += 1
         axes.fmt_ydata = lambda at: rows[round(at)]
         axes.set(xlim=(0, axes.get_xlim()[1]), ylim=(y - 0.5, -0.5), yticks=[])
@@ -99,3 +100,11 @@ def cost_figure(tables: Mapping[str, CostTable]) -> Figure:
         axes.set_xlabel("cost (standard filter's propagate + update = 1)", labelpad=2)
         draw_legend(figure, legend, left, EDGE_MM + height + AXIS_MM, width)
         return figure
+
+
+def _least(table: CostTable, method: str, kind: str) -> float:
+    return float(table.entry(method, kind).minimum)
+
+
+def _over(measured: Sequence[CostTable], method: str, kind: str) -> Range[float]:
+    return range_of(lambda table: _least(table, method, kind), measured)

@@ -7,6 +7,7 @@ from fractions import Fraction
 
 from reports.charts.panels import Panel
 from reports.pages.machine import legend, timed_on
+from reports.pages.measurements import who_measured
 from reports.pages.pictures import Annotated, Sliding, files, pictures
 from reports.pages.render import csv_bytes, render
 from reports.pages.stored import Rows
@@ -25,6 +26,7 @@ from reports.steffes.waiting import waited, waiting_figure
 from sched_sim.costs.table import CostTable
 from sched_sim.costs.table_file import costs_text, load_costs
 from sched_sim.design.least_speed import least_speed
+from studies.machines.store import beside
 from studies.steffes import tables as steffes
 from studies.steffes.agreement import agreement
 from studies.steffes.memory import memory
@@ -37,10 +39,12 @@ AT_L, AT_SPEED = FIGURE_3.L - FIGURE_3.M - 1, SPEEDS.index(Fraction(4, 5))
 """Which schedules are shown first: that of Fig. 3, and the slowest of several that lands as early."""
 
 
-def build(measured: CostTable) -> dict[str, bytes]:
-    """All files of the report by name, as a pure function of one measured cost table."""
+def build(measured: CostTable, stored: Sequence[CostTable] = ()) -> dict[str, bytes]:
+    """All files of the report by name, as a pure function of a measured cost table, and of those measured before or on
+    other machines."""
     paper = load_costs("steffes2014")
     tables = {"printed": paper, "counted": load_costs("counted-9-3-3").normalised(), "measured": measured.normalised()}
+    every = [table.normalised() for table in beside(measured, stored)]
     cells, waits = steffes.cells(paper), waited(paper)
     agreed, noises, counted = agreement(FIGURE_3), approximations(), multiplies()
     kept = [memory(method) for method in ("larsen", "dual-rate")]
@@ -48,8 +52,9 @@ def build(measured: CostTable) -> dict[str, bytes]:
     panels, (N, M) = _panels(paper), rows.STAIRS[0]
     over_l = frames_over_l(paper, FIGURE_3.N, FIGURE_3.M)
     shown: dict[str, Rows] = {
-        "tables-1-3": rows.entries(tables),
-        "table-4": rows.table4(tables, cells),
+        "tables-1-3": rows.entries(tables["counted"], every),
+        "table-4": rows.table4(tables["counted"], every, cells),
+        "measurements": rows.measurements(every, FIGURE_3),
         "simulated": rows.simulated(paper),
         "propagate-by": rows.propagate_by(paper),
         "stairs": rows.stairs(paper),
@@ -65,8 +70,8 @@ def build(measured: CostTable) -> dict[str, bytes]:
     figures = pictures(
         {
             "fig3.svg": Sliding("L asked for", over_l, at=AT_L),
-            "costs.svg": cost_figure(tables),
-            "table4.svg": table4_figure(_speeds(tables, cells)),
+            "costs.svg": cost_figure(tables, every),
+            "table4.svg": table4_figure(_speeds(tables, every, cells)),
             "fig1.svg": Annotated(serial_timeline(paper, FIGURE_3, _serial_speed(paper)), panels["fig1"]),
             "fig2.svg": Annotated(
                 dual_rate_timeline(paper, FIGURE_3, rows.least(paper, "dual-rate", FIGURE_3)), panels["fig2"]
@@ -88,8 +93,9 @@ def build(measured: CostTable) -> dict[str, bytes]:
         TITLE,
         figures,
         legend=legend(timed_on(measured.provenance)),
+        who_measured=who_measured(every),
         form=measured.provenance["update_form"],
-        table=said.about_tables(tables, cells),
+        table=said.about_tables(tables, every, cells),
         not_reached=said.not_reached(paper, cells),
         serial=said.about_serial(paper),
         wait=said.about_waiting(paper, waits),
@@ -124,11 +130,11 @@ def _panels(paper: CostTable) -> dict[str, list[Panel]]:
     }
 
 
-def _speeds(tables: dict[str, CostTable], cells: Sequence[steffes.Cell]) -> list[Speeds]:
+def _speeds(tables: dict[str, CostTable], measured: Sequence[CostTable], cells: Sequence[steffes.Cell]) -> list[Speeds]:
     """Table 4 with what each number is uncertain by."""
     found = []
     for cell in cells:
-        ends = {name: rows.ends(tables[name], cell.method, cell.timing) for name in ("counted", "measured")}
+        low, high = rows.over(measured, cell.method, cell.timing)
         found.append(
             Speeds(
                 cell.timing,
@@ -136,12 +142,15 @@ def _speeds(tables: dict[str, CostTable], cells: Sequence[steffes.Cell]) -> list
                 {
                     "printed": float(cell.printed),
                     "analysis": float(cell.computed.speed),
-                    **{name: float(low) for name, (low, _) in ends.items()},
+                    **{
+                        name: float(rows.least(tables[name], cell.method, cell.timing))
+                        for name in ("counted", "measured")
+                    },
                 },
                 {
                     "printed": (float(cell.printed - steffes.HALF_UNIT), float(cell.printed + steffes.HALF_UNIT)),
                     "analysis": (float(cell.lowest), float(cell.highest)),
-                    "measured": (float(ends["measured"][0]), float(ends["measured"][1])),
+                    "measured": (float(low), float(high)),
                 },
                 "" if cell.reached else "not reached",
             )

@@ -9,6 +9,7 @@ from itertools import pairwise
 
 from reports.charts.panels import METHOD_NAMES, Panel
 from reports.pages.machine import marked
+from reports.pages.measurements import Shown, measurement_rows
 from reports.pages.stored import Rows
 from reports.steffes.processors import SWITCHES, Variant
 from reports.steffes.waiting import Waited
@@ -22,12 +23,15 @@ from sched_sim.design.pieces import Statistic
 from sched_sim.design.simulate import simulate
 from sched_sim.design.timing import Timing
 from sched_sim.schedule.intervals import bars
+from studies.machines.ranges import Range, range_of
 from studies.steffes import tables as steffes
 from studies.steffes.agreement import Agreement
 from studies.steffes.memory import Memory
 from studies.steffes.noise import Approximated
 from studies.steffes.products import STEPS, Multiplies
 
+P95 = "p95, at most"
+"""Heading of least speeds by 95th percentiles."""
 CYCLES = 4
 """That are simulated of each design."""
 SMALL_DELAYS = [Timing(10, M, 8) for M in (1, 2, 3, 4)]
@@ -51,12 +55,7 @@ def least(
     return least_speed(select(table, method, options, statistic), timing, options).speed
 
 
-def ends(table: CostTable, method: str, timing: Timing) -> tuple[Fraction, Fraction]:
-    """The least speed by the least costs and by their 95th percentile."""
-    return least(table, method, timing), least(table, method, timing, statistic="p95")
-
-
-def span(low: Fraction, high: Fraction) -> str:
+def span(low: Fraction | float, high: Fraction | float) -> str:
     """One number where they are the same."""
     return number(low) if low == high else f"{number(low)} to {number(high)}"
 
@@ -65,20 +64,33 @@ def design(timing: Timing) -> str:
     return f"{timing.N}, {timing.M}, {timing.L}"
 
 
-def entries(tables: Mapping[str, CostTable]) -> Rows:
+def over(measured: Sequence[CostTable], method: str, timing: Timing) -> Range[Fraction]:
+    """The least speed by the least costs of each measurement."""
+    return range_of(lambda table: least(table, method, timing), measured)
+
+
+def at_p95(measured: Sequence[CostTable], method: str, timing: Timing) -> Fraction:
+    """The greatest least speed by the 95th percentiles of each measurement."""
+    return range_of(lambda table: least(table, method, timing, statistic="p95"), measured).high
+
+
+def entries(counted: CostTable, measured: Sequence[CostTable]) -> Rows:
+    """measured: each normalised."""
     rows: Rows = [["Table", "Step", "Work", "printed", "counted", marked("measured")]]
     for entry in steffes.entries():
-        values = [number(entry.value(tables[name])) for name in ("counted", "measured")]
+        values = [number(entry.value(counted)), span(*range_of(entry.value, measured))]
         step = entry.step.replace("m-1", "m − 1").replace("..", "to").replace("+", " + ")
         rows.append([entry.table, step, entry.column, number(entry.printed, 2), *values])
     return rows
 
 
-def table4(tables: Mapping[str, CostTable], cells: Sequence[steffes.Cell]) -> Rows:
+def table4(counted: CostTable, measured: Sequence[CostTable], cells: Sequence[steffes.Cell]) -> Rows:
+    """measured: each normalised."""
     heading = ["N, M, L", "Method", "printed", "analysis", "exactly", "from rounding", "reached", "counted"]
-    rows: Rows = [[*heading, marked("measured")]]
+    rows: Rows = [[*heading, marked("measured"), marked(P95)]]
     for cell in cells:
-        others = [span(*ends(tables[name], cell.method, cell.timing)) for name in ("counted", "measured")]
+        of_cell = cell.method, cell.timing
+        others = [number(least(counted, *of_cell)), span(*over(measured, *of_cell)), number(at_p95(measured, *of_cell))]
         rows.append(
             [
                 *(design(cell.timing), METHOD_NAMES[cell.method], number(cell.printed, 2), number(cell.computed.speed)),
@@ -86,6 +98,17 @@ def table4(tables: Mapping[str, CostTable], cells: Sequence[steffes.Cell]) -> Ro
             ]
         )
     return rows
+
+
+def measurements(measured: Sequence[CostTable], timing: Timing) -> Rows:
+    """What each measurement gives: the deviation from Tables 1 to 3, and least speeds of a design. measured: each
+    normalised."""
+
+    def of(method: str) -> Shown:
+        return lambda table: number(least(table, method, timing))
+
+    speeds = {METHOD_NAMES[method]: of(method) for method in PAPER_METHODS if method != "standard"}
+    return measurement_rows(measured, {"deviation": lambda table: number(steffes.deviation(table)), **speeds})
 
 
 def without(rows: Rows, *headings: str) -> Rows:

@@ -8,9 +8,10 @@ from typing import Any
 
 from reports.charts.panels import METHOD_NAMES
 from reports.pages.machine import residue
+from reports.pages.measurements import counted_on
 from reports.pages.numbers import significant
 from reports.steffes.processors import SWITCHES, Variant
-from reports.steffes.rows import BY_L, CYCLES, SMALL_DELAYS, ends, least, number, power, span
+from reports.steffes.rows import BY_L, CYCLES, SMALL_DELAYS, at_p95, least, number, over, power, span
 from reports.steffes.timelines import serial_costs
 from reports.steffes.waiting import Waited, by_wait, off_the_curve
 from sched_sim.costs.table import CostTable
@@ -20,6 +21,7 @@ from sched_sim.design.methods import select
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import DualRateCosts, RecalculateCosts
 from sched_sim.design.timing import Timing
+from studies.machines.ranges import range_of
 from studies.steffes import tables as steffes
 from studies.steffes.agreement import FLOOR, Agreement
 from studies.steffes.equations import EQUATIONS
@@ -36,22 +38,31 @@ def percent(share: Fraction | float, digits: int = 0) -> str:
     return f"{100 * float(share):.{digits}f} %"
 
 
-def about_tables(tables: Mapping[str, CostTable], cells: Sequence[steffes.Cell]) -> dict[str, Any]:
-    """Of Tables 1 to 4."""
+def about_tables(
+    tables: Mapping[str, CostTable], measured: Sequence[CostTable], cells: Sequence[steffes.Cell]
+) -> dict[str, Any]:
+    """Of Tables 1 to 4; measured: each normalised."""
     speeds = {
-        method: {name: ends(table, method, FIGURE_3) for name, table in tables.items()}
+        method: {name: least(tables[name], method, FIGURE_3) for name in ("printed", "counted")}
         for method in ("larsen", "dual-rate")
     }
-    shares = [speeds["dual-rate"][name][0] / speeds["larsen"][name][0] for name in ("printed", "counted")]
+    shares = [speeds["dual-rate"][name] / speeds["larsen"][name] for name in ("printed", "counted")]
     return {
         "cells": len(cells),
         "reached": sum(cell.reached for cell in cells),
         "figures": len({(cell.method, cell.printed) for cell in cells if not cell.reached}),
         "counted_deviation": f"{steffes.deviation(tables['counted']):.3f}",
-        "measured_deviation": f"{steffes.deviation(tables['measured']):.3f}",
-        "least": {name: span(*of) for name, of in speeds["dual-rate"].items()},
-        "larsen": {name: span(*of) for name, of in speeds["larsen"].items()},
-        "here": [number(speeds[method]["printed"][0], 2) for method in ("dual-rate", "larsen")],
+        "measured_deviation": span(*range_of(steffes.deviation, measured)),
+        **{
+            method: {
+                **{name: number(speed) for name, speed in of.items()},
+                "measured": span(*over(measured, method, FIGURE_3)),
+                "p95": number(at_p95(measured, method, FIGURE_3)),
+            }
+            for method, of in speeds.items()
+        },
+        "measurements": counted_on(measured),
+        "here": [number(speeds[method]["printed"], 2) for method in ("dual-rate", "larsen")],
         "share": percent(shares[0]),
         "counted_share": percent(shares[1]),
         "later": FIGURE_3.L - FIGURE_3.M,

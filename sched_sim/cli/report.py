@@ -133,6 +133,7 @@ def _steffes(thorough: bool, progress: Progress) -> dict[str, bytes]:
     from filters.systems.example import example_system
     from reports.steffes.report import build
     from sched_sim.costs.methods import PAPER_METHODS
+    from studies.machines.store import kept
     from studies.measurement.methods import measure
 
     measured = measure(
@@ -144,7 +145,7 @@ def _steffes(thorough: bool, progress: Progress) -> dict[str, bytes]:
         methods=PAPER_METHODS,
     )
     say_busy(measured.name, measured.provenance)
-    return build(measured)
+    return build(measured, kept(measured.name))
 
 
 def _patent_multirate(_thorough: bool, progress: Progress) -> dict[str, bytes]:

@@ -4,19 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from fractions import Fraction
-from typing import NamedTuple
+from typing import Generic, NamedTuple, TypeVar
 
 from sched_sim.costs.table import CostTable
 
+Number = TypeVar("Number", Fraction, float)
 
-class Range(NamedTuple):
+
+class Range(NamedTuple, Generic[Number]):
     """From the least of a figure to the greatest."""
 
-    low: Fraction
-    high: Fraction
+    low: Number
+    high: Number
 
 
-def range_of(figure: Callable[[CostTable], Fraction], measurements: Iterable[CostTable]) -> Range:
+def range_of(figure: Callable[[CostTable], Number], measurements: Iterable[CostTable]) -> Range[Number]:
     """Of what each measurement alone makes of the figure. Raises ValueError if there is none."""
     values = [figure(table) for table in measurements]
     return Range(min(values), max(values))

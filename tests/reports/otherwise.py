@@ -33,9 +33,10 @@ def _patent_multirate() -> Mapping[str, object]:
 def _steffes() -> Mapping[str, object]:
     from reports.steffes.report import build
     from sched_sim.costs.table_file import read_costs
+    from studies.machines.store import kept
 
     measured = read_costs(ROOT / "reports" / "published" / "steffes2014" / "measured.toml")
-    return {name: content.decode() for name, content in build(measured).items()}
+    return {name: content.decode() for name, content in build(measured, kept(measured.name)).items()}
 
 
 def _erkf() -> Mapping[str, object]:

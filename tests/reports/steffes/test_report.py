@@ -14,6 +14,7 @@ from reports.steffes.report import build
 from reports.steffes.rows import power
 from sched_sim.costs.table import Cost, CostTable
 from sched_sim.costs.table_file import read_costs
+from studies.machines.store import kept
 from tests.reports import published
 
 METHODS = ("Larsen", "Recalculate")
@@ -25,8 +26,14 @@ def committed_costs() -> CostTable:
 
 
 @cache
+def every() -> tuple[CostTable, ...]:
+    """All that have been measured."""
+    return kept("measured-9-3-3")
+
+
+@cache
 def rebuilt() -> dict[str, bytes]:
-    return build(committed_costs())
+    return build(committed_costs(), every())
 
 
 def test_the_report_is_complete_and_opens_offline() -> None:
@@ -48,7 +55,7 @@ def test_another_machine_changes_only_what_is_marked_as_measured() -> None:
         method: {kind: Cost.of(cost.minimum * (2 if "update" in kind else 3)) for kind, cost in kinds.items()}
         for method, kinds in table.costs.items()
     }
-    other = build(replace(table, costs=slower, provenance={**table.provenance, "machine": "another"}))
+    other = build(replace(table, costs=slower, provenance={**table.provenance, "machine": "another"}), every())
     published.differs_only_where_marked(rebuilt(), other, ["costs.svg", "table4.svg"])
 
 
@@ -100,10 +107,48 @@ def test_why_a_cell_is_not_reached_is_right_arithmetic() -> None:
 
 def test_deviations_are_those_of_the_table_of_costs() -> None:
     rows = published.rows(rebuilt(), "tables-1-3.csv")
-    for source, heading in (("Operation counts of the real filters", "counted"), ("compiled code", "measured †")):
-        (value,) = said(rf"{source}(?: come)? within ([\d.]+)")
-        squares = [(float(row[heading]) - float(row["printed"])) ** 2 for row in rows]
-        assert float(value) == pytest.approx(math.sqrt(sum(squares) / len(squares)), abs=0.0006)
+    (value,) = said(r"Operation counts of the real filters come within ([\d.]+)")
+    squares = [(float(row["counted"]) - float(row["printed"])) ** 2 for row in rows]
+    assert float(value) == pytest.approx(math.sqrt(sum(squares) / len(squares)), abs=0.0006)
+
+
+def ends(cell: str) -> tuple[float, float]:
+    """Of a range, or of one number."""
+    numbers = [float(number) for number in cell.split(" to ")]
+    return numbers[0], numbers[-1]
+
+
+def test_measured_figures_are_ranges_over_the_measurements_that_are_listed() -> None:
+    listed = published.rows(rebuilt(), "measurements.csv")
+    assert [(row["machine †"], row["date †"]) for row in listed] == [
+        (str(table.provenance["machine"]), str(table.provenance["date"])) for table in every()
+    ]
+    names = {"deviation": "deviation", "Recalculate": "Recalculate", "Larsen": "Larsen", "Dual-rate": "Dual-rate"}
+    over = {name: (min(of), max(of)) for name in names if (of := [float(row[f"{name} †"]) for row in listed])}
+    by_method = {row["Method"]: row for row in published.rows(rebuilt(), "table-4.csv") if row["N, M, L"] == "10, 4, 8"}
+    for method, row in by_method.items():
+        assert ends(row["measured †"]) == over[method]
+        assert float(row["p95, at most †"]) >= over[method][1]
+    assert ends(*said(r"compiled code by ([\d.]+ to [\d.]+) †")) == over["deviation"]
+    assert said(r"by counts, ([\d.]+ to [\d.]+) † by these") == (by_method["Dual-rate"]["measured †"],)
+    assert said(r"and ([\d.]+ to [\d.]+) †\. - ") == (by_method["Larsen"]["measured †"],)
+    assert f"{len(listed)} measurements on 1 machine (AMD EPYC)" in published.text(rebuilt())
+    assert "No other machine has measured yet, no Intel Xeon either" in published.text(rebuilt())
+
+
+@pytest.mark.exhaust
+def test_a_machine_that_is_added_widens_ranges_and_is_named() -> None:
+    table = committed_costs()
+    costs = {method: {kind: Cost.of(cost.minimum) for kind, cost in of.items()} for method, of in table.costs.items()}
+    costs["dual-rate"]["hr_propagate"] = Cost.of(2 * costs["dual-rate"]["hr_propagate"].minimum)
+    xeon = replace(table, costs=costs, provenance={**table.provenance, "machine": "Intel Xeon"})
+    files = build(table, [*every(), xeon])
+    for before, after in zip(*(published.rows(of, "table-4.csv") for of in (rebuilt(), files)), strict=True):
+        old, new = ends(before["measured †"]), ends(after["measured †"])
+        assert new[0] <= old[0] <= old[1] <= new[1]
+        assert (new[1] > old[1]) == (before["Method"] == "Dual-rate")
+    assert f"on 2 machines (AMD EPYC {len(every())}, Intel Xeon 1)" in published.text(files)
+    assert "No other machine" not in published.text(files)
 
 
 def test_misses_are_said_of_how_many_jobs_and_cycles() -> None:

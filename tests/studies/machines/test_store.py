@@ -52,9 +52,9 @@ def test_one_measurement_is_kept_once(tmp_path: Path) -> None:
     assert len(files("t", tmp_path)) == 2
 
 
-def test_a_measurement_that_is_stored_stands_beside_the_others_once() -> None:
+def test_a_measurement_stands_last_beside_the_others_whether_it_is_stored_or_not() -> None:
     one, two = timed(), timed("3e-7")
-    assert beside(two, [one]) == (one, two)
+    assert beside(two, [one]) == beside(two, [one, two]) == (one, two)
     assert beside(one, [one, two]) == (two, one)
 
 
