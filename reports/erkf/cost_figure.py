@@ -69,7 +69,7 @@ def cost_figure(ways: Sequence[Way], unknowns: Mapping[str, int], step_s: float)
         counts.set_title("Operations in a step", loc="left", size=TITLE_PT)
         times.set_title(marked("Compiled code"), loc="left", size=TITLE_PT)
         counts.set_xlabel("floating-point operations", labelpad=2)
-        times.set_xlabel("time (µs), minimum to p95", labelpad=2)
+        times.set_xlabel("least time (µs)", labelpad=2)
         draw_legend(figure, legend, left, legend_top, across)
         return figure
 

@@ -34,6 +34,7 @@ from reports.erkf.singular import singular_figure
 from reports.erkf.stability import stability_figure
 from reports.erkf.ways import Response, response_s, ways_figure
 from reports.pages.machine import legend, timed_on
+from reports.pages.measurements import counted_on, who_measured
 from reports.pages.pictures import files, pictures
 from reports.pages.render import csv_bytes, render
 from sched_sim.costs.methods import ROBUST_METHODS
@@ -64,14 +65,15 @@ def build(results: Results) -> dict[str, bytes]:
     responses = _responses(counted, slowest)
     rows = {
         "ways": tables.response_rows(responses),
-        "costs": tables.cost_rows(all_counts(), results.measured),
+        "costs": tables.cost_rows(all_counts(), results.measurements),
         "parallel": tables.parallel_rows(devices),
         "agreements": tables.agreement_rows(results),
         "attitude-errors": tables.attitude_rows(results),
         "position-errors": tables.position_rows(results),
         "linear": tables.linear_rows(results),
         "linear-sample": tables.sample_rows(results),
-        "speeds": tables.speed_rows(counted, results.measured),
+        "speeds": tables.speed_rows(counted, results.measurements),
+        **{f"measurements-{name}": tables.measurement_rows_of(of) for name, of in results.measurements.items()},
         "least-speeds": tables.least_speed_rows(counted),
         "processors": tables.processor_rows(counted, parts),
         "device": tables.device_rows(slowest),
@@ -83,6 +85,8 @@ def build(results: Results) -> dict[str, bytes]:
         figures,
         **{name.replace("-", "_"): tables.typeset(table) for name, table in rows.items()},
         legend=legend(timed_on(results.measured["position"].provenance), residues=True),
+        who_measured=who_measured(results.measurements["position"]),
+        measured_on=counted_on(results.measurements["position"]),
         cost=cost_said(results),
         device_gain=parallel_said(devices),
         rounding=rounding_said(results),
@@ -169,11 +173,11 @@ def _rows(case: Case) -> str:
 
 
 def _ways(results: Results) -> list[Way]:
-    counts = all_counts()
+    counts, measured = all_counts(), results.measurements
 
     def way_of(way: str) -> Way:
         timed: dict[str, tuple[float, float]] = {
-            system: tables.seconds(results.measured[system], ways.TIMED[way]) for system in SYSTEMS if way in ways.TIMED
+            system: tables.seconds(measured[system], ways.TIMED[way]) for system in SYSTEMS if way in ways.TIMED
         }
         return Way(way, {system: counts.operations[way][system, "finite"] for system in SYSTEMS}, timed)
 

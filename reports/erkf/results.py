@@ -6,7 +6,7 @@ nothing but last digits. Both are written beside the report with few digits, and
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from itertools import product
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -21,6 +21,7 @@ from reports.pages.stored import columns as columns_of
 from reports.pages.stored import records as records_of
 from sched_sim.costs.table import CostTable
 from sched_sim.costs.table_file import costs_text, read_costs
+from studies.machines.store import beside, kept
 from studies.robust import drive
 from studies.robust import singular_values as singular
 from studies.robust.costs import SYSTEMS, SystemName, robust_costs
@@ -44,10 +45,17 @@ TABLES = (
 
 
 class Results(NamedTuple):
-    """measured: seconds of the compiled code by system. tables: by name, as in `TABLES`; the first row is a heading."""
+    """measured: seconds of the compiled code by system. tables: by name, as in `TABLES`; the first row is a heading.
+    stored: what was measured before, or on other machines."""
 
     measured: Mapping[SystemName, CostTable]
     tables: Mapping[str, Rows]
+    stored: Mapping[SystemName, Sequence[CostTable]] = {}
+
+    @property
+    def measurements(self) -> dict[SystemName, tuple[CostTable, ...]]:
+        """All that there are, by system."""
+        return {name: beside(table, self.stored.get(name, ())) for name, table in self.measured.items()}
 
     def columns(self, name: str) -> dict[str, FloatArray]:
         """A table of numbers; nan where a cell is empty."""
@@ -66,9 +74,9 @@ class Results(NamedTuple):
 
 
 def read(folder: Path) -> Results:
-    """The results that a report in `folder` was made from."""
+    """The results that a report in `folder` was made from, beside all measurements that are kept."""
     measured: dict[SystemName, CostTable] = {name: read_costs(folder / f"measured-{name}.toml") for name in SYSTEMS}
-    return Results(measured, read_tables(folder, TABLES))
+    return Results(measured, read_tables(folder, TABLES), _stored())
 
 
 def results(thorough: bool = False, progress: Progress = lambda _done, _total, _what: None) -> Results:
@@ -77,7 +85,11 @@ def results(thorough: bool = False, progress: Progress = lambda _done, _total, _
     for done, name in enumerate(SYSTEMS):
         progress(done, len(SYSTEMS), f"timing, {name}")
         measured[name] = robust_costs(name, "compiled", thorough=thorough)
-    return Results(measured, simulated(progress))
+    return Results(measured, simulated(progress), _stored())
+
+
+def _stored() -> dict[SystemName, tuple[CostTable, ...]]:
+    return {name: kept(f"erkf-{name}") for name in SYSTEMS}
 
 
 def simulated(progress: Progress = lambda _done, _total, _what: None) -> dict[str, Rows]:

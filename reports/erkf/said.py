@@ -24,6 +24,7 @@ from sched_sim.design.fit import Fit, fit
 from sched_sim.design.least_speed import least_speed
 from sched_sim.design.timing import Timing
 from sched_sim.processors.part import Part
+from studies.machines.ranges import range_of
 from studies.robust import drive
 from studies.robust.costs import HR_HZ, SYSTEMS, N, SystemName, between_fixes
 from studies.robust.counts import PENALTIES
@@ -43,9 +44,7 @@ def cost_said(results: Results) -> dict[str, Any]:
         ratios = [counts.ratio(way, reference, s, penalty) for s in SYSTEMS for penalty in ("infinite", "finite")]
         return f"{min(ratios):.2f} to {max(ratios):.2f}"
 
-    timed = {
-        method: [tables.seconds(results.measured[system], method) for system in SYSTEMS] for method in ROBUST_METHODS
-    }
+    position_times = tables.seconds(results.measurements["position"], "robust-inverse")
     position = {way: f"{numbers['position', 'finite']:,}" for way, numbers in counts.operations.items()}
     return {
         "unknowns": counts.unknowns,
@@ -77,23 +76,24 @@ def cost_said(results: Results) -> dict[str, Any]:
         "over_closed": both(ways.GIVENS_ORDERED, ways.CLOSED),
         "over_kalman": both(ways.CLOSED, ways.KALMAN, 2),
         "inverse_over_givens": both(ways.INVERSE, ways.GIVENS_ORDERED),
-        "slowest": tables.micros(results.measured["position"], "robust-inverse"),
-        "slowest_share": span(*(f"{100 * time * HR_HZ:.1f}" for time in timed["robust-inverse"][-1])),
+        "slowest": tables.micros(results.measurements["position"], "robust-inverse"),
+        "slowest_share": span(*(f"{100 * time * HR_HZ:.1f}" for time in position_times)),
         "time_ratio": {
-            "inverse": _ratios(timed, "robust-inverse", "robust-givens"),
-            "lu": _ratios(timed, "robust-givens", "robust-lu"),
-            "closed": _ratios(timed, "robust-givens", "robust-closed"),
+            "inverse": _ratios(results, "robust-inverse", "robust-givens"),
+            "lu": _ratios(results, "robust-givens", "robust-lu"),
+            "closed": _ratios(results, "robust-givens", "robust-closed"),
         },
     }
 
 
-def _ratios(
-    timed: Mapping[RobustMethod, list[tuple[float, float]]], first: RobustMethod, second: RobustMethod
-) -> list[str]:
-    """For each system how many times as long `first` takes: by the least times, and by the 95th percentiles."""
-    both = zip(timed[first], timed[second], strict=True)
-    ratios = [sorted(long / short for long, short in zip(*ends, strict=True)) for ends in both]
-    return [span(f"{least:.1f}", f"{most:.1f}") for least, most in ratios]
+def _ratios(results: Results, first: RobustMethod, second: RobustMethod) -> list[str]:
+    """For each system how many times as long `first` takes by the least times, over all measurements."""
+
+    def ratio(table: CostTable) -> Fraction:
+        return table.entry(first, "robust_step").minimum / table.entry(second, "robust_step").minimum
+
+    ranges = [range_of(ratio, results.measurements[system]) for system in SYSTEMS]
+    return [span(f"{float(least):.1f}", f"{float(most):.1f}") for least, most in ranges]
 
 
 def parallel_said(devices: Mapping[SystemName, Parallel]) -> dict[str, Any]:

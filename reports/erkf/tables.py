@@ -11,6 +11,7 @@ from reports.erkf.results import Results
 from reports.erkf.schedule import millions
 from reports.erkf.ways import Response
 from reports.pages.machine import marked, residue
+from reports.pages.measurements import Shown, measurement_rows
 from reports.pages.numbers import percent, plus_minus, significant, span
 from sched_sim.costs.methods import ROBUST_METHODS
 from sched_sim.costs.table import CostTable
@@ -21,6 +22,7 @@ from sched_sim.design.options import Options
 from sched_sim.design.pieces import RobustCosts, Statistic
 from sched_sim.design.timing import Timing
 from sched_sim.processors.part import Part, on_part
+from studies.machines.ranges import Range, range_of
 from studies.robust.costs import HR_HZ, SYSTEMS, N, SystemName, parallel_costs
 
 Rows = list[list[Any]]
@@ -40,8 +42,8 @@ OF_POSITION = ("between_north_m", "between_east_m", "between_down_m", "outage_en
 SHOWN = tuple(P for P in PROCESSORS if P not in (4, 256))
 
 
-ENDS: tuple[Statistic, Statistic] = ("minimum", "p95")
-"""Of the ranges that measured figures are shown as."""
+Measurements = Mapping[SystemName, Sequence[CostTable]]
+"""Of the same jobs, by system."""
 
 
 def robust_costs_of(table: CostTable, method: str, statistic: Statistic = "minimum") -> RobustCosts[Fraction]:
@@ -50,7 +52,7 @@ def robust_costs_of(table: CostTable, method: str, statistic: Statistic = "minim
     return costs
 
 
-def cost_rows(counts: Counts, measured: Mapping[SystemName, CostTable]) -> Rows:
+def cost_rows(counts: Counts, measured: Measurements) -> Rows:
     """Operations of every way, with infinite and finite mu, and the time of the compiled code."""
     rows: Rows = [["Way"]]
     for system in SYSTEMS:
@@ -65,16 +67,28 @@ def cost_rows(counts: Counts, measured: Mapping[SystemName, CostTable]) -> Rows:
     return rows
 
 
-def seconds(measured: CostTable, method: str) -> tuple[float, float]:
-    """The robust step's minimum and 95th percentile."""
-    step = measured.entry(method, "robust_step")
-    return float(step.minimum), float(step.p95)
+def seconds(measured: Sequence[CostTable], method: str) -> Range[float]:
+    """The range of the robust step's least times."""
+    return range_of(lambda table: float(table.entry(method, "robust_step").minimum), measured)
 
 
-def micros(measured: CostTable, method: str) -> str:
+def micros(measured: Sequence[CostTable], method: str) -> str:
     """The same in words, in microseconds."""
     low, high = (f"{1e6 * time:.1f}" for time in seconds(measured, method))
     return span(low, high)
+
+
+def measurement_rows_of(measured: Sequence[CostTable]) -> Rows:
+    """The robust step by each measurement, in microseconds: from its least time to its 95th percentile."""
+
+    def of(method: str) -> Shown:
+        def ends(table: CostTable) -> str:
+            step = table.entry(method, "robust_step")
+            return span(f"{1e6 * float(step.minimum):.1f}", f"{1e6 * float(step.p95):.1f}")
+
+        return ends
+
+    return [*map(list, measurement_rows(measured, {f"{way}, µs": of(method) for method, way in WAYS.items()}))]
 
 
 def parallel_rows(devices: Mapping[SystemName, Parallel]) -> Rows:
@@ -192,19 +206,19 @@ def _load(costs: RobustCosts[Fraction], timing: Timing) -> str:
     return significant(100 * verdict.load) if verdict.fits else "no"
 
 
-def speed_rows(tables: Mapping[SystemName, CostTable], measured: Mapping[SystemName, CostTable]) -> Rows:
-    """The least speed by L in millions of operations a second; measured: the share of this machine for L = N, from
-    least costs to their 95th percentile. L = 1 is what the whole step in one HR period needs."""
+def speed_rows(tables: Mapping[SystemName, CostTable], measured: Measurements) -> Rows:
+    """The least speed by L in millions of operations a second; measured: the share of a machine for L = N, over
+    all measurements by their least costs. L = 1 is what the whole step in one HR period needs."""
     heads = [f"L = {L}" for L in ASKED]
     rows: Rows = [["System", "Way", *heads, marked("load, %")]]
     for system, table in tables.items():
         for method in ROBUST_METHODS:
             costs = robust_costs_of(table, method)
             speeds = [least_speed(costs, Timing(N, 0, L)).speed for L in ASKED]
-            timed = (robust_costs_of(measured[system], method, statistic) for statistic in ENDS)
-            low, high = (percent(fit(costs_here, Timing(N, 0, N), Fraction(HR_HZ)).load) for costs_here in timed)
+            timed = (robust_costs_of(table_here, method) for table_here in measured[system])
+            loads = [fit(costs_here, Timing(N, 0, N), Fraction(HR_HZ)).load for costs_here in timed]
             numbers = [f"{millions(speed, HR_HZ):#.3g}".rstrip(".") for speed in speeds]
-            rows.append([system, WAYS[method], *numbers, span(low, high)])
+            rows.append([system, WAYS[method], *numbers, span(percent(min(loads)), percent(max(loads)))])
     return rows
 
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+import csv
 import re
-from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
@@ -14,8 +14,8 @@ from reports.erkf import tables
 from reports.erkf.counts import all_counts, parallel
 from reports.erkf.drive import windowed_rms, wrapped_deg
 from reports.erkf.results import CURVES
+from reports.pages.numbers import span
 from sched_sim.costs.methods import ROBUST_METHODS
-from sched_sim.costs.table import Cost, CostTable
 from sched_sim.costs.table_file import load_costs
 from sched_sim.design.fit import fit
 from sched_sim.design.least_speed import achieved_l, least_speed
@@ -211,24 +211,34 @@ def test_lu_without_pivoting_fails_where_mu_is_infinite_and_the_page_counts_them
     assert f"fails in step 1 in {len(failing)} of {len(unpivoted)} filters, those with μ = ∞" in text()
 
 
-def test_measured_figures_are_ranges_from_minimum_to_p95() -> None:
-    step = stored().measured["position"].entry("robust-inverse", "robust_step")
-    low, high = (f"{1e6 * float(time):.1f}" for time in (step.minimum, step.p95))
-    assert f"{low} to {high}" in rebuilt()["costs.csv"].decode()
-    assert f"even the slowest, {low} to {high} µs, takes" in text()
-    for row in rows("speeds.csv"):
-        least, most = map(float, row["load, % †"].split(" to "))
-        assert least < most
-    alone = {name: one_number(table) for name, table in stored().measured.items()}
-    assert " to " not in str(tables.cost_rows(all_counts(), alone))
-
-
-def one_number(table: CostTable) -> CostTable:
-    """The table by its least costs alone."""
-    costs = {
-        method: {kind: Cost.of(cost.minimum) for kind, cost in kinds.items()} for method, kinds in table.costs.items()
+def test_measured_figures_are_ranges_over_the_measurements_that_are_listed() -> None:
+    listed = {system: rows(f"measurements-{system}.csv") for system in SYSTEMS}
+    assert {len(of) for of in listed.values()} == {len(stored().measurements["position"])}
+    assert f"{len(listed['position'])} measurements on 1 machine (AMD EPYC)" in text()
+    assert "No other machine has measured yet, no Intel Xeon either" in text()
+    least = {
+        (system, way): sorted((row[f"{way}, µs †"].split(" to ")[0] for row in of), key=float)
+        for system, of in listed.items()
+        for way in tables.WAYS.values()
     }
-    return replace(table, costs=costs)
+    shown = [cell for line in csv.reader(rebuilt()["costs.csv"].decode().splitlines()) for cell in line[3::3]]
+    for times in least.values():
+        assert span(times[0], times[-1]) in shown
+    low, *_, high = least["position", "inverse"]
+    share = span(*(f"{float(micros) * HR_HZ / 1e4:.1f}" for micros in (low, high)))
+    assert f"Even the slowest, {low} to {high} µs, takes {share} % of a period" in text()
+    alone = {name: [table] for name, table in stored().measured.items()}
+    assert " to " not in str(tables.cost_rows(all_counts(), alone))
+    loads = [[float(end) for end in row["load, % †"].split(" to ")] for row in rows("speeds.csv")]
+    assert all(load == sorted(load) for load in loads)
+
+
+def test_by_each_measurement_the_times_are_in_the_order_that_is_said() -> None:
+    """Inverse, Givens, pivoted LU, closed form; of each system, by least times."""
+    for system in SYSTEMS:
+        for table in stored().measurements[system]:
+            times = [table.entry(method, "robust_step").minimum for method in tables.WAYS]
+            assert times == sorted(times, reverse=True)
 
 
 def test_what_is_only_rounding_has_one_digit() -> None:

@@ -46,6 +46,7 @@ def test_another_machine_changes_only_what_is_marked_as_measured() -> None:
         Results(
             {name: slower(table) for name, table in stored().measured.items()},
             {**stored().tables, "agreement": [heading, *others], "singular-values": _other_residues()},
+            stored().stored,
         )
     )
     published.differs_only_where_marked(rebuilt(), other, ["costs.svg", "singular-values.svg"])
