@@ -1,4 +1,4 @@
-"""Adds this machine to the store of measurements: `python -m studies.machines`, some two minutes on an idle machine.
+"""Adds this machine to the store of measurements: `python -m studies.machines`, up to three minutes on an idle machine.
 
 With the paths of cost tables, such as those in the folders of reports, it adds these, and measures nothing.
 """
