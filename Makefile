@@ -38,11 +38,12 @@ publish: $(STAMP) ## write all reports anew where they are kept, in reports/publ
 	$(BIN)/sched-sim report --all --output reports/published
 	cd reports/published/embedded && cp cortex-*.toml stored-boards.csv stored-checks.csv stored-folders.csv stored-live*.csv \
 		$(CURDIR)/studies/data/embedded
-	cd reports/published && $(CURDIR)/$(BIN)/python -m studies.machines steffes2014/measured.toml erkf/measured-*.toml
+	cd reports/published && $(CURDIR)/$(BIN)/python -m studies.machines steffes2014/measured.toml erkf/measured-*.toml \
+		modular/measured.toml
 
 times: $(STAMP) ## time this machine for the reports, keep it in studies/data/measurements, write them anew with it
 	$(BIN)/python -m studies.machines
-	$(BIN)/python -m tests.reports.rebuild steffes2014 erkf
+	$(BIN)/python -m tests.reports.rebuild steffes2014 erkf modular
 
 docs: $(STAMP) ## the documentation as a site, in build/docs; needs no network
 	$(BIN)/sphinx-build --quiet --fail-on-warning --nitpicky --fresh-env --write-all -d build/doctrees docs build/docs

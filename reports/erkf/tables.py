@@ -81,7 +81,7 @@ def micros(measured: Sequence[CostTable], method: str) -> str:
 def measurement_rows_of(measured: Sequence[CostTable]) -> Rows:
     """The robust step by each measurement, in microseconds: from its least time to its 95th percentile."""
 
-    def of(method: str) -> Shown:
+    def of(method: str) -> Shown[CostTable]:
         def ends(table: CostTable) -> str:
             step = table.entry(method, "robust_step")
             return span(f"{1e6 * float(step.minimum):.1f}", f"{1e6 * float(step.p95):.1f}")

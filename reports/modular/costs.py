@@ -15,33 +15,35 @@ from reports.drawing.sheet import label, sheet
 from reports.drawing.style import INK, drawing
 from reports.modular.styles import KIND_LINES
 from reports.pages.machine import marked
+from studies.machines.parts import PartName, PartTimes
+from studies.machines.ranges import Range, range_of
 
 Record: TypeAlias = Mapping[str, str]
 
 WIDTHS = {"linear": 2.6}
 """The curve of the extended parts lies on it."""
-OPERATIONS, SECONDS, MEDIAN = "operations", marked("minimum, µs"), marked("median, µs")
+OPERATIONS, TIME = "operations", "time"
 """Names of the columns."""
 
 
-def cost_figure(rows: Sequence[Record]) -> Figure:
-    """Above, operations; below, times, with a bar up to their median: of predict at the left, of correct at the
-    right."""
-    shown = {OPERATIONS: ("operations", 60, 40_000), SECONDS: (f"time, {marked('compiled')} (µs)", 0.015, 5)}
+def cost_figure(rows: Sequence[Record], measurements: Sequence[PartTimes]) -> Figure:
+    """Above, operations; below, the least times of the last measurement, with a bar over those of all: of predict at
+    the left, of correct at the right."""
+    shown = {OPERATIONS: ("operations", 60, 40_000), TIME: (f"least time, {marked('compiled')} (µs)", 0.015, 5)}
+    rows = [{**row, TIME: str(measurements[-1].parts[_key(row)].least)} for row in rows]
     states = sorted({int(row["states"]) for row in rows})
     with drawing():
         legend = [
             *(line_entry(kind, line) for kind, line in KIND_LINES.items()),
-            Entry(marked("least to median"), 1.2, _bar),
+            Entry(marked("all measurements"), 1.2, _bar),
         ]
         figure, plots = sheet(2, 2, legend, height_mm=36.0)
         for of_row, (column, (up, low, high)) in zip(plots, shown.items(), strict=True):
             for axes, part in zip(of_row, ("predict", "correct"), strict=True):
                 for kind, line in KIND_LINES.items():
                     of_kind = [row for row in rows if (row["kind"], row["part"]) == (kind, part)]
-                    for row in of_kind if column == SECONDS else ():
-                        least, median = (float(row[end]) for end in (SECONDS, MEDIAN))
-                        axes.vlines(int(row["states"]), least, median, color=INK, lw=0.8, zorder=3)
+                    for row in of_kind if column == TIME else ():
+                        axes.vlines(int(row["states"]), *_over(measurements, row), color=INK, lw=0.8, zorder=3)
                     axes.plot(
                         [int(row["states"]) for row in of_kind], [float(row[column]) for row in of_kind], line.marker,
                         color=line.colour, ms=line.size, mew=0, ls=line.dashes, lw=WIDTHS.get(kind, 1.1),
@@ -61,3 +63,11 @@ def cost_figure(rows: Sequence[Record]) -> Figure:
 
 def _bar(axes: Axes, x: float, y: float) -> None:
     axes.plot([x + 0.6] * 2, [y - 1.4, y + 1.4], color=INK, lw=0.8)
+
+
+def _key(row: Record) -> PartName:
+    return row["kind"], row["states"], row["part"]
+
+
+def _over(measurements: Sequence[PartTimes], row: Record) -> Range[float]:
+    return range_of(lambda times: times.parts[_key(row)].least, measurements)

@@ -8,22 +8,22 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
-from statistics import median
 from typing import NamedTuple
 
 import numpy as np
 
 from filters.arrays import FloatArray
 from filters.systems.spring_mass import period_s
-from reports.modular.costs import MEDIAN, OPERATIONS, SECONDS
+from reports.modular.costs import OPERATIONS
 from reports.modular.future_rows import TABLES as FUTURE_TABLES
 from reports.modular.future_rows import future_tables
 from reports.modular.oscillator import QUANTITIES, SENSORS, UNITS
 from reports.modular.rocket_rows import rocket_tables
 from reports.modular.schedule import TABLES as SCHEDULE_TABLES
 from reports.modular.schedule import schedule_tables
-from reports.pages.machine import marked, timed_on
 from reports.pages.stored import Rows, Tables, as_stored, columns, digits, read_tables, records, rows_of, table_files
+from studies.machines.parts import PartTimes, kept_parts, part_times, parts_beside, parts_text, read_parts
+from studies.machines.ranges import Range, range_of
 from studies.modular import (
     costs as modular_costs,
 )
@@ -44,19 +44,33 @@ SEED, HALF, SHOWN_PERIODS = 0, 0.5, 2
 """The run that is drawn: its seed, its dropout, and how much of it."""
 EVERY = 4
 """Steps between the points of a curve over all runs."""
+MEASURED = "measured.toml"
+"""The file of the times of the parts."""
 OWN_MODEL = "usual, its own model true"
 
 TABLES = (
     "oscillator", "dropout", "consistency", "rocket-errors", "rocket-residuals", "rocket-nees",
     "rocket-residual-course", "rocket-nees-course", "rocket-apogee", "flight", "late",
-    "parts", "machine", *SCHEDULE_TABLES, *FUTURE_TABLES,
+    "parts", *SCHEDULE_TABLES, *FUTURE_TABLES,
 )  # fmt: skip
 
 
 class Results(NamedTuple):
-    """tables: by name, as in `TABLES`."""
+    """tables: by name, as in `TABLES`. measured: the times of the parts here; stored: those before, or of other
+    machines."""
 
     tables: Tables
+    measured: PartTimes
+    stored: Sequence[PartTimes] = ()
+
+    @property
+    def measurements(self) -> tuple[PartTimes, ...]:
+        """All that there are; the last is the one of here."""
+        return parts_beside(self.measured, self.stored)
+
+    def least(self, kind: modular_costs.Kind, states: int, part: modular_costs.Part) -> Range[float]:
+        """The range of the least times of a part, in µs."""
+        return range_of(lambda times: times.parts[kind, str(states), part].least, self.measurements)
 
     def columns(self, name: str) -> dict[str, FloatArray]:
         """A table of numbers; nan where a cell is empty."""
@@ -68,18 +82,19 @@ class Results(NamedTuple):
 
     def files(self) -> dict[str, bytes]:
         """What `read` reads."""
-        return table_files(self.tables)
+        return {**table_files(self.tables), MEASURED: parts_text(self.measured).encode()}
 
 
 def read(folder: Path) -> Results:
-    """The results that a report in `folder` was made from."""
-    return Results(read_tables(folder, TABLES))
+    """The results that a report in `folder` was made from, beside all measurements that are kept."""
+    return Results(read_tables(folder, TABLES), read_parts(folder / MEASURED), kept_parts())
 
 
 def results(thorough: bool = False, progress: Progress = lambda _done, _total, _what: None) -> Results:
     """Runs the studies and times the code: about fifteen minutes, and two more if nothing was compiled before."""
-    times = modular_costs.times(thorough=thorough, progress=progress)
-    return Results({**simulated(progress), **as_stored(part_tables(modular_costs.operations(), times))})
+    measured = part_times(modular_costs.times(thorough=thorough, progress=progress))
+    tables = {**simulated(progress), **as_stored({"parts": part_rows(modular_costs.operations())})}
+    return Results(tables, measured, kept_parts())
 
 
 def simulated(progress: Progress = lambda _done, _total, _what: None) -> dict[str, Rows]:
@@ -194,14 +209,6 @@ def late_rows(figures: Iterable[late_measurements.Row]) -> Rows:
 # -------------------------------------------------------------------------------------------------------------- costs
 
 
-def part_tables(operations: Mapping[modular_costs.Key, int], timed: modular_costs.Times) -> dict[str, Rows]:
-    """Operations and times of each part, and where they were taken."""
-    rows: Rows = [["kind", "states", "part", OPERATIONS, SECONDS, MEDIAN]]
-    for key, number in operations.items():
-        micros = [1e6 * each for each in timed.seconds[key]]
-        rows.append([*key, number, *map(digits, (min(micros), median(micros)))])
-    where: Rows = [
-        [marked("timed on")],
-        [timed_on(timed.about)],
-    ]
-    return {"parts": rows, "machine": where}
+def part_rows(operations: Mapping[modular_costs.Key, int]) -> Rows:
+    """Operations of each part."""
+    return [["kind", "states", "part", OPERATIONS], *([*key, number] for key, number in operations.items())]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from reports.charts.panels import METHOD_NAMES
-from reports.modular.costs import MEDIAN, OPERATIONS, SECONDS
+from reports.modular.costs import OPERATIONS
 from reports.modular.oscillator import OSCILLATOR_AMPLITUDES, QUANTITIES, SENSORS, UNITS, Record
 from reports.modular.results import OWN_MODEL, Results
 from reports.modular.rocket import QUANTITIES as OF_ROCKET
@@ -11,9 +11,11 @@ from reports.modular.rocket_rows import CASES
 from reports.modular.schedule import miss_rows_of, verdict_rows
 from reports.modular.styles import WAY_NAMES
 from reports.pages.machine import marked
+from reports.pages.measurements import Shown, measurement_rows
 from reports.pages.numbers import between, plus_minus, significant, span
-from reports.pages.stored import Rows
+from reports.pages.stored import Rows, digits
 from sched_sim.scenario.distribution import wilson
+from studies.machines.parts import PartTimes
 from studies.modular import costs as modular_costs
 from studies.modular import late_measurements, rocket
 from studies.modular import oscillator as spring_mass
@@ -199,16 +201,29 @@ TIMED = [marked(f"n = {states}, µs") for states in modular_costs.STATES]
 
 
 def part_rows(results: Results) -> Rows:
-    """Operations and times, from minimum to median, by kind, part and states."""
+    """Operations, and the range of the least times over all measurements, by kind, part and states."""
     rows: Rows = [["Filter", "Part", *(head for of_size in zip(COUNTED, TIMED, strict=True) for head in of_size)]]
     for part in modular_costs.PARTS:
         for kind in modular_costs.KINDS:
             records = [results.records("parts", kind=kind, part=part, states=str(n))[0] for n in modular_costs.STATES]
             numbers = [
-                cell for row in records for cell in (f"{int(row[OPERATIONS]):,}", span(row[SECONDS], row[MEDIAN]))
+                cell
+                for row, n in zip(records, modular_costs.STATES, strict=True)
+                for cell in (f"{int(row[OPERATIONS]):,}", span(*map(digits, results.least(kind, n, part))))
             ]
             rows.append([kind, part, *numbers])
     return rows
+
+
+def measurement_rows_of(results: Results) -> Rows:
+    """The largest and the smallest of the unscented parts by each measurement, in µs, from least to median."""
+
+    def of(states: int, part: modular_costs.Part) -> Shown[PartTimes]:
+        return lambda times: span(*map(digits, times.parts["unscented", str(states), part]))
+
+    sizes = (modular_costs.STATES[0], modular_costs.STATES[-1])
+    figures = {f"{part}, n = {n}, µs": of(n, part) for part in modular_costs.PARTS for n in sizes}
+    return measurement_rows(results.measurements, figures)
 
 
 # ------------------------------------------------------------------------------------------------------- the schedule

@@ -10,7 +10,7 @@ import numpy as np
 from filters.modular.sigma_points import maccormack, merwe, weights
 from filters.systems.rocket import BURN_S, RATE_HZ
 from filters.systems.spring_mass import period_s
-from reports.modular.costs import MEDIAN, OPERATIONS, SECONDS
+from reports.modular.costs import OPERATIONS
 from reports.modular.oscillator import OSCILLATOR_AMPLITUDES, QUANTITIES
 from reports.modular.results import HALF, OWN_MODEL, SHOWN_PERIODS, Results
 from reports.modular.rocket import QUANTITIES as OF_ROCKET
@@ -25,9 +25,13 @@ from reports.modular.tables import (
     percent_of_amplitude,
     rocket_error,
 )
-from reports.pages.machine import legend, marked
+from reports.pages.machine import legend, timed_on
+from reports.pages.measurements import counted_on, who_measured
 from reports.pages.numbers import plus_minus, significant, span
+from reports.pages.stored import digits
 from sched_sim.processors.part_file import load_part
+from studies.machines.parts import PartTimes
+from studies.machines.ranges import range_of
 from studies.modular import (
     costs as modular_costs,
 )
@@ -209,23 +213,27 @@ def late_words(results: Results) -> dict[str, Any]:
 def cost_words(results: Results) -> dict[str, Any]:
     """Ratios of costs; those of times are marked in the text."""
     rows = {(row["kind"], row["part"], int(row["states"])): row for row in results.records("parts")}
-    (machine,) = results.records("machine")
 
-    def ratio(column: str, part: str, states: int) -> str:
-        return significant(
-            float(rows["unscented", part, states][column]) / float(rows["extended", part, states][column]), 2
-        )
+    def counted(part: str, states: int) -> str:
+        unscented, extended = (float(rows[kind, part, states][OPERATIONS]) for kind in ("unscented", "extended"))
+        return significant(unscented / extended, 2)
 
-    def timed(part: str, states: int) -> str:
-        """By the least times, and by their medians."""
-        return span(*sorted((ratio(column, part, states) for column in (SECONDS, MEDIAN)), key=float))
+    def timed(part: modular_costs.Part, states: int) -> str:
+        """By the least times, over all measurements."""
+
+        def ratio(times: PartTimes) -> float:
+            return times.parts["unscented", str(states), part].least / times.parts["extended", str(states), part].least
+
+        return span(*(significant(end, 2) for end in range_of(ratio, results.measurements)))
 
     shown = (3, 15)
     return {
-        "legend": legend(machine[marked("timed on")]),
-        "counted": {part: [ratio(OPERATIONS, part, states) for states in shown] for part in modular_costs.PARTS},
+        "legend": legend(timed_on(results.measured.provenance)),
+        "who_measured": who_measured(results.measurements),
+        "measured_on": counted_on(results.measurements),
+        "counted": {part: [counted(part, states) for states in shown] for part in modular_costs.PARTS},
         "timed": {part: [timed(part, states) for states in shown] for part in modular_costs.PARTS},
-        "largest": span(*(rows["unscented", "predict", 15][column] for column in (SECONDS, MEDIAN))),
+        "largest": span(*map(digits, results.least("unscented", 15, "predict"))),
     }
 
 

@@ -104,7 +104,7 @@ def measurements(measured: Sequence[CostTable], timing: Timing) -> Rows:
     """What each measurement gives: the deviation from Tables 1 to 3, and least speeds of a design. measured: each
     normalised."""
 
-    def of(method: str) -> Shown:
+    def of(method: str) -> Shown[CostTable]:
         return lambda table: number(least(table, method, timing))
 
     speeds = {METHOD_NAMES[method]: of(method) for method in PAPER_METHODS if method != "standard"}

@@ -7,31 +7,42 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterator
+from pathlib import Path
 
 from filters.systems.example import example_system
 from sched_sim.costs.methods import PAPER_METHODS
 from sched_sim.costs.table import CostTable, busy_note
 from sched_sim.costs.table_file import read_costs
 from sched_sim.errors import InputError
+from sched_sim.files.toml_reader import read_text
+from studies.machines.parts import NAME as PARTS
+from studies.machines.parts import PartTimes, keep_parts, part_times, read_parts
 from studies.machines.store import keep
 from studies.measurement.methods import measure
+from studies.modular.costs import times
 from studies.robust.costs import SYSTEMS, robust_costs
 
 
-def measured_here() -> Iterator[CostTable]:
-    """The tables of the reports steffes2014 and erkf."""
+def measured_here() -> Iterator[CostTable | PartTimes]:
+    """What the reports steffes2014, erkf and modular time."""
     yield measure(example_system(9, 3, 3), name="measured-9-3-3", methods=PAPER_METHODS)
     for name in SYSTEMS:
         yield robust_costs(name, "compiled")
+    yield part_times(times())
+
+
+def _read(path: Path) -> CostTable | PartTimes:
+    text = read_text(path, f"measurement {str(path)!r}", "give the path of a TOML file")
+    return read_parts(path) if f'name = "{PARTS}"' in text.splitlines() else read_costs(path)
 
 
 def main(paths: list[str]) -> int:
     """The exit code: 2 for what the user can mend."""
     try:
-        for table in map(read_costs, paths) if paths else measured_here():
-            if note := busy_note(table.provenance):
-                print(f"{table.name}: {note}", file=sys.stderr)
-            print(keep(table))
+        for measured in map(_read, map(Path, paths)) if paths else measured_here():
+            if note := busy_note(measured.provenance):
+                print(note, file=sys.stderr)
+            print(keep(measured) if isinstance(measured, CostTable) else keep_parts(measured))
     except InputError as error:
         print(error, file=sys.stderr)
         return 2

@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from fractions import Fraction
-from typing import Generic, NamedTuple, TypeVar
+from typing import Any, Generic, NamedTuple, Protocol, TypeVar
 
-from sched_sim.costs.table import CostTable
 
+class Measurement(Protocol):
+    """Such as a cost table that was timed: it says on which machine and when."""
+
+    @property
+    def provenance(self) -> Mapping[str, Any]: ...
+
+
+Measured = TypeVar("Measured")
 Number = TypeVar("Number", Fraction, float)
 
 
@@ -18,16 +25,16 @@ class Range(NamedTuple, Generic[Number]):
     high: Number
 
 
-def range_of(figure: Callable[[CostTable], Number], measurements: Iterable[CostTable]) -> Range[Number]:
+def range_of(figure: Callable[[Measured], Number], measurements: Iterable[Measured]) -> Range[Number]:
     """Of what each measurement alone makes of the figure. Raises ValueError if there is none."""
-    values = [figure(table) for table in measurements]
+    values = [figure(one) for one in measurements]
     return Range(min(values), max(values))
 
 
-def machines(measurements: Sequence[CostTable]) -> dict[str, list[str]]:
+def machines(measurements: Sequence[Measurement]) -> dict[str, list[str]]:
     """The dates of the measurements, sorted, by the machine's name."""
-    names = sorted({str(table.provenance["machine"]) for table in measurements})
+    names = sorted({str(one.provenance["machine"]) for one in measurements})
     return {
-        name: sorted(str(table.provenance["date"]) for table in measurements if table.provenance["machine"] == name)
+        name: sorted(str(one.provenance["date"]) for one in measurements if one.provenance["machine"] == name)
         for name in names
     }

@@ -31,7 +31,7 @@ def kept(name: str, folder: Path = FOLDER) -> tuple[CostTable, ...]:
 
 def files(name: str, folder: Path = FOLDER) -> list[Path]:
     """Where they are, in the same order."""
-    return sorted((folder / name).glob("*.*"), key=_when)
+    return sorted((folder / name).glob("*.toml"), key=_when)
 
 
 def keep(table: CostTable, folder: Path = FOLDER) -> Path:
@@ -54,15 +54,15 @@ def keep(table: CostTable, folder: Path = FOLDER) -> Path:
     return path
 
 
-def place(name: str, machine: str, date: str, folder: Path = FOLDER, ending: str = "toml") -> Path:
+def place(name: str, machine: str, date: str, folder: Path = FOLDER) -> Path:
     """A path for one more measurement, its folder made."""
     of_name = folder / name
     of_name.mkdir(parents=True, exist_ok=True)
     stem = f"{re.sub('[^a-z0-9]+', '-', machine.lower()).strip('-')}-{date}"
-    number, path = 1, of_name / f"{stem}.{ending}"
+    number, path = 1, of_name / f"{stem}.toml"
     while path.exists():
         number += 1
-        path = of_name / f"{stem}-{number}.{ending}"
+        path = of_name / f"{stem}-{number}.toml"
     return path
 
 

@@ -11,7 +11,7 @@ from filters.arrays import FloatArray
 from reports.drawing.legend import _lines, line_entry
 from reports.drawing.sheet import LEFT_MM, RIGHT_MM
 from reports.drawing.style import METHOD_LINES, WIDTH_MM
-from reports.modular.costs import MEDIAN, OPERATIONS, SECONDS, cost_figure
+from reports.modular.costs import OPERATIONS, cost_figure
 from reports.modular.future import covariance_figure, stiffness_figure
 from reports.modular.late import late_figure
 from reports.modular.oscillator import (
@@ -29,6 +29,7 @@ from reports.modular.residual_time import HIGH, UNIT_M, residual_time_figure
 from reports.modular.rocket import DROPOUTS, HALVES, SHOWN, flight_figure, phase_figure, residual_figure
 from reports.modular.rocket import nees_figure as rocket_nees_figure
 from reports.modular.styles import DROPOUT_LINES, KIND_LINES, QUANTITY_LINES, WAY_LINES, apart
+from studies.machines.parts import Micros, PartTimes
 from tests.reports.explorer.test_palette import contrast
 from tests.reports.layout import flaws, texts
 
@@ -256,6 +257,14 @@ def test_late_measurements() -> None:
     assert len(curves(figure, 1, 3)) == 2
 
 
+KINDS = ("linear", "extended", "unscented")
+
+
+def _micros(kind: str, least: float) -> Micros:
+    """The second costs twice as much as the first, and the third three times."""
+    return Micros(least * (1 + KINDS.index(kind)), 1.0)
+
+
 def test_costs_of_parts() -> None:
     rows = [
         {
@@ -263,14 +272,16 @@ def test_costs_of_parts() -> None:
             "part": part,
             "states": str(n),
             OPERATIONS: str(10 * n**3 * factor),
-            SECONDS: str(0.02 * factor),
-            MEDIAN: str(0.03 * factor),
         }
-        for factor, kind in enumerate(("linear", "extended", "unscented"), start=1)
+        for factor, kind in enumerate(KINDS, start=1)
         for part in ("predict", "correct")
         for n in (3, 9)
     ]
-    figure = cost_figure(rows)
+    measurements = [
+        PartTimes({}, {(r["kind"], r["states"], r["part"]): _micros(r["kind"], least) for r in rows})
+        for least in (0.03, 0.025, 0.02)
+    ]
+    figure = cost_figure(rows, measurements)
     assert flaws(figure) == []
     for axes in (0, 1):
         assert [curve[1][0] for curve in curves(figure, axes, 2)] == [270, 540, 810]

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from reports.modular.costs import MEDIAN, OPERATIONS, SECONDS
+from reports.modular.costs import OPERATIONS
 from reports.modular.oscillator import NOISES
 from reports.modular.report import build
 from reports.modular.results import TABLES, Results, read
@@ -17,6 +17,8 @@ from reports.modular.schedule import miss_rows_of
 from reports.modular.schedule_gantt import fix_panels
 from reports.modular.styles import WAY_NAMES
 from reports.pages.machine import MARK
+from reports.pages.numbers import significant, span
+from studies.machines.parts import Micros, PartTimes
 from studies.modular import costs as modular_costs
 from studies.modular import late_measurements
 from studies.modular.rocket_readings import chord
@@ -192,25 +194,46 @@ def test_the_stored_counts_are_those_of_the_code() -> None:
 @pytest.mark.exhaust
 def test_another_machine_changes_only_what_is_marked_as_measured() -> None:
     """Other times: in tables and text only what has the mark changes, and no figure but the one that shows times."""
-    tables = dict(stored().tables)
-    heading, *body = tables["parts"]
-    times = [number for number, head in enumerate(heading) if "†" in str(head)]
-    tables["parts"] = [heading]
-    for at, row in enumerate(body):
-        cells = enumerate(row)
-        tables["parts"].append([f"{float(cell) * (2 + at % 3):.3g}" if n in times else cell for n, cell in cells])
-    tables["machine"] = [tables["machine"][0], ["another"]]
-    other = build(Results(tables))
+    here = stored().measured
+    slower = {
+        key: Micros(*(time * (2 + at % 3) for time in micros)) for at, (key, micros) in enumerate(here.parts.items())
+    }
+    another = PartTimes({**here.provenance, "machine": "another"}, slower)
+    other = build(Results(stored().tables, another, stored().stored))
     published.differs_only_where_marked(rebuilt(), other, ["parts.svg"])
 
 
-def test_measured_figures_are_ranges_from_minimum_to_median() -> None:
-    (slowest,) = stored().records("parts", kind="unscented", part="predict", states="15")
-    assert f"takes {slowest[SECONDS]} to {slowest[MEDIAN]} µs" in text()
-    for row in rows("parts.csv"):
-        for n in (3, 6, 9, 15):
-            least, most = map(float, row[f"n = {n}, µs †"].split(" to "))
-            assert least < most
+def test_measured_figures_are_ranges_over_the_measurements_that_are_listed() -> None:
+    every, listed = stored().measurements, rows("measurements.csv")
+    assert [(row["machine †"], row["date †"]) for row in listed] == [
+        (one.provenance["machine"], one.provenance["date"]) for one in every
+    ]
+    assert f"the least times of {len(every)} measurements on 1 machine (AMD EPYC)" in text()
+    assert "No other machine has measured yet, no Intel Xeon either" in text()
+    shown = {
+        (row["Filter"], str(n), row["Part"]): row[f"n = {n}, µs †"].split(" to ")
+        for row in rows("parts.csv")
+        for n in (3, 6, 9, 15)
+    }
+    assert shown.keys() == every[0].parts.keys()
+    for key, (low, high) in shown.items():
+        times = [one.parts[key].least for one in every]
+        assert (float(low), float(high)) == (min(times), max(times))
+    slowest = [row["predict, n = 15, µs †"].split(" to ")[0] for row in listed]
+    assert f"takes {min(slowest, key=float)} to {max(slowest, key=float)} µs" in text()
+
+
+def test_timed_unscented_over_extended_is_the_range_over_all_measurements() -> None:
+    for part in ("predict", "correct"):
+        said = []
+        for n in ("3", "15"):
+            ratios = [
+                one.parts["unscented", n, part].least / one.parts["extended", n, part].least
+                for one in stored().measurements
+            ]
+            said.append(span(significant(min(ratios), 2), significant(max(ratios), 2)))
+            assert min(ratios) > 1
+        assert " and ".join(said) in text()
 
 
 def test_a_processor_holds_only_where_the_interval_and_the_landings_say_so() -> None:

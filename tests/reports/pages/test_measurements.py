@@ -45,7 +45,7 @@ def test_when() -> None:
 
 
 def test_that_one_machine_is_alone_and_no_xeon_is_said_until_there_is_one() -> None:
-    assert "No other machine has measured yet, no Intel Xeon either: its times may lie outside." in who_measured(THREE)
+    assert "No other machine has measured yet, no Intel Xeon either: its times may differ more." in who_measured(THREE)
     assert "No other machine has measured yet: its times" in who_measured(BOTH[-1:])
     assert "yet" not in who_measured(BOTH)
 
