@@ -17,6 +17,7 @@ ALIASES = ("ArrayLike", "Costs", "FloatArray", "Floats", "Number", "RandomCosts"
 nitpick_ignore = [
     *(("py:class", name) for name in ALIASES),
     ("py:class", "studies.selection.in_scenario.Question"),  # of a model that was read, as `question_of` makes it
+    ("py:class", "studies.machines.ranges.Measured"),  # any type, of the figure and of what it is a figure of
     ("py:class", "filters.jobs.Job"),  # part of a UserFilter, of no use without the arguments that are made for it
 ]
 nitpick_ignore_regex = [("py:class", r"[a-z]+|(?!(filters|reports|sched_sim|studies)\.).+\..+")]  # others' types

@@ -27,7 +27,7 @@ OPERATIONS, TIME = "operations", "time"
 
 
 def cost_figure(rows: Sequence[Record], measurements: Sequence[PartTimes]) -> Figure:
-    """Above, operations; below, the least times of the last measurement, with a bar over those of all: of predict at
+    """Above, operations; below, least times by the last measurement, with a bar over those of all: of predict at
     the left, of correct at the right."""
     shown = {OPERATIONS: ("operations", 60, 40_000), TIME: (f"least time, {marked('compiled')} (µs)", 0.015, 5)}
     rows = [{**row, TIME: str(measurements[-1].parts[_key(row)].least)} for row in rows]

@@ -36,9 +36,9 @@ def who_measured(measurements: Sequence[Measurement]) -> str:
 
 
 def measurement_rows(measurements: Sequence[Measured], figures: Mapping[str, Shown[Measured]]) -> Rows:
-    """A row for each measurement, which says so where the machine was busy; figures: by their heading."""
+    """A row for each measurement, by date, which says so where the machine was busy; figures: by their heading."""
     rows: Rows = [[*map(marked, ("machine", "date", *figures))]]
-    for one in measurements:
+    for one in sorted(measurements, key=lambda one: str(one.provenance["date"])):
         about = one.provenance
         date = f"{about['date']}, busy" if measured_on_busy_machine(about) else about["date"]
         rows.append([about["machine"], date, *(figure(one) for figure in figures.values())])
