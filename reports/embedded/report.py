@@ -31,6 +31,7 @@ def build(results: Results) -> dict[str, bytes]:
         "ratios": tables.ratios(results),
         "deviations": tables.deviations(found),
         "all-speeds": tables.all_speeds(found),
+        "measurements": tables.measurements(results),
         "published": board_tables.with_addresses(board_tables.published(results)),
         "groups": board_tables.groups(),
         "memory": board_tables.memory(results, "textbook"),

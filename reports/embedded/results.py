@@ -6,7 +6,7 @@ a machine without them has it; and a record of live runs, for one without the ri
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from importlib.resources import as_file, files
 from pathlib import Path
 from typing import NamedTuple
@@ -25,6 +25,7 @@ from studies.embedded.known_loop import check
 from studies.embedded.published import instructions
 from studies.embedded.sources import EMULATED, FORMS, NATIVE, Source, table_of
 from studies.embedded.stairs import record
+from studies.machines.store import beside, kept
 from studies.measurement.emulation.targets import TARGETS
 from studies.measurement.emulation.toolchain import PACKAGES, missing
 from studies.measurement.published_timings import published_timings
@@ -42,10 +43,16 @@ TABLES = (*SHIPPED, "said")
 
 
 class Results(NamedTuple):
-    """costs: of each source that there is. tables: by name, as in `TABLES`; the first row is a heading."""
+    """costs: of each source that there is. tables: by name, as in `TABLES`; the first row is a heading. stored: timed
+    before, or on other machines."""
 
     costs: Costs
     tables: Mapping[str, Rows]
+    stored: Mapping[tuple[str, CovarianceFormName], Sequence[CostTable]] = {}
+
+    def measurements(self, source: str, form: CovarianceFormName) -> tuple[CostTable, ...]:
+        """All that there are of a source that is timed."""
+        return beside(self.costs[source, form], self.stored.get((source, form), ()))
 
     def records(self, name: str) -> list[dict[str, str]]:
         """The rows of a table by their heading."""
@@ -68,14 +75,18 @@ class Results(NamedTuple):
 
 
 def read(folder: Path) -> Results:
-    """The results that a report in `folder` was made from."""
+    """The results that a report in `folder` was made from, beside all measurements that are kept."""
     costs = {
         (source.name, form): read_costs(path)
         for source in (*EMULATED, *NATIVE)
         for form in FORMS
         if (path := folder / f"{source.name}-{form}.toml").exists()
     }
-    return Results(costs, read_tables(folder, TABLES))
+    return Results(costs, read_tables(folder, TABLES), _stored())
+
+
+def _stored() -> dict[tuple[str, CovarianceFormName], tuple[CostTable, ...]]:
+    return {(source.name, form): kept(f"{source.name}-{form}") for source in NATIVE for form in FORMS}
 
 
 def results(thorough: bool = False, progress: Progress = lambda _done, _total, _what: None) -> Results:
@@ -96,16 +107,16 @@ def results(thorough: bool = False, progress: Progress = lambda _done, _total, _
         progress(done, total, f"{source.name}, {form}")
         timed = thorough and source.backend != "emulated"
         costs[source.name, form] = table_of(source, form, thorough=timed)
-    emulated, kept = shipped()
+    emulated, record_kept = shipped()
     if lacking:
         costs = {**emulated, **costs}
-        tables = {name: kept[name] for name in OF_CORES}
+        tables = {name: record_kept[name] for name in OF_CORES}
     else:
         tables = as_stored(_checked(costs, lambda done, what: progress(len(asked) + done, total, what)))
-    runs, not_live = _live(kept, thorough, lambda _done, _total, what: progress(live, total, what))
+    runs, not_live = _live(record_kept, thorough, lambda _done, _total, what: progress(live, total, what))
     progress(total, total, "done")
     said: Rows = [["of", "said"], ["emulated", _not_emulated(lacking)], ["c", no_compiler], ["live", not_live]]
-    return Results(costs, {**tables, **runs, "said": said})
+    return Results(costs, {**tables, **runs, "said": said}, _stored())
 
 
 def _live(kept: Tables, thorough: bool, progress: Progress) -> tuple[dict[str, Rows], str]:

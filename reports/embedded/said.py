@@ -13,6 +13,7 @@ from reports.embedded.results import Results
 from reports.embedded.tables import per_operation
 from reports.embedded.words import CORES, HERE, IN_HARDWARE, PAPERS, SOURCES, factor, percent_up, signed
 from reports.pages.machine import legend, timed_on
+from reports.pages.measurements import counted_on
 from reports.pages.numbers import span
 from sched_sim.processors.part_file import load_part
 from studies.embedded.folders import FOLDERS
@@ -155,6 +156,7 @@ def provenance(results: Results) -> dict[str, Any]:
     c = results.costs[("c", "textbook")].provenance["compiler"] if ("c", "textbook") in results.costs else ""
     return {
         "legend": legend(timed_on(about)),
+        "measured_on": counted_on(results.measurements("numba", "textbook")),
         "compiler": core["compiler"],
         "emulator": core["emulator"],
         "flags": " ".join(FLAGS),

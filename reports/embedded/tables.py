@@ -18,10 +18,12 @@ from reports.embedded.words import (
     microseconds,
     signed,
 )
+from reports.pages.machine import marked, unmarked
+from reports.pages.measurements import Shown, measurement_rows
 from reports.pages.numbers import span
 from reports.pages.stored import Rows
 from sched_sim.costs.table import CostTable
-from studies.embedded.sources import FIRST, FORMS, METHODS, counted
+from studies.embedded.sources import FIRST, FORMS, METHODS, counted, relative_speed
 from studies.measurement.emulation.memory import ONLY_IF_ASKED
 
 DIFFER = "emulated differ by, %"
@@ -96,6 +98,23 @@ def speeds(found: Sequence[Compared], form: CovarianceFormName) -> Rows:
         cells = [_speed(of_method[name]) for name in names]
         emulated = largest(one for one in of_method.values() if one.source in CORES)
         rows.append([METHOD_NAMES[method], f"{float(first.counted):.3f}", *cells, signed(emulated.deviation)])
+    return rows
+
+
+def measurements(results: Results) -> Rows:
+    """What each measurement gives: least speeds of the first design, in units of the standard filter's, by medians."""
+
+    def of(method: str) -> Shown[CostTable]:
+        return lambda table: f"{float(relative_speed(table, method, FIRST)):.2f}"
+
+    rows: Rows = []
+    for name in HERE:
+        for form in FORMS:
+            if (name, form) in results.costs:
+                figures = {METHOD_NAMES[method]: of(method) for method in PAPERS}
+                heading, *body = measurement_rows(results.measurements(name, form), figures)
+                rows = rows or [[marked("Source"), marked("Update"), *heading]]
+                rows += [[unmarked(SOURCES[name]), form, *row] for row in body]
     return rows
 
 

@@ -215,6 +215,17 @@ def test_the_table_of_deviations_is_of_all_speeds() -> None:
             assert number(row[heading]) == pytest.approx(max(over, key=abs), abs=0.11)
 
 
+def test_each_measurement_has_its_least_speeds() -> None:
+    """Those of this one are those of the table of least speeds."""
+    listed, speeds = rows("measurements.csv"), rows("speeds-textbook.csv")
+    numba = [row for row in listed if (row["Source †"], row["Update †"]) == ("numba", "textbook")]
+    assert len(numba) == len(stored().measurements("numba", "textbook"))
+    assert f"Of numba in the textbook form there are {len(numba)} measurements on 1 machine (AMD EPYC)." in text()
+    here = {row["Method"]: row["numba †"].split(" (")[0] for row in speeds}
+    shown = [{method: row[f"{method} †"] for method in ("Recalculate", "Larsen", "Dual-rate")} for row in numba]
+    assert {method: here[method] for method in shown[0]} in shown
+
+
 def test_instructions_for_each_operation() -> None:
     for form in FORMS:
         for row in rows(f"jobs-{form}.csv"):
