@@ -37,6 +37,8 @@ HIGHEST = 1.7
 """Beyond so many times the largest of exact methods, at the upper edge."""
 SLOWEST, FASTEST = 1.9, 22.0
 """Speeds shown, on the slow processor."""
+BEFORE = 1.08
+"""The axis of speeds begins at the slowest over this, for the first n."""
 
 
 def landing_figure(landings: Sequence[Landing]) -> Figure:
@@ -145,9 +147,10 @@ def _front(axes: Axes, designs: Sequence[Placed]) -> None:
             higher += 1
             _sign(axes, inside[0], *above)
             _arrow(axes, inside[0], above, (0, 7.5))
+            shift, side = ((-6, 0), "right") if above[0] <= standard else ((6, 0), "left")
             note = axes.annotate(
-                f"{significant(_over(inside[0]))} %", above, (-6, 0),
-                textcoords="offset points", va="center", ha="right", size=SMALL_PT,
+                f"{significant(_over(inside[0]))} %", above, shift, textcoords="offset points", va="center", ha=side,
+                size=SMALL_PT,
             )  # fmt: skip
             note.set_path_effects([withStroke(linewidth=2.0, foreground="white")])
             continue
@@ -175,13 +178,13 @@ def _over(place: Placed) -> float:
 
 
 def _round_numbers(low: float, high: float) -> list[float]:
-    """Some three to five, at 1, 1.5, 2, 3, 5, 7 times powers of ten."""
-    leads = (1.0, 1.5, 2.0, 3.0, 5.0, 7.0)
+    """Some two to four, at 1, 2, 3, 5 times powers of ten."""
+    leads = (1.0, 2.0, 3.0, 5.0)
     powers = range(floor(log10(low)), ceil(log10(high)) + 1)
     return [lead * 10.0**power for power in powers for lead in leads if low <= lead * 10.0**power <= high]
 
 
-def slow_figure(choices: Sequence[Choice], slowest: float = SLOWEST, fastest: float = FASTEST) -> Figure:
+def slow_figure(choices: Sequence[Choice]) -> Figure:
     """The best worst-step deviation at each speed, with one frame in flight and with several; the n of each stretch."""
     with drawing():
         lines = FLIGHT_LINES
@@ -195,20 +198,19 @@ def slow_figure(choices: Sequence[Choice], slowest: float = SLOWEST, fastest: fl
                 axes,
                 [(speed, choice) for speed, choice in chosen if choice is not None],
                 line,
-                fastest,
                 names[several],
                 above=not several,
             )
         axes.set_xscale("log")
         axes.set_yscale("log")
-        axes.set_xlim(slowest, fastest)
-        shown = [1000 * best.worst for speed, (_, best) in speeds.items() if speed >= slowest]
+        axes.set_xlim(SLOWEST / BEFORE, FASTEST)
+        shown = [1000 * best.worst for speed, (_, best) in speeds.items() if speed >= SLOWEST]
         axes.set_ylim(
-            min(shown) / 1.15, max(1000 * c.worst for s, (c, _) in speeds.items() if c and s >= slowest) * 1.15
+            min(shown) / 1.15, max(1000 * c.worst for s, (c, _) in speeds.items() if c and s >= SLOWEST) * 1.15
         )
         for axis, ticks in (
-            (axes.xaxis, (2, 3, 4, 5, 6, 8, 10, 15, 20)),
-            (axes.yaxis, (10, 15, 20, 30, 50, 70, 100, 150)),
+            (axes.xaxis, (2, 3, 4, 5, 6, 8, 10, 20)),
+            (axes.yaxis, (10, 20, 50, 100, 200)),
         ):
             low, high = axis.get_view_interval()
             axis.set_major_locator(FixedLocator([tick for tick in ticks if low <= tick <= high]))
@@ -218,13 +220,11 @@ def slow_figure(choices: Sequence[Choice], slowest: float = SLOWEST, fastest: fl
         return figure
 
 
-def _stairs(
-    axes: Axes, chosen: Sequence[tuple[float, Choice]], line: Line, fastest: float, name: str, *, above: bool
-) -> None:
+def _stairs(axes: Axes, chosen: Sequence[tuple[float, Choice]], line: Line, name: str, *, above: bool) -> None:
     """A sign and the n where the number of frames in use changes."""
-    speeds, levels = zip(*((speed, 1000 * choice.worst) for speed, choice in chosen), strict=True)
+    speeds, levels = zip(*((speed, 1000 * choice.worst) for speed, choice in chosen if speed >= SLOWEST), strict=True)
     axes.step(
-        [*speeds, fastest], [*levels, levels[-1]], where="post", color=line.colour, ls=line.dashes, lw=1.3, label=name
+        [*speeds, FASTEST], [*levels, levels[-1]], where="post", color=line.colour, ls=line.dashes, lw=1.3, label=name
     )
     before = None
     for speed, choice in chosen:

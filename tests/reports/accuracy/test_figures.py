@@ -9,7 +9,7 @@ import pytest
 from matplotlib.figure import Figure
 
 from filters.accuracy import lossless
-from reports.accuracy.figures import LINES, SHADE, front_figure, landing_figure, slow_figure
+from reports.accuracy.figures import LINES, SHADE, SLOWEST, front_figure, landing_figure, slow_figure
 from reports.accuracy.lead_figure import lead_figure
 from reports.pages.numbers import significant
 from sched_sim.costs.methods import DELAYED_METHODS
@@ -96,6 +96,14 @@ def test_what_lies_beyond_the_axes_is_at_the_edge_with_its_number() -> None:
                 assert all(low <= x <= high for x in line.get_xdata())
 
 
+def test_no_number_of_what_lies_beyond_is_crossed_by_the_power_of_the_standard_filter() -> None:
+    for axes, name in zip(front().axes[:4], MODELS, strict=True):
+        standard, _ = axes.transData.transform((float(cheapest(placed(name))["standard"].speed), 0))
+        numbers = [box for text, box in texts(front()) if text in axes.texts and text.get_text().endswith(" %")]
+        assert numbers
+        assert not any(box.x0 < standard < box.x1 for box in numbers)
+
+
 def test_every_method_has_a_line_of_its_own() -> None:
     assert set(LINES) == {*DELAYED_METHODS, SUMMED}
     looks = [(line.colour, line.marker) for line in LINES.values()]
@@ -113,6 +121,8 @@ def test_the_slow_processor() -> None:
     for number, line in enumerate(stairs):
         drawn = dict(zip(map(float, line.get_xdata()), map(float, line.get_ydata()), strict=True))
         for speed, pair in best.items():
-            if (choice := pair[number]) is not None:
+            if speed >= SLOWEST and (choice := pair[number]) is not None:
                 assert drawn[speed] == pytest.approx(1000 * choice.worst)
     assert {"n=1", "n=2"} <= {text.get_text() for text, _ in texts(figure)}
+    left = axes.get_window_extent().x0
+    assert all(box.x0 >= left for text, box in texts(figure) if text.get_text().startswith("n="))
