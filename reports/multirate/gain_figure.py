@@ -20,7 +20,7 @@ from studies.multirate.constancy import CONSTANT
 PLOT_MM = 56.0
 LAST_STEP = 100
 SHARES = (0.1, 0.2, 0.5, 1.0)
-EACH, DIVIDED = "gain in each step", f"$K(R/n)/n$ of every {N}th"
+EACH, DIVIDED = "gain in each step", f"$K(R/n)/n$ of every {N}th step"
 
 
 def gain_figure(courses: Mapping[str, Course], constant_from: Mapping[str, int]) -> Figure:
@@ -51,7 +51,7 @@ def gain_figure(courses: Mapping[str, Course], constant_from: Mapping[str, int])
 def _from(axes: Axes, step: int) -> None:
     axes.axvline(step, color=INK, lw=0.8, ls=(0, (2, 1.5)), zorder=1)
     note = axes.annotate(
-        f"from step {step} on\nwithin {100 * CONSTANT:g} %\nin {N} steps", (step, 1.25), (4, -2),
+        f"changes from\nstep {step} on:\n≤ {100 * CONSTANT:g} % in {N} steps", (step, 1.25), (4, -2),
         textcoords="offset points", size=SMALL_PT, va="top",
     )  # fmt: skip
     note.set_path_effects([withStroke(linewidth=2.5, foreground="white")])

@@ -48,7 +48,6 @@ def lead_figure(
             )  # fmt: skip
         right.set_xlim(left.get_xlim())
         end_labels(right, [of[periods[-1]] - 1 for of in ratios.values()], list(ratios), PLOT_MM)
-        _note(right, "within 5 % of the optimum", 1.05 * LEAST)
         label(right, "What it costs: position variance over the optimum", "$n$ (steps for each gain)")
         for axes in (left, right):
             axes.xaxis.set_major_locator(FixedLocator(periods))

@@ -21,7 +21,7 @@ from sched_sim.design.timing import Timing
 from studies.multirate.patent import LIMIT_PERCENT
 
 PLOT_MM = 60.0
-NUMBERS = (0.5, 1, 2, 3, 4, 5, 7, 10, 15, 20, 30)
+NUMBERS = (0.5, 1, 2, 5, 10, 20, 50)
 MARKED = (1, 2, 3, 4, 5, 7, 10, 14, 20)
 NUMBERED = (1, 2, 3, 4, 5, 7, 10, 20)
 
@@ -75,7 +75,7 @@ def load_figure(
         right.yaxis.set_major_locator(MaxNLocator(nbins=6, steps=[1, 2, 2.5, 5, 10]))
         across = "$n$ (steps for each gain)"
         label(left, "Load at one measurement a second", across, "load (%)")
-        label(right, "Two forms whose loads lie on the third", across, f"above {least.partition(', without')[0]} (%)")
+        label(right, "The two others, above the short form", across, f"above {least.partition(', without')[0]} (%)")
         return figure
 
 

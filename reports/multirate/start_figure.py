@@ -24,10 +24,10 @@ def start_figure(courses: Mapping[int, FloatArray], starts: Mapping[int, Mapping
     first steps have a gain each. Both by n."""
     with drawing():
         legend = [
-            line_entry(f"n = {n}, peak {ratio_text(course.max())} in step {course.argmax()}", PERIOD_LINES[n])
+            line_entry(f"$n$ = {n}, peak {ratio_text(course.max())} in step {course.argmax()}", PERIOD_LINES[n])
             for n, course in courses.items()
         ]
-        figure, [[left, right]] = sheet(1, 2, legend, height_mm=PLOT_MM)
+        figure, [[left, right]] = sheet(1, 2, legend, height_mm=PLOT_MM, gap_mm=19.0)
         for axes in (left, right):
             ratio_axis(axes, 2.5 * max(course.max() for course in courses.values()))
         for n, course in courses.items():

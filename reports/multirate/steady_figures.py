@@ -15,7 +15,7 @@ from reports.drawing.sheet import label, sheet
 from reports.drawing.style import INK, SMALL_PT, Line, drawing
 from reports.multirate.ratio_axis import LEAST, ratio_axis
 from reports.multirate.styles import FAMILY_LINES, READING_LINES
-from studies.multirate.accuracy import GOOD, Reading
+from studies.multirate.accuracy import Reading
 
 READINGS_MM, RULE_MM = 58.0, 62.0
 SHARES = (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0)
@@ -86,12 +86,14 @@ def rule_figure(points: Mapping[str, Sequence[Point]], limit: float) -> Figure:
         axes.plot(spent, spent**2 / 8, color=line_of_rule.colour, lw=1.1, zorder=1.5)
         axes.axvline(limit, color=INK, lw=0.8, ls=(0, (2, 1.5)), zorder=1)
         note = axes.annotate(
-            f"{limit:.2f}", (limit, axes.get_ylim()[1]), (3, -2), textcoords="offset points", size=SMALL_PT, va="top"
+            f"$(n-1)K$ = {limit:.2f}",
+            (limit, axes.get_ylim()[1]),
+            (3, -2),
+            textcoords="offset points",
+            size=SMALL_PT,
+            va="top",
         )
         note.set_path_effects([withStroke(linewidth=2.5, foreground="white")])
-        axes.annotate(
-            f"good: up to {GOOD:g}", (low, GOOD - 1), (3, -3), textcoords="offset points", size=SMALL_PT, va="top"
-        )
         label(axes, "", "$(n-1)K$: $K$ is the share of an innovation that the filter believes")
         axes.set_ylabel("position variance over the optimum", labelpad=2)
         return figure

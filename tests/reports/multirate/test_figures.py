@@ -12,11 +12,14 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
 from reports.charts.chart import gantt
+from reports.drawing.sheet import sheet
+from reports.drawing.style import drawing
 from reports.multirate.costs import least_period, least_time_of, our_forms, patents_form
 from reports.multirate.gain_figure import gain_figure
 from reports.multirate.lead_figure import lead_figure
 from reports.multirate.limit_figure import limit_figure
 from reports.multirate.load_figure import Printed, load_figure
+from reports.multirate.ratio_axis import ratio_axis
 from reports.multirate.results import Course
 from reports.multirate.schedule import one_loop_panel, schedule_rows, two_rates_panel
 from reports.multirate.start_figure import start_figure
@@ -116,6 +119,18 @@ def test_three_filters_in_steady_state(spread: float) -> None:
     np.testing.assert_allclose(curve(figure.axes[0], "one").get_ydata(), [(n - 1) ** 2 for n in range(2, 21)])
 
 
+def test_the_axis_of_ratios_names_powers_of_ten_above_the_optimum_as_what_they_are() -> None:
+    with drawing():
+        figure, [[axes]] = sheet(1, 1, [])
+        ratio_axis(axes, 1e4)
+        figure.draw_without_rendering()
+    names = [tick.get_text() for tick in axes.yaxis.get_ticklabels()]
+    ratios = [1 + float(name[1:-2]) / 100 if name.endswith(" %") else float(name[1:]) for name in names]
+    np.testing.assert_allclose(ratios, 1 + np.array(axes.get_yticks()))
+    assert names == ["+0.1 %", "+1 %", "+10 %", "×2", "×10", "×100", "×1000"]
+    assert "within 5 % of the optimum" in {text.get_text() for text in axes.texts}
+
+
 def test_the_rule() -> None:
     points = {kind: [Point(spent, 1 + spent**2 / 8) for spent in (0.1, 0.5, 3.0)] for kind in FAMILY_LINES}
     figure = rule_figure(points, 0.632)
@@ -131,7 +146,7 @@ def test_the_gain_over_time() -> None:
     figure = gain_figure(courses, dict.fromkeys(courses, 33))
     assert flaws(figure) == []
     np.testing.assert_allclose(curve(figure.axes[1], "gain in each step").get_ydata(), 1 / (1 + np.arange(101)))
-    assert curve(figure.axes[1], "$K(R/n)/n$ of every 5th").get_drawstyle() == "steps-post"
+    assert curve(figure.axes[1], "$K(R/n)/n$ of every 5th step").get_drawstyle() == "steps-post"
 
 
 def test_what_many_measurements_tend_to() -> None:
@@ -152,7 +167,7 @@ def test_the_start() -> None:
     drawn = [line for line in figure.axes[0].lines if len(line.get_xdata()) == 151]
     for line, course in zip(drawn, courses.values(), strict=True):
         np.testing.assert_allclose(line.get_ydata(), course[:151] - 1)
-    assert "n = 20, peak 2001 in step 0" in {text.get_text() for text, _ in texts(figure)}
+    assert "$n$ = 20, peak 2001 in step 0" in {text.get_text() for text, _ in texts(figure)}
 
 
 def test_one_loop_overruns_where_two_rates_do_not() -> None:
