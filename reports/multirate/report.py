@@ -68,6 +68,7 @@ def build(results: Results) -> dict[str, bytes]:
             "processors": shown.processors(rows["processors"]),
         },
         N=N,
+        answer=said.answer(results, costs),
         saving=said.saving(costs, *cases[:2]),
         accuracy=said.accuracy(results),
         constant=said.constant(results),
