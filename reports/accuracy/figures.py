@@ -216,7 +216,9 @@ def slow_figure(choices: Sequence[Choice]) -> Figure:
             axis.set_major_locator(FixedLocator([tick for tick in ticks if low <= tick <= high]))
             axis.set_minor_locator(NullLocator())
             axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-        label(axes, "", "speed (HR jobs per HR period)", "worst std of position (mm)")
+        label(
+            axes, "A camera at 50 Hz on a slow processor", "speed (HR jobs per HR period)", "worst std of position (mm)"
+        )
         return figure
 
 

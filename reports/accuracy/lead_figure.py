@@ -47,7 +47,11 @@ def lead_figure(landings: Mapping[str, Landing]) -> Figure:
         for row, found in enumerate(landings.values()):
             ends = [100 * found.waiting, 100 * found.leaving_out(SHOWN[-1])]
             axes.plot(ends, [row, row], color=PALE, lw=1.0, zorder=1)
-        label(axes, "", "worst standard deviation above that of every fix, landing on arrival (%)")
+        label(
+            axes,
+            "Every fix, later, against fewer fixes on arrival",
+            "worst standard deviation above that of every fix, landing on arrival (%)",
+        )
         return figure
 
 

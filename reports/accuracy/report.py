@@ -96,7 +96,7 @@ def _power(results: Results) -> dict[str, Any]:
     best: dict[str, list[str]] = {}
     for name, placed in results.placed.items():
         methods = list(dict.fromkeys(place.method for place in sorted(placed, key=_speed) if place.on_front))
-        best.setdefault(" and ".join(map(plain_name, methods)), []).append(MODELS[name].name)
+        best.setdefault(" and ".join(f"*{plain_name(method)}*" for method in methods), []).append(MODELS[name].name)
     return {
         "of": {method: tables.operations(place.speed) for method, place in least.items()},
         "share": {method: significant(100 * place.speed / least["standard"].speed) for method, place in least.items()},

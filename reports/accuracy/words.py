@@ -63,7 +63,7 @@ def method_name(method: str) -> str:
 
 
 def plain_name(method: str) -> str:
-    return "Dual-rate with Q′" if method == SUMMED else METHOD_NAMES[method]
+    return "Dual-rate, Q′" if method == SUMMED else METHOD_NAMES[method]
 
 
 def verdict(method: str, accuracy: Accuracy, exact: Accuracy) -> str:

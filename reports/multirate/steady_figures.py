@@ -94,6 +94,10 @@ def rule_figure(points: Mapping[str, Sequence[Point]], limit: float) -> Figure:
             va="top",
         )
         note.set_path_effects([withStroke(linewidth=2.5, foreground="white")])
-        label(axes, "", "$(n-1)K$: $K$ is the share of an innovation that the filter believes")
+        label(
+            axes,
+            "Every system, every $n$ from 2 on",
+            "$(n-1)K$: $K$ is the share of an innovation that the filter believes",
+        )
         axes.set_ylabel("position variance over the optimum", labelpad=2)
         return figure

@@ -50,6 +50,7 @@ def test_the_answer() -> None:
     found = dict(zip(MODELS, landings(), strict=True))
     figure = lead_figure(found)
     assert flaws(figure) == []
+    assert figure.axes[0].get_title(loc="left")
     assert float(figure.get_size_inches()[1]) * 25.4 <= 95
     drawn = {line.get_label(): line.get_xdata() for line in figure.axes[0].lines}
     waiting = [100 * landing.waiting for landing in found.values()]
@@ -115,6 +116,7 @@ def test_the_slow_processor() -> None:
     figure = slow_figure(choices())
     assert flaws(figure) == []
     axes = figure.axes[0]
+    assert axes.get_title(loc="left")
     stairs = [line for line in axes.lines if len(line.get_xdata()) > 2]
     assert len(stairs) == 2
     best = {float(speed): pair for speed, pair in at_speeds(choices()).items()}

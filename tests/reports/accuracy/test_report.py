@@ -176,7 +176,7 @@ def test_the_table_of_methods_is_that_of_their_designs() -> None:
 
 def test_verdicts() -> None:
     verdicts = {row["Method"]: row["verdict"] for row in rows("methods.csv")}
-    assert verdicts["Dual-rate with Q′"] == "approximate: < 0.001 %"
+    assert verdicts["Dual-rate, Q′"] == "approximate: < 0.001 %"
     assert verdicts["PX4 output predictor"] == "approximate: +2.53 %, rms +5.72 %"
     assert verdicts["Fuse as fresh"] == "wrong: biased by 1.65 m at 15 m/s"
     assert verdicts["Carried gain"] == verdicts["Dual-rate"] == "exact"

@@ -135,6 +135,7 @@ def test_the_rule() -> None:
     points = {kind: [Point(spent, 1 + spent**2 / 8) for spent in (0.1, 0.5, 3.0)] for kind in FAMILY_LINES}
     figure = rule_figure(points, 0.632)
     assert flaws(figure) == []
+    assert figure.axes[0].get_title(loc="left")
     drawn = curve(figure.axes[0], "tracker")
     np.testing.assert_allclose(drawn.get_ydata(), np.square(drawn.get_xdata()) / 8)
 
