@@ -47,6 +47,7 @@ def saving(costs: MultirateCosts[Fraction], slow: patent.Load, aircraft: patent.
         "state_update_ms": f"{float(1000 * costs.state_update):.1f}",
         "covariance_gain_ms": f"{float(1000 * costs.covariance_gain):.1f}",
         "floor": percent(costs.state_update),
+        "left": percent(multirate - costs.state_update),
         "limit": patent.LIMIT_PERCENT,
         "least_n": least,
         "at_least_n": percent(at),
