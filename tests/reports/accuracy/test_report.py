@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from functools import cache
 from pathlib import Path
 
@@ -172,6 +173,22 @@ def test_the_table_of_methods_is_that_of_their_designs() -> None:
         assert float(row["worst, m"]) == pytest.approx(place.accuracy.total, rel=5e-4)
         assert int(row["first at L"]) == first[by_name[row["Method"]]].lands
     assert {row["Method"]: row["textbook update"] for row in methods}["Larsen"] == "9,687"
+
+
+def test_exact_methods_that_land_on_arrival_are_equally_accurate_and_those_that_are_named_do() -> None:
+    of = {row["Method"]: row for row in rows("methods.csv") if row["verdict"] == "exact"}
+    arrived = {name: row["worst, m"] for name, row in of.items() if row["lands at L"] == "44"}
+    assert {"Recalculate", "Larsen", "Stochastic cloning", "Carried gain"} <= arrived.keys()
+    assert len(set(arrived.values())) == 1
+    assert {name: row["lands at L"] for name, row in of.items() if name not in arrived} == {
+        "Delayed horizon": "48",
+        "Dual-rate": "53",
+    }
+
+
+def test_the_speed_that_a_landing_needs_is_that_of_the_text() -> None:
+    assert all(of.speed == max(1 + Fraction(20, of.L - 2), 1 + Fraction(20, 4 * of.every)) for of in found().choices)
+    assert "needs the speed 1 + 20 / (L − 2), and at least 1 + 20 / (4 n) to keep up" in text()
 
 
 def test_verdicts() -> None:
