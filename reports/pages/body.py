@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping
 from html import unescape
+from itertools import count
 from typing import NamedTuple
 
 from markdown_it import MarkdownIt
@@ -79,15 +80,22 @@ def _named(heading: Heading, inner: str) -> str:
 
 
 def _scrolling(html: str) -> str:
-    """Tables that are wider than the page scroll, and keys reach them; each is named after the heading above it."""
+    """Tables that are wider than the page scroll, and keys reach them; each is named after the heading above it, and
+    numbered where there are several."""
     return "".join(map(_of_section, re.split(r"(?=<h[23] )", html)))
 
 
 def _of_section(html: str) -> str:
     heading = re.match(r"<h[23] .*?>(.*?)</h[23]>", html)
-    label = "Table" if heading is None else f"Table: {_text(heading[1])}"
-    region = f'<div class="table" role="group" tabindex="0" aria-label="{label}">'
-    return TABLE.sub(lambda table: f"{region}{table[0]}</div>", html)
+    of = "" if heading is None else f": {_text(heading[1])}"
+    numbers = count(1)
+    several = len(TABLE.findall(html)) > 1
+
+    def reached(table: re.Match[str]) -> str:
+        label = f"Table {next(numbers)}{of}" if several else f"Table{of}"
+        return f'<div class="table" role="group" tabindex="0" aria-label="{label}">{table[0]}</div>'
+
+    return TABLE.sub(reached, html)
 
 
 def _text(html: str) -> str:

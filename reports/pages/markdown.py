@@ -65,5 +65,9 @@ def _unbroken(cell: str) -> str:
     return re.sub(r"(?<=[\d.%]) (to|±) (?=[-−\d])", "\N{NO-BREAK SPACE}\\1\N{NO-BREAK SPACE}", cell)
 
 
+NUMBER = r"(?:<\s)?[-+−]?[\d., ]+(?:\s×\s10[⁻⁰¹²³⁴-⁹]+)?(?:\s?%)?"
+IS_NUMBER = re.compile(rf"{NUMBER}(?:\sto\s{NUMBER})?|[-–]")
+
+
 def _is_number(cell: Any) -> bool:
-    return re.fullmatch(r"(?:<\s)?[-+−]?[\d., ]+( ?%)?|[-–]", str(cell)) is not None
+    return IS_NUMBER.fullmatch(str(cell)) is not None

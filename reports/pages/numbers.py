@@ -5,7 +5,13 @@ from __future__ import annotations
 import re
 from fractions import Fraction
 
-BEFORE_UNIT = re.compile(r"(<[^>]*>)|(?<=\d) (?=(?:%|(?:ms|µs|MHz|Hz|KB)\b))")
+WITHIN = re.compile(
+    r"(<code>.*?</code>|<[^>]*>)"
+    r"|(?<=\d) (?=(?:%|(?:ms|µs|MHz|Hz|KB)\b))"
+    r"|(?<=\b\w) (?=[=≤≥<>] )|(?<=\b\w [=≤≥<>]) (?=[-−\w])",
+    re.DOTALL,
+)
+"""In HTML: what is no text, or the space before a unit or on either side of the sign of a short equation."""
 
 
 def percent(share: Fraction) -> str:
@@ -50,5 +56,5 @@ def duration(seconds: float) -> str:
 
 
 def unbroken(html: str) -> str:
-    """The same, with no end of a line between a number and its unit."""
-    return BEFORE_UNIT.sub(lambda found: found[1] or "\N{NO-BREAK SPACE}", html)
+    """The same, with no end of a line between a number and its unit, or in "n = 5"."""
+    return WITHIN.sub(lambda found: found[1] or "\N{NO-BREAK SPACE}", html)

@@ -8,6 +8,7 @@ import pytest
 
 from reports.pages.body import body_of
 from reports.pages.markdown import Figures
+from reports.pages.numbers import unbroken
 from reports.pages.pictures import Picture
 
 SVG = b'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 60 20"><path d="M0 0 L60 20" stroke="#000"/></svg>'
@@ -58,3 +59,14 @@ def test_the_answer_is_marked() -> None:
 def test_no_line_ends_between_a_number_and_its_unit() -> None:
     text = body_of('It takes 12.5 % of 40 ms <b title="at 50 %">and</b> 10 steps.\n', {}).lead
     assert text == '<p>It takes 12.5~% of 40~ms <b title="at 50 %">and</b> 10 steps.</p>\n'.replace("~", "\xa0")
+
+
+def test_no_line_ends_in_a_short_equation_and_code_can_be_copied() -> None:
+    found = unbroken("n = 5, n ≥ 4; speed = 3; <code>n = 5</code>")
+    assert found == "n\xa0=\xa05, n\xa0≥\xa04; speed = 3; <code>n = 5</code>"
+
+
+def test_tables_of_one_section_are_told_apart() -> None:
+    table = "| a |\n| --- |\n| b |\n"
+    body = body_of(f"## One\n\n{table}\n## Two\n\n{table}\ntext\n\n{table}", {})
+    assert re.findall('aria-label="(.*?)"', body.rest) == ["Table: One", "Table 1: Two", "Table 2: Two"]

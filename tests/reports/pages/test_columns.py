@@ -8,7 +8,21 @@ from reports.pages.markdown import markdown_table
 
 
 @pytest.mark.parametrize(
-    "cell", ["-12", "−12", "+304", "1,827", "2.09", "< 0.001", "<\N{NO-BREAK SPACE}0.001", "5 %", "-", "–"]
+    "cell",
+    [
+        "-12",
+        "−12",
+        "+304",
+        "1,827",
+        "2.09",
+        "< 0.001",
+        "<\N{NO-BREAK SPACE}0.001",
+        "5 %",
+        "-",
+        "–",
+        "9 × 10⁻⁵",
+        "6.0 to 10.4",
+    ],
 )
 def test_a_number_is_aligned_right(cell: str) -> None:
     assert markdown_table([["head"], [cell], ["3"]]).splitlines()[1] == "| ---: |"
