@@ -12,9 +12,9 @@ from matplotlib.ticker import MultipleLocator
 from reports.charts.panels import METHOD_NAMES
 from reports.drawing.legend import line_entry
 from reports.drawing.sheet import label, sheet
-from reports.drawing.style import METHOD_LINES, PALE, SOURCE_LINES, drawing
+from reports.drawing.style import METHOD_LINES, PALE, Line, drawing
 from reports.steffes.curves import achieved_curve, speed_grid
-from reports.steffes.speeds import SPEED_UNIT, Dashes
+from reports.steffes.speeds import SPEED_UNIT
 from sched_sim.costs.table import CostTable
 from sched_sim.design.least_speed import achieved_l, least_speed, staircase
 from sched_sim.design.methods import select
@@ -29,8 +29,19 @@ VARIANTS = {
     "two CPUs": Options(cpus=2),
     "two CPUs, early gain": Options(cpus=2, gain="precomputed"),
 }
-LINES = dict(zip(VARIANTS, SOURCE_LINES[1:], strict=False))
-DASHES: tuple[Dashes, ...] = ("-", (0, (4.0, 1.5)), (0, (1.0, 1.2)), (0, (5.0, 1.5, 1.0, 1.5)))
+LINES = dict(
+    zip(
+        VARIANTS,
+        (
+            METHOD_LINES["dual-rate"],
+            Line("#1d8a8a", (0, (4.0, 1.5)), "<"),
+            Line("#2e7d4f", (0, (1.0, 1.2)), "P", 4.4),
+            Line("#5c3a6b", (0, (5.0, 1.5, 1.0, 1.5)), ">"),
+        ),
+        strict=True,
+    )
+)
+"""Not the looks of other methods: all are the dual-rate filter."""
 SWITCHES = tuple(Fraction(hundredths, 100) for hundredths in (0, 1, 2, 5, 10, 20, 40, 60, 80))
 """What a switch takes, in standard steps."""
 
@@ -62,12 +73,11 @@ def processors_figure(table: CostTable, timing: Timing) -> Figure:
     stairs = {name: staircase(select(table, "dual-rate", of), N, M, of) for name, of in VARIANTS.items()}
     slowest = 0.93 * float(min(stair.speed for of in stairs.values() for stair in of))
     fastest = 1.05 * float(max(stair.speed for of in stairs.values() for stair in of))
-    lines = {name: line._replace(dashes=dash) for (name, line), dash in zip(LINES.items(), DASHES, strict=True)}
     with drawing():
-        drawn = sheet(1, 1, [line_entry(name, line) for name, line in lines.items()], height_mm=HEIGHT_MM)
+        drawn = sheet(1, 1, [line_entry(name, line) for name, line in LINES.items()], height_mm=HEIGHT_MM)
         ((axes,),) = drawn.plots
         for number, (name, options) in enumerate(VARIANTS.items()):
-            line, costs = lines[name], select(table, "dual-rate", options)
+            line, costs = LINES[name], select(table, "dual-rate", options)
             speeds = speed_grid(slowest, fastest, CURVE_POINTS, [stair.speed for stair in stairs[name]])
             curve = achieved_curve(costs, N, M, speeds, options)
             points = [(float(speed), L) for speed, L in zip(speeds, curve, strict=True) if L is not None]

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 from math import ceil, floor, log10
-from typing import Literal, TypeAlias
+from typing import Literal
 
 from matplotlib.axes import Axes
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from reports.drawing.style import PALE
 
-Dashes: TypeAlias = str | tuple[int, tuple[float, ...]]
-"""Of a `Line`."""
 SPEED_UNIT = "standard steps per HR period"
 SPEEDS_SHOWN = (1.0, 1.5, 2.0, 3.0, 5.0, 7.0)
 """In each decade."""

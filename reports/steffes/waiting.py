@@ -11,7 +11,7 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from reports.drawing.legend import line_entry
 from reports.drawing.sheet import label, sheet
-from reports.drawing.style import GREY, METHOD_LINES, SMALL_PT, SOURCE_LINES, Line, drawing
+from reports.drawing.style import GREY, METHOD_LINES, SMALL_PT, Line, drawing
 from reports.steffes.signs import OUTLINE, hollow_entry
 from reports.steffes.speeds import speed_ticks
 from sched_sim.costs.table import CostTable
@@ -27,9 +27,11 @@ FAMILIES = {
     "N = 100, M from 2": (100, (2, 10, 50)),
 }
 """Designs by how they are drawn: N, and each M of which every L is taken."""
-LINES: dict[str, Line] = dict(zip(FAMILIES, SOURCE_LINES[1:], strict=False))
-
-SIZES = dict(zip(FAMILIES, (6.0, 4.2, 2.2), strict=True))
+LINES: dict[str, Line] = {
+    family: METHOD_LINES["dual-rate"]._replace(marker=marker, size=size)
+    for family, marker, size in zip(FAMILIES, "ovs", (6.0, 4.6, 2.2), strict=True)
+}
+"""All are designs of the dual-rate filter, and have its colour."""
 
 
 class Waited(NamedTuple):
@@ -77,7 +79,7 @@ def waiting_figure(table: CostTable) -> Figure:
     curve, level = METHOD_LINES["dual-rate"], METHOD_LINES["larsen"]
     with drawing():
         legend = [
-            *(hollow_entry(family, line, SIZES[family], dashes=False) for family, line in LINES.items()),
+            *(hollow_entry(family, line, line.size, dashes=False) for family, line in LINES.items()),
             line_entry("HR + LR update / ($L-M$), from HR + HR update on", curve._replace(marker="")),
             line_entry(f"Larsen, {larsen:.2f}", level._replace(marker="")),
         ]
@@ -96,7 +98,7 @@ def waiting_figure(table: CostTable) -> Figure:
         for family, line in LINES.items():
             of = sorted({(one.waits, one.speed) for one in found if one.family == family})
             across, up = [waits for waits, _ in of], [float(speed) for _, speed in of]
-            look: dict[str, Any] = {"mfc": "white", "mec": line.colour, "mew": 0.9, "ms": SIZES[family]}
+            look: dict[str, Any] = {"mfc": "white", "mec": line.colour, "mew": 0.9, "ms": line.size}
             axes.plot(across, up, line.marker, color=line.colour, zorder=3, label=family, **look)
         knee = next(step for step in steps if by_wait(costs, step) == costs.hr + costs.hr_update)
         axes.axvline(knee, color=GREY, lw=0.7, ls=(0, (2, 1.5)), zorder=1)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
@@ -10,13 +11,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 from matplotlib.figure import Figure
 
+from reports.drawing.style import METHOD_LINES, Line
+from reports.steffes import processors, waiting
 from reports.steffes.agreement import ZERO, agreement_figure
 from reports.steffes.noise import noise_figure
 from reports.steffes.processors import SWITCHES, processors_figure, switched, switches_figure, variants
 from reports.steffes.products import products_figure
 from reports.steffes.waiting import by_wait, off_the_curve, waited, waiting_figure
 from sched_sim.costs.table_file import load_costs
-from sched_sim.design.least_speed import least_speed
+from sched_sim.design.least_speed import achieved_l, least_speed
 from sched_sim.design.methods import select
 from sched_sim.design.options import Options
 from sched_sim.design.pieces import DualRateCosts
@@ -102,6 +105,25 @@ def test_variants_are_what_the_analysis_gives_each() -> None:
     assert by_name["two CPUs"].speed == least_speed(select(COUNTED, "dual-rate", two), T, two).speed
     assert by_name["one CPU"].lands == by_name["one CPU"].beside == 8
     assert by_name["one CPU"].speed > by_name["one CPU, early gain"].speed > by_name["two CPUs"].speed
+
+
+def test_with_an_early_gain_it_lands_at_lower_speeds_too_if_lr_propagate_may_end_after_m() -> None:
+    """As the caption of the figure says: the curve begins below the least speed of the table."""
+    early = Options(gain="precomputed")
+    by_m = least_speed(select(COUNTED, "dual-rate", early), T, early)
+    by_l = least_speed(select(COUNTED, "dual-rate", early), T, replace(early, lr_propagate_by="l"))
+    assert by_m.binding == "lr_propagate"
+    assert by_l.speed < by_m.speed
+    landed = achieved_l(select(COUNTED, "dual-rate", early), T, by_l.speed, early)
+    assert landed is not None
+    assert landed <= T.L
+
+
+@pytest.mark.parametrize("lines", [waiting.LINES, processors.LINES], ids=["waiting", "processors"])
+def test_designs_of_the_dual_rate_filter_do_not_look_like_another_method(lines: dict[str, Line]) -> None:
+    others = {METHOD_LINES[name].colour for name in ("standard", "recalculate", "larsen")}
+    assert others.isdisjoint({line.colour for line in lines.values()})
+    assert len({line.marker for line in lines.values()}) == len(lines)
 
 
 def test_switches_cost_larsen_one_a_step_and_dual_rate_two() -> None:
