@@ -26,7 +26,7 @@ from studies.steffes import tables as steffes
 from studies.steffes.agreement import FLOOR, Agreement
 from studies.steffes.equations import EQUATIONS
 from studies.steffes.memory import Memory
-from studies.steffes.noise import Approximated
+from studies.steffes.noise import Approximated, tried
 from studies.steffes.products import Multiplies
 
 FIGURE_3 = Timing(10, 4, 8)
@@ -212,6 +212,7 @@ def about_noise(found: Sequence[Approximated], paper: Mapping[str, CostTable]) -
     counted = paper["counted"]
     return {
         **of,
+        "cycles": {name: system.cycles for name, system in tried().items()},
         "least_share": significant(100 * min(one.share for one in found), 1) + " %",
         "most_share": percent(max(one.share for one in found)),
         "exact_speed": number(least(counted, "dual-rate", FIGURE_3)),

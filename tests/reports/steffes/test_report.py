@@ -15,6 +15,7 @@ from reports.steffes.rows import power
 from sched_sim.costs.table import Cost, CostTable
 from sched_sim.costs.table_file import read_costs
 from studies.machines.store import kept
+from studies.steffes.noise import tried
 from tests.reports import published
 
 METHODS = ("Larsen", "Recalculate")
@@ -236,6 +237,18 @@ def test_errors_by_approximate_noise_are_those_of_their_table() -> None:
     assert said(r"to (\d+) % with Q″") == (f"{most['P wrong, Q″']:.0f}",)
     assert said(r"with Q″ by ([\d.]+) %") == (f"{most['σ larger, Q″']:.2f}",)
     assert said(r"this share from [\d.]+ % to (\d+) %") == (f"{most['share of Q in P']:.0f}",)
+
+
+def test_p_is_the_more_wrong_the_larger_the_share_of_noise_in_each_system() -> None:
+    rows = published.rows(rebuilt(), "noise.csv")
+    for name, system in tried().items():
+        of = [row for row in rows if row["System"] == name]
+        for heading in ("share of Q in P", "P wrong, Q′", "P wrong, Q″"):
+            values = [float(row[heading]) for row in of]
+            assert values == sorted(values)
+        assert f"{system.cycles} cycles" in published.text(rebuilt()) or f"at 100 Hz, after {system.cycles}:" in (
+            published.text(rebuilt())
+        )
 
 
 def test_every_equation_is_listed_with_its_line() -> None:
