@@ -101,6 +101,7 @@ def build(measured: CostTable, stored: Sequence[CostTable] = ()) -> dict[str, by
         wait=said.about_waiting(paper, waits),
         agreed=said.about_agreement(agreed),
         product=said.about_products(counted, kept),
+        work=said.about_work(tables),
         on=said.about_processors(on, switches),
         noise=said.about_noise(noises, tables),
         by=said.about_deadlines(paper),

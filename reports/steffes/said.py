@@ -19,7 +19,7 @@ from sched_sim.design.least_speed import achieved_l, least_speed
 from sched_sim.design.load import utilization
 from sched_sim.design.methods import select
 from sched_sim.design.options import Options
-from sched_sim.design.pieces import DualRateCosts, RecalculateCosts
+from sched_sim.design.pieces import DualRateCosts, RecalculateCosts, StandardCosts
 from sched_sim.design.timing import Timing
 from studies.machines.ranges import range_of
 from studies.steffes import tables as steffes
@@ -175,6 +175,26 @@ def about_products(counted: Sequence[Multiplies], memory: Sequence[Memory]) -> d
         "dual": f"{of['dual-rate'].total:,}",
         "larsen_kept": of["larsen"].matrices,
         "dual_kept": of["dual-rate"].matrices,
+    }
+
+
+def about_work(tables: Mapping[str, CostTable]) -> dict[str, Any]:
+    """Of all the work of a cycle, in standard steps, by the standard filter, Larsen's method and the dual-rate filter;
+    and what the last takes more than the first for updates."""
+    by_source = {
+        source: [
+            FIGURE_3.N * utilization(select(tables[source], method), FIGURE_3, Fraction(1))
+            for method in ("standard", "larsen", "dual-rate")
+        ]
+        for source in ("printed", "counted")
+    }
+    standard, dual = (select(tables["counted"], method) for method in ("standard", "dual-rate"))
+    assert isinstance(standard, StandardCosts)
+    assert isinstance(dual, DualRateCosts)
+    return {
+        **{source: [number(work, 2) for work in works] for source, works in by_source.items()},
+        "over_larsen": {source: percent(last / larsen - 1) for source, (_, larsen, last) in by_source.items()},
+        "more_update": number(dual.lr_update + dual.hr_update - standard.update, 2),
     }
 
 

@@ -195,6 +195,32 @@ def test_products_and_memory_are_those_of_their_tables() -> None:
     assert said(r"It keeps (\d) matrices of n × n instead of (\d)") == (dual["n × n kept"], larsen["n × n kept"])
 
 
+@pytest.mark.parametrize("source", ["printed", "counted"])
+def test_the_work_of_a_cycle_is_the_sum_of_the_tables_of_costs(source: str) -> None:
+    """With N = 10 and M = 4: Larsen's method accumulates in the steps k + 2 to m; an HR restart is at k + 1."""
+    cost = {
+        (row["Table"], row["Step"], row["Work"]): float(row[source])
+        for row in published.rows(rebuilt(), "tables-1-3.csv")
+    }
+    larsen = 7 * cost["2", "other", "propagate"] + 3 * cost["2", "m", "propagate"] + cost["2", "m", "update"]
+    dual = 9 * cost["3", "other", "HR propagate"] + sum(
+        cost["3", *job]
+        for job in (
+            ("k + 1", "HR propagate"),
+            ("l", "HR update"),
+            ("one LR period", "LR propagate"),
+            ("one LR period", "LR update"),
+        )
+    )
+    words = {
+        "printed": r"is ([\d.]+) standard steps of work for the dual-rate filter, (\d+) % more than Larsen's ([\d.]+),",
+        "counted": r"by counts ([\d.]+), (\d+) % more than ([\d.]+)\. It",
+    }
+    of_dual, more, of_larsen = map(float, said(words[source]))
+    assert (of_dual, of_larsen) == (pytest.approx(dual, abs=0.01), pytest.approx(larsen, abs=0.01))
+    assert more == pytest.approx(100 * (dual / larsen - 1), abs=0.6)
+
+
 def test_least_speed_depends_on_l_minus_m_alone_as_said() -> None:
     rows = published.rows(rebuilt(), "waiting.csv")
     on = [row for row in rows if int(row["M"]) >= 2]
