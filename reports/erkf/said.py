@@ -13,7 +13,7 @@ from reports.erkf import counts as ways
 from reports.erkf import tables
 from reports.erkf.counts import Parallel, all_counts
 from reports.erkf.drive import ANGLES, windowed_rms, wrapped_deg
-from reports.erkf.results import Results
+from reports.erkf.results import CURVES, Results
 from reports.erkf.schedule import millions
 from reports.erkf.styles import FILTERS
 from reports.pages.machine import residue
@@ -26,8 +26,8 @@ from sched_sim.design.timing import Timing
 from sched_sim.processors.part import Part
 from studies.machines.ranges import range_of
 from studies.robust import drive
-from studies.robust.costs import HR_HZ, SYSTEMS, N, SystemName, between_fixes
-from studies.robust.counts import PENALTIES
+from studies.robust.costs import HR_HZ, SYSTEMS, N, SystemName, between_fixes, robust_case
+from studies.robust.counts import PENALTIES, filled, product_share
 from studies.robust.linear import KALMAN
 
 SOON = 10
@@ -46,8 +46,12 @@ def cost_said(results: Results) -> dict[str, Any]:
 
     position_times = tables.seconds(results.measurements["position"], "robust-inverse")
     position = {way: f"{numbers['position', 'finite']:,}" for way, numbers in counts.operations.items()}
+    shares = [filled(system, penalty) for system in SYSTEMS for penalty in PENALTIES]
+    products = [product_share(counts.unknowns[s], len(robust_case(s).start.x)) for s in SYSTEMS]
     return {
         "unknowns": counts.unknowns,
+        "filled": span(f"{100 * min(shares):.0f}", f"{100 * max(shares):.0f}"),
+        "inversion": f"{100 * (1 - max(products)):.0f}",
         "repeated": position[ways.REPEATED],
         "inverse": position[ways.INVERSE],
         "givens": position[ways.GIVENS_ORDERED],
@@ -100,13 +104,12 @@ def parallel_said(devices: Mapping[SystemName, Parallel]) -> dict[str, Any]:
     first, last = ways.PROCESSORS[0], ways.PROCESSORS[-1]
     dense, _, ordered = ways.SCHEDULES
 
-    def gain(name: str, P: int = last) -> list[str]:
-        return [f"{devices[s].times[name][first] / devices[s].times[name][P]:.0f}" for s in SYSTEMS]
+    def gain(name: str) -> list[str]:
+        return [f"{devices[s].times[name][first] / devices[s].times[name][last]:.0f}" for s in SYSTEMS]
 
     return {
         "dense": gain(dense),
         "ordered": gain(ordered),
-        "ordered_16": gain(ordered, 16),
         "last": last,
         "by_sparsity": [f"{devices[s].times[dense][first] / devices[s].times[ordered][first]:.0f}" for s in SYSTEMS],
         "one": [f"{devices[s].times[ordered][first]:,}" for s in SYSTEMS],
@@ -122,21 +125,24 @@ def rounding_said(results: Results) -> dict[str, Any]:
     records = results.records("agreement")
     scaled = [record for record in records if "radians" not in record["case"]]
 
+    drawn = [case.name for case in CURVES]
+
     def worst(rows: Sequence[Mapping[str, str]], *keys: str) -> str:
         return tables.signed(residue(max(float(row[key]) for row in rows for key in keys)))
 
     by_way = {way: [record for record in scaled if record["way"] == way] for way in ("givens", "lu")}
-    (radians,) = [r for r in records if "radians" in r["case"] and r["way"] == "givens"]
+    radians = [r for r in records if "radians" in r["case"] and r["way"] in by_way]
     unpivoted = [r for r in records if r["way"] == "lu without pivoting"]
     kept, failing = ([r for r in unpivoted if bool(r["fails_in_step"]) == fails] for fails in (False, True))
     limits = [record for record in unpivoted if "mu=inf" in record["case"]]
     return {
         "absolute": worst(by_way["givens"], "largest", "smallest"),
+        "drawn": worst([r for r in by_way["givens"] if r["case"] in drawn], "largest", "smallest"),
         "relative": worst(by_way["givens"], "relative_largest", "relative_smallest"),
         "lu_absolute": worst(by_way["lu"], "largest", "smallest"),
         "lu_relative": worst(by_way["lu"], "relative_largest", "relative_smallest"),
-        "radians_absolute": worst([radians], "largest", "smallest"),
-        "radians_percent": f"{100 * float(radians['relative_smallest']):.0f}",
+        "radians_absolute": worst(radians, "largest", "smallest"),
+        "radians_percent": f"{100 * float(residue(max(float(r['relative_smallest']) for r in radians))):.0f}",
         "failing": len(failing),
         "of": len(unpivoted),
         "the_limits_fail": failing == limits,

@@ -13,7 +13,7 @@ import numpy as np
 from filters.arrays import FloatArray
 from filters.backends.counted import Operations, count
 from filters.registry import ALL_METHODS
-from filters.robust.blocks import block_sizes
+from filters.robust.blocks import NATURAL, assemble, block_sizes, block_starts
 from filters.robust.model import prepared, weights
 from filters.robust.records import Predicted, RobustModel, Weights
 from filters.robust.step import JOBS, STUDIED, StepJob
@@ -81,6 +81,22 @@ def kalman_counts(system: SystemName) -> Operations:
     n, m, p = len(case.start.x), len(case.system.Q), len(case.start.y)
     jobs = ALL_METHODS["standard"].jobs(example_system(n, m, p), "short").values()
     return sum((count(job.function, *job.arguments(0)) for job in jobs), start=Operations())
+
+
+def filled(system: SystemName, penalty: Penalty) -> float:
+    """The share of the N^2 entries of A that are not zero, from 0 to 1, with a P that has none."""
+    mu = np.inf if penalty == "infinite" else robust_case(system).mu
+    ready = prepared(_model(system), mu)
+    n, p, sizes = len(ready.F), len(ready.H), block_sizes(ready)
+    N, before = sum(sizes), Predicted(np.zeros(n), np.ones((n, n)))
+    T = np.zeros((N, N + n + 1))
+    assemble(ready, weights(ready, mu), before, np.zeros(p), np.zeros(n), block_starts(sizes, NATURAL), T)
+    return np.count_nonzero(T[:, :N]) / N**2
+
+
+def product_share(N: int, n: int) -> float:
+    """Of the operations of the dense inverse, those of the product of its last n rows with b."""
+    return n * (n + 1) * (2 * N - 1) / dense_counts(N, n).inverse.total
 
 
 def dense_counts(N: int, n: int) -> DenseCounts:

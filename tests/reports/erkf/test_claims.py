@@ -23,6 +23,7 @@ from sched_sim.design.pieces import StandardCosts
 from sched_sim.design.timing import Timing
 from sched_sim.processors.part_file import load_part, shipped_parts
 from studies.robust.costs import HR_HZ, SYSTEMS, N, between_fixes
+from studies.robust.counts import PENALTIES, filled
 from tests.reports.erkf.page import costs_of, rebuilt, rows, stored, text
 
 pytestmark = pytest.mark.exhaust  # the study takes a quarter of a minute; `studies/robust` has its tests
@@ -43,11 +44,34 @@ def test_the_answer_is_short_and_its_times_are_those_of_the_figure() -> None:
     answer = text().partition("**Answer.** ")[2].partition("![")[0]
     assert len(answer.split()) <= 50
     milliseconds = {(row["System"], row["Way"]): float(row["from fix to result, ms"]) for row in rows("ways.csv")}
-    for way, words in (("closed form", " ms with it"), ("Givens", " ms by Givens"), ("inverse", " ms by an inverse")):
+    for way, words in (
+        ("closed form", " ms with it"),
+        ("Givens", " ms by Givens"),
+        ("inverse", " ms by a dense inverse"),
+    ):
         assert f"{milliseconds['position', way]:#.3g}{words}" in answer
     in_time = {way for (system, way), time in milliseconds.items() if system == "position" and time <= 2.5}
     assert in_time == {"pivoted LU", "closed form"}
     assert max(milliseconds.values()) < 100
+
+
+def test_the_inverse_of_the_answer_is_the_dense_one_and_the_others_skip_zeros() -> None:
+    """As the caption of the first figure says: a leon3's times follow the operations of these ways."""
+    milliseconds = {row["Way"]: float(row["from fix to result, ms"]) for row in rows("ways.csv")}
+    assert milliseconds["inverse"] > 10 * milliseconds["Givens"]
+    assert costs_of(ways.INVERSE_SKIPPING, "position") < 4 * costs_of(ways.GIVENS_ORDERED, "position")
+    assert costs_of(ways.INVERSE, "position") > 15 * costs_of(ways.GIVENS_ORDERED, "position")
+    assert "The inverse is dense, the other ways skip zeros." in text()
+
+
+def test_the_matrix_is_sparse_and_its_inversion_nearly_all_of_the_inverse() -> None:
+    shares = [100 * filled(system, penalty) for system in SYSTEMS for penalty in PENALTIES]
+    assert f"{min(shares):.0f} to {max(shares):.0f} % are not zero" in text()
+    counts = all_counts()
+    for system in SYSTEMS:
+        N, inverse = counts.unknowns[system], costs_of(ways.INVERSE, system)
+        assert round(100 * (2 * N**3 - N**2 + N) / inverse) == 98
+    assert "operations 98 % are the inversion" in text()
 
 
 def test_reflections_beat_rotations_but_in_the_natural_order_where_mu_is_infinite() -> None:
@@ -241,6 +265,22 @@ def test_by_each_measurement_the_times_are_in_the_order_that_is_said() -> None:
             assert times == sorted(times, reverse=True)
 
 
+def test_differences_that_are_said_are_those_of_the_table() -> None:
+    """Of both ways where states are in radians, and of the two filters that are drawn."""
+    agreed = [row for row in rows("agreements.csv") if row["Way"] in ("Givens", "pivoted LU")]
+    radians = [row for row in agreed if "radians" in row["Filter"]]
+    most = max(float(row["min, rel. †"]) for row in radians)
+    assert f"smallest singular value differs by {100 * most:.0f} % †" in text()
+    drawn = [
+        row
+        for row in agreed
+        if row["Way"] == "Givens" and row["Filter"] in [tables.spoken(case.name) for case in CURVES]
+    ]
+    assert len(drawn) == 2
+    most = max(float(row[heading]) for row in drawn for heading in ("max, abs. †", "min, abs. †"))
+    assert f"of these two filters, they differ by {tables.signed(f'{most:.0e}')} † at most" in text()
+
+
 def test_what_is_only_rounding_has_one_digit() -> None:
     (heading, *body) = (line for line in rebuilt()["agreements.csv"].decode().splitlines())
     assert heading.count("†") == 4
@@ -265,6 +305,7 @@ def test_where_robustness_pays() -> None:
     assert yaw["10 %", "ERKF μ = 1e4, gyro row"] < 0.65 * yaw["10 %", "EKF"]
     assert yaw["10 %", "EKF with I/μ only, μ = 1e4"] == pytest.approx(yaw["10 %", "ERKF μ = 1e4, gyro row"], rel=0.05)
     assert yaw["2 %", "ERKF μ = 1e4, gyro row"] > yaw["2 %", "EKF"]
+    assert "At 2 % the yaw loses too" in text()
     for rows_said in ("gyro row", "bias row", "all rows"):
         assert yaw["2 %", f"ERKF μ = ∞, {rows_said}"] > 4 * yaw["2 %", "EKF"]
 

@@ -5,9 +5,20 @@ from __future__ import annotations
 from functools import cache
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
-from studies.robust.costs import SYSTEMS
-from studies.robust.counts import PENALTIES, WayCount, counts, dense_counts, kalman_counts
+from studies.robust.costs import SYSTEMS, SystemName
+from studies.robust.counts import (
+    PENALTIES,
+    Penalty,
+    WayCount,
+    counts,
+    dense_counts,
+    filled,
+    kalman_counts,
+    product_share,
+)
 
 
 @cache
@@ -89,3 +100,18 @@ def test_reflections_take_less_than_rotations_but_in_the_natural_order_where_mu_
 def test_faddeevs_algorithm_takes_what_lu_does(system: str, penalty: str) -> None:
     assert total(system, penalty, "faddeev") == pytest.approx(total(system, penalty, "lu"), rel=0.06)
     assert total(system, penalty, "givens") > 4 * total(system, penalty, "faddeev")
+
+
+@pytest.mark.parametrize("system", SYSTEMS)
+@pytest.mark.parametrize("penalty", PENALTIES)
+def test_the_block_system_is_sparse(system: SystemName, penalty: Penalty) -> None:
+    """Every row has an entry, and each block of P, of n^2 of them, is full."""
+    n, N = (6, 47) if system == "attitude" else (9, 67)
+    assert (n**2 + N - n) / N**2 < filled(system, penalty) < 0.1
+
+
+@given(st.integers(1, 20), st.integers(20, 200))
+def test_the_product_is_a_small_part_of_the_dense_inverse_where_few_rows_are_wanted(n: int, N: int) -> None:
+    """Without it, N pivots with N^2 multiplications and, but for one row each, as many additions are left."""
+    total = dense_counts(N, n).inverse.total
+    assert total * (1 - product_share(N, n)) == pytest.approx(2 * N**3 - N**2 + N)
