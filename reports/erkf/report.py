@@ -9,6 +9,7 @@ from itertools import product
 
 from matplotlib.figure import Figure
 
+from reports.charts.bar_rows import bar_rows
 from reports.charts.panels import Panel
 from reports.erkf import counts as ways
 from reports.erkf import tables
@@ -77,6 +78,7 @@ def build(results: Results) -> dict[str, bytes]:
         "least-speeds": tables.least_speed_rows(counted),
         "processors": tables.processor_rows(counted, parts),
         "device": tables.device_rows(slowest),
+        "deadlines": [[*row] for row in bar_rows(_deadlines_panels(counted["position"]))],
     }
     figures = pictures(_figures(results, counted, devices, responses))
     pages = render(

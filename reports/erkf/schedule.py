@@ -9,7 +9,7 @@ from fractions import Fraction
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, NullLocator
 
-from reports.charts.panels import Panel
+from reports.charts.panels import Panel, busy
 from reports.drawing.axes import AXIS_MM, EDGE_MM, TITLE_MM, decades, plain
 from reports.drawing.legend import draw_legend, legend_height, line_entry
 from reports.drawing.style import TITLE_PT, WIDTH_MM, axes_at, drawing, page
@@ -81,7 +81,7 @@ def two_rates(
     return Panel(
         title=title,
         schedule=schedule,
-        notes=[pace, lands, f"{100 * float(schedule.utilization):.1f} % busy"],
+        notes=[pace, lands, busy(schedule.utilization)],
         marks=cycle_marks(timing, cycles, {} if landed is None else {0: landed}, arrives=False),
     )
 
@@ -96,6 +96,6 @@ def one_period(costs: RobustCosts[Fraction], N: int, speed: Fraction, title: str
     return Panel(
         title=title,
         schedule=replace(schedule, slices=renamed),
-        notes=[pace, f"{100 * float(schedule.utilization):.1f} % busy"],
+        notes=[pace, busy(schedule.utilization)],
         marks=cycle_marks(Timing(N, 0, N), cycles, {}, arrives=False),
     )

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 
+from reports.charts.bar_rows import bar_rows
 from reports.charts.panels import Panel
 from reports.pages.machine import legend, timed_on
 from reports.pages.measurements import who_measured
@@ -65,7 +66,7 @@ def build(measured: CostTable, stored: Sequence[CostTable] = ()) -> dict[str, by
         "processors": rows.processors(on),
         "switches": rows.switches(switches),
         "noise": rows.noise(noises),
-        **{name: rows.bars_of(of) for name, of in {**panels, "fig3": over_l[AT_L].panels}.items()},
+        **{name: bar_rows(of) for name, of in {**panels, "fig3": over_l[AT_L].panels}.items()},
     }
     figures = pictures(
         {

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from itertools import pairwise
 
-from reports.charts.panels import METHOD_NAMES, Panel
+from reports.charts.panels import METHOD_NAMES
 from reports.pages.machine import marked
 from reports.pages.measurements import Shown, measurement_rows
 from reports.pages.stored import Rows
@@ -22,7 +22,6 @@ from sched_sim.design.options import Options
 from sched_sim.design.pieces import Statistic
 from sched_sim.design.simulate import simulate
 from sched_sim.design.timing import Timing
-from sched_sim.schedule.intervals import bars
 from studies.machines.ranges import Range, range_of
 from studies.steffes import tables as steffes
 from studies.steffes.agreement import Agreement
@@ -161,18 +160,6 @@ def stairs(paper: CostTable) -> Rows:
         for method in PAPER_METHODS:
             for stair in staircase(select(paper, method), N, M):
                 rows.append([N, M, METHOD_NAMES[method], stair.L, number(stair.speed, 4), stair.achieved])
-    return rows
-
-
-def bars_of(panels: Sequence[Panel]) -> Rows:
-    """What runs when, in HR periods from the start of the first step shown; what a panel shows not is left out."""
-    rows: Rows = [["Method", "work", "of step", "from", "to"]]
-    for panel in panels:
-        period = panel.schedule.period
-        for bar in bars(panel.schedule):
-            if panel.first * period <= bar.start and bar.end <= panel.end * period:
-                when = [number(Fraction(instant, period) - panel.first, 4) for instant in (bar.start, bar.end)]
-                rows.append([panel.title, bar.style, bar.step - panel.first, *when])
     return rows
 
 
