@@ -24,6 +24,7 @@ from sched_sim.design.timing import Timing
 from sched_sim.processors.part_file import load_part, shipped_parts
 from studies.robust.costs import HR_HZ, SYSTEMS, N, between_fixes
 from studies.robust.counts import PENALTIES, filled
+from studies.robust.drive import SETTLED_S
 from tests.reports.erkf.page import costs_of, rebuilt, rows, stored, text
 
 pytestmark = pytest.mark.exhaust  # the study takes a quarter of a minute; `studies/robust` has its tests
@@ -135,6 +136,20 @@ def test_what_the_figures_of_one_drive_are_said_to_show() -> None:
     assert "pitch error is larger throughout" in text()
     assert np.ptp(course["true up"]) > 1
     assert "the inertial unit's drifts away by 8 degrees" in text()
+    settled = course["time_s"] >= SETTLED_S
+    off = [
+        np.abs(wrapped_deg(course[f"{name} 10 % yaw"] - course["true yaw"])[settled]).max() for name in ("EKF", "ERKF")
+    ]
+    assert f"The yaw of both filters stays within {max(off):.1f} degrees of the true one" in text()
+
+
+def test_the_schedules_of_the_figure_are_in_its_file() -> None:
+    """In one period the robust step runs over the next ones; with two rates it ends at L."""
+    robust = [row for row in rows("deadlines.csv") if row["work"] == "RS"]
+    ends = {row["Method"]: float(row["to"]) for row in robust}
+    assert ends["Two rates, L = 40"] == pytest.approx(40, abs=2e-4)
+    assert ends["Two rates, L = 10"] == pytest.approx(10, abs=2e-4)
+    assert 9 < ends["In one period"] < 10
 
 
 def test_the_page_says_which_filters_figures_7_and_8_show() -> None:
