@@ -27,6 +27,8 @@ from studies.steffes.agreement import FLOOR, Agreement
 from studies.steffes.equations import EQUATIONS
 from studies.steffes.memory import Memory
 from studies.steffes.noise import Approximated, tried
+from studies.steffes.noise_long import CYCLES as MANY_CYCLES
+from studies.steffes.noise_long import worst
 from studies.steffes.products import Multiplies
 
 FIGURE_3 = Timing(10, 4, 8)
@@ -232,6 +234,11 @@ def about_noise(found: Sequence[Approximated], paper: Mapping[str, CostTable]) -
     counted = paper["counted"]
     return {
         **of,
+        "ever": {
+            noise: {"P": percent(most.covariance), "estimate": significant(100 * most.estimate, 2) + " %"}
+            for noise, most in worst().items()
+        },
+        "many": MANY_CYCLES,
         "cycles": {name: system.cycles for name, system in tried().items()},
         "least_share": significant(100 * min(one.share for one in found), 1) + " %",
         "most_share": percent(max(one.share for one in found)),

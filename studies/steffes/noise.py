@@ -81,11 +81,11 @@ def approximations() -> list[Approximated]:
         one
         for name, (system, P0, factors, cycles) in tried().items()
         for factor in factors
-        for one in _approximated(name, _with_noise(system, factor), P0, cycles)
+        for one in _approximated(name, with_noise(system, factor), P0, cycles)
     ]
 
 
-def _with_noise(system: System, factor: float) -> System:
+def with_noise(system: System, factor: float) -> System:
     return system._replace(parameters=system.parameters._replace(Q=factor * system.parameters.Q))
 
 
@@ -111,10 +111,10 @@ def _approximated(name: str, system: System, P0: FloatArray, cycles: int) -> Ite
     for of_run, run in zip(gains, runs.values(), strict=True):
         of_run[: len(run.gains) * N : N] = run.gains
     right, true = runs["exact"].P_reference[-1], true_covariance(system, P0, gains).before[:, -1]
-    share = float(np.mean(_beside(_over_a_cycle(system, steps - N), right)))
+    share = float(np.mean(beside(_over_a_cycle(system, steps - N), right)))
     for number, noise in enumerate(APPROXIMATIONS, start=1):
-        off = _beside(runs[noise].P_reference[-1], right) - 1
-        more = np.sqrt(_beside(true[number], true[0]).max()) - 1
+        off = beside(runs[noise].P_reference[-1], right) - 1
+        more = np.sqrt(beside(true[number], true[0]).max()) - 1
         yield Approximated(name, noise, *(_digits(value) for value in (share, np.abs(off).max(), more)))
 
 
@@ -132,7 +132,7 @@ def _over_a_cycle(system: System, first: int) -> FloatArray:
     return Q
 
 
-def _beside(a: FloatArray, b: FloatArray) -> FloatArray:
+def beside(a: FloatArray, b: FloatArray) -> FloatArray:
     """Variances of `a` in units of those of `b`, in the directions in which they differ most and least."""
     root = np.linalg.cholesky(b)
     half = np.linalg.solve(root, a)
