@@ -90,7 +90,7 @@ def filters_figure() -> Figure:
         yaw = Box(64, 54 - 5, 26, 8, "$\\psi_e = \\psi_{GPS} - \\psi_{IMU}$")
         attitude = Box(105, 16, 46, 16, "attitude filter\n(6 states, 3 measurements)\nin each step", FILTER)
         position = Box(
-            131, 51, 48, 18, "position filter\n(9 states, 6 measurements)\nwithout a fix: propagates", FILTER
+            121, 51, 48, 18, "position filter\n(9 states, 6 measurements)\nwithout a fix: propagates", FILTER
         )
         for box in (imu, gps, yaw, attitude, position):
             draw_box(axes, box)
@@ -98,10 +98,9 @@ def filters_figure() -> Figure:
         draw_arrow(axes, [(31, 24), (58, 24), (58, 45)], "yaw $\\psi_{IMU}$")
         draw_arrow(axes, [(31, 49), yaw.left], "yaw")
         draw_arrow(axes, [(70, 45), (70, 20), (82, 20)], "held until\nthe next fix", at=0)
-        draw_arrow(axes, [(31, 57), (107, 57)], "position and velocity, at fixes", below=True)
+        draw_arrow(axes, [(31, 57), (97, 57)], "position and velocity, at fixes", below=True)
         draw_arrow(axes, [(31, 29), (45, 29), (45, 38), (124, 38), (124, 42)], "accelerations $f_m$", below=True, at=2)
-        draw_arrow(axes, [(128, 16), (144, 16), (144, 42)], "roll, pitch, yaw", at=1)
-        draw_arrow(axes, [(144, 16), (168, 16)], "attitude, 400 Hz", at=0)
-        draw_arrow(axes, [position.right, (168, 51)])
-        axes.text(168, 63.5, "position and velocity, 400 Hz", size=SMALL_PT, ha="right", va="center")
+        draw_arrow(axes, [(128, 16), (134, 16), (134, 42)], "roll, pitch, yaw", at=1)
+        draw_arrow(axes, [(134, 16), (168, 16)], "attitude, 400 Hz", at=0)
+        draw_arrow(axes, [position.right, (168, 51)], "position and\nvelocity, 400 Hz", at=0)
         return figure

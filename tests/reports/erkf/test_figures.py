@@ -9,6 +9,8 @@ import pytest
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
+from matplotlib.path import Path
+from matplotlib.text import Annotation
 
 from filters.arrays import FloatArray
 from reports.charts.chart import gantt
@@ -156,6 +158,21 @@ def test_the_drawn_figures_can_be_read() -> None:
         assert flaws(figure) == []
     said = " ".join(written(imu_figure()))
     assert all(sign in said for sign in (r"\delta_g", r"\delta_a", "b_g", "b_a", r"\eta_g", r"\eta_a"))
+
+
+def test_no_arrow_of_the_scheme_runs_through_a_text() -> None:
+    figure = filters_figure()
+    (axes,) = figure.axes
+    pieces = [axes.transData.transform(line.get_xydata()) for line in axes.lines]
+    pieces += [
+        axes.transData.transform([note.xyann, note.xy])
+        for note in axes.texts
+        if isinstance(note, Annotation) and not note.get_text()
+    ]
+    assert len(pieces) > 8
+    for text, box in texts(figure):
+        for piece in pieces:
+            assert not Path(piece).intersects_bbox(box, filled=False), text.get_text()
 
 
 def test_responses_are_bars_that_end_where_the_result_is_there() -> None:
