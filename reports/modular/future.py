@@ -18,7 +18,7 @@ from reports.drawing.style import INK, Line, drawing
 from reports.modular.future_rows import ENDS, QUANTILES
 from reports.modular.oscillator import OSCILLATOR_AMPLITUDES, dropout_axis
 from reports.modular.styles import KIND_LINES, QUANTITY_LINES
-from studies.modular.found_covariances import FACTOR, PARTS
+from studies.modular.found_covariances import START
 
 Record: TypeAlias = Mapping[str, str]
 
@@ -31,7 +31,7 @@ PART_LINES = {
     "acceleration": QUANTITY_LINES["acceleration"],
     "jerk": Line(INK, "-", "p", 5.0),
 }
-START = Line("#6b6b6b", "-", "x", 4.5)
+START_LINE = Line("#6b6b6b", "-", "X", 4.5)
 
 
 def stiffness_figure(rows: Sequence[Record]) -> Figure:
@@ -60,7 +60,7 @@ def covariance_figure(rows: Sequence[Record]) -> Figure:
         legend = [
             line_entry("median of the fits", Line(INK, "-", "o", 4.4), dashes=False),
             line_entry("nine fits in ten", Line(INK, "-", "")),
-            line_entry("start of the search", Line("#6b6b6b", "-", "X", 4.5), dashes=False),
+            line_entry("start of the search", START_LINE, dashes=False),
         ]
         figure, [plots] = sheet(1, len(rows), legend, height_mm=34.0)
         for axes, row in zip(plots, rows, strict=True):
@@ -70,8 +70,7 @@ def covariance_figure(rows: Sequence[Record]) -> Figure:
                 axes.plot([at, at], [low, high], color=line.colour, lw=1.0)
                 axes.plot([at, at], ends, color=line.colour, lw=3.2, alpha=0.45, solid_capstyle="butt")
                 axes.plot([at], [middle], line.marker, color=line.colour, ms=line.size + 1, mew=0)
-                wrong = FACTOR if part == PARTS[0] else 1 / FACTOR
-                axes.plot([at], [wrong], "X", color="#6b6b6b", ms=4.5, mew=0)
+                axes.plot([at], [START[at]], START_LINE.marker, color=START_LINE.colour, ms=START_LINE.size, mew=0)
             axes.axhline(1.0, color=INK, lw=0.7, zorder=1)
             axes.set_yscale("log")
             axes.set_ylim(0.1, 4)

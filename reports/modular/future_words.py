@@ -48,6 +48,7 @@ def future_words(results: Results) -> dict[str, Any]:
         "drowned": f"{frequency(OSCILLATOR) ** 2.5 * step_s(USUAL) ** 0.5 / float(ACCELERATION_SIGMA):.0f}",
         "lowest": significant(float(model[f"acceleration {QUANTILES[0]}"])),
         "highest": significant(float(model[f"acceleration {QUANTILES[2]}"])),
+        "half": between(*interval_of(oscillator, f"acceleration {QUANTILES[1]}")),
         "jerk": between(*interval_of(oscillator, f"jerk {QUANTILES[1]}")),
         "times": {
             "model": between(*interval_of(model, "times")),

@@ -77,12 +77,12 @@ def oscillator_words(results: Results) -> dict[str, Any]:
     }
     few, sensors = by_rate[RATES[0]]["0.8"], results.records("dropout", group="position only")
     high = usual["0.8"]
-    at_the_gap = [
-        interval_of(row, "error", "position")[0] / OSCILLATOR_AMPLITUDES["position"]
+    at_the_gap = {
+        float(dropout): interval_of(row, "error", "position")[0] / OSCILLATOR_AMPLITUDES["position"]
         for rate, rows in by_rate.items()
         for dropout, row in rows.items()
         if dropout == f"{spring_mass.borne(rate):g}" and float(dropout) > 0
-    ]
+    }
     return {
         "runs": high["runs"],
         "sensor_runs": sensors[0]["runs"],
@@ -107,7 +107,9 @@ def oscillator_words(results: Results) -> dict[str, Any]:
         "least_times": significant(
             min(interval_of(rows["0.8"], "error", "position", "times")[1] for rows in by_rate.values())
         ),
-        "at_the_gap": [f"{100 * edge(at_the_gap):.1f}" for edge in (min, max)],
+        "at_the_gap": [f"{100 * edge(at_the_gap.values()):.1f}" for edge in (min, max)],
+        "lost_at_the_gap": [f"{100 * edge(at_the_gap):g}" for edge in (min, max)],
+        "seen_at_the_gap": f"{1 / spring_mass.BORNE:g}",
         "fewer": f"{FEWER:g}",
         "mean_of_fewer": f"{FEWER**0.5:.1f}",
         "gap": f"{spring_mass.BORNE:g}",

@@ -60,6 +60,13 @@ def test_known_covariances_are_found() -> None:
     assert jerk == pytest.approx(1.0, abs=0.15)
 
 
+@pytest.mark.exhaust
+def test_what_is_found_does_not_show_where_the_search_began() -> None:
+    """On these runs the simplex method stops at 0.3 times the accelerometer's noise, from the start of a third."""
+    records = [study.record_of("the filter's own model", seed) for seed in range(11, 21)]
+    np.testing.assert_allclose(study.found(records), study.found(records, (1 / 3, 3.0, 3.0)), rtol=0.01)
+
+
 def test_with_the_usual_covariances_a_run_is_as_usual() -> None:
     times, own, usual = study.compared(np.ones(3), study.record_of("the filter's own model", 0), "reference")
     assert (times, own) == (1.0, usual)
