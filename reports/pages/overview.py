@@ -65,7 +65,8 @@ def check_overview(folder: Path) -> None:
     """Raises InputError if a file that the page of all reports would replace is something else."""
     for name, mark in OURS.items():
         path = folder / name
-        if path.is_file() and mark not in path.read_text(encoding="utf-8", errors="replace"):
+        is_ours = path.is_file() and mark in path.read_text(encoding="utf-8", errors="replace")
+        if path.exists() and not is_ours:
             raise InputError(
                 f"--output {str(folder)!r}: {str(path)!r} is there and is no page of reports, which would replace it; "
                 f"give another folder"

@@ -78,6 +78,12 @@ def test_it_replaces_itself_and_nothing_of_yours(folder: Path) -> None:
         check_overview(folder)
 
 
+def test_a_folder_in_its_place_is_refused_before_anything_is_made(folder: Path) -> None:
+    (folder / "index.md").mkdir()
+    with pytest.raises(InputError, match=r"index.md' is there and is no page of reports.*another folder"):
+        check_overview(folder)
+
+
 def test_no_rule_of_accessible_pages_is_broken_and_a_phone_shows_it_whole(visit: Visit, folder: Path) -> None:
     (folder / "index.html").write_text(texts(folder)[0])
     page = visit.page
