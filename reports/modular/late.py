@@ -7,7 +7,7 @@ from typing import TypeAlias
 
 import numpy as np
 from matplotlib.figure import Figure
-from matplotlib.ticker import MaxNLocator
+from matplotlib.ticker import MaxNLocator, StrMethodFormatter
 
 from filters.arrays import FloatArray
 from reports.charts.panels import METHOD_NAMES
@@ -48,6 +48,7 @@ def late_figure(by_sensors: Mapping[str, Sequence[Record]]) -> Figure:
             for row in rows:
                 row[column].set_ylim(0, None)
                 row[column].yaxis.set_major_locator(MaxNLocator(nbins=5, steps=[1, 2, 5, 10]))
+            rows[1][column].yaxis.set_major_formatter(StrMethodFormatter("{x:,g}"))
             label(rows[0][column], sensors[0].upper() + sensors[1:])
             label(rows[1][column], "", "delay (steps)")
         label(rows[0][0], up="RMS error of position (%)")

@@ -8,7 +8,7 @@ from typing import TypeAlias
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullLocator
+from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullLocator, StrMethodFormatter
 
 from filters.arrays import FloatArray
 from reports.drawing.axes import decades
@@ -49,6 +49,7 @@ def flight_figure(flight: Columns, burnout_s: float) -> Figure:
                 axes.axvline(burnout_s, color=GREY, lw=0.9, ls=(0, (2, 1.5)), zorder=1)
                 axes.yaxis.set_major_locator(MaxNLocator(nbins=5, steps=[1, 2, 5, 10]))
             across = "time since ignition (s)" if name == "tilt" else ""
+            left.yaxis.set_major_formatter(StrMethodFormatter("{x:,g}"))
             flying = time_s > 0
             most = 1.2 * max(np.abs(error[flying]).max(), 2 * sigma[flying].max())
             right.set_ylim(-most, most)
@@ -82,7 +83,7 @@ def residual_figure(series: Columns, readings: Sequence[str]) -> Figure:
                     )  # fmt: skip
             axes.axhline(CLAIM_PERCENT, color=CLAIM.colour, ls=CLAIM.dashes, lw=1.0)
             decades(axes, "y", 0.01, 1000)
-            axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+            axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,g}"))
             _seconds(axes, series["time_s"])
             error, over = reading.split(" / ")
             label(axes, f"{error[0].upper()}{error[1:]} over {over}", "time since ignition (s)", "residual (%)")

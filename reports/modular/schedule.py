@@ -284,7 +284,7 @@ def _clock_axis(axes: Axes, ends: tuple[float, float]) -> None:
     axes.set_xlim(*ends)
     axes.xaxis.set_major_locator(FixedLocator([number for number in SHOWN if ends[0] <= number <= ends[1]]))
     axes.xaxis.set_minor_locator(NullLocator())
-    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,g}"))
 
 
 TIMES_MS = tuple(digit * 10**power for power in range(-1, 6) for digit in (1, 2, 5))

@@ -104,6 +104,9 @@ def oscillator_words(results: Results) -> dict[str, Any]:
         "reach": f"{spring_mass.reach():.2f}",
         "few": RATES[0],
         "few_error": percent_of_amplitude(few, "position"),
+        "without_acceleration": percent_of_amplitude(
+            results.records("dropout", group="acceleration only")[-1], "position"
+        ),
         "least_times": significant(
             min(interval_of(rows["0.8"], "error", "position", "times")[1] for rows in by_rate.values())
         ),

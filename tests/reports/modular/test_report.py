@@ -22,7 +22,7 @@ from studies.machines.parts import Micros, PartTimes
 from studies.modular import costs as modular_costs
 from studies.modular import late_measurements
 from studies.modular.rocket_readings import chord
-from studies.modular.rocket_schedule import LAND_BY, PERIOD_MS, compared_at, counted
+from studies.modular.rocket_schedule import LAND_BY, PERIOD_MS, WAYS, compared_at, counted, scenario
 from tests.command_line import Run
 from tests.reports import published
 
@@ -117,6 +117,11 @@ def test_no_figure_of_the_oscillator_stands_without_its_interval() -> None:
         for cell in cells:
             low, high = interval(cell)
             assert low <= number(cell) <= high
+
+
+def test_without_the_accelerometer_position_is_said_to_err_by_the_most_of_its_column() -> None:
+    most = max((row["acceleration only"] for row in rows("sensors.csv")), key=number)
+    assert f"acceleration alone is lost, position errs by {most} % at most" in text()
 
 
 def test_where_its_model_is_true_the_filter_is_as_accurate_as_it_says() -> None:
@@ -280,6 +285,12 @@ def test_recalculating_in_the_loop_is_late_on_an_idle_processor() -> None:
         )
     ]
     assert clocks == sorted(set(clocks))
+
+
+def test_each_sensor_of_the_schedule_loses_what_the_text_says() -> None:
+    workload = scenario(counted(), WAYS[0], "preempted", 190)
+    assert {float(sensor.dropout) for sensor in workload.sensors} == {0.1}
+    assert "Each sensor loses 10 % of its measurements" in text()
 
 
 # ----------------------------------------------------------------------------------------- answers, figures, future
