@@ -22,7 +22,7 @@ CALLEE = "ONE = {}\n\n\ndef plus(value):\n    return value + ONE\n"
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     monkeypatch.syspath_prepend(tmp_path)
-    monkeypatch.setattr(sys, "dont_write_bytecode", True)  # which is taken for that of a source as long, and as old in s
+    monkeypatch.setattr(sys, "dont_write_bytecode", True)  # of a source as long, and as old in seconds
     return tmp_path
 
 
