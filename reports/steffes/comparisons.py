@@ -106,5 +106,7 @@ def _least(table: CostTable, method: str, kind: str) -> float:
     return float(table.entry(method, kind).minimum)
 
 
-def _over(measured: Sequence[CostTable], method: str, kind: str) -> Range[float]:
-    return range_of(lambda table: _least(table, method, kind), measured)
+def _over(measured: Sequence[CostTable], method: str, kind: str) -> Range[float] | None:
+    """None where none of them timed that job."""
+    timed = [table for table in measured if table.has(method, kind)]
+    return range_of(lambda table: _least(table, method, kind), timed) if timed else None

@@ -126,6 +126,13 @@ def test_one_table_shows_all_its_jobs_and_the_range_of_the_least_over_all_measur
     assert not cost_figure({"measured": slower}).axes[0].patches
 
 
+def test_a_job_that_an_earlier_measurement_lacks_has_the_range_of_those_that_timed_it() -> None:
+    larsen = {kind: cost for kind, cost in COUNTED.costs["larsen"].items() if kind != "update"}
+    earlier = replace(COUNTED, costs={**COUNTED.costs, "larsen": larsen})
+    assert flaws(cost_figure({"measured": COUNTED}, [earlier])) == []
+    assert not cost_figure({"measured": COUNTED}, [COUNTED, earlier]).axes[0].patches
+
+
 def test_a_source_has_the_same_sign_in_every_figure_and_a_dagger_if_measured() -> None:
     """By its name, whatever its place."""
     for tables in (
