@@ -19,6 +19,7 @@ from reports.embedded.results import SHIPPED, Results, read, shipped
 from reports.embedded.said import ASSUMED, WITHIN, about_boards, about_memory, about_speeds, provenance
 from reports.embedded.tables import per_operation
 from reports.embedded.words import CORES, HERE, IN_HARDWARE, PAPERS, factor, microseconds, on_page, signed
+from reports.pages.measurements import counted_on
 from sched_sim.costs.methods import KINDS
 from sched_sim.costs.table import Cost, CostTable
 from sched_sim.errors import InputError
@@ -220,7 +221,8 @@ def test_each_measurement_has_its_least_speeds() -> None:
     listed, speeds = rows("measurements.csv"), rows("speeds-textbook.csv")
     numba = [row for row in listed if (row["Source †"], row["Update †"]) == ("numba", "textbook")]
     assert len(numba) == len(stored().measurements("numba", "textbook"))
-    assert f"Of numba in the textbook form there are {len(numba)} measurements on 1 machine (AMD EPYC)." in text()
+    counted = counted_on(stored().measurements("numba", "textbook"))
+    assert f"Measured of numba in the textbook form: {counted}." in text()
     here = {row["Method"]: row["numba †"].split(" (")[0] for row in speeds}
     shown = [{method: row[f"{method} †"] for method in ("Recalculate", "Larsen", "Dual-rate")} for row in numba]
     assert {method: here[method] for method in shown[0]} in shown
