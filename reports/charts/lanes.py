@@ -34,8 +34,6 @@ STRIDES = (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10_000)
 MANY_BARS = 2000
 """From here on hatches are left out: too fine to see, and slow to draw."""
 LONGEST_NAME_MM = 28.0
-VEIL = (1, 1, 1, 0.55)
-"""Over work after its deadline."""
 
 
 class Lane(NamedTuple):

@@ -44,9 +44,6 @@ Larsen's method or as a gain; or every measurement is the low-rate task's, which
 Samples = Mapping[str, Sequence[Fraction]]
 """Execution times by part of the filter, as in `sample_file.SampledCosts`."""
 
-ONE_IN_FLIGHT = ("predict_accumulate", "correct_accumulate", "correct_late")
-"""Parts of a filter that run only where Larsen's method waits for one measurement at a time."""
-
 HIGH_RATE = ("hr_propagate", "hr_restart", "hr_update", "lr_propagate")
 OF_KNOTS = ("gain", "lr_correct", "hr_pass")
 AFTER_A_LOSS = ("gain_again", "gain_kept")
