@@ -142,7 +142,7 @@ FORMULA = re.compile(r"(?<!\\)\$(.*?)(?<!\\)\$")
 
 
 def plain_text(text: str) -> str:
-    r"""A label of a figure without its mathtext: "$L$ asked for" as "L asked for", "$\sqrt{q}$" as "√(q)"."""
+    r"""A label of a figure without its mathtext: "$k+4$" as "k + 4", "$\sqrt{q}$" as "√(q)"."""
     said = FORMULA.sub(lambda formula: _plain_formula(formula[1]), text)
     return visible(" ".join(said.replace(r"\$", "$").split()))
 
@@ -153,4 +153,5 @@ def _plain_formula(formula: str) -> str:
     formula = formula.replace("''", "″").replace("'", "′")
     formula = re.sub(r"\\sqrt\{([^}]*)\}", r"√(\1)", formula)
     formula = re.sub(r"\\[a-z]+\{([^}]*)\}", r"\1", formula)
+    formula = re.sub(r"(?<=\w)\+(?=\w)", " + ", formula)
     return re.sub(r"[{}]", "", formula).replace("^3", "³").replace("^2", "²")

@@ -23,7 +23,7 @@ function plotBox(host, plot, number, tip) {
   const stops = stopsOfCurves(curves);
   const cross = svg("svg", { class: "ss-cross", "aria-hidden": "true" });
   const box = html("div", {
-    class: "ss-readout", tabindex: 0, role: "slider", "aria-label": `${plot.title || `Plot ${number + 1}`}: values of the curves along ${quantity}`,
+    class: "ss-readout", tabindex: 0, role: "slider", "aria-label": `${nameOf(plot, number)}: values of the curves along ${quantity}`,
     "aria-valuemin": 0, "aria-valuemax": Math.max(stops.length - 1, 1), "aria-valuenow": 0, "aria-valuetext": "use the arrow keys",
   }, cross);
   ["left", "top", "width", "height"].forEach((side, index) => { box.style[side] = `${100 * plot.box[index]}%`; });
@@ -64,6 +64,10 @@ function plotBox(host, plot, number, tip) {
     keys[event.key]();
   });
   return box;
+}
+
+function nameOf({ title, y }, number) {
+  return title || [y.name, `plot ${number + 1}`].filter(Boolean).join(", ");
 }
 
 /** From a value to the share of the axis; `invert` gives the value back. */

@@ -120,6 +120,7 @@ def test_an_axis_of_another_scale_is_told_by_the_values_at_even_places() -> None
         (r"costs 3 \$", "costs 3 $"),
         ("Dual-rate, $Q'$ or $Q''$", "Dual-rate, Q′ or Q″"),
         (r"$\hat{x}_{k^+}$", "x_k^+"),
+        ("lands at $l = m = k+4$", "lands at l = m = k + 4"),
         ("no formula", "no formula"),
     ],
 )
