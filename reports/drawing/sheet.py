@@ -33,13 +33,14 @@ def sheet(
     gap_mm: float = GAP_MM,
     right_mm: float = RIGHT_MM,
     stacked: bool = False,
+    width_mm: float = WIDTH_MM,
 ) -> Sheet:
     """Empty plots, each `height_mm` high; stacked: rows have one axis of x, below the last of them."""
-    across = WIDTH_MM - LEFT_MM - right_mm
+    across = width_mm - LEFT_MM - right_mm
     width = (across - gap_mm * (columns - 1)) / columns
     down = height_mm + (STACKED_MM if stacked else AXIS_MM + TITLE_MM)
     legend_top = EDGE_MM + TITLE_MM + down * (rows - 1) + height_mm + AXIS_MM
-    figure = page(legend_top + legend_height(legend, across) + EDGE_MM)
+    figure = page(legend_top + legend_height(legend, across) + EDGE_MM, width_mm)
     plots = [
         [
             axes_at(figure, LEFT_MM + column * (width + gap_mm), EDGE_MM + TITLE_MM + row * down, width, height_mm)

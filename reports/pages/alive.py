@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from functools import cache
-from typing import Any
+from typing import Any, Literal
 
 from reports.explorer.compact import compact
 from reports.explorer.module import asset, module
@@ -16,7 +16,7 @@ STYLES = ("palette.css", "gantt.css", "report.css")
 def figure(still: str, data: Mapping[str, Any] | None, *, caption: str = "", attributes: str = "") -> str:
     """still: a `picture`, or a <table>; data: "plots", see `reports.drawing.readout`, or "panels",
     see `reports.charts.told`, with "still" where the picture is to be seen first, or "frames" of them, see
-    `reports.pages.pictures.Sliding`; None where nothing is to be told.
+    `reports.pages.pictures.Sliding`; "narrow": that of a narrow picture after it; None where nothing is to be told.
     caption: a <figcaption>."""
     if data is None:
         return f'<figure class="ss-figure"{attributes}>{still}{caption}</figure>'
@@ -25,9 +25,10 @@ def figure(still: str, data: Mapping[str, Any] | None, *, caption: str = "", att
     return f'<figure class="ss-figure" data-alive{attributes}>{still}{caption}{script}</figure>'
 
 
-def picture(svg: str) -> str:
-    """svg: an element, see `reports.pages.inline`. It may become wider than the page, and then scrolls in itself."""
-    return f'<div class="ss-scroll"><div class="ss-picture">{svg}</div></div>'
+def picture(svg: str, shown: Literal["", "ss-wide", "ss-narrow"] = "") -> str:
+    """svg: an element, see `reports.pages.inline`. It may become wider than the page, and then scrolls in itself.
+    shown: where; by default everywhere, else one of a pair."""
+    return f'<div class="{f"ss-scroll {shown}".strip()}"><div class="ss-picture">{svg}</div></div>'
 
 
 @cache

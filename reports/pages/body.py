@@ -58,9 +58,15 @@ def body_of(markdown: str, figures: Mapping[str, Picture]) -> Body:
 
 def _captioned(picture: Picture, found: re.Match[str]) -> str:
     number, caption, links = found["number"], found["caption"], found["links"]
-    still = alive.picture(inline(picture.svg, f"f{number}", unescape(found["alt"])))
+    alt = unescape(found["alt"])
+    if picture.narrow is None:
+        still, data = alive.picture(inline(picture.svg, f"f{number}", alt)), picture.alive
+    else:
+        still = alive.picture(inline(picture.svg, f"f{number}", alt), "ss-wide")
+        still += alive.picture(inline(picture.narrow.svg, f"n{number}", alt), "ss-narrow")
+        data = {**(picture.alive or {}), "narrow": picture.narrow.alive}
     text = f'<figcaption><b>Figure {number}.</b> {caption} <span class="files">{links}</span></figcaption>'
-    return alive.figure(still, picture.alive, caption=text, attributes=f' id="figure-{number}"')
+    return alive.figure(still, data, caption=text, attributes=f' id="figure-{number}"')
 
 
 def _headings(html: str) -> Iterator[Heading]:

@@ -16,10 +16,18 @@ from reports.drawing.readout import readout
 
 class Picture(NamedTuple):
     """alive: the panels of a Gantt chart, see `told`, "still" where the picture is to be seen first; or "frames" of
-    them, see `Sliding`; and the curves of a figure, see `readout`; None of any other."""
+    them, see `Sliding`; and the curves of a figure, see `readout`; None of any other. narrow: what a phone shows."""
 
     svg: bytes
     alive: Mapping[str, Any] | None
+    narrow: Picture | None = None
+
+
+class Narrowing(NamedTuple):
+    """A figure, and the same for a phone, `NARROW_MM` wide. The file is the wide one."""
+
+    wide: Figure
+    narrow: Figure
 
 
 class Annotated(NamedTuple):
@@ -49,7 +57,7 @@ class Sliding(NamedTuple):
     figure: Figure | None = None
 
 
-Drawn = Figure | Annotated | Sliding | Sequence[Panel]
+Drawn = Figure | Narrowing | Annotated | Sliding | Sequence[Panel]
 
 
 def pictures(figures: Mapping[str, Drawn]) -> dict[str, Picture]:
@@ -65,6 +73,8 @@ def files(drawn: Mapping[str, Picture]) -> dict[str, bytes]:
 def _picture(figure: Drawn) -> Picture:
     if isinstance(figure, Figure):
         return Picture(image(figure, "svg"), readout(figure))
+    if isinstance(figure, Narrowing):
+        return _picture(figure.wide)._replace(narrow=_picture(figure.narrow))
     if isinstance(figure, Annotated):
         return Picture(image(figure.figure, "svg"), {"panels": _told(figure.panels), "still": True})
     if isinstance(figure, Sliding):

@@ -9,15 +9,16 @@ import { html } from "./svg.js";
 // Printed, a figure is its picture. Keys that are pressed in one are no shortcuts of a notebook.
 
 for (const figure of document.querySelectorAll("figure[data-alive]")) enliven(figure);
-for (const scroll of document.querySelectorAll(".ss-scroll")) fullSize(scroll);
+for (const scroll of document.querySelectorAll(".ss-scroll:not(.ss-narrow)")) fullSize(scroll);
 
 function enliven(figure) {
   figure.removeAttribute("data-alive");
   if (!figure.closest(".ss-ground")) themed(figure);
   figure.addEventListener("keydown", (event) => event.stopPropagation());
   const shown = JSON.parse(figure.querySelector('script[type="application/json"]').textContent);
-  const picture = figure.querySelector(".ss-picture");
+  const [picture, narrow] = figure.querySelectorAll(".ss-picture");
   if (shown.plots) readout(picture, shown);
+  if (shown.narrow) readout(narrow, shown.narrow);
   if (shown.panels || shown.frames) withCharts(figure, shown, picture);
 }
 

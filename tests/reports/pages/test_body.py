@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 
 import pytest
@@ -38,6 +39,18 @@ def test_a_caption_may_stress_words_and_its_links_stand_behind_it(caption: str, 
 
 def test_a_figure_that_is_named_is_linked_to() -> None:
     assert '<a href="#figure-1">Figure 1</a> shows' in html("It is late.", before="Figure 1 shows it.\n\n")
+
+
+def test_a_figure_drawn_for_a_phone_too_says_the_same_there_and_tells_its_own_values() -> None:
+    told = [{"plots": [{"title": title}]} for title in ("wide", "narrow")]
+    picture = Picture(SVG, told[0], Picture(SVG, told[1]))
+    markdown = Figures("sched-sim report late").figure("0.svg", "it is late", "It is late.")
+    text = body_of(markdown, {"0.svg": picture}).lead
+    assert re.findall('class="ss-scroll ([a-z-]+)"', text) == ["ss-wide", "ss-narrow"]
+    assert text.count("<title>it is late</title>") == 2
+    assert len(set(re.findall('<svg class="(.*?)"', text))) == 2
+    (data,) = re.findall('<script type="application/json">(.*?)</script>', text)
+    assert json.loads(data) == {**told[0], "narrow": told[1]}
 
 
 def test_headings_of_one_text_have_ids_of_their_own() -> None:
