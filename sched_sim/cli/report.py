@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import signal
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from time import monotonic
@@ -55,12 +57,16 @@ def report(
         raise InputError(f"{name} and --all: --all makes every report; leave out one of them")
     make_folder(output)
     check_overview(output)
-    if all_reports:
-        _make_all(thorough, output)
-        return
     name = name or "steffes2014"
-    with progress_bar(name) as progress:
-        _make(name, thorough, output, progress)
+    try:
+        if all_reports:
+            _make_all(thorough, output)
+            return
+        with progress_bar(name) as progress:
+            _make(name, thorough, output, progress)
+    except KeyboardInterrupt:
+        say(f"Stopped: what was being made is not written, and nothing of before is lost; what is done is in {output}")
+        raise typer.Exit(128 + signal.SIGINT) from None
     say(f"Wrote {_page(output / name)}, the same as index.md, its figures and tables; all reports: {_page(output)}")
 
 
@@ -71,10 +77,12 @@ def _make(name: str, thorough: bool, output: Path, progress: Progress) -> float:
     from reports.pages.render import make_folder, write_report
 
     folder = output / name
-    make_folder(folder)
+    if os.path.lexists(folder):
+        make_folder(folder)  # to know before the work that it can be written
     begun = monotonic()
     files = REPORTS[name](thorough, progress)
     seconds = monotonic() - begun
+    make_folder(folder)
     write_report(with_made(files, made_here(seconds)), folder)
     write_report(overview(output, REPORTS), output)
     return seconds

@@ -93,7 +93,8 @@ def test_when_it_is_stopped_what_is_done_is_there(sched_sim: Run, tmp_path: Path
     assert result.code == 130
     assert "accuracy: less than 1 s" in result.err
     assert "It is accuracy." in (tmp_path / "new/index.md").read_text()
-    assert not (tmp_path / "new/modular/index.html").exists()
+    assert not (tmp_path / "new/modular").exists()
+    assert "what is done is in new" in result.err
 
 
 @pytest.mark.usefixtures("reports")
