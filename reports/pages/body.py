@@ -23,6 +23,9 @@ FIGURE = re.compile(
 )
 HEADING = re.compile(r"<h([23])>(.*?)</h\1>")
 TABLE = re.compile(r"<table>.*?</table>", re.DOTALL)
+ROW_NAME = re.compile(r"<tr>\s*<td[^>]*>(.*?)</td>", re.DOTALL)
+LONG_NAME = 18
+"""Letters: rows with such names have more room for them, where the page is narrow."""
 MENTION = re.compile(r"(<[^>]*>)|\bFigure (\d+)\b(?!\.<)")
 ANSWER = "<p><strong>Answer.</strong>"
 
@@ -99,7 +102,9 @@ def _of_section(html: str) -> str:
 
     def reached(table: re.Match[str]) -> str:
         label = f"Table {next(numbers)}{of}" if several else f"Table{of}"
-        return f'<div class="table" role="group" tabindex="0" aria-label="{label}">{table[0]}</div>'
+        long = any(len(_text(name)) >= LONG_NAME for name in ROW_NAME.findall(table[0]))
+        shown = "table long-names" if long else "table"
+        return f'<div class="{shown}" role="group" tabindex="0" aria-label="{label}">{table[0]}</div>'
 
     return TABLE.sub(reached, html)
 

@@ -65,6 +65,12 @@ def test_a_table_scrolls_by_keys_and_is_named_after_its_section() -> None:
     assert re.search(r'<div class="table" role="\w+" tabindex="0" aria-label="Table: Who"><table>', table)
 
 
+@pytest.mark.parametrize(("name", "shown"), [("position", "table"), ("position over distance", "table long-names")])
+def test_long_names_of_rows_have_room(name: str, shown: str) -> None:
+    text = body_of(f"## Who\n\n| who | a long heading of numbers |\n| --- | --- |\n| *{name}* | 1 |\n", {}).rest
+    assert f'<div class="{shown}" ' in text
+
+
 def test_the_answer_is_marked() -> None:
     assert body_of("# T\n\n**Answer.** Half.\n", {}).lead.count('<p class="answer"><strong>Answer.</strong> Half.') == 1
 
