@@ -7,8 +7,8 @@ from fractions import Fraction
 
 WITHIN = re.compile(
     r"(<code>.*?</code>|<[^>]*>)"
-    r"|(?<=\d) (?=(?:%|(?:ms|µs|MHz|Hz|KB)\b))"
-    r"|(?<=\b\w) (?=[=≤≥<>] )|(?<=\b\w [=≤≥<>]) (?=[-−\w])",
+    r"|(?<=\d) (?=(?:%|(?:ms|µs|s|min|m|MHz|Hz|KB)\b))"
+    r"|(?<=\b\w) (?=[=≤≥<>/] )|(?<=\b\w [=≤≥<>/]) (?=[-−\w])",
     re.DOTALL,
 )
 """In HTML: what is no text, or the space before a unit or on either side of the sign of a short equation."""

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markdown_it import MarkdownIt
-from markupsafe import Markup
+from markupsafe import Markup, escape
 
 from reports.explorer.compact import compact
 from reports.explorer.module import PALETTE, asset
@@ -22,6 +22,10 @@ from reports.pages.numbers import unbroken
 from sched_sim.errors import InputError
 
 TITLE = "Reports of sched_sim"
+INTRODUCTION = (
+    "What each report found. Its page begins with the answer and one figure that shows it. "
+    "`sched-sim report --all` makes them anew."
+)
 HEADING = re.compile(r"^# (.+)$", re.MULTILINE)
 ANSWER = re.compile(r"^\*\*Answer\.\*\* (.+?)(?:\n\n|\Z)", re.MULTILINE | re.DOTALL)
 FIRST_FIGURE = re.compile(r"^!\[([^\]]*)\]\(([^):]+\.svg)\)$", re.MULTILINE)
@@ -54,8 +58,14 @@ def overview(folder: Path, order: Iterable[str]) -> dict[str, bytes]:
         lstrip_blocks=True,
     )
     environment.filters["inline"] = lambda text: Markup(unbroken(MarkdownIt("commonmark").renderInline(text)))
+    environment.filters["unbroken"] = lambda text: Markup(unbroken(escape(text)))
     environment.filters["thumbnail"] = lambda report: Markup(_thumbnail(folder, report))
-    values = {"title": TITLE, "reports": reports, "style": Markup(compact(asset(PALETTE)))}
+    values = {
+        "title": TITLE,
+        "introduction": INTRODUCTION,
+        "reports": reports,
+        "style": Markup(compact(asset(PALETTE))),
+    }
     return {
         name: environment.get_template(f"{name}.j2").render(**values).encode() for name in ("index.md", "index.html")
     }

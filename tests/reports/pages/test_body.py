@@ -81,8 +81,8 @@ def test_no_line_ends_between_a_number_and_its_unit() -> None:
 
 
 def test_no_line_ends_in_a_short_equation_and_code_can_be_copied() -> None:
-    found = unbroken("n = 5, n ≥ 4; speed = 3; <code>n = 5</code>")
-    assert found == "n\xa0=\xa05, n\xa0≥\xa04; speed = 3; <code>n = 5</code>"
+    found = unbroken("n = 5, n ≥ 4, R / 4; speed = 3; <code>n = 5</code>")
+    assert found == "n\xa0=\xa05, n\xa0≥\xa04, R\xa0/\xa04; speed = 3; <code>n = 5</code>"
 
 
 def test_tables_of_one_section_are_told_apart() -> None:
