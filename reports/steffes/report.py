@@ -13,6 +13,7 @@ from reports.pages.pictures import Annotated, Sliding, files, pictures
 from reports.pages.render import csv_bytes, render
 from reports.pages.stored import Rows
 from reports.steffes import rows, said
+from reports.steffes.advantage import about_advantage, heavier_rows, needed_rows
 from reports.steffes.agreement import agreement_figure
 from reports.steffes.comparisons import cost_figure
 from reports.steffes.figures import achieved_figure, least_speed_figure
@@ -29,6 +30,7 @@ from sched_sim.costs.table_file import costs_text, load_costs
 from sched_sim.design.least_speed import least_speed
 from studies.machines.store import beside
 from studies.steffes import tables as steffes
+from studies.steffes.advantage import by_rate, heavier, needed
 from studies.steffes.agreement import agreement
 from studies.steffes.memory import memory
 from studies.steffes.noise import approximations
@@ -38,6 +40,7 @@ TITLE = "Steffes 2014, regenerated: which processor a delayed-measurement Kalman
 
 AT_L, AT_SPEED = FIGURE_3.L - FIGURE_3.M - 1, SPEEDS.index(Fraction(4, 5))
 """Which schedules are shown first: that of Fig. 3, and the slowest of several that lands as early."""
+UPDATED_BY = (FIGURE_3.M + 1, FIGURE_3.L, FIGURE_3.N)
 
 
 def build(measured: CostTable, stored: Sequence[CostTable] = ()) -> dict[str, bytes]:
@@ -49,6 +52,7 @@ def build(measured: CostTable, stored: Sequence[CostTable] = ()) -> dict[str, by
     cells, waits = steffes.cells(paper), waited(paper)
     agreed, noises, counted = agreement(FIGURE_3), approximations(), multiplies()
     kept = [memory(method) for method in ("larsen", "dual-rate")]
+    others, updates = needed(tables["counted"], FIGURE_3), heavier(paper, FIGURE_3, UPDATED_BY)
     on, switches = variants(tables["counted"], FIGURE_3), switched(paper, FIGURE_3)
     panels, (N, M) = _panels(paper), rows.STAIRS[0]
     over_l = frames_over_l(paper, FIGURE_3.N, FIGURE_3.M)
@@ -63,6 +67,8 @@ def build(measured: CostTable, stored: Sequence[CostTable] = ()) -> dict[str, by
         "products": rows.products(counted),
         "memory": rows.memory(kept),
         "waiting": rows.waiting(waits),
+        "other-methods": needed_rows(others),
+        "heavier-updates": heavier_rows(updates),
         "processors": rows.processors(on),
         "switches": rows.switches(switches),
         "noise": rows.noise(noises),
@@ -103,6 +109,7 @@ def build(measured: CostTable, stored: Sequence[CostTable] = ()) -> dict[str, by
         agreed=said.about_agreement(agreed),
         product=said.about_products(counted, kept),
         work=said.about_work(tables),
+        advantage=about_advantage(others, updates, by_rate(paper, FIGURE_3), FIGURE_3.L),
         on=said.about_processors(on, switches),
         noise=said.about_noise(noises, tables),
         by=said.about_deadlines(paper),
