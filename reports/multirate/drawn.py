@@ -17,19 +17,13 @@ from reports.multirate.results import PERIODS, Results
 from reports.multirate.start_figure import start_figure
 from reports.multirate.steady_figures import Point, readings_figure, rule_figure
 from reports.multirate.tables import CASES, LIMIT, RULE
-from reports.multirate.words import KINDS, VEHICLE_SYSTEMS, VEHICLES
+from reports.multirate.words import KINDS, READING_NAMES, VEHICLE_SYSTEMS, VEHICLE_TITLES, VEHICLES
 from sched_sim.processors.part import Part
 from studies.multirate.accuracy import Reading
 from studies.multirate.constancy import constant_from
 from studies.multirate.patent import Load
 
 LEAD_PERIODS = range(1, 11)
-READING_NAMES: Mapping[Reading, str] = {
-    "averaged": "$K(R/n)/n$, Eq. (1)",
-    "sampled": "$K(R)/n$",
-    "skipped": "every $n$-th measurement alone",
-}
-VEHICLE_TITLES = {"calm": "Hardly manoeuvres", "road": "On the road", "aircraft": "Aircraft that turns"}
 LIMIT_OF = "aircraft"
 
 
@@ -69,7 +63,7 @@ def _load(own: Form, forms: Mapping[str, Form], patents: Part, cases: Sequence[L
             names[form.name] = f"{form.name}, without its {form.square_roots} square roots"
     costs = {names[form.name]: least_time_of(form, patents) for form in (own, *forms.values())}
     printed = [
-        Printed(case.n, load.printed, "" if case.rate_hz == 1 else f", once in {1 / case.rate_hz} s")
+        Printed(case.n, load.printed, "" if case.rate_hz == 1 else f" in {1 / case.rate_hz} s")
         for case, load in zip(CASES, cases, strict=True)
     ]
     return load_figure(costs, 2, printed, PERIODS)

@@ -15,25 +15,26 @@ from reports.drawing.sheet import label, sheet
 from reports.drawing.style import INK, SMALL_PT, drawing
 from reports.multirate.results import Course, N
 from reports.multirate.styles import OPTIMAL, READING_LINES
+from reports.multirate.words import EACH_GAIN, READING_NAMES
 from studies.multirate.constancy import CONSTANT
 
 PLOT_MM = 56.0
 LAST_STEP = 100
 SHARES = (0.1, 0.2, 0.5, 1.0)
-EACH, DIVIDED = "gain in each step", f"$K(R/n)/n$ of every {N}th step"
+DIVIDED = f"{READING_NAMES['averaged']}, of every {N}th step"
 
 
 def gain_figure(courses: Mapping[str, Course], constant_from: Mapping[str, int]) -> Figure:
     """A plot for each receiver. courses: by its title; constant_from: the step from which on the gain is."""
     with drawing():
         divided = READING_LINES["averaged"]
-        legend = [line_entry(EACH, OPTIMAL), line_entry(DIVIDED, divided)]
+        legend = [line_entry(EACH_GAIN, OPTIMAL), line_entry(DIVIDED, divided)]
         figure, [plots] = sheet(1, len(courses), legend, height_mm=PLOT_MM, gap_mm=6.0)
         steps = np.arange(LAST_STEP + 1)
         for axes, (title, course) in zip(plots, courses.items(), strict=True):
             axes.plot(
                 steps, course.optimal[steps], OPTIMAL.marker, color=OPTIMAL.colour, ls=OPTIMAL.dashes, lw=1.4,
-                ms=OPTIMAL.size, mew=0, markevery=20, label=EACH,
+                ms=OPTIMAL.size, mew=0, markevery=20, label=EACH_GAIN,
             )  # fmt: skip
             axes.plot(
                 steps, course.divided[steps], divided.marker, color=divided.colour, ls="-", lw=1.1, mew=0,
@@ -51,7 +52,7 @@ def gain_figure(courses: Mapping[str, Course], constant_from: Mapping[str, int])
 def _from(axes: Axes, step: int) -> None:
     axes.axvline(step, color=INK, lw=0.8, ls=(0, (2, 1.5)), zorder=1)
     note = axes.annotate(
-        f"changes from\nstep {step} on:\n≤ {100 * CONSTANT:g} % in {N} steps", (step, 1.25), (4, -2),
+        f"from step {step} on\nno state's gain\nchanges > {100 * CONSTANT:g} %", (step, 1.25), (4, -2),
         textcoords="offset points", size=SMALL_PT, va="top",
     )  # fmt: skip
     note.set_path_effects([withStroke(linewidth=2.5, foreground="white")])

@@ -12,10 +12,11 @@ from reports.drawing.legend import line_entry
 from reports.drawing.sheet import label, sheet
 from reports.drawing.style import INK, SMALL_PT, drawing
 from reports.multirate.styles import OPTIMAL, READING_LINES
+from reports.multirate.words import EACH_GAIN, READING_NAMES
 from studies.multirate.limit import Tending
 
 PLOT_MM = 58.0
-NAMES = ("gain in each step", "$K(R/n)/n$", "$K(R)/n$")
+NAMES = (EACH_GAIN, READING_NAMES["averaged"], READING_NAMES["sampled"])
 
 
 def limit_figure(more: Sequence[Tending], faster: Sequence[Tending]) -> Figure:

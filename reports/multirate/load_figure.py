@@ -14,7 +14,7 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullLoca
 from reports.drawing.legend import line_entry
 from reports.drawing.sheet import label, sheet
 from reports.drawing.style import INK, SMALL_PT, Line, drawing
-from reports.multirate.styles import FORM_LINES, PRINTED, PRINTED_MARKER
+from reports.multirate.styles import FORM_LINES, PRINTED, PRINTED_MARKER, printed_entry
 from sched_sim.design.load import utilization
 from sched_sim.design.pieces import MultirateCosts
 from sched_sim.design.timing import Timing
@@ -45,9 +45,8 @@ def load_figure(
     with drawing():
         names = list(costs)
         lines = dict(zip(names, FORM_LINES, strict=False))
-        figure, [[left, right]] = sheet(
-            1, 2, [line_entry(name, line) for name, line in lines.items()], height_mm=PLOT_MM, gap_mm=17.0
-        )
+        legend = [*(line_entry(name, line) for name, line in lines.items()), printed_entry()]
+        figure, [[left, right]] = sheet(1, 2, legend, height_mm=PLOT_MM, gap_mm=17.0)
         shares = {
             name: [100 * float(utilization(of_form, Timing(n, 0, n), Fraction(1))) for n in periods]
             for name, of_form in costs.items()
@@ -75,13 +74,17 @@ def load_figure(
         right.yaxis.set_major_locator(MaxNLocator(nbins=6, steps=[1, 2, 2.5, 5, 10]))
         across = "$n$ (steps for each gain)"
         label(left, "Load at one measurement a second", across, "load (%)")
-        label(right, "The two others, above the short form", across, f"above {least.partition(', without')[0]} (%)")
+        label(right, f"Load above that of {_short(least)}", across, "load above it (%)")
         return figure
+
+
+def _short(name: str) -> str:
+    return name.partition(", without")[0]
 
 
 def _curve(axes: Axes, periods: Sequence[int], percents: Sequence[float], line: Line, name: str) -> None:
     axes.plot(
-        periods, percents, line.marker, color=line.colour, ms=line.size, mew=1.3 if line.marker == "|" else 0,
+        periods, percents, line.marker, color=line.colour, ms=line.size, mew=0,
         ls=line.dashes, lw=1.1, label=name, markevery=[i for i, n in enumerate(periods) if n in MARKED],
     )  # fmt: skip
 

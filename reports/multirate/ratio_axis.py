@@ -10,8 +10,8 @@ from reports.drawing.style import INK, PALE, SMALL_PT
 from reports.multirate.words import ratio_text
 from studies.multirate.accuracy import GOOD
 
-RATIOS = {"+0.1 %": 1.001, "+1 %": 1.01, "+10 %": 1.1, "×2": 2.0, "×10": 10.0, "×100": 100.0, "×1000": 1000.0}
-"""As the axis names them: what is above one in percent, or so many times one."""
+RATIOS = (1.001, 1.01, 1.1, 2.0, 10.0, 100.0, 1000.0)
+"""That the axis numbers."""
 GROUND = "#f0f0f0"
 """Of what is good."""
 LEAST = 6e-4
@@ -22,9 +22,9 @@ def ratio_axis(axes: Axes, highest: float, *, numbers: bool = True) -> None:
     """Of y, in ratio - 1 up to `highest`; below the dashed line the loss is small. numbers: and a note that says so."""
     axes.set_yscale("log")
     axes.set_ylim(LEAST, highest)
-    axes.yaxis.set_major_locator(FixedLocator([ratio - 1 for ratio in RATIOS.values() if ratio < highest]))
+    axes.yaxis.set_major_locator(FixedLocator([ratio - 1 for ratio in RATIOS if ratio - 1 < highest]))
     axes.yaxis.set_minor_locator(NullLocator())
-    axes.yaxis.set_major_formatter(FuncFormatter(lambda loss, _: _NAMES[f"{1 + loss:.4g}"]))
+    axes.yaxis.set_major_formatter(FuncFormatter(lambda loss, _: f"×{1 + loss:,.4g}"))
     axes.fmt_ydata = lambda loss: ratio_text(1 + loss)
     axes.tick_params(axis="y", labelleft=numbers)
     axes.spines[["right", "top"]].set_visible(False)
@@ -37,6 +37,3 @@ def ratio_axis(axes: Axes, highest: float, *, numbers: bool = True) -> None:
             va="top", xycoords=("axes fraction", "data"), textcoords="offset points", zorder=5,
         )  # fmt: skip
         note.set_path_effects([withStroke(linewidth=2.5, foreground=GROUND)])
-
-
-_NAMES = {f"{ratio:.4g}": name for name, ratio in RATIOS.items()}

@@ -7,7 +7,8 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
-from reports.charts.panels import Panel, method_panel
+from reports.charts.panels import Panel, busy, method_panel
+from reports.pages.pictures import Frame
 from sched_sim.costs.table import CostTable
 from sched_sim.design.cycle_marks import cycle_marks
 from sched_sim.design.pieces import StandardCosts
@@ -16,6 +17,8 @@ from sched_sim.design.timing import Timing
 from sched_sim.schedule.intervals import bars
 
 ONE_LOOP = {"P": "SU", "U": "CG"}
+RATES_HZ = tuple(map(Fraction, (1, 2, 4, 5, 6, 8, 10, 15, 20, 24, 25)))
+"""From where one loop is fast enough to where two rates are too slow, at the patent's n on its processor."""
 
 
 def two_rates_panel(table: CostTable, n: int, hr_hz: Fraction, cycles: int = 1) -> Panel:
@@ -36,9 +39,24 @@ def one_loop_panel(table: CostTable, n: int, hr_hz: Fraction, cycles: int = 1) -
     return Panel(
         title="One loop",
         schedule=replace(schedule, slices=renamed),
-        notes=[f"HR period {float(1000 / hr_hz):g} ms", f"{100 * float(schedule.utilization):.0f} % busy"],
+        notes=[f"HR period {float(1000 / hr_hz):.4g} ms", busy(schedule.utilization)],
         marks=cycle_marks(Timing(n, 0, n), cycles, {}, arrives=False),
     )
+
+
+def frames_over_rate(table: CostTable, n: int, rates_hz: Sequence[Fraction] = RATES_HZ) -> list[Frame]:
+    """One loop above two rates, for each of these measurements a second."""
+    frames = []
+    for hz in rates_hz:
+        loop, rates = one_loop_panel(table, n, hz), two_rates_panel(table, n, hz)
+        frames.append(Frame(_label(hz, loop.schedule.misses, rates.schedule.misses), [loop, rates]))
+    return frames
+
+
+def _label(hz: Fraction, loop: int, rates: int) -> str:
+    if not loop and not rates:
+        return f"{float(hz):g} Hz: neither misses a deadline"
+    return f"{float(hz):g} Hz: one loop misses {loop}, two rates {rates or 'none'}"
 
 
 def schedule_rows(panels: Sequence[Panel], hr_hz: Fraction) -> list[list[Any]]:

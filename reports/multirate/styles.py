@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from matplotlib.axes import Axes
+
+from reports.drawing.legend import SWATCH_MM, Entry
 from reports.drawing.style import INK, SOURCES, Line
 from studies.multirate.accuracy import Reading
 
@@ -13,6 +16,17 @@ DASHES, DOTS, CHAIN = (0, (4.0, 1.5)), (0, (1.2, 1.2)), (0, (6.0, 1.5, 1.2, 1.5)
 PRINTED = SOURCES["printed"]
 PRINTED_MARKER = "_"
 """Its stroke, across an axis of values that goes up."""
+
+
+def printed_entry() -> Entry:
+    """That stroke in a legend."""
+
+    def draw(axes: Axes, x: float, y: float) -> None:
+        axes.plot([x, x + SWATCH_MM], [y, y], color=PRINTED.colour, lw=1.6)
+
+    return Entry("as the patent prints it", SWATCH_MM, draw)
+
+
 OPTIMAL = Line(INK, "-", "X", 4.2)
 """The filter that computes its gain in every step."""
 
@@ -45,7 +59,7 @@ FAMILY_LINES: Mapping[str, Line] = {
 """Systems, by kind: markers alone."""
 
 FORM_LINES = (
-    Line(INK, "-", "|", 6.0),
+    Line(INK, "-", "v", 4.0),
     Line(BLUE, DASHES, "o"),
     Line(OCHRE, CHAIN, "^"),
     Line(GREEN, "-", "s"),

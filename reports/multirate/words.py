@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from reports.pages.numbers import significant
-from studies.multirate.accuracy import ACCELERATION_NOISES
+from studies.multirate.accuracy import ACCELERATION_NOISES, Reading
 
 LEAST_PERCENT = 1e-3
 """Changes of less are not told apart."""
@@ -24,6 +26,16 @@ def scenario_text(name: str) -> str:
 
 VEHICLE_SYSTEMS = {vehicle: f"gps {noise:g}" for noise, vehicle in zip(ACCELERATION_NOISES, VEHICLES, strict=True)}
 """The scenario of each."""
+
+VEHICLE_TITLES = {"calm": "Calm (hardly manoeuvres)", "road": "Road", "aircraft": "Aircraft (turns)"}
+
+EACH_GAIN = "gain in each step"
+READING_NAMES: Mapping[Reading, str] = {
+    "averaged": "divided gain, $R/n$",
+    "sampled": "divided gain, $R$",
+    "skipped": "skipped: one measurement in $n$",
+}
+"""What is done with the gain, as legends name it."""
 
 KINDS = {"random walk": "random walk", "tracker": "tracker", "gps": "receiver"}
 """By the beginning of a scenario's name."""

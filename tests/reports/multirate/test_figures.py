@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from functools import cache
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from reports.charts.chart import gantt
@@ -21,10 +23,11 @@ from reports.multirate.limit_figure import limit_figure
 from reports.multirate.load_figure import Printed, load_figure
 from reports.multirate.ratio_axis import ratio_axis
 from reports.multirate.results import Course
-from reports.multirate.schedule import one_loop_panel, schedule_rows, two_rates_panel
+from reports.multirate.schedule import RATES_HZ, frames_over_rate, one_loop_panel, schedule_rows, two_rates_panel
 from reports.multirate.start_figure import start_figure
 from reports.multirate.steady_figures import Point, readings_figure, rule_figure
 from reports.multirate.styles import FAMILY_LINES, FORM_LINES, PERIOD_LINES, READING_LINES, VEHICLE_LINES
+from reports.multirate.words import EACH_GAIN, READING_NAMES
 from sched_sim.design.load import utilization
 from sched_sim.design.timing import Timing
 from sched_sim.processors.part import on_part
@@ -58,18 +61,33 @@ def test_forms_differ_in_colour_and_marker() -> None:
     assert len({(line.colour, line.marker) for line in FORM_LINES}) == len(FORM_LINES)
 
 
+SPEEDS = {"calm": 0.003, "road": 0.03, "aircraft": 0.2}
+RATIOS = {name: {n: 1 + speed * (n - 1) ** 2 for n in range(1, 11)} for name, speed in SPEEDS.items()}
+
+
+@cache
+def lead() -> Figure:
+    return lead_figure(COSTS, {1: "16.7", 5: "4.1"}, 4, RATIOS)
+
+
 def test_the_answer() -> None:
-    ratios = {name: {n: 1 + speed * (n - 1) ** 2 for n in range(1, 11)} for name, speed in VEHICLES.items()}
-    figure = lead_figure(COSTS, {1: "16.7", 5: "4.1"}, 4, ratios)
+    figure = lead()
     assert flaws(figure) == []
     left, right = figure.axes[:2]
     np.testing.assert_allclose(curve(left, "the patent's counts").get_ydata(), [float(load(n)) for n in range(1, 11)])
     assert float(figure.get_size_inches()[1]) * 25.4 <= 95
-    for name, of in ratios.items():
+    for name, of in RATIOS.items():
         np.testing.assert_allclose(curve(right, name).get_ydata(), [ratio - 1 for n, ratio in of.items() if n > 1])
+    rings = [line.get_xydata()[0] for line in (*left.lines, *right.lines) if line.get_markerfacecolor() == "none"]
+    np.testing.assert_allclose(rings, [(4, float(load(4))), *((4, of[4] - 1) for of in RATIOS.values())])
+    said = {text.get_text() for text, _ in texts(figure)}
+    assert {"4.93 %", "×1.03", "×1.27", "×2.80", "as the patent prints it"} <= said
 
 
-VEHICLES = {"calm": 0.003, "road": 0.03, "aircraft": 0.2}
+def test_the_patents_counts_look_alike_in_both_figures_of_loads() -> None:
+    loads = load_figure(dict.fromkeys(("the patent's counts", "two", "three"), COSTS), 1, [], range(1, 21))
+    lines = [curve(figure.axes[0], "the patent's counts") for figure in (lead(), loads)]
+    assert len({(line.get_color(), line.get_marker(), line.get_linestyle()) for line in lines}) == 1
 
 
 @given(st.fractions(Fraction(8, 10), 17, max_denominator=1000))
@@ -88,7 +106,7 @@ def test_no_period_is_enough_where_the_state_update_alone_is_too_long() -> None:
 def test_load_against_n() -> None:
     forms = [patents_form(), *our_forms().values()]
     costs = {form.name: least_time_of(form, PATENT) for form in forms}
-    printed = [Printed(1, "4.2", ", once in 4 s"), Printed(1, "16.7", ""), Printed(5, "4.1", "")]
+    printed = [Printed(1, "4.2", " in 4 s"), Printed(1, "16.7", ""), Printed(5, "4.1", "")]
     figure = load_figure(costs, 2, printed, range(1, 21))
     assert flaws(figure) == []
     left, right = figure.axes[:2]
@@ -114,20 +132,20 @@ def test_three_filters_in_steady_state(spread: float) -> None:
         }
         for row, title in enumerate(("Hardly manoeuvres", "On the road", "Aircraft that turns"))
     }
-    figure = readings_figure(vehicles, {"averaged": "one", "sampled": "two", "skipped": "three"})
+    figure = readings_figure(vehicles, READING_NAMES)
     assert flaws(figure) == []
-    np.testing.assert_allclose(curve(figure.axes[0], "one").get_ydata(), [(n - 1) ** 2 for n in range(2, 21)])
+    drawn = curve(figure.axes[0], READING_NAMES["averaged"])
+    np.testing.assert_allclose(drawn.get_ydata(), [(n - 1) ** 2 for n in range(2, 21)])
 
 
-def test_the_axis_of_ratios_names_powers_of_ten_above_the_optimum_as_what_they_are() -> None:
+def test_the_axis_of_ratios_tells_all_as_so_many_times_the_optimum() -> None:
     with drawing():
         figure, [[axes]] = sheet(1, 1, [])
         ratio_axis(axes, 1e4)
         figure.draw_without_rendering()
     names = [tick.get_text() for tick in axes.yaxis.get_ticklabels()]
-    ratios = [1 + float(name[1:-2]) / 100 if name.endswith(" %") else float(name[1:]) for name in names]
-    np.testing.assert_allclose(ratios, 1 + np.array(axes.get_yticks()))
-    assert names == ["+0.1 %", "+1 %", "+10 %", "×2", "×10", "×100", "×1000"]
+    np.testing.assert_allclose([float(name[1:].replace(",", "")) for name in names], 1 + np.array(axes.get_yticks()))
+    assert names == ["×1.001", "×1.01", "×1.1", "×2", "×10", "×100", "×1,000"]
     assert "within 5 % of the optimum" in {text.get_text() for text in axes.texts}
 
 
@@ -146,8 +164,8 @@ def test_the_gain_over_time() -> None:
     }
     figure = gain_figure(courses, dict.fromkeys(courses, 33))
     assert flaws(figure) == []
-    np.testing.assert_allclose(curve(figure.axes[1], "gain in each step").get_ydata(), 1 / (1 + np.arange(101)))
-    assert curve(figure.axes[1], "$K(R/n)/n$ of every 5th step").get_drawstyle() == "steps-post"
+    np.testing.assert_allclose(curve(figure.axes[1], EACH_GAIN).get_ydata(), 1 / (1 + np.arange(101)))
+    assert curve(figure.axes[1], f"{READING_NAMES['averaged']}, of every 5th step").get_drawstyle() == "steps-post"
 
 
 def test_what_many_measurements_tend_to() -> None:
@@ -156,8 +174,8 @@ def test_what_many_measurements_tend_to() -> None:
     figure = limit_figure(more, faster)
     assert flaws(figure) == []
     left, right = figure.axes[:2]
-    assert list(curve(left, "gain in each step").get_xdata()) == [row.n for row in more]
-    np.testing.assert_allclose(curve(right, "$K(R/n)/n$").get_ydata(), [row.averaged for row in faster])
+    assert list(curve(left, EACH_GAIN).get_xdata()) == [row.n for row in more]
+    np.testing.assert_allclose(curve(right, READING_NAMES["averaged"]).get_ydata(), [row.averaged for row in faster])
 
 
 def test_the_start() -> None:
@@ -180,6 +198,26 @@ def test_one_loop_overruns_where_two_rates_do_not() -> None:
     assert loop.schedule.utilization == rates.schedule.utilization == Fraction(5 * 7626 + 166870, 250_000)
     for panel in (loop, rates):
         assert {bar.style for bar in bars(panel.schedule)} == {"SU", "CG"}
+
+
+def test_at_each_rate_of_the_slider_the_label_says_who_is_late() -> None:
+    """One loop where a state update and a gain do not fit a step, two rates where the processor is not enough."""
+    frames = frames_over_rate(TABLE, 5)
+    assert len(frames) <= 12
+    assert Fraction(20) in RATES_HZ
+    for hz, (label, panels) in zip(RATES_HZ, frames, strict=True):
+        loop, rates = (panel.schedule.misses for panel in panels)
+        assert (loop > 0) == (hz * (COSTS.state_update + COSTS.covariance_gain) > 1)
+        assert (rates > 0) == (hz * load(5) / 100 > 1)
+        late = f"one loop misses {loop}, two rates {rates or 'none'}" if loop or rates else "neither misses a deadline"
+        assert label == f"{float(hz):g} Hz: {late}"
+        assert len(label) <= 40
+
+
+@given(st.integers(1, 12), st.fractions(1, 12, max_denominator=20))
+def test_one_loop_bears_no_higher_rate_however_seldom_a_gain_comes(n: int, hz: Fraction) -> None:
+    fits = hz * (COSTS.state_update + COSTS.covariance_gain) <= 1
+    assert (one_loop_panel(TABLE, n, hz, cycles=2).schedule.misses == 0) == fits
 
 
 def test_the_rows_of_the_schedules_are_all_the_work() -> None:
