@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 from reports.multirate.costs import every
 from reports.multirate.results import N
 from reports.multirate.words import VEHICLES, ratio_text
-from reports.pages.numbers import percent
+from reports.pages.numbers import significant
 from sched_sim.design.load import utilization
 from sched_sim.design.pieces import MultirateCosts
 from studies.multirate.accuracy import ACCELERATION_NOISES, GOOD
@@ -70,7 +70,7 @@ def faster_rows(found: Limits, costs: MultirateCosts[Fraction]) -> Rows:
     rows: Rows = [["Measurements a second", "load, %", *VEHICLES, f"{last}, with R"]]
     for number, hz in enumerate(RATES_HZ):
         ratios = [found.faster[name][number].averaged_ratio for name in VEHICLES]
-        load = percent(utilization(costs, every(N), 1 / hz))
+        load = significant(100 * utilization(costs, every(N), 1 / hz))
         rows.append([f"{float(hz):g}", load, *map(ratio_text, [*ratios, found.faster[last][number].sampled_ratio])])
     return rows
 

@@ -6,12 +6,9 @@ from reports.multirate import limits, said, shown, tables
 from reports.multirate.costs import least_time_of, our_forms, patents_form
 from reports.multirate.drawn import drawn
 from reports.multirate.results import PERIODS, N, Results
-from reports.multirate.schedule import one_loop_panel, schedule_rows, two_rates_panel
-from reports.multirate.words import (
-    formula_text,
-    signed,
-)
-from reports.pages.pictures import files, pictures
+from reports.multirate.schedule import RATES_HZ, frames_over_rate, schedule_rows
+from reports.multirate.words import formula_text, signed
+from reports.pages.pictures import Sliding, files, pictures
 from reports.pages.render import csv_bytes, render
 from sched_sim.processors.part import on_part
 from sched_sim.processors.part_file import load_part, shipped_parts
@@ -46,25 +43,31 @@ def build(results: Results) -> dict[str, bytes]:
         "processors": tables.processor_rows(asked, parts),
     }
     on_patents = on_part(own.table, patents)
-    schedules = [panel(on_patents, N, said.GANTT_HZ) for panel in (one_loop_panel, two_rates_panel)]
+    frames, shown_at = frames_over_rate(on_patents, N), RATES_HZ.index(said.GANTT_HZ)
     others = {
         "accuracy": tables.accuracy_rows(results),
         "limits": limits.all_rows(tended),
         "gains": tables.gain_rows(results),
         "courses": tables.course_rows(results),
-        "rates": schedule_rows(schedules, said.GANTT_HZ),
+        "rates": schedule_rows(frames[shown_at].panels, said.GANTT_HZ),
     }
-    figures = pictures({**drawn(results, tended, own, forms, patents, cases), "rates.svg": schedules})
+    sliding = Sliding("measurement rate", frames, shown_at)
+    figures = pictures({**drawn(results, tended, own, forms, patents, cases), "rates.svg": sliding})
     pages = render(
         "patent-multirate",
         TITLE,
         figures,
         **{name.replace("-", "_"): table for name, table in rows.items()},
         shown={
+            "loads": shown.cases(rows["loads"]),
+            "our_loads": shown.cases(rows["our-loads"]),
             "terms": shown.terms(rows["terms"]),
             "totals": shown.totals(rows["totals"]),
             "steady": shown.steady(rows["steady"]),
             "constancy": shown.constancy(rows["constancy"]),
+            "limit_by_form": shown.cases(rows["limit-by-form"]),
+            "starts": shown.systems(rows["starts"]),
+            "late": shown.systems(rows["late"]),
             "processors": shown.processors(rows["processors"]),
         },
         N=N,
@@ -75,7 +78,7 @@ def build(results: Results) -> dict[str, bytes]:
         limit=said.limit(tended, costs),
         start=said.start(results),
         running=said.running(textbook, parts),
-        missing=said.missing(forms, parts),
+        missing=said.missing(forms, parts, patents),
         remainders={
             cycle: {kind: signed(number) for kind, number in patent.comparison(cycle).remainder.items()}
             for cycle in patent.CYCLES

@@ -65,11 +65,16 @@ def loads(printed: Sequence[Load]) -> Rows:
 def our_loads(forms: Iterable[Form], processor: Part) -> Rows:
     """The same cases with our forms on the patent's processor, state update included; in percent."""
     forms = list(forms)
-    rows: Rows = [["Case", *(form.name if time_of(form, processor) else f"≥ {form.name}" for form in forms)]]
+    rows: Rows = [["Case", *(_bounded(form, processor) for form in forms)]]
     for case in CASES:
         shares = [utilization(least_time_of(form, processor), every(case.n), 1 / case.rate_hz) for form in forms]
         rows.append([case.name, *(percent(share) for share in shares)])
     return rows
+
+
+def _bounded(form: Form, processor: Part) -> str:
+    """The form's name; its loads are lower bounds where the processor has no time for its square roots."""
+    return form.name if time_of(form, processor) else f"≥ {form.name}"
 
 
 def logic(own: Form, ours: Form, processors: Sequence[Part]) -> Rows:
@@ -107,14 +112,14 @@ def totals() -> Rows:
     rows: Rows = [["Cycle", "Sum", "multiply", "add", "divide"]]
     for cycle in CYCLES:
         compared = comparison(cycle)
-        sums = {"our job": compared.job, "with the noise model's products": compared.with_noise_model}
+        sums = {"our job": compared.job, "with noise model": compared.with_noise_model}
         if compared.job == compared.with_noise_model:
-            del sums["with the noise model's products"]
-        sums |= {"the same, sums from zero": compared.from_zero, "printed": compared.printed}
+            del sums["with noise model"]
+        sums |= {"sums from zero": compared.from_zero, "printed": compared.printed}
         for name, counts in sums.items():
             rows.append([CYCLE_NAMES[cycle], name, counts.multiply, counts.add, counts.divide])
         remainder = [compared.remainder[kind] for kind in ("multiply", "add", "divide")]
-        rows.append([CYCLE_NAMES[cycle], "printed less the line above it", *(f"{number:+d}" for number in remainder)])
+        rows.append([CYCLE_NAMES[cycle], "printed less the above", *(f"{number:+d}" for number in remainder)])
     return rows
 
 
@@ -126,14 +131,14 @@ def limit_by_form(forms: Iterable[Form], processor: Part) -> Rows:
         n = least_period(costs, LIMIT)
         there = "-" if n is None else percent(utilization(costs, every(n), Fraction(1)))
         alone = percent(utilization(costs, every(1), Fraction(1)))
-        rows.append([form.name, alone, "no n" if n is None else f"n = {n}", there])
+        rows.append([_bounded(form, processor), alone, "no n" if n is None else f"n = {n}", there])
     return rows
 
 
 def load_by_n(forms: Iterable[Form], processor: Part, periods: Iterable[int]) -> Rows:
     """The load at one measurement (of all satellites) a second, in percent."""
     forms = list(forms)
-    rows: Rows = [["n", *(form.name for form in forms)]]
+    rows: Rows = [["n", *(_bounded(form, processor) for form in forms)]]
     for n in periods:
         shares = [utilization(least_time_of(form, processor), every(n), Fraction(1)) for form in forms]
         rows.append([n, *(percent(share) for share in shares)])
@@ -211,7 +216,7 @@ def starts(results: Results) -> Rows:
     for steps in results.starts[SHOWN[0]]:
         rows.append([steps, *(ratio_text(results.starts[n][steps]) for n in SHOWN)])
     steady_worst = [ratio_text(results.at(RECEIVER, "averaged", n).steady_worst) for n in SHOWN]
-    return [*rows, ["the worst in steady state", *steady_worst]]
+    return [*rows, ["steady state", *steady_worst]]
 
 
 def processor_rows(forms: Sequence[tuple[Form, int]], processors: Sequence[Part]) -> Rows:
