@@ -18,8 +18,9 @@ def cases(rows: Rows) -> Rows:
 
 
 def systems(rows: Rows) -> Rows:
-    """The first column on one line each, however narrow the page."""
-    return [[_on_one_line(str(row[0])), *row[1:]] for row in rows]
+    """What stands below the heading of the first column on one line each, however narrow the page."""
+    heading, *body = rows
+    return [heading, *([_on_one_line(str(row[0])), *row[1:]] for row in body)]
 
 
 def _on_one_line(text: str) -> str:
@@ -38,9 +39,8 @@ def terms(rows: Rows) -> Rows:
 
 
 def totals(rows: Rows) -> Rows:
-    """With true minus signs, and each sum on one line."""
-    signed = [[str(cell).replace("-", MINUS) if str(cell)[:1] == "-" else cell for cell in row] for row in rows]
-    return [[row[0], _on_one_line(row[1]), *row[2:]] for row in signed]
+    """With true minus signs."""
+    return [[str(cell).replace("-", MINUS) if str(cell)[:1] == "-" else cell for cell in row] for row in rows]
 
 
 def constancy(rows: Rows) -> Rows:
