@@ -1,23 +1,20 @@
-"""Figures on accuracy: against the landing, against power, and on a slow processor."""
+"""Figures on accuracy: against the landing, and on a slow processor."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from math import ceil, floor, log10
+from collections.abc import Sequence
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
 from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullLocator
 
-from reports.accuracy.words import MODELS, heading, method_name, ordinal
+from reports.accuracy.words import heading, ordinal
 from reports.drawing.legend import line_entry
 from reports.drawing.sheet import label, sheet
-from reports.drawing.style import GREY, INK, METHOD_LINES, NOISE_LINES, SMALL_PT, Line, drawing
-from reports.pages.numbers import significant
+from reports.drawing.style import GREY, INK, SMALL_PT, Line, drawing
 from studies.accuracy.given import Given
 from studies.accuracy.landing import Curve, Landing
-from studies.accuracy.scale import EXACT, SUMMED, Placed
 from studies.accuracy.slow_processor import Choice, at_speeds
 
 EVERY_LINES = {
@@ -26,18 +23,11 @@ EVERY_LINES = {
     3: Line("#2e7d4f", (0, (6.0, 1.5, 1.0, 1.5)), "s"),
     4: Line("#8a3b73", (0, (1.5, 1.2)), "D"),
 }
-LINES: Mapping[str, Line] = {**METHOD_LINES, SUMMED: NOISE_LINES["sum"]}
 FLIGHT_LINES = {False: Line(GREY, (0, (4.0, 1.5)), "v"), True: Line("#1d8a8a", "-", "P", 4.2)}
 """By whether several frames are under way."""
-SHADE = "#8f8f8f"
-"""Of the line below designs that no other one beats."""
-FAR = 2.4
-"""Beyond so many times the power of the standard filter a design stands at the right edge."""
-HIGHEST = 1.7
-"""Beyond so many times the largest of exact methods, at the upper edge."""
 SLOWEST, FASTEST = 1.9, 22.0
 """Speeds shown, on the slow processor."""
-BEFORE = 1.08
+BEFORE = 1.12
 """The axis of speeds begins at the slowest over this, for the first n."""
 
 
@@ -50,7 +40,7 @@ def landing_figure(landings: Sequence[Landing]) -> Figure:
         for axes, found in zip([axes for row in rows for axes in row], landings, strict=True):
             _landing(axes, found)
         for row in rows:
-            row[0].set_ylabel("worst std over no delay (%)", labelpad=2)
+            row[0].set_ylabel("std above that without delay (%)", labelpad=2)
         for axes in rows[-1]:
             axes.set_xlabel("lands after the fix was taken (ms)", labelpad=2)
         return figure
@@ -72,6 +62,7 @@ def _landing(axes: Axes, found: Landing) -> None:
         )
         note.set_path_effects([withStroke(linewidth=2.0, foreground="white")])
     axes.yaxis.set_major_locator(MaxNLocator(nbins=6, steps=[1, 2, 2.5, 5, 10]))
+    axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,g}"))
     axes.xaxis.set_major_locator(MaxNLocator(nbins=6, steps=[1, 2, 5, 10]))
 
 
@@ -87,110 +78,13 @@ def _curve(axes: Axes, of: Given, no_delay: float, curve: Curve, n: int, end: in
     )  # fmt: skip
 
 
-def front_figure(placed: Mapping[str, Sequence[Placed]]) -> Figure:
-    """A plot for each model: by how much the worst is above that without delay, against the least power; a sign where
-    a method lands first and where it needs least, a line between, and below all the designs that no other one beats."""
-    with drawing():
-        legend = [
-            line_entry(method_name(name), line, dashes=_lands_later(name))
-            for name, line in LINES.items()
-            if name != "standard"
-        ]
-        legend.append(line_entry("best for its power", Line(SHADE, "-", "None")))
-        legend.append(line_entry("standard filter's power", Line(GREY, (0, (2, 1.5)), "None")))
-        figure, rows = sheet(2, 2, legend, height_mm=58.0)
-        for axes, (name, designs) in zip([axes for row in rows for axes in row], placed.items(), strict=True):
-            _front(axes, designs)
-            label(axes, MODELS[name].name)
-        for row in rows:
-            row[0].set_ylabel("worst error over no delay (%)", labelpad=2)
-        for axes in rows[-1]:
-            axes.set_xlabel("least power (operations per HR period)", labelpad=2)
-        return figure
-
-
-def _lands_later(method: str) -> bool:
-    return method in ("dual-rate", SUMMED, "delayed-horizon")
-
-
-def _front(axes: Axes, designs: Sequence[Placed]) -> None:
-    standard = float(next(place.speed for place in designs if place.method == "standard"))
-    shown = [place for place in designs if place.method != "standard" and place.every == 1]
-    within = [float(place.speed) for place in shown if place.speed <= FAR * standard]
-    low, edge = min(within) / 1.12, FAR * standard
-    axes.set_xscale("log")
-    axes.set_xlim(low, edge * 1.55)
-    axes.xaxis.set_major_locator(FixedLocator(_round_numbers(low, edge)))
-    axes.xaxis.set_minor_locator(NullLocator())
-    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,.0f}"))
-    highest = HIGHEST * max(_over(place) for place in shown if place.method in EXACT)
-    axes.set_ylim(0, highest)
-    axes.yaxis.set_major_locator(MaxNLocator(nbins=6, steps=[1, 2, 2.5, 5, 10]))
-    axes.axvline(standard, color=GREY, lw=0.8, ls=(0, (2, 1.5)), zorder=1)
-    best = sorted((float(place.speed), _over(place)) for place in shown if place.on_front)
-    speeds, levels = zip(*best, strict=True)
-    axes.step(
-        [*speeds, edge * 1.55], [*levels, levels[-1]], where="post", color=SHADE, lw=3.0, zorder=1.2,
-        solid_capstyle="butt",
-    )  # fmt: skip
-    beyond = higher = 0
-    for method in dict.fromkeys(place.method for place in shown):
-        of_method = sorted((place for place in shown if place.method == method), key=lambda place: place.lands)
-        inside = [place for place in of_method if place.speed <= edge]
-        if not inside:
-            _sign(axes, of_method[0], edge * (1.16 + 0.24 * beyond), _over(of_method[0]))
-            _arrow(axes, of_method[0], (edge * (1.16 + 0.24 * beyond), _over(of_method[0])), (7.5, 0))
-            beyond += 1
-            continue
-        if _over(inside[0]) > highest:
-            above = float(inside[0].speed), (0.9 - 0.1 * higher) * highest
-            higher += 1
-            _sign(axes, inside[0], *above)
-            _arrow(axes, inside[0], above, (0, 7.5))
-            shift, side = ((-6, 0), "right") if above[0] <= standard else ((6, 0), "left")
-            note = axes.annotate(
-                f"{significant(_over(inside[0]))} %", above, shift, textcoords="offset points", va="center", ha=side,
-                size=SMALL_PT,
-            )  # fmt: skip
-            note.set_path_effects([withStroke(linewidth=2.0, foreground="white")])
-            continue
-        line = LINES[method]
-        axes.plot(
-            [float(place.speed) for place in inside], [_over(place) for place in inside], line.marker,
-            color=line.colour, ls=line.dashes, lw=1.1, ms=1.25 * line.size, mew=0.5, mec="white",
-            markevery=[0, len(inside) - 1] if len(inside) > 1 else None, zorder=3, label=method_name(method),
-        )  # fmt: skip
-
-
-def _sign(axes: Axes, place: Placed, speed: float, over: float) -> None:
-    line = LINES[place.method]
-    axes.plot([speed], [over], line.marker, color=line.colour, ms=1.25 * line.size, mew=0.5, mec="white", zorder=3)
-
-
-def _arrow(axes: Axes, place: Placed, at: tuple[float, float], beyond: tuple[float, float]) -> None:
-    """From the sign of what lies beyond the edge."""
-    arrow = {"arrowstyle": "<|-", "lw": 0.8, "color": LINES[place.method].colour, "shrinkA": 0, "shrinkB": 3}
-    axes.annotate("", at, beyond, textcoords="offset points", zorder=2.5, arrowprops={**arrow, "mutation_scale": 6})
-
-
-def _over(place: Placed) -> float:
-    return 100 * place.accuracy.over_no_delay
-
-
-def _round_numbers(low: float, high: float) -> list[float]:
-    """Some two to four, at 1, 2, 3, 5 times powers of ten."""
-    leads = (1.0, 2.0, 3.0, 5.0)
-    powers = range(floor(log10(low)), ceil(log10(high)) + 1)
-    return [lead * 10.0**power for power in powers for lead in leads if low <= lead * 10.0**power <= high]
-
-
 def slow_figure(choices: Sequence[Choice]) -> Figure:
     """The best worst-step deviation at each speed, with one frame in flight and with several; the n of each stretch."""
     with drawing():
         lines = FLIGHT_LINES
         names = {False: "one frame in flight, L ≤ n N", True: "several in flight"}
         legend = [line_entry(names[several], lines[several], dashes=True) for several in names]
-        figure, ((axes,),) = sheet(1, 1, legend, height_mm=62.0, right_mm=8.0)
+        figure, ((axes,),) = sheet(1, 1, legend, height_mm=55.0, right_mm=8.0)
         speeds = {float(speed): pair for speed, pair in at_speeds(choices).items()}
         for several, line in lines.items():
             chosen = [(speed, pair[several]) for speed, pair in speeds.items() if pair[several] is not None]
@@ -217,7 +111,10 @@ def slow_figure(choices: Sequence[Choice]) -> Figure:
             axis.set_minor_locator(NullLocator())
             axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
         label(
-            axes, "A camera at 50 Hz on a slow processor", "speed (HR jobs per HR period)", "worst std of position (mm)"
+            axes,
+            "A camera at 50 Hz on a slow processor",
+            "speed (HR jobs per HR period)",
+            "worst std of the position (mm)",
         )
         return figure
 
@@ -233,9 +130,9 @@ def _stairs(axes: Axes, chosen: Sequence[tuple[float, Choice]], line: Line, name
         if choice.every != before and speed >= SLOWEST:
             axes.plot([speed], [1000 * choice.worst], line.marker, color=line.colour, ms=line.size, mew=0)
             note = axes.annotate(
-                f"n={choice.every}", (speed, 1000 * choice.worst), (2, 3) if above else (-2, -3),
+                f"n = {choice.every}", (speed, 1000 * choice.worst), (2, 3) if above else (-2, -3),
                 textcoords="offset points",
-                size=SMALL_PT, ha="left" if above else "right", va="bottom" if above else "top", color=line.colour,
+                size=SMALL_PT, ha="left" if above else "right", va="bottom" if above else "top", color=INK,
             )  # fmt: skip
             note.set_path_effects([withStroke(linewidth=2.0, foreground="white")])
         before = choice.every

@@ -78,7 +78,7 @@ def methods(results: Results) -> Rows:
     """All of them in the example, by least power."""
     rows: Rows = [
         [
-            "Method", "lands at L", "after, ms", "worst, m", "least power", "of the standard filter's, %", "verdict",
+            "Method", "lands at L", "after, ms", "worst, m", "least power", "over standard", "verdict",
             "textbook update", "first at L", "for that",
         ]
     ]  # fmt: skip
@@ -89,11 +89,11 @@ def methods(results: Results) -> Rows:
     for method, place in sorted(least.items(), key=lambda item: item[1].speed):
         accuracy, early = place.accuracy, first[method]
         row = [plain_name(method), str(place.lands), f"{of.ms(place.lands):g}", significant(accuracy.total, 4)]
-        row += [operations(place.speed), significant(100 * place.speed / standard)]
+        row += [operations(place.speed), significant(place.speed / standard)]
         row += [verdict(method, accuracy, exact_at(of, place.lands)), operations(textbook[method])]
         rows.append([*row, str(early.lands), operations(early.speed)])
     nothing = approximated.discarded
-    rows.append(["Discard what is late", "-", "-", "no bound", "-", "-", nothing.verdict, "-", "-", "-"])
+    rows.append(["Discard what is late", *"-----", f"{nothing.verdict}: no bound", *"---"])
     return rows
 
 
@@ -155,7 +155,7 @@ def approximate(results: Results) -> Rows:
         row += [percents(found.px4.worst / found.exact.worst - 1), percents(found.px4.rms / found.exact.rms - 1)]
         motion = MOTIONS[name]
         row += [
-            f"{motion.speed:g} {motion.unit}",
+            motion.what.partition(",")[0],
             *(deviation(name, value) for value in (found.fresh.bias, found.fresh.total)),
         ]
         rows.append([MODELS[name].name, *row])
@@ -182,7 +182,13 @@ def camera_rates(results: Results) -> Rows:
 
 def slow_processor(results: Results) -> Rows:
     """At some speeds, the best with one frame in flight and with several."""
-    rows: Rows = [["Speed", "one: n", "L", "worst, mm", "several: n", "L of it", "worst of it, mm", "better by, %"]]
+    rows: Rows = [
+        [
+            "Speed",
+            *(f"{flight}: {what}" for flight in ("one", "several") for what in ("n", "L", "std, mm")),
+            "better by, %",
+        ]
+    ]
     for speed, (alone, several) in at_speeds_of(results.choices).items():
         assert alone is not None
         gained = 1 - several.worst / alone.worst

@@ -46,6 +46,12 @@ def percents(share: float) -> str:
     return f"< {LEAST_PERCENT:g}" if abs(100 * share) < LEAST_PERCENT else significant(100 * share)
 
 
+def short_percents(share: float) -> str:
+    """At most two digits, for who reads in a hurry."""
+    text = significant(100 * share, 2)
+    return text.rstrip("0").rstrip(".") if "." in text else text
+
+
 def more(share: float) -> str:
     """So much above the other; nothing where it is the same but for rounding."""
     if abs(share) < ROUNDING:
@@ -84,5 +90,8 @@ def ordinal(n: int) -> str:
 
 
 def unbroken(rows: Rows) -> Rows:
-    """For a page: a line may not end between a number and its unit."""
-    return [[re.sub(r"(?<=[\d<>]) (?=[\d%a-zµ(])", "\N{NO-BREAK SPACE}", str(cell)) for cell in row] for row in rows]
+    """For a page: a line may not end between a number and its unit, nor in "GPS 0.5 m"."""
+    return [
+        [re.sub(r"(?<=[\d<>]) (?=[\d%a-zµ(])|(?<=GPS|RTK) (?=\d)", "\N{NO-BREAK SPACE}", str(cell)) for cell in row]
+        for row in rows
+    ]

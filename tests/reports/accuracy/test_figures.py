@@ -9,7 +9,8 @@ import pytest
 from matplotlib.figure import Figure
 
 from filters.accuracy import lossless
-from reports.accuracy.figures import LINES, SHADE, SLOWEST, front_figure, landing_figure, slow_figure
+from reports.accuracy.figures import SLOWEST, landing_figure, slow_figure
+from reports.accuracy.front_figure import LARGER, LINES, SHADE, SHADE_PT, front_figure
 from reports.accuracy.lead_figure import lead_figure
 from reports.pages.numbers import significant
 from sched_sim.costs.methods import DELAYED_METHODS
@@ -17,6 +18,7 @@ from studies.accuracy.given import MODELS, given
 from studies.accuracy.landing import Landing, landing
 from studies.accuracy.scale import SUMMED, Placed, cheapest, counted, scale
 from studies.accuracy.slow_processor import at_speeds, choices
+from tests.reports.explorer.test_palette import contrast
 from tests.reports.layout import flaws, texts
 
 
@@ -50,11 +52,12 @@ def test_the_answer() -> None:
     found = dict(zip(MODELS, landings(), strict=True))
     figure = lead_figure(found)
     assert flaws(figure) == []
-    assert figure.axes[0].get_title(loc="left")
-    assert float(figure.get_size_inches()[1]) * 25.4 <= 95
+    across, down = map(float, figure.get_size_inches())
+    assert down / across <= 95 / 170, "of the first screen"
+    assert across * 25.4 <= 110, "letters that are read on a phone"
     drawn = {line.get_label(): line.get_xdata() for line in figure.axes[0].lines}
     waiting = [100 * landing.waiting for landing in found.values()]
-    np.testing.assert_allclose(drawn["landing at the next fix"], waiting)
+    np.testing.assert_allclose(drawn["every fix, at the next"], waiting)
     np.testing.assert_allclose(
         drawn["every 2nd fix, on arrival"], [100 * landing.leaving_out(2) for landing in found.values()]
     )
@@ -90,7 +93,7 @@ def test_what_lies_beyond_the_axes_is_at_the_edge_with_its_number() -> None:
     for axes, name in zip(front().axes[:4], MODELS, strict=True):
         for method in ("px4-predictor", "fuse-as-fresh"):
             over = 100 * cheapest(placed(name))[method].accuracy.over_no_delay
-            assert (f"{significant(over)} %" in shown) == (over > axes.get_ylim()[1])
+            assert (f"{significant(over)} % ↑" in shown) == (over > axes.get_ylim()[1])
         for line in axes.lines:
             if line.get_transform() == axes.transData:
                 low, high = axes.get_xlim()
@@ -100,9 +103,20 @@ def test_what_lies_beyond_the_axes_is_at_the_edge_with_its_number() -> None:
 def test_no_number_of_what_lies_beyond_is_crossed_by_the_power_of_the_standard_filter() -> None:
     for axes, name in zip(front().axes[:4], MODELS, strict=True):
         standard, _ = axes.transData.transform((float(cheapest(placed(name))["standard"].speed), 0))
-        numbers = [box for text, box in texts(front()) if text in axes.texts and text.get_text().endswith(" %")]
+        numbers = [box for text, box in texts(front()) if text in axes.texts and text.get_text().endswith(" % ↑")]
         assert numbers
         assert not any(box.x0 < standard < box.x1 for box in numbers)
+
+
+def test_no_arrow_head_looks_like_the_sign_of_a_method() -> None:
+    assert not [text for axes in front().axes for text in axes.texts if getattr(text, "arrow_patch", None)]
+
+
+def test_the_line_of_the_best_hides_no_sign_and_is_in_the_legend_as_it_is_drawn() -> None:
+    drawn = [line for axes in front().axes for line in axes.lines if line.get_color() == SHADE]
+    assert {line.get_linewidth() for line in drawn} == {SHADE_PT}
+    assert len(drawn) == len(MODELS) + 1
+    assert 0.4 * LARGER * min(line.size for line in LINES.values()) > SHADE_PT
 
 
 def test_every_method_has_a_line_of_its_own() -> None:
@@ -125,6 +139,7 @@ def test_the_slow_processor() -> None:
         for speed, pair in best.items():
             if speed >= SLOWEST and (choice := pair[number]) is not None:
                 assert drawn[speed] == pytest.approx(1000 * choice.worst)
-    assert {"n=1", "n=2"} <= {text.get_text() for text, _ in texts(figure)}
+    assert {"n = 1", "n = 2"} <= {text.get_text() for text, _ in texts(figure)}
+    assert all(contrast(text.get_color(), "white") >= 4.5 for text in axes.texts)
     left = axes.get_window_extent().x0
-    assert all(box.x0 >= left for text, box in texts(figure) if text.get_text().startswith("n="))
+    assert all(box.x0 >= left for text, box in texts(figure) if text.get_text().startswith("n = "))
