@@ -21,7 +21,7 @@ PARTS = {
     "HR": Fill("#11538c", "white", "", "RAM of the HR task"),
     "LR": Fill("#fbe3b5", "#9a6200", "////", "RAM of the LR task"),
     "stack": Fill(INK, "white", "", "stacks"),
-    "code": Fill("#f2f2f2", INK, "....", "code, in flash"),
+    "code": Fill("#f2f2f2", INK, "", "code, in flash"),
 }
 """How bars look, and what they are."""
 FLASH = "code"
@@ -62,7 +62,7 @@ def memory_figure(memory: Mapping[str, Mapping[str, Parts]]) -> Figure:
                 if column == 0:
                     beside(axes, y, METHOD_NAMES[method], left=True)
             axes.set_title(title, loc="left", size=TITLE_PT)
-            axes.set_xlabel("KB", labelpad=2)
+            axes.set_xlabel("KB of 1,024 bytes", labelpad=2)
             plain(axes)
         draw_legend(figure, legend, left, top + height + AXIS_MM, across)
         return figure
