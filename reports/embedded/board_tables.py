@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from filters.covariance_forms import CovarianceFormName
 from reports.charts.panels import METHOD_NAMES
 from reports.embedded.results import PRECISIONS, Results
-from reports.embedded.words import CORES, SOURCES, WRITTEN, factor
+from reports.embedded.words import CORES, SOURCES, WRITTEN, as_ratio, factor
 from reports.pages.numbers import significant, span
 from reports.pages.stored import Rows
 from studies.embedded.folders import FOLDERS
@@ -35,9 +35,9 @@ def published(results: Results) -> Rows:
         sizes = f"{timing.states}, {timing.measurements}" if timing.measurements else str(timing.states)
         us = span(*(significant(end) for end in (timing.least_us, timing.most_us)))
         ends = span(*(significant(end) for end in times_us(timing, int(number)))) if number else "-"
-        ratio = span(*(f"{float(end):.2f}" for end in timing.ratios))
+        over = span(*map(as_ratio, timing.ratios))
         row = [timing.source, f"{timing.part}, {timing.clock_mhz} MHz", sizes, timing.job]
-        rows.append([*row, us, significant(timing.predicted_us), ratio, ends])
+        rows.append([*row, us, significant(timing.predicted_us), over, ends])
     return rows
 
 
@@ -54,7 +54,7 @@ def groups() -> Rows:
     for written, name in WRITTEN.items():
         of = [timing for timing in published_timings() if timing.written == written]
         ends = [end for timing in of for end in timing.ratios]
-        rows.append([name, len(of), span(*(f"{float(end):.2f}" for end in (min(ends), max(ends)))), factor(ends)])
+        rows.append([name, len(of), span(*map(as_ratio, (min(ends), max(ends)))), factor(ends)])
     return rows
 
 
@@ -99,10 +99,10 @@ def memory(results: Results, form: CovarianceFormName) -> Rows:
 
 
 def folders(results: Results) -> Rows:
-    """What the folder of `sched-sim code` compiles to, by method."""
+    """What the folder of `sched-sim code` compiles to, by method, in the order of all methods."""
     by_key = {(row["method"], row["precision"]): row for row in results.records("folders")}
     rows: Rows = [["Method", *(f"{what}, {precision}" for precision in PRECISIONS for what in ("code", "RAM"))]]
-    for method in FOLDERS:
+    for method in (name for name in METHOD_NAMES if name in FOLDERS):
         of = [by_key[method, precision] for precision in PRECISIONS]
         rows.append([METHOD_NAMES[method], *(f"{int(row[what]):,}" for row in of for what in ("code", "ram"))])
     return rows

@@ -5,17 +5,17 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from matplotlib.figure import Figure
-from matplotlib.patheffects import withStroke
 
 from reports.drawing.axes import AXIS_MM, EDGE_MM, plain
 from reports.drawing.band import band, band_entry
 from reports.drawing.legend import draw_legend, legend_height, line_entry
-from reports.drawing.style import GREY, INK, PALE, SMALL_PT, WIDTH_MM, Line, axes_at, drawing, page, text_width_mm
+from reports.drawing.style import GREY, INK, PALE, WIDTH_MM, Line, axes_at, drawing, page, text_width_mm
 from reports.embedded.signs import beside, numbers_at
-from reports.embedded.words import WRITTEN
+from reports.embedded.words import WRITTEN, as_ratio
+from reports.pages.numbers import span
 from studies.measurement.published_timings import PublishedTiming, Written
 
-ROW_MM, LOW, HIGH = 4.6, 0.05, 60.0
+ROW_MM, LOW, HIGH, RIGHT_MM = 4.6, 0.05, 25.0, 20.0
 LINES: Mapping[Written, Line] = {
     "plain loops": Line(INK, "-", "o", 4.2),
     "with more around it": Line(GREY, "-", "D", 3.8),
@@ -26,14 +26,14 @@ LINES: Mapping[Written, Line] = {
 
 
 def published_figure(timings: Mapping[str, PublishedTiming], within: float) -> Figure:
-    """A row for each timing, by its name: published over predicted by counts, on a logarithmic axis; grouped by how the
-    code is written.
+    """A row for each timing, by its name: published over predicted by counts, on a logarithmic axis, and in numbers
+    beside; grouped by how the code is written.
 
     within: the factor within which plain loops are, which is shaded.
     """
     with drawing():
         left = EDGE_MM + 2.0 + max(map(text_width_mm, timings))
-        across = WIDTH_MM - left - 4.0
+        across = WIDTH_MM - left - RIGHT_MM
         height = ROW_MM * len(timings) + 1.0
         legend = [line_entry(WRITTEN[written], line, dashes=False) for written, line in LINES.items()]
         legend.append(band_entry(f"within a factor of {within:.2g}"))
@@ -48,9 +48,7 @@ def published_figure(timings: Mapping[str, PublishedTiming], within: float) -> F
             beside(axes, y, name, left=True)
             axes.plot(ends, [y, y], color=line.colour, lw=1.1, zorder=2)
             axes.plot(ends, [y, y], line.marker, color=line.colour, ms=line.size, mew=0, ls="none", zorder=3)
-            text = " to ".join(dict.fromkeys(f"{end:.2f}" for end in ends))
-            note = axes.annotate(text, (ends[1], y), (6, 0), textcoords="offset points", va="center", size=SMALL_PT)
-            note.set_path_effects([withStroke(linewidth=2.0, foreground="white")])
+            beside(axes, y, span(*map(as_ratio, timing.ratios)), left=False)
         numbers_at(axes.xaxis, (0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20))
         axes.set_xlabel("published over predicted time (logarithmic); right of 1 the board is slower", labelpad=2)
         plain(axes)

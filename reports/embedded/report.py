@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from reports.embedded import board_tables, tables
+from reports.embedded.answer_figure import answer_figure, rows_of
 from reports.embedded.compared import compared
 from reports.embedded.instructions_figure import instructions_figure
 from reports.embedded.least_speed_figure import least_speed_figure
@@ -17,13 +18,15 @@ from reports.pages.machine import marked
 from reports.pages.pictures import files, pictures
 from reports.pages.render import csv_bytes, render
 from studies.embedded.sources import FORMS
+from studies.measurement.published_timings import published_timings
 
-TITLE = "What a filter asks of a board: counts, emulated cores, times here, published timings"
+TITLE = "Can counted operations tell what a filter asks of a board?"
 
 
 def build(results: Results) -> dict[str, bytes]:
     """All files of the report by name, as a pure function of what was emulated and timed."""
     found, live = compared(results), recorded(results.tables)
+    halves = rows_of(found, published_timings())
     rows = {
         **{f"jobs-{form}": tables.jobs(results, form) for form in FORMS},
         **{f"times-{form}": tables.times(results, form) for form in FORMS},
@@ -38,6 +41,7 @@ def build(results: Results) -> dict[str, bytes]:
         "folders": board_tables.folders(results),
         "checks": board_tables.checks(results),
         "staircase": live_rows(live.runs),
+        "answer": tables.answer(halves),
     }
     boards = about_boards(results)
     by_jobs = {
@@ -46,6 +50,7 @@ def build(results: Results) -> dict[str, bytes]:
     }
     figures = pictures(
         {
+            "answer.svg": answer_figure(halves),
             "least-speed.svg": least_speed_figure([one for one in found if one.method in PAPERS]),
             "least-speed-others.svg": least_speed_figure([one for one in found if one.method in OTHERS]),
             "instructions.svg": instructions_figure(tables.per_operation(results), ASSUMED),

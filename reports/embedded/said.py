@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
+from itertools import combinations
+from math import ceil
 from typing import Any
 
 from reports.charts.panels import METHOD_NAMES
@@ -11,15 +13,16 @@ from reports.embedded import board_tables
 from reports.embedded.compared import Compared, largest
 from reports.embedded.results import Results
 from reports.embedded.tables import per_operation
-from reports.embedded.words import CORES, HERE, IN_HARDWARE, PAPERS, SOURCES, factor, percent_up, signed
+from reports.embedded.words import CORES, HERE, IN_HARDWARE, PAPERS, SOURCES, as_ratio, factor, percent_up, signed
 from reports.pages.machine import legend, timed_on
 from reports.pages.measurements import counted_on
 from reports.pages.numbers import span
+from sched_sim.costs.table_file import load_costs
 from sched_sim.processors.part_file import load_part
 from studies.embedded.folders import FOLDERS
 from studies.embedded.known_loop import INSTRUCTIONS
 from studies.embedded.published import times_us
-from studies.embedded.sources import DESIGNS, METHODS, counted
+from studies.embedded.sources import DESIGNS, FIRST, METHODS, counted, relative_speed
 from studies.measurement.emulation.toolchain import FLAGS
 from studies.measurement.published_timings import published_timings
 
@@ -40,12 +43,22 @@ def about_speeds(results: Results, found: Sequence[Compared]) -> dict[str, Any]:
         raise ValueError("in the short form propagate takes as many instructions an operation as update")
     here = [name for name in HERE if name != "numpy" and any(one.source == name for one in found)]
     return {
+        "apart": f"{ceil(100 * (swapped(emulated) - 1))}",
+        "here_apart": f"{ceil(100 * (swapped([one for one in found if one.source in here]) - 1))}",
+        "paper": {
+            method: f"{float(relative_speed(load_costs('steffes2014'), method, FIRST)):.2f}"
+            for method in ("dual-rate", "larsen")
+        },
+        "by_counts": {
+            method: f"{float(relative_speed(counted('textbook'), method, FIRST)):.2f}"
+            for method in ("dual-rate", "larsen")
+        },
         "papers": percent_up(abs(papers.deviation)),
         "most": percent_up(abs(largest(emulated).deviation)),
         "short_papers": signed(_of(emulated, "short", ["dual-rate"]).deviation),
         "here": {
             form: " and ".join(
-                f"{percent_up(abs(_of([one for one in found if one.source == name], form, PAPERS).deviation))} % "
+                f"{100 * abs(float(_of([one for one in found if one.source == name], form, PAPERS).deviation)):.1f} % "
                 f"({SOURCES[name]})"
                 for name in here
             )
@@ -54,11 +67,28 @@ def about_speeds(results: Results, found: Sequence[Compared]) -> dict[str, Any]:
         "step": {kind: span(*(f"{end:.1f}" for end in (min(each), max(each)))) for kind, each in step.items()},
         "designs": "; ".join(f"{of.N}, {of.M}, {of.L}" for of in DESIGNS),
         "number": len(DESIGNS),
+        "methods": len(METHODS) - 1,
     }
 
 
 def _of(found: Sequence[Compared], form: str, methods: Sequence[str]) -> Compared:
     return largest(one for one in found if one.form == form and one.method in methods)
+
+
+def swapped(found: Sequence[Compared]) -> Fraction:
+    """The largest ratio of the counted least speeds of two methods that a source has in the other order."""
+    by_design: dict[Any, list[Compared]] = {}
+    for one in found:
+        by_design.setdefault((one.form, one.timing, one.source), []).append(one)
+    return max(
+        (
+            max(one.counted / other.counted, other.counted / one.counted)
+            for of in by_design.values()
+            for one, other in combinations(of, 2)
+            if (one.counted - other.counted) * (one.speed - other.speed) < 0
+        ),
+        default=Fraction(1),
+    )
 
 
 def _each(results: Results, method: str, kind: str, form: Any) -> list[float]:
@@ -80,7 +110,6 @@ def about_jobs(results: Results) -> dict[str, Any]:
         "assumed": f"{ASSUMED:g}",
         "hardware": span(*(f"{end:.1f}" for end in (min(hardware), max(hardware)))),
         "software": span(*(f"{end:.0f}" for end in (min(software), max(software)))),
-        "large": {form: span(*(f"{end:.1f}" for end in (min(of), max(of)))) for form, of in large.items()},
         "over": {form: span(*(f"{end / ASSUMED:.2f}" for end in (min(of), max(of)))) for form, of in large.items()},
         "split": span(*(f"{end:.1f}" for end in (min(split), max(split)))),
     }
@@ -106,9 +135,9 @@ def about_boards(results: Results) -> dict[str, Any]:
     cycles = [timing.most_us * timing.clock_mhz / number for timing, number in looked]
     return {
         "within": float(factor(by_written["plain loops"])),
-        "plain": span(*(f"{float(end):.2f}" for end in ends["plain loops"])),
+        "plain": span(*map(as_ratio, ends["plain loops"])),
         "generic": span(*(f"{float(end):.0f}" for end in ends["generic matrix class"])),
-        "sparse": span(*(f"{float(end):.2f}" for end in ends["zeros left out"])),
+        "sparse": span(*map(as_ratio, ends["zeros left out"])),
         "faster": f"{float(1 / ends['zeros left out'][0]):.0f}",
         "plain_number": len(plain),
         "inside": f"{len(plain) - len(above)} are in that range, the others up to {100 * max(above):.0f} % above it"

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from statistics import median
 
 from filters.covariance_forms import CovarianceFormName
 from reports.charts.panels import METHOD_NAMES
+from reports.embedded.answer_figure import Row
 from reports.embedded.compared import Compared, largest
 from reports.embedded.results import Results
 from reports.embedded.words import (
@@ -18,7 +19,7 @@ from reports.embedded.words import (
     microseconds,
     signed,
 )
-from reports.pages.machine import marked, unmarked
+from reports.pages.machine import MARK, marked, unmarked
 from reports.pages.measurements import Shown, measurement_rows
 from reports.pages.numbers import span
 from reports.pages.stored import Rows
@@ -98,6 +99,16 @@ def speeds(found: Sequence[Compared], form: CovarianceFormName) -> Rows:
         cells = [_speed(of_method[name]) for name in names]
         emulated = largest(one for one in of_method.values() if one.source in CORES)
         rows.append([METHOD_NAMES[method], f"{float(first.counted):.3f}", *cells, signed(emulated.deviation)])
+    return rows
+
+
+def answer(halves: Mapping[str, Sequence[Row]]) -> Rows:
+    """For a spreadsheet: of what is timed here, in columns of its own."""
+    rows: Rows = [["of", "source", "least", "most", *map(marked, ("timed here", "least", "most"))]]
+    for half, found in halves.items():
+        for row in found:
+            cells, none = [row.name, *(f"{float(end):.4f}" for end in row.ends)], [""] * 3
+            rows.append([half, *none, *cells] if MARK in row.name else [half, *cells, *none])
     return rows
 
 

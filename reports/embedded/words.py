@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
+from math import ceil
 
 from reports.drawing.style import SOURCES as KINDS
 from reports.drawing.style import Line
@@ -64,25 +65,32 @@ def signed(deviation: float | Fraction) -> str:
     return "0.0" if text in ("+0.0", "-0.0") else true_minus(text)
 
 
-def percent_up(share: float | Fraction) -> str:
-    """In percent, one decimal, of a largest deviation."""
-    return f"{100 * float(share):.1f}"
+def percent_up(share: Fraction) -> str:
+    """In percent, one decimal, never less than it is: within so much a largest deviation is."""
+    return f"{ceil(1000 * share) / 10:.1f}"
 
 
 def factor(ratios: Sequence[Fraction]) -> str:
-    """Within which factor of 1 all of them are."""
-    return f"{float(max(max(ratio, 1 / ratio) for ratio in ratios)):.2g}"
+    """Within which factor of 1 all of them are: two digits, never less than it is."""
+    most = max(max(ratio, 1 / ratio) for ratio in ratios)
+    return f"{ceil(most)}" if most >= 10 else f"{ceil(10 * most) / 10:g}"
+
+
+def as_ratio(value: Fraction) -> str:
+    """Of one time to another: two decimals, one from 10 on."""
+    return f"{float(value):.{1 if value >= 10 else 2}f}"
 
 
 def on_page(rows: Rows) -> Rows:
-    """The first cell of a row is empty where it is that of the row above, and a line may not end within "15, 3", "168
-    MHz" or "cortex-m4f"."""
-    heading, *body = rows
-    above = [None, *(row[0] for row in body[:-1])]
-    shown = [["" if row[0] == before else row[0], *row[1:]] for row, before in zip(body, above, strict=True)]
-    return [heading, *([_unbroken(str(cell)) for cell in row] for row in shown)]
+    """A line may not end within "15, 3", "168 MHz", "cortex-m4f" or a date. A method and its job share a cell, so that
+    what a row is of is seen beside its numbers, on a phone and where a page of paper begins too."""
+    if list(rows[0][:2]) == ["Method", "job"]:
+        rows = [["Job", *rows[0][2:]], *([f"{method}: {job}", *rest] for method, job, *rest in rows[1:])]
+    return [[_unbroken(str(cell)) for cell in row] for row in rows]
 
 
 def _unbroken(cell: str) -> str:
     together = re.sub(r"(?<=\d,) (?=\d)|(?<=\d) (?=MHz)", "\N{NO-BREAK SPACE}", cell)
-    return re.sub(r"cortex-[\w-]+", lambda name: name[0].replace("-", "\N{NON-BREAKING HYPHEN}"), together)
+    return re.sub(
+        r"cortex-[\w-]+|\d{4}-\d\d-\d\d", lambda name: name[0].replace("-", "\N{NON-BREAKING HYPHEN}"), together
+    )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from functools import cache
 
@@ -11,6 +12,7 @@ from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
 
 from reports.drawing.style import Line
+from reports.embedded.answer_figure import answer_figure, rows_of
 from reports.embedded.board_tables import KB, memory_bytes, timings, whole_bytes
 from reports.embedded.compared import Compared, compared
 from reports.embedded.instructions_figure import instructions_figure
@@ -22,6 +24,7 @@ from reports.embedded.results import Results, read
 from reports.embedded.tables import per_operation
 from reports.embedded.words import CORES, LINES, OTHERS, PAPERS
 from studies.embedded.sources import FIRST, FORMS
+from studies.measurement.published_timings import published_timings
 from tests.reports import published
 from tests.reports.explorer.test_palette import contrast, luminance
 from tests.reports.layout import flaws, texts
@@ -71,8 +74,30 @@ def test_nothing_lies_beyond_the_axes(methods: Sequence[str]) -> None:
         assert high > max(furthest, WITHIN)
 
 
-def test_the_first_figure_leaves_room_on_the_first_screen() -> None:
-    assert 25.4 * speeds(PAPERS).get_size_inches()[1] <= 95
+@cache
+def answer() -> Figure:
+    return answer_figure(rows_of(found(), published_timings()))
+
+
+def test_the_figure_of_the_answer_leaves_room_on_the_first_screen_and_is_read_on_a_phone() -> None:
+    assert flaws(answer()) == []
+    across, down = map(float, answer().get_size_inches())
+    assert down / across <= 95 / 170
+    assert across * 25.4 <= 110
+
+
+def test_the_figure_of_the_answer_has_all_that_is_compared() -> None:
+    (axes,) = answer().axes
+    signs = {
+        str(line.get_label()): list(map(float, line.get_xdata())) for line in axes.lines if line.get_marker() != "None"
+    }
+    emulated = [1 + float(one.deviation) for one in found() if one.source in CORES]
+    assert signs["four emulated cores"] == pytest.approx([min(emulated), max(emulated)])
+    ends = [end for of in signs.values() for end in of]
+    low, high = axes.get_xlim()
+    assert low < min(ends) < max(ends) < high
+    ways = [float(ratio) for timing in published_timings() for ratio in timing.ratios]
+    assert {min(ways), max(ways)} <= set(ends)
 
 
 @pytest.mark.parametrize("methods", [PAPERS, OTHERS])
@@ -100,6 +125,9 @@ def test_instructions_for_each_operation() -> None:
 def test_published_timings() -> None:
     figure = published_figure(timings(), 1.5)
     assert flaws(figure) == []
+    numbers = [box for text, box in texts(figure) if re.fullmatch(r"[\d.]+ to [\d.]+|\d\.\d\d", text.get_text())]
+    right = figure.axes[0].get_window_extent().x1
+    assert len([box for box in numbers if box.x0 >= right]) == len(timings()), "no line crosses a number"
     signs = [line for line in figure.axes[0].lines if line.get_linestyle() == "None"]
     rows = grouped(timings())
     assert [tuple(map(float, line.get_xdata())) for line in signs] == [tuple(map(float, of.ratios)) for _, of in rows]
