@@ -26,7 +26,7 @@ LARGER = 1.5
 def lead_figure(landings: Mapping[str, Landing]) -> Figure:
     """A row for each model: in percent over landing on arrival with every fix, on a logarithmic axis."""
     with drawing():
-        legend = [line_entry("every fix, at the next", EVERY_LINES[1], dashes=False)]
+        legend = [line_entry("every fix, landing at the next one", EVERY_LINES[1], dashes=False)]
         legend += [line_entry(f"{ordinal(n)} fix, on arrival", EVERY_LINES[n], dashes=False) for n in SHOWN]
         left = EDGE_MM + 2.0 + max(text_width_mm(MODELS[name].name) for name in landings)
         height = ROW_MM * len(landings)
@@ -45,7 +45,7 @@ def lead_figure(landings: Mapping[str, Landing]) -> Figure:
         axes.fmt_ydata = lambda row: MODELS[list(landings)[round(row)]].name
         axes.tick_params(axis="y", length=0)
         plain(axes)
-        _signs(axes, 1, [found.waiting for found in landings.values()], "every fix, at the next")
+        _signs(axes, 1, [found.waiting for found in landings.values()], "every fix, landing at the next one")
         for n in SHOWN:
             costs = [found.leaving_out(n) for found in landings.values()]
             _signs(axes, n, costs, f"{ordinal(n)} fix, on arrival")

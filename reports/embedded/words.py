@@ -82,7 +82,8 @@ def as_ratio(value: Fraction) -> str:
 
 
 def on_page(rows: Rows) -> Rows:
-    """A line may not end within "15, 3", "168 MHz", "cortex-m4f" or a date. A method and its job share a cell, so that
+    """A line may not end within "15, 3", "168 MHz", "inconclusive: few",
+    "cortex-m4f" or a date. A method and its job share a cell, so that
     what a row is of is seen beside its numbers, on a phone and where a page of paper begins too."""
     if list(rows[0][:2]) == ["Method", "job"]:
         rows = [["Job", *rows[0][2:]], *([f"{method}: {job}", *rest] for method, job, *rest in rows[1:])]
@@ -90,7 +91,7 @@ def on_page(rows: Rows) -> Rows:
 
 
 def _unbroken(cell: str) -> str:
-    together = re.sub(r"(?<=\d,) (?=\d)|(?<=\d) (?=MHz)", "\N{NO-BREAK SPACE}", cell)
+    together = re.sub(r"(?<=\d,) (?=\d)|(?<=\d) (?=MHz)|(?<=inconclusive:) ", "\N{NO-BREAK SPACE}", cell)
     return re.sub(
         r"cortex-[\w-]+|\d{4}-\d\d-\d\d", lambda name: name[0].replace("-", "\N{NON-BREAKING HYPHEN}"), together
     )

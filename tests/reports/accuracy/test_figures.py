@@ -57,7 +57,7 @@ def test_the_answer() -> None:
     assert across * 25.4 <= 110, "letters that are read on a phone"
     drawn = {line.get_label(): line.get_xdata() for line in figure.axes[0].lines}
     waiting = [100 * landing.waiting for landing in found.values()]
-    np.testing.assert_allclose(drawn["every fix, at the next"], waiting)
+    np.testing.assert_allclose(drawn["every fix, landing at the next one"], waiting)
     np.testing.assert_allclose(
         drawn["every 2nd fix, on arrival"], [100 * landing.leaving_out(2) for landing in found.values()]
     )

@@ -423,6 +423,7 @@ def test_figures_as_they_are_written() -> None:
             ),
         ],
     ]
+    assert on_page([["inconclusive: few"]]) == [["inconclusive:\N{NO-BREAK SPACE}few"]]
     assert on_page([["Method", "job", "c"], ["x", "y", "1"]]) == [["Job", "c"], ["x: y", "1"]]
 
 
