@@ -10,10 +10,10 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from reports.drawing.axes import decades
-from reports.drawing.legend import Entry, line_entry
+from reports.drawing.legend import Entry
 from reports.drawing.sheet import label, sheet
 from reports.drawing.style import INK, drawing
-from reports.modular.styles import KIND_LINES
+from reports.modular.styles import KIND_LINES, curve_entry
 from reports.pages.machine import marked
 from studies.machines.parts import PartName, PartTimes
 from studies.machines.ranges import Range, range_of
@@ -34,10 +34,10 @@ def cost_figure(rows: Sequence[Record], measurements: Sequence[PartTimes]) -> Fi
     states = sorted({int(row["states"]) for row in rows})
     with drawing():
         legend = [
-            *(line_entry(kind, line) for kind, line in KIND_LINES.items()),
+            *(curve_entry(kind, line, _width(kind)) for kind, line in KIND_LINES.items()),
             Entry(marked("all measurements"), 1.2, _bar),
         ]
-        figure, plots = sheet(2, 2, legend, height_mm=36.0)
+        figure, plots = sheet(2, 2, legend, height_mm=30.0)
         for of_row, (column, (up, low, high)) in zip(plots, shown.items(), strict=True):
             for axes, part in zip(of_row, ("predict", "correct"), strict=True):
                 for kind, line in KIND_LINES.items():
@@ -46,7 +46,7 @@ def cost_figure(rows: Sequence[Record], measurements: Sequence[PartTimes]) -> Fi
                         axes.vlines(int(row["states"]), *_over(measurements, row), color=INK, lw=0.8, zorder=3)
                     axes.plot(
                         [int(row["states"]) for row in of_kind], [float(row[column]) for row in of_kind], line.marker,
-                        color=line.colour, ms=line.size, mew=0, ls=line.dashes, lw=WIDTHS.get(kind, 1.1),
+                        color=line.colour, ms=line.size, mew=0, ls=line.dashes, lw=_width(kind),
                         label=kind,
                     )  # fmt: skip
                 axes.set_xscale("log")
@@ -59,6 +59,10 @@ def cost_figure(rows: Sequence[Record], measurements: Sequence[PartTimes]) -> Fi
                 title = part.capitalize() if column == OPERATIONS else ""
                 label(axes, title, "states", up if part == "predict" else "")
         return figure
+
+
+def _width(kind: str) -> float:
+    return WIDTHS.get(kind, 1.1)
 
 
 def _bar(axes: Axes, x: float, y: float) -> None:

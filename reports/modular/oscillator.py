@@ -1,4 +1,4 @@
-"""The oscillator of the report on modular filters: a run, residuals against dropout, sampling rates, consistency."""
+"""The oscillator of the report on modular filters: a run, residuals against dropout, consistency."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from reports.drawing.axes import decades
 from reports.drawing.legend import fill_entries, line_entry
 from reports.drawing.sheet import label, sheet
 from reports.drawing.style import GREY, INK, PALE, SMALL_PT, SOURCE_LINES, Fill, Line, drawing
-from reports.modular.styles import QUANTITY_LINES
+from reports.modular.styles import QUANTITY_LINES, band, curve_entry, span_band
 from studies.modular.oscillator_run import ACCELERATION_SIGMA, AMPLITUDES, POSITION_SIGMA_M
 
 Columns: TypeAlias = Mapping[str, FloatArray]
@@ -29,8 +29,9 @@ LINES = {name: QUANTITY_LINES[name] for name in QUANTITIES}
 
 TRUE = Line(INK, "-", "")
 ESTIMATE = Line("#11538c", "-", "")
+TRUE_PT, ESTIMATE_PT, ERROR_PT = 0.7, 1.8, 0.9
 MEASURED = Line("#a5620a", "-", ".", 5.0)
-BAND = {"band:": Fill("#cfdde9", ESTIMATE.colour, "", "twice the standard deviation that the filter gives")}
+BAND = {"band:": Fill("#cfdde9", "#5f87ab", "", "twice the standard deviation that the filter gives")}
 BOUNDS = (Fill(PALE, GREY, "", "95 % bounds"), Fill("#bdbdbd", INK, "", "95 % bounds"))
 """The wider ones first."""
 
@@ -47,12 +48,13 @@ def history_figure(run: Columns, periods_s: float) -> Figure:
     """One run: states at the left, errors at the right, up to so many seconds."""
     with drawing():
         legend = [
-            line_entry("true", TRUE),
-            line_entry("estimate, and its error", ESTIMATE),
+            curve_entry("true", TRUE, TRUE_PT),
+            curve_entry("estimate", ESTIMATE, ESTIMATE_PT),
+            curve_entry("its error", ESTIMATE, ERROR_PT),
             line_entry("measurement", MEASURED, dashes=False),
             *fill_entries(BAND),
         ]
-        figure, rows = sheet(3, 2, legend, height_mm=29.0, stacked=True)
+        figure, rows = sheet(3, 2, legend, height_mm=24.0, stacked=True)
         kept = run["time_s"] <= periods_s
         time_s = run["time_s"][kept]
         for (left, right), (name, unit) in zip(rows, QUANTITIES.items(), strict=True):
@@ -60,11 +62,11 @@ def history_figure(run: Columns, periods_s: float) -> Figure:
             if name in SENSORS:
                 seen = run[f"{name} measured"][kept]
                 left.plot(time_s, seen, MEASURED.marker, color=MEASURED.colour, ms=3.2, mew=0, zorder=4)
-            left.plot(time_s, estimate, color=ESTIMATE.colour, lw=1.8, label="estimate")
-            left.plot(time_s, truth, color=INK, lw=0.7, label="true")
-            right.fill_between(time_s, -2 * sigma, 2 * sigma, color=BAND["band:"].colour, lw=0)
+            left.plot(time_s, estimate, color=ESTIMATE.colour, lw=ESTIMATE_PT, label="estimate")
+            left.plot(time_s, truth, color=INK, lw=TRUE_PT, label="true")
+            band(right, time_s, -2 * sigma, 2 * sigma, BAND["band:"])
             right.axhline(0.0, color=INK, lw=0.6)
-            right.plot(time_s, estimate - truth, color=ESTIMATE.colour, lw=0.9, label="error")
+            right.plot(time_s, estimate - truth, color=ESTIMATE.colour, lw=ERROR_PT, label="error")
             settled = np.abs(np.concatenate([2 * sigma, estimate - truth])[np.tile(time_s > 0.1 * periods_s, 2)])
             right.set_ylim(-1.2 * settled.max(), 1.2 * settled.max())
             for axes in (left, right):
@@ -86,50 +88,15 @@ def dropout_figure(rows: Sequence[Record]) -> Figure:
         for axes, title, up, what in zip(plots, titles, names, ("error", "innovation", "after"), strict=True):
             for name in QUANTITIES if what == "error" else SENSORS:
                 unit = 0.01 * OSCILLATOR_AMPLITUDES[name] if what == "error" else NOISES[name]
-                value, *ends = (_column(shown, f"{what} {end}{UNITS[name]}") / unit for end in ENDS)
-                _curve(axes, _spaced(_column(shown, "dropout")), value, ends, LINES[name], name)
+                value, *ends = (column(shown, f"{what} {end}{UNITS[name]}") / unit for end in ENDS)
+                curve(axes, _spaced(column(shown, "dropout")), value, ends, LINES[name], name)
             label(axes, title, "dropout (%)", up)
             dropout_axis(axes)
         decades(plots[0], "y", 1, 20_000)
-        _level(plots[0], 100 * float(rows[0]["still"]), "motion ignored")
+        level(plots[0], 100 * float(rows[0]["still"]), "motion ignored")
         decades(plots[1], "y", 0.7, 2_000)
         decades(plots[2], "y", 0.005, 3)
         plots[2].yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-        return figure
-
-
-def rate_figure(by_rate: Mapping[int, Sequence[Record]], reach: float) -> Figure:
-    """The error of position for each sampling rate: against dropout, and against the time between measurements.
-
-    by_rate: by measurements in a period. reach: in periods, see `studies.modular.oscillator.reach`.
-    """
-    lines = dict(zip(by_rate, SOURCE_LINES, strict=False))
-    with drawing():
-        legend = [line_entry(f"{rate} in a period", line) for rate, line in lines.items()]
-        figure, [[left, right]] = sheet(1, 2, legend)
-        for rate, rows in by_rate.items():
-            shown = [row for row in rows if float(row["dropout"]) >= SHOWN[0]]
-            value, *ends = (
-                _column(shown, f"error {end}m") / (0.01 * OSCILLATOR_AMPLITUDES["position"]) for end in ENDS
-            )
-            name = f"{rate} in a period"
-            _curve(left, _spaced(_column(shown, "dropout")), value, ends, lines[rate], name)
-            _curve(right, _column(shown, "interval"), value, ends, lines[rate], name)
-        for axes in (left, right):
-            decades(axes, "y", 0.5, 50_000)
-        still = 100 * float(next(iter(by_rate.values()))[0]["still"])
-        _level(left, still)
-        _level(right, still, "motion ignored")
-        dropout_axis(left)
-        label(left, "Against dropout", "dropout (%)", "error of position over amplitude (%)")
-        decades(right, "x", 0.002, 7)
-        right.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-        right.axvline(reach, color=GREY, lw=0.9, ls=(0, (2, 1.5)), zorder=1)
-        right.annotate(
-            f"{reach:.2g}: the jerk has\nmoved the mass by\none sensor noise", (reach, 0.03), (4, 0),
-            xycoords=right.get_xaxis_transform(), textcoords="offset points", va="bottom", size=SMALL_PT,
-        )  # fmt: skip
-        label(right, "Against the gap", "mean time between measurements (periods)")
         return figure
 
 
@@ -140,25 +107,27 @@ def nees_figure(
 
     bounds: by what they are of, the wider ones first.
     """
-    lines = dict(zip(overall, SOURCE_LINES[1:], strict=False))
+    lines = {name: line._replace(dashes="-") for name, line in zip(overall, SOURCE_LINES[1:], strict=False)}
     bands = dict(zip(bounds, BOUNDS, strict=True))
     with drawing():
         fills = {f"{group}:": band._replace(meaning=f"{band.meaning}, {group}") for group, band in bands.items()}
         legend = [*(line_entry(name, line) for name, line in lines.items()), *fill_entries(fills)]
         figure, [[left, right]] = sheet(1, 2, legend)
         for group, (low, high) in bounds.items():
-            left.axhspan(low, high, color=bands[group].colour, lw=0, zorder=0.3)
+            span_band(left, low, high, bands[group])
         for name, line in lines.items():
             left.plot(
-                course["time_s"], course[name], line.marker, color=line.colour, ls="-", lw=0.8, ms=0.8 * line.size,
+                course["time_s"], course[name], line.marker, color=line.colour, ls=line.dashes, lw=0.8, ms=line.size,
                 mew=0, markevery=12, label=name,
             )  # fmt: skip
         left.set(xlim=(course["time_s"][0], course["time_s"][-1]), ylim=(0, None))
         label(left, "Dropout 50 %", "time (s)", "NEES, mean over the runs")
         for name, rows in overall.items():
             shown = [row for row in rows if float(row["dropout"]) >= SHOWN[0]]
-            at, value, line = _spaced(_column(shown, "dropout")), _column(shown, "nees"), lines[name]
-            right.plot(at, value, line.marker, color=line.colour, ms=line.size, mew=0, ls="-", lw=1.0, label=name)
+            at, value, line = _spaced(column(shown, "dropout")), column(shown, "nees"), lines[name]
+            right.plot(
+                at, value, line.marker, color=line.colour, ms=line.size, mew=0, ls=line.dashes, lw=1.0, label=name
+            )
         right.set_ylim(0, None)
         for axes in (left, right):
             axes.axhline(3.0, color=INK, lw=0.7, zorder=1)
@@ -187,12 +156,13 @@ def _spaced(dropouts: FloatArray) -> FloatArray:
     return 1 / (1 - dropouts)
 
 
-def _column(rows: Iterable[Record], name: str) -> FloatArray:
+def column(rows: Iterable[Record], name: str) -> FloatArray:
+    """As numbers."""
     return np.array([float(row[name]) for row in rows])
 
 
-def _curve(axes: Axes, across: FloatArray, up: FloatArray, ends: Sequence[FloatArray], line: Line, name: str) -> None:
-    """ends: of the bars, low and high."""
+def curve(axes: Axes, across: FloatArray, up: FloatArray, ends: Sequence[FloatArray], line: Line, name: str) -> None:
+    """With bars, whose ends are low and high."""
     low, high = ends
     drawn = axes.errorbar(
         across, up, [up - low, high - up], fmt=line.marker, color=line.colour, ms=line.size,
@@ -201,7 +171,8 @@ def _curve(axes: Axes, across: FloatArray, up: FloatArray, ends: Sequence[FloatA
     drawn.lines[0].set_label(name)
 
 
-def _level(axes: Axes, at: float, text: str = "") -> None:
+def level(axes: Axes, at: float, text: str) -> None:
+    """A dashed line across, with what it is."""
     axes.axhline(at, color=GREY, lw=0.9, ls=(0, (2, 1.5)), zorder=1)
     axes.annotate(
         text, (0.02, at), (0, 2), xycoords=axes.get_yaxis_transform(), textcoords="offset points", va="bottom",

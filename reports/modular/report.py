@@ -3,22 +3,20 @@ what its filter bears of dropout, delay and ignorance, what it costs, and when i
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 from matplotlib.figure import Figure
 
 from filters.systems.rocket import BURN_S
 from filters.systems.spring_mass import period_s
-from reports.charts.panels import Panel
 from reports.modular import future, future_tables, future_words, oscillator, rocket, schedule, tables, words
 from reports.modular.costs import cost_figure
+from reports.modular.gap import gap_figure
 from reports.modular.late import late_figure
 from reports.modular.residual_time import residual_time_figure
 from reports.modular.results import OWN_MODEL, SHOWN_PERIODS, Results
 from reports.modular.rocket_rows import READINGS
-from reports.modular.schedule_gantt import fix_panels
+from reports.modular.schedule_gantt import clocks_shown, fix_frames, fix_rows
 from reports.modular.setting_words import setting_words
-from reports.pages.pictures import files, pictures
+from reports.pages.pictures import Sliding, files, pictures
 from reports.pages.render import csv_bytes, render
 from studies.modular import oscillator as spring_mass
 from studies.modular.late_measurements import SENSORS
@@ -26,7 +24,7 @@ from studies.modular.oscillator_run import OSCILLATOR
 from studies.modular.rocket import BASE, PHASES
 from studies.modular.rocket_schedule import compared_at, counted
 
-TITLE = "Modular Kalman filters: what dropout, delay and ignorance do to them, what they cost, and when they land"
+TITLE = "Modular Kalman filters: what they bear of dropout and delay, what they cost, when they land"
 
 
 def build(results: Results) -> dict[str, bytes]:
@@ -51,7 +49,11 @@ def build(results: Results) -> dict[str, bytes]:
         "stiffness": future_tables.stiffness_rows(results),
         "covariances": future_tables.covariance_rows(results),
     }
-    figures = pictures(_figures(results))
+    misses = schedule.miss_rows_of(results.records("schedule-misses"))
+    fixes = fix_frames(counted(), clocks_shown(misses))
+    rows["one-fix"] = fix_rows(fixes)
+    fix = Sliding("clock of the processor", [*fixes.values()], [*fixes].index(compared_at(misses)))
+    figures = pictures({**_figures(results), "one-fix.svg": fix})
     pages = render(
         "modular",
         TITLE,
@@ -81,7 +83,7 @@ def build(results: Results) -> dict[str, bytes]:
     }
 
 
-def _figures(results: Results) -> dict[str, Figure | Sequence[Panel]]:
+def _figures(results: Results) -> dict[str, Figure]:
     misses = schedule.miss_rows_of(results.records("schedule-misses"))
     half = {name: results.records("dropout", group=name, dropout="0.5")[0] for name in (OWN_MODEL, "usual")}
     return {
@@ -90,8 +92,9 @@ def _figures(results: Results) -> dict[str, Figure | Sequence[Panel]]:
         ),
         "dropout.svg": oscillator.dropout_figure(results.records("dropout", group="usual")),
         "residual-time.svg": residual_time_figure(results.columns("residual-run"), results.records("residual-course")),
-        "rates.svg": oscillator.rate_figure(
-            {rate: results.records("dropout", group=tables.group_of(rate)) for rate in words.RATES}, spring_mass.reach()
+        "rates.svg": gap_figure(
+            {rate: results.records("dropout", group=tables.group_of(rate)) for rate in words.RATES},
+            1 / spring_mass.BORNE,
         ),
         "consistency.svg": oscillator.nees_figure(
             results.columns("consistency"),
@@ -108,7 +111,6 @@ def _figures(results: Results) -> dict[str, Figure | Sequence[Panel]]:
         "misses.svg": schedule.miss_figure(misses),
         "responses.svg": schedule.response_figure(results.columns("schedule-responses")),
         "landings.svg": schedule.landing_figure(results.columns("schedule-landings")),
-        "one-fix.svg": fix_panels(counted(), compared_at(misses)),
     }
 
 

@@ -15,8 +15,8 @@ from reports.drawing.axes import decades
 from reports.drawing.legend import fill_entries, line_entry
 from reports.drawing.sheet import label, sheet
 from reports.drawing.style import INK, Fill, Line, drawing
-from reports.modular.oscillator import BAND, ESTIMATE, NOISES, OSCILLATOR_AMPLITUDES
-from reports.modular.styles import apart
+from reports.modular.oscillator import BAND, ERROR_PT, ESTIMATE, NOISES, OSCILLATOR_AMPLITUDES
+from reports.modular.styles import apart, band, curve_entry
 
 Columns: TypeAlias = Mapping[str, FloatArray]
 Record: TypeAlias = Mapping[str, str]
@@ -32,8 +32,12 @@ NAMES = {
     "innovation": "innovation, typical run",
 }
 NOISE = Line(INK, (0, (6.0, 1.5, 1.0, 1.5)), "")
-INTERVAL = {"interval:": Fill("#9dbbd6", ESTIMATE.colour, "", "95 % interval of a curve")}
-SHADES = {"error": "#9dbbd6", "unlucky": "#9dbbd6", "innovation": "#ecc99a"}
+OF_ERROR, OF_INNOVATION = (
+    Fill("#9dbbd6", "#5f87ab", "", "95 % interval, error"),
+    Fill("#ecc99a", "#b0783a", "", "innovation"),
+)
+INTERVAL = {"error:": OF_ERROR, "innovation:": OF_INNOVATION}
+SHADES = {"error": OF_ERROR, "unlucky": OF_ERROR, "innovation": OF_INNOVATION}
 LARGE = 1000.0
 """Percent: what is larger is drawn in hundreds of them."""
 HIGH = 200.0
@@ -48,12 +52,12 @@ def residual_time_figure(run: Columns, course: Sequence[Record]) -> Figure:
     with drawing():
         legend = apart(
             {
-                "Left": [line_entry("error of one run", ESTIMATE), *fill_entries(BAND)],
+                "Left": [curve_entry("error of one run", ESTIMATE, ERROR_PT), *fill_entries(BAND)],
                 "Right": [line_entry(NAMES[what], line) for what, line in CURVES.items()],
                 "Beside them": [line_entry("noise of a measurement", NOISE), *fill_entries(INTERVAL)],
             }
         )
-        figure, rows = sheet(len(dropouts), 2, legend, height_mm=27.0, stacked=True)
+        figure, rows = sheet(len(dropouts), 2, legend, height_mm=20.0, stacked=True)
         for (left, right), dropout in zip(rows, dropouts, strict=True):
             error, sigma = (run[f"{what} {dropout}"] / UNIT_M for what in ("error", "sigma"))
             is_large = np.abs(error).max() > LARGE
@@ -67,18 +71,18 @@ def residual_time_figure(run: Columns, course: Sequence[Record]) -> Figure:
                 left,
                 "One run, by dropout" if first else "",
                 across,
-                f"{100 * float(dropout):g} %: error ({'×100 %' if is_large else '%'})",
+                f"{100 * float(dropout):g} % lost:\nerror ({'×100 %' if is_large else '%'})",
             )
-            label(right, f"{runs} runs, root mean square in 0.1 periods" if first else "", across)
+            label(right, f"{runs} runs, RMS in a tenth of a period (%)" if first else "", across)
             for axes in (left, right):
                 axes.set_xlim(0, run["time_s"][-1])
         return figure
 
 
 def _one_run(axes: Axes, time_s: FloatArray, error: FloatArray, sigma: FloatArray) -> None:
-    axes.fill_between(time_s, -2 * sigma, 2 * sigma, color=BAND["band:"].colour, lw=0)
+    band(axes, time_s, -2 * sigma, 2 * sigma, BAND["band:"])
     axes.axhline(0.0, color=INK, lw=0.6)
-    axes.plot(time_s, error, color=ESTIMATE.colour, lw=0.9, label="error of one run")
+    axes.plot(time_s, error, color=ESTIMATE.colour, lw=ERROR_PT, label="error of one run")
     settled = np.abs(np.concatenate([error, 2 * sigma]))[np.tile(time_s > 0.1 * time_s[-1], 2)].max()
     axes.set_ylim(-1.2 * settled, 1.2 * settled)
     axes.yaxis.set_major_locator(MaxNLocator(nbins=5, steps=[1, 2, 5, 10]))
@@ -90,7 +94,7 @@ def _all_runs(axes: Axes, course: Sequence[Record]) -> None:
         value, low, high = (
             np.array([float(row[f"{what}{end}"]) for row in course]) / UNIT_M for end in ("", " low", " high")
         )
-        axes.fill_between(time_s, low, high, color=SHADES[what], lw=0)
+        band(axes, time_s, low, high, SHADES[what])
         axes.plot(time_s, value, color=line.colour, ls=line.dashes, lw=1.1, label=NAMES[what])
     axes.axhline(NOISES["position"] / UNIT_M, color=NOISE.colour, ls=NOISE.dashes, lw=0.8)
     decades(axes, "y", 0.5, 20_000 if axes.dataLim.y1 > HIGH else HIGH)

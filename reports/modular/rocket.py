@@ -15,13 +15,13 @@ from reports.drawing.axes import decades
 from reports.drawing.legend import fill_entries, line_entry
 from reports.drawing.sheet import label, sheet
 from reports.drawing.style import GREY, INK, PALE, RED, Fill, Line, drawing
-from reports.modular.oscillator import BAND, ESTIMATE, TRUE
-from reports.modular.styles import DROPOUT_LINES, QUANTITY_LINES, apart
+from reports.modular.oscillator import BAND, ERROR_PT, ESTIMATE, ESTIMATE_PT, TRUE, TRUE_PT
+from reports.modular.styles import DROPOUT_LINES, QUANTITY_LINES, apart, band, curve_entry, span_band
 from studies.modular.rocket import CLAIM_PERCENT
 
 Columns: TypeAlias = Mapping[str, FloatArray]
 
-SHOWN = {"height": "m", "climb": "m/s", "acceleration": "m/s²", "tilt": "deg"}
+SHOWN = {"height": "m", "climb": "m/s", "acceleration": "m/s²", "tilt": "°"}
 """All upward; tilt is that of the nose from the vertical, its error that about one axis across the nose."""
 DROPOUTS = tuple(DROPOUT_LINES)
 QUANTITIES = tuple(QUANTITY_LINES)
@@ -34,16 +34,21 @@ CLAIM = Line(RED, (0, (4.0, 1.5)), "")
 def flight_figure(flight: Columns, burnout_s: float) -> Figure:
     """One flight: states at the left, errors at the right; a line where the motor goes out."""
     with drawing():
-        legend = [line_entry("true", TRUE), line_entry("estimate, and its error", ESTIMATE), *fill_entries(BAND)]
-        figure, rows = sheet(len(SHOWN), 2, legend, height_mm=27.0, stacked=True)
+        legend = [
+            curve_entry("true", TRUE, TRUE_PT),
+            curve_entry("estimate", ESTIMATE, ESTIMATE_PT),
+            curve_entry("its error", ESTIMATE, ERROR_PT),
+            *fill_entries(BAND),
+        ]
+        figure, rows = sheet(len(SHOWN), 2, legend, height_mm=22.0, stacked=True)
         time_s = flight["time_s"]
         for (left, right), (name, unit) in zip(rows, SHOWN.items(), strict=True):
             error, sigma = flight[f"{name} error"], flight[f"{name} sigma"]
-            left.plot(time_s, flight[f"{name} estimate"], color=ESTIMATE.colour, lw=1.8, label="estimate")
-            left.plot(time_s, flight[f"{name} true"], color=INK, lw=0.7, label="true")
-            right.fill_between(time_s, -2 * sigma, 2 * sigma, color=BAND["band:"].colour, lw=0)
+            left.plot(time_s, flight[f"{name} estimate"], color=ESTIMATE.colour, lw=ESTIMATE_PT, label="estimate")
+            left.plot(time_s, flight[f"{name} true"], color=INK, lw=TRUE_PT, label="true")
+            band(right, time_s, -2 * sigma, 2 * sigma, BAND["band:"])
             right.axhline(0.0, color=INK, lw=0.6)
-            right.plot(time_s, error, color=ESTIMATE.colour, lw=0.8, label="error")
+            right.plot(time_s, error, color=ESTIMATE.colour, lw=ERROR_PT, label="error")
             for axes in (left, right):
                 axes.set_xlim(time_s[0], time_s[-1])
                 axes.axvline(burnout_s, color=GREY, lw=0.9, ls=(0, (2, 1.5)), zorder=1)
@@ -71,7 +76,7 @@ def residual_figure(series: Columns, readings: Sequence[str]) -> Figure:
                 "The claim": [line_entry(f"{CLAIM_PERCENT:g} %", CLAIM)],
             }
         )
-        figure, rows = sheet(2, 2, legend, height_mm=42.0)
+        figure, rows = sheet(2, 2, legend, height_mm=34.0)
         for number, reading in enumerate(readings):
             axes = rows[number // 2][number % 2]
             for start, (dropout, line) in enumerate(DROPOUT_LINES.items()):
@@ -82,7 +87,7 @@ def residual_figure(series: Columns, readings: Sequence[str]) -> Figure:
                         mew=0, markevery=(2 * start, 9), label=f"dropout {dropout}, {name}",
                     )  # fmt: skip
             axes.axhline(CLAIM_PERCENT, color=CLAIM.colour, ls=CLAIM.dashes, lw=1.0)
-            decades(axes, "y", 0.01, 1000)
+            decades(axes, "y", 0.005, 1000)
             axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,g}"))
             _seconds(axes, series["time_s"])
             error, over = reading.split(" / ")
@@ -98,7 +103,7 @@ def nees_figure(series: Columns, bounds: tuple[float, float]) -> Figure:
             *fill_entries(BOUNDS),
         ]
         figure, [[above]] = sheet(1, 1, legend, height_mm=42.0)
-        above.axhspan(*bounds, color=PALE, lw=0, zorder=0.3)
+        span_band(above, *bounds, BOUNDS["bounds:"])
         for start, (dropout, line) in enumerate(DROPOUT_LINES.items()):
             above.plot(
                 series["time_s"], series[dropout], line.marker, color=line.colour, ls="-", lw=0.9, ms=0.8 * line.size,
@@ -121,7 +126,7 @@ def phase_figure(of_phase: Mapping[str, Sequence[tuple[float, float]]], bounds_o
             *fill_entries(BOUNDS),
         ]
         figure, [[below]] = sheet(1, 1, legend, height_mm=42.0)
-        below.axhspan(*bounds_of_three, color=PALE, lw=0, zorder=0.3)
+        span_band(below, *bounds_of_three, BOUNDS["bounds:"])
         for at, values in enumerate(of_phase.values()):
             for number, ((mean, error), line) in enumerate(zip(values, QUANTITY_LINES.values(), strict=True)):
                 below.errorbar(

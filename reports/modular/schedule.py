@@ -17,7 +17,7 @@ from reports.drawing.axes import decades
 from reports.drawing.legend import fill_entries, line_entry
 from reports.drawing.sheet import label, sheet
 from reports.drawing.style import GREY, PALE, RED, SMALL_PT, Fill, Line, drawing
-from reports.modular.styles import WAY_LINES, WAY_NAMES
+from reports.modular.styles import BAND_EDGE_PT, WAY_LINES, WAY_NAMES
 from reports.pages.stored import Rows, digits, rows_of
 from studies.modular.rocket_schedule import (
     CONTROL_EVERY,
@@ -177,7 +177,7 @@ def miss_figure(rows: Sequence[MissRow]) -> Figure:
     ends = min(row.clock_mhz for row in rows) / 1.15, 1.15 * max(row.clock_mhz for row in rows)
     with drawing():
         legend = [*(line_entry(WAY_NAMES[name], line) for name, line in WAY_LINES.items()), *fill_entries(BAND)]
-        figure, plots = sheet(len(URGENCIES), len(JOBS), legend, height_mm=38.0, gap_mm=9.0)
+        figure, plots = sheet(len(URGENCIES), len(JOBS), legend, height_mm=32.0, gap_mm=9.0)
         for of_urgency, urgency in zip(plots, URGENCIES, strict=True):
             for axes, job in zip(of_urgency, JOBS, strict=True):
                 for name, line in WAY_LINES.items():
@@ -195,7 +195,7 @@ def response_figure(columns: Columns) -> Figure:
     """The share of jobs that take longer than a time, from their release; columns: from `responses`."""
     with drawing():
         legend = [*(line_entry(WAY_NAMES[name], line) for name, line in WAY_LINES.items()), *fill_entries(DEADLINES)]
-        figure, plots = sheet(len(URGENCIES), len(JOBS), legend, height_mm=38.0, gap_mm=9.0)
+        figure, plots = sheet(len(URGENCIES), len(JOBS), legend, height_mm=32.0, gap_mm=9.0)
         times = {job: [columns[name] for name in columns if name.startswith(f"{job}, ")] for job in JOBS}
         for of_urgency, urgency in zip(plots, URGENCIES, strict=True):
             for axes, job in zip(of_urgency, JOBS, strict=True):
@@ -228,7 +228,7 @@ def landing_figure(columns: Columns) -> Figure:
     """How many of the GPS corrections land at each l - k, beside when they arrive; columns: from `landings`."""
     with drawing():
         legend = [line_entry("when the fixes arrive", ARRIVALS)]
-        figure, plots = sheet(2, 2, legend, height_mm=34.0, gap_mm=12.0)
+        figure, plots = sheet(2, 2, legend, height_mm=30.0, gap_mm=12.0)
         highest = max(columns[name].max() for name in columns if name != "l - k")
         seen = [columns["l - k"][columns[_landing(*case)] > 0] for case in SHOWN_LANDINGS]
         last = max([LAND_BY, *(steps.max() for steps in seen if len(steps))])
@@ -256,7 +256,7 @@ def _miss_curve(axes: Axes, rows: Sequence[MissRow], name: str, line: Line) -> N
     """With its 95 % band."""
     across = [row.clock_mhz for row in rows]
     low, high = (np.array([100 * row.interval[side] for row in rows]) for side in (0, 1))
-    axes.fill_between(across, low, high, color=line.colour, alpha=0.18, lw=0)
+    axes.fill_between(across, low, high, facecolor=(line.colour, 0.18), edgecolor=line.colour, lw=BAND_EDGE_PT)
     axes.plot(
         across, [100 * row.probability for row in rows], line.marker, color=line.colour, ms=0.75 * line.size, mew=0,
         ls=line.dashes, lw=1.0, label=name,
@@ -311,7 +311,8 @@ def _deadline_ms(job: str) -> list[float]:
 def _mark_deadline(axes: Axes, job: str) -> None:
     first, *later = _deadline_ms(job)
     for last in later:
-        axes.axvspan(first, last, color=DEADLINES["band:"].colour, lw=0, zorder=0)
+        fill = DEADLINES["band:"]
+        axes.axvspan(first, last, facecolor=fill.colour, edgecolor=fill.ink, lw=BAND_EDGE_PT, zorder=0)
     if not later:
         _line(axes, first, "deadline")
 

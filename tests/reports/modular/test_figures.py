@@ -13,6 +13,7 @@ from reports.drawing.sheet import LEFT_MM, RIGHT_MM
 from reports.drawing.style import METHOD_LINES, WIDTH_MM
 from reports.modular.costs import OPERATIONS, cost_figure
 from reports.modular.future import covariance_figure, stiffness_figure
+from reports.modular.gap import gap_figure
 from reports.modular.late import late_figure
 from reports.modular.oscillator import (
     NOISES,
@@ -23,7 +24,6 @@ from reports.modular.oscillator import (
     dropout_figure,
     history_figure,
     nees_figure,
-    rate_figure,
 )
 from reports.modular.residual_time import HIGH, UNIT_M, residual_time_figure
 from reports.modular.rocket import DROPOUTS, HALVES, SHOWN, flight_figure, phase_figure, residual_figure
@@ -95,12 +95,17 @@ def test_residuals_against_dropout() -> None:
     assert [name for name in ("10", "50", "80", "90", "95", "98", "99") if name not in shown] == []
 
 
-def test_sampling_rates_lie_on_one_curve_against_the_gap() -> None:
-    figure = rate_figure({50: dropout_rows(50), 200: dropout_rows(200)}, 0.11)
+def test_sampling_rates_against_what_gets_through_and_80_percent_dropout_has_a_ring() -> None:
+    figure = gap_figure({50: dropout_rows(50), 200: dropout_rows(200)}, 20.0)
     assert flaws(figure) == []
-    (slow, fast) = curves(figure, 1, 4)
-    np.testing.assert_allclose(slow[0], 4 * fast[0])
+    (slow, fast) = curves(figure, 0, 5)
+    np.testing.assert_allclose(slow[0], np.multiply(50, (1, 0.9, 0.5, 0.2, 0.01)))
+    np.testing.assert_allclose(fast[0], 4 * slow[0])
     np.testing.assert_allclose(slow[1], fast[1])
+    rings = [line for line in figure.axes[0].lines if line.get_markerfacecolor() == "none"]
+    assert [float(ring.get_xdata()[0]) for ring in rings] == pytest.approx([10, 40])
+    assert [float(ring.get_ydata()[0]) for ring in rings] == pytest.approx([slow[1][3]] * 2)
+    assert "one measurement: 5 %" in {text.get_text() for text, _ in texts(figure)}
 
 
 def test_consistency() -> None:
@@ -216,7 +221,7 @@ def test_residuals_against_time() -> None:
         of_all = [curve[1][0] for curve in curves(figure, 2 * row + 1, 20)]
         assert of_all == pytest.approx([level, 2 * level, 3 * level])
     assert [figure.axes[2 * row + 1].get_ylim()[1] for row in range(4)] == [HIGH] * 3 + [20_000]
-    assert "99.9 %: error (×100 %)" in {text.get_text() for text, _ in texts(figure)}
+    assert "99.9 % lost:\nerror (×100 %)" in {text.get_text() for text, _ in texts(figure)}
 
 
 def test_errors_with_and_without_the_spring() -> None:

@@ -29,7 +29,7 @@ from reports.modular.schedule import (
     share_rows,
     verdict_rows,
 )
-from reports.modular.schedule_gantt import DELAY, fix_panels
+from reports.modular.schedule_gantt import DELAY, fix_frames, fix_panels, fix_rows
 from reports.modular.styles import WAY_NAMES
 from reports.pages.stored import Rows, records
 from sched_sim.costs.sample_file import SampledCosts
@@ -179,3 +179,29 @@ def test_charts_of_one_late_fix() -> None:
     assert [never_ran(panel.schedule) for panel in panels] == [0, 0, 0]
     assert {bar.style for bar in bars_of(preempted.schedule)} == {"PR", "CO", "RP", "CU", "task:control"}
     assert {bar.style for bar in bars_of(larsen.schedule)} == {"PR", "CO", "task:control"}
+
+
+def test_the_faster_the_processor_the_earlier_the_correction_lands_and_the_label_says_where() -> None:
+    frames = fix_frames(COSTS, (2, 5, 10, 1000))
+    landed = [frame.label.partition(" = ")[2].split(", ") for frame in frames.values()]
+    for clock, frame in frames.items():
+        assert frame.label.startswith(f"{clock} MHz: l − k = ")
+        assert len(frame.panels) == 3
+    for of_way in zip(*landed, strict=True):
+        steps = [float("inf") if step == "later" else int(step) for step in of_way]
+        assert steps == sorted(steps, reverse=True)
+        assert steps[-1] == DELAY
+    assert landed[0][0] == "later"
+
+
+def test_data_of_the_charts_are_their_bars() -> None:
+    heading, *body = fix_rows(fix_frames(COSTS, (5,)))
+    panels = fix_panels(COSTS, 5)
+    assert len(body) == sum(len(bars_of(panel.schedule)) for panel in panels)
+    found = [dict(zip(heading, row, strict=True)) for row in body if row[1] == panels[1].title]
+    replay = [bar for bar in bars_of(panels[1].schedule) if bar.style == "RP"]
+    said = [(float(row["from, steps"]), float(row["to, steps"])) for row in found if row["work"] == "RP"]
+    period = panels[1].schedule.period
+    np.testing.assert_allclose(said, [(bar.start / period, bar.end / period) for bar in replay], atol=5e-4)
+    assert {row["job"] for row in found} == {"loop", "control", "GPS"}
+    assert any(row["ends late"] == "yes" for row in found)
