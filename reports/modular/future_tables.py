@@ -5,7 +5,7 @@ from __future__ import annotations
 from reports.modular.future_rows import ENDS, QUANTILES
 from reports.modular.oscillator import OSCILLATOR_AMPLITUDES, Record
 from reports.modular.results import Results
-from reports.modular.tables import share_that_holds
+from reports.modular.tables import in_percents, share_that_holds
 from reports.pages.numbers import between, significant, span
 from reports.pages.stored import Rows
 from studies.modular.found_covariances import PARTS
@@ -53,13 +53,19 @@ def stiffness_rows(results: Results) -> Rows:
     return rows
 
 
+SHORTER = {"the filter's own model": "own model", "the oscillator": "oscillator"}
+"""Names of what is true where a column is narrow."""
+
+
 def covariance_rows(results: Results) -> Rows:
     """Standard deviations found, over those that are usual."""
-    rows: Rows = [["The truth is", "noise of", "median of the fits", "nine fits in ten"]]
+    rows: Rows = [["Truth", "noise of", "median of the fits", "nine fits in ten"]]
     for row in results.records("covariances"):
         for part in PARTS:
             low, middle, high = (interval_of(row, f"{part} {level}") for level in QUANTILES)
-            rows.append([row["truth"], part, between(*middle), span(significant(low[0]), significant(high[0]))])
+            rows.append(
+                [SHORTER[row["truth"]], part, between(*middle), span(significant(low[0]), significant(high[0]))]
+            )
     return rows
 
 
@@ -71,7 +77,7 @@ def interval_of(row: Record, what: str) -> tuple[float, float, float]:
 
 def in_percent(row: Record, what: str) -> str:
     """Of the amplitude, with its interval."""
-    return between(*(value / PERCENT for value in interval_of(row, what)))
+    return in_percents(*(value / PERCENT for value in interval_of(row, what)))
 
 
 def _or_one(row: Record, what: str) -> str:

@@ -24,13 +24,22 @@ from studies.modular.rocket_schedule import compared_at
 
 COMPARED = ("0.1", "0.8")
 """The dropouts that the claim is about."""
+MOST_PERCENT = 1000
+"""That is told of a worst residual."""
 LOST = ("0.5", "0.8", "0.9", "0.95", "0.98", "0.99")
 
 
 def percent_of_amplitude(row: Record, name: str, kind: str = "") -> str:
     """RMS error of a typical run, or of an "unlucky" one, with its interval."""
     unit = 0.01 * OSCILLATOR_AMPLITUDES[name]
-    return between(*(value / unit for value in interval_of(row, "error", name, kind)))
+    return in_percents(*(value / unit for value in interval_of(row, "error", name, kind)))
+
+
+def in_percents(value: float, low: float, high: float) -> str:
+    """With its interval; in two digits from 100 % on, where a filter is lost."""
+    digits = 3 if value < 100 else 2
+    shown, *ends = (significant(number, digits) for number in (value, low, high))
+    return f"{shown} ({' to '.join(ends)})"
 
 
 def over(row: Record, what: str, name: str) -> str:
@@ -46,12 +55,12 @@ def interval_of(row: Record, what: str, name: str, kind: str = "") -> tuple[floa
 
 
 def dropout_rows(results: Results) -> Rows:
-    """Errors against dropout, and NEES."""
-    rows: Rows = [["Dropout, %", "gap, periods", *QUANTITIES, "NEES", "inside, %"]]
+    """Errors against dropout and the measurements in a period that get through, and NEES."""
+    rows: Rows = [["Dropout, %", "get through", *QUANTITIES, "NEES"]]
     for row in results.records("dropout", group="usual"):
         errors = [percent_of_amplitude(row, name) for name in QUANTITIES]
-        share = f"{100 * float(row['inside']):.0f}"
-        rows.append([_percent(row["dropout"]), row["interval"], *errors, nees_of(row), share])
+        through = f"{spring_mass.USUAL.rate * (1 - float(row['dropout'])):.3g}"
+        rows.append([_percent(row["dropout"]), through, *errors, nees_of(row)])
     return rows
 
 
@@ -99,15 +108,19 @@ def sensor_rows(results: Results) -> Rows:
     return rows
 
 
+SHORTER = {OWN_MODEL: "model true", "less process noise": "less noise"}
+"""Names of the filters where a column is narrow."""
+
+
 def consistency_rows(results: Results) -> Rows:
     """NEES of the three filters."""
-    rows: Rows = [["Filter", "dropout, %", "runs", "NEES", "95 % bounds", "inside, %", "below, %", "above, %"]]
+    rows: Rows = [["Filter", "dropout, %", "NEES", "95 % bounds", "inside, %", "below, %", "above, %"]]
     for group in ("usual", "less process noise", OWN_MODEL):
         for dropout in ("0.1", "0.5", "0.8", "0.95"):
             (row,) = results.records("dropout", group=group, dropout=dropout)
             shares = [f"{100 * float(row[share]):.0f}" for share in ("inside", "below", "above")]
             limits = f"{row['low']} to {row['high']}"
-            rows.append([group, _percent(dropout), row["runs"], nees_of(row), limits, *shares])
+            rows.append([SHORTER.get(group, group), _percent(dropout), nees_of(row), limits, *shares])
     return rows
 
 
@@ -136,7 +149,7 @@ def reading_rows(results: Results) -> Rows:
     for row in results.records("rocket-residuals", case=rocket.BASE.name):
         from_s = [_never(row[name]) for name in ("holds from s", "half from s")]
         typical = between(*(float(row[name]) for name in ("typical", "low", "high")))
-        rows.append([row["reading"], *from_s, share_that_holds(row), typical, significant(float(row["worst"]))])
+        rows.append([row["reading"], *from_s, share_that_holds(row), typical, _worst(float(row["worst"]))])
     return rows
 
 
@@ -260,12 +273,13 @@ def without(rows: Rows, *heads: str) -> Rows:
     return [[row[at] for at in kept] for row in rows]
 
 
+def _worst(percent: float) -> str:
+    """Beyond a limit how far is only how near zero that is which it is compared with."""
+    return f"over {MOST_PERCENT:,}" if percent > MOST_PERCENT else significant(percent, 2)
+
+
 def _never(seconds: str) -> str:
     return "never" if seconds == "inf" else f"{float(seconds):.2f}"
-
-
-def _whole(percent: str) -> str:
-    return f"{float(percent):.0f}"
 
 
 def _percent(share: str) -> str:

@@ -16,6 +16,7 @@ from reports.modular.results import HALF, OWN_MODEL, SHOWN_PERIODS, Results
 from reports.modular.rocket import QUANTITIES as OF_ROCKET
 from reports.modular.rocket_rows import CASES
 from reports.modular.schedule import miss_rows_of, missed_percent
+from reports.modular.schedule_gantt import clocks_shown
 from reports.modular.tables import (
     group_of,
     interval_of,
@@ -103,6 +104,7 @@ def oscillator_words(results: Results) -> dict[str, Any]:
         "after": over(high, "after", "position"),
         "reach": f"{spring_mass.reach():.2f}",
         "few": RATES[0],
+        "bounds_of": [rows["0.5"]["runs"] for rows in (usual, own)],
         "few_error": percent_of_amplitude(few, "position"),
         "without_acceleration": percent_of_amplitude(
             results.records("dropout", group="acceleration only")[-1], "position"
@@ -274,6 +276,7 @@ def schedule_words(results: Results) -> dict[str, Any]:
         "loop": missed_percent(loop),
         "loop_late": f"{loop.late_ms:.0f}",
         "busy": f"{100 * loop.utilization:.0f}",
+        "clocks_shown": [edge(clocks_shown(misses)) for edge in (min, max)],
         "first": _first_late(misses, names["extended"], preempted),
         "response": {short: spent[name, preempted][response] for short, name in names.items()},
     }

@@ -55,7 +55,7 @@ def test_without_the_accelerometer_position_is_said_to_err_by_the_most_of_its_co
 
 def test_where_its_model_is_true_the_filter_is_as_accurate_as_it_says() -> None:
     for row in rows("consistency.csv"):
-        if row["Filter"] == "usual, its own model true":
+        if row["Filter"] == "model true":
             assert float(row["inside, %"]) > 90
             assert number(row["NEES"]) == pytest.approx(3, abs=0.15)
         if row["Filter"] == "usual":
