@@ -17,7 +17,7 @@ from reports.drawing.sheet import label, sheet
 from reports.drawing.style import INK, Line, drawing
 from reports.modular.future_rows import ENDS, QUANTILES
 from reports.modular.oscillator import OSCILLATOR_AMPLITUDES, dropout_axis
-from reports.modular.styles import KIND_LINES, QUANTITY_LINES
+from reports.modular.styles import KIND_LINES, QUANTITY_LINES, curve_entry
 from studies.modular.found_covariances import START
 
 Record: TypeAlias = Mapping[str, str]
@@ -32,6 +32,7 @@ PART_LINES = {
     "jerk": Line(INK, "-", "p", 5.0),
 }
 START_LINE = Line("#6b6b6b", "-", "X", 4.5)
+MEDIAN_PT, FITS_PT = 3.2, 1.0
 
 
 def stiffness_figure(rows: Sequence[Record]) -> Figure:
@@ -59,7 +60,8 @@ def covariance_figure(rows: Sequence[Record]) -> Figure:
     with drawing():
         legend = [
             line_entry("median of the fits", Line(INK, "-", "o", 4.4), dashes=False),
-            line_entry("nine fits in ten", Line(INK, "-", "")),
+            curve_entry("its 95 % interval", Line(INK, "-", ""), MEDIAN_PT),
+            curve_entry("nine fits in ten", Line(INK, "-", ""), FITS_PT),
             line_entry("start of the search", START_LINE, dashes=False),
         ]
         figure, [plots] = sheet(1, len(rows), legend, height_mm=34.0)
@@ -67,8 +69,8 @@ def covariance_figure(rows: Sequence[Record]) -> Figure:
             for at, (part, line) in enumerate(PART_LINES.items()):
                 low, middle, high = (float(row[f"{part} {level}"]) for level in QUANTILES)
                 ends = [float(row[f"{part} {QUANTILES[1]}{end}"]) for end in ENDS[1:]]
-                axes.plot([at, at], [low, high], color=line.colour, lw=1.0)
-                axes.plot([at, at], ends, color=line.colour, lw=3.2, alpha=0.45, solid_capstyle="butt")
+                axes.plot([at, at], [low, high], color=line.colour, lw=FITS_PT)
+                axes.plot([at, at], ends, color=line.colour, lw=MEDIAN_PT, solid_capstyle="butt")
                 axes.plot([at], [middle], line.marker, color=line.colour, ms=line.size + 1, mew=0)
                 axes.plot([at], [START[at]], START_LINE.marker, color=START_LINE.colour, ms=START_LINE.size, mew=0)
             axes.axhline(1.0, color=INK, lw=0.7, zorder=1)

@@ -69,9 +69,9 @@ def residual_time_figure(run: Columns, course: Sequence[Record]) -> Figure:
             runs = course[0]["runs"]
             label(
                 left,
-                "One run, by dropout" if first else "",
+                "One run: error of position (%)" if first else "",
                 across,
-                f"{100 * float(dropout):g} % lost:\nerror ({'×100 %' if is_large else '%'})",
+                f"{100 * float(dropout):g} % lost{', ×100' if is_large else ''}",
             )
             label(right, f"{runs} runs, RMS in a tenth of a period (%)" if first else "", across)
             for axes in (left, right):

@@ -27,6 +27,9 @@ def test_dropout_of_80_percent_is_felt() -> None:
     assert interval(after["position"])[1] < 0.7
     errors = [number(row["position"]) for row in rows("dropout.csv")]
     assert errors == sorted(errors)
+    of = {row["Dropout, %"]: interval(row["position"])[0] for row in rows("dropout.csv")}
+    still = 100 * float(stored().records("dropout", group="usual", dropout="0.95")[0]["still"])
+    assert of["80"] < 2 * 5 < of["90"] < still < of["95"]
 
 
 def test_what_decides_is_the_time_between_measurements() -> None:
