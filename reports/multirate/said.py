@@ -11,7 +11,7 @@ from reports.multirate import limits, tables
 from reports.multirate.costs import Form, every, least_period, least_time_of, patents_form, time_of
 from reports.multirate.ratio_axis import LEAST
 from reports.multirate.results import PERIODS, RECEIVER, SHOWN, N, Results
-from reports.multirate.schedule import one_loop_panel, two_rates_panel
+from reports.multirate.schedule import ONE_LOOP, one_loop_panel, two_rates_panel
 from reports.multirate.words import VEHICLE_SYSTEMS, VEHICLES, change_text, ratio_text, scenario_text
 from reports.pages.numbers import decimal, percent, significant
 from sched_sim.costs.table import CostTable
@@ -20,6 +20,7 @@ from sched_sim.design.load import utilization
 from sched_sim.design.pieces import MultirateCosts
 from sched_sim.processors.part import Part
 from sched_sim.processors.part_file import load_part
+from sched_sim.schedule.intervals import bars
 from studies.multirate import patent
 from studies.multirate.accuracy import GOOD, SPEEDS, Reading, largest_good
 from studies.multirate.constancy import CONSTANT, constant_from
@@ -253,4 +254,5 @@ def gantt(table: CostTable) -> dict[str, Any]:
         raise ValueError("one loop misses no deadline, or two rates do, against what the report says")
     (landed,) = rates.achieved
     busy = f"{100 * float(rates.utilization):.0f}"
-    return {"hz": f"{float(GANTT_HZ):g}", "landed": landed, "busy": busy, "missed": loop.misses}
+    late = sum(bar.style == ONE_LOOP["P"] and bar.overdue is not None for bar in bars(loop))
+    return {"hz": f"{float(GANTT_HZ):g}", "landed": landed, "busy": busy, "late": late}

@@ -213,6 +213,11 @@ def test_from_the_rate_that_is_said_on_five_is_good_and_the_limit_is_lost() -> N
     assert f"from {said} measurements a second on, at {calm}, {road} and {aircraft} % load" in text()
 
 
+def test_late_are_as_many_state_updates_as_the_schedule_lists() -> None:
+    late = [row for row in rows("rates.csv") if (row["schedule"], row["work"], row["late"]) == ("One loop", "SU", "yes")]
+    assert f"covariance and gain are late, and {len(late)} of {N} state updates" in text()
+
+
 def test_what_the_text_claims_without_a_number() -> None:
     """R is nowhere right, and for the aircraft no better than skipping; nothing is good beyond the rule."""
     for name, share in found().shares.items():
