@@ -105,7 +105,7 @@ def achieved_figure(
             axes.grid(axis="y", color=PALE, lw=0.5)
             speed_ticks(axes, "x", (slowest, fastest))
             axes.set_xlabel(f"speed ({SPEED_UNIT})", labelpad=2)
-        plots[0].set_ylabel("$L$ achieved (high-rate steps after $k$)", labelpad=2)
+        plots[0].set_ylabel("lands at $L$ (high-rate steps after $k$)", labelpad=2)
         return figure
 
 
@@ -176,6 +176,7 @@ def _mark_knee(axes: Axes, stairs: Sequence[Stair]) -> None:
         ha="left" if left_half else "right",
         va="top",
         size=SMALL_PT,
+        linespacing=1.4,
         arrowprops={"arrowstyle": "-", "lw": 0.7, "shrinkB": 3.5, "shrinkA": 0, "relpos": (0 if left_half else 1, 1)},
         zorder=5,
     )

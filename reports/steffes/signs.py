@@ -74,9 +74,7 @@ def sign(
     at = y + lane * (sources.index(source) + 0.5) - SHARE / 2
     if interval is not None and interval[0] < interval[1]:
         low, high = interval
-        axes.add_patch(
-            Rectangle((low, at - 0.4 * lane), high - low, 0.8 * lane, facecolor=line.colour, alpha=0.45, lw=0, zorder=2)
-        )
+        axes.add_patch(Rectangle((low, at - 0.2 * lane), high - low, 0.4 * lane, facecolor=line.colour, lw=0, zorder=2))
     edge = 1.3 if line.marker == "|" else 0
     axes.plot(
         [value], [at], line.marker, color=line.colour, ms=scale * line.size, mew=edge, zorder=3, label=shown(source)

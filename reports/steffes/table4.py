@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 from matplotlib.axes import Axes
+from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
@@ -86,5 +87,6 @@ def table4_figure(cells: Sequence[Speeds]) -> Figure:
 def _band(axes: Axes, cell: Speeds, y: float) -> None:
     if BAND in cell.intervals:
         low, high = cell.intervals[BAND]
-        box = Rectangle((low, y - 0.42), high - low, 0.84, facecolor=SOURCES[BAND].colour, alpha=0.35, lw=0, zorder=1)
+        colour = SOURCES[BAND].colour
+        box = Rectangle((low, y - 0.42), high - low, 0.84, fc=to_rgba(colour, 0.35), ec=colour, lw=0.5, zorder=1)
         axes.add_patch(box)

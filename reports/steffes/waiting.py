@@ -13,7 +13,7 @@ from reports.drawing.legend import line_entry
 from reports.drawing.sheet import label, sheet
 from reports.drawing.style import GREY, METHOD_LINES, SMALL_PT, Line, drawing
 from reports.steffes.signs import OUTLINE, hollow_entry
-from reports.steffes.speeds import speed_ticks
+from reports.steffes.speeds import SPEED_UNIT, speed_ticks
 from sched_sim.costs.table import CostTable
 from sched_sim.design.least_speed import least_speed, staircase
 from sched_sim.design.methods import select
@@ -80,7 +80,7 @@ def waiting_figure(table: CostTable) -> Figure:
     with drawing():
         legend = [
             *(hollow_entry(family, line, line.size, dashes=False) for family, line in LINES.items()),
-            line_entry("HR + LR update / ($L-M$), from HR + HR update on", curve._replace(marker="")),
+            line_entry("if $L-M$ alone counts", curve._replace(marker="")),
             line_entry(f"Larsen, {larsen:.2f}", level._replace(marker="")),
         ]
         drawn = sheet(1, 1, legend, height_mm=HEIGHT_MM)
@@ -110,5 +110,5 @@ def waiting_figure(table: CostTable) -> Figure:
             size=SMALL_PT,
         )
         note.set_path_effects(OUTLINE)
-        label(axes, "Dual-rate, by the costs of the paper", "steps to wait, $L-M$", "least speed")
+        label(axes, "Dual-rate, by the costs of the paper", "steps to wait, $L-M$", f"least speed\n({SPEED_UNIT})")
         return drawn.figure

@@ -5,10 +5,13 @@ from __future__ import annotations
 from itertools import combinations
 
 from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
+from matplotlib.patches import Patch
 from matplotlib.text import Text
 from matplotlib.transforms import Bbox
 
+from reports.drawing.dark import contrast
 from reports.drawing.style import drawing
 
 TOLERANCE = 0.5  # pixels at 100 dots per inch
@@ -22,6 +25,14 @@ def texts(figure: Figure) -> list[tuple[Text, Bbox]]:
         found = [text for text in figure.findobj(Text) if text.get_visible() and text.get_text().strip()]
         unseen = _ticks_beyond_the_axis(figure)
         return [(text, text.get_window_extent(canvas.get_renderer())) for text in found if text not in unseen]
+
+
+def contrast_of(patch: Patch) -> float:
+    """To white paper: of its fill, or of its edge where that is more."""
+    red, green, blue, opaque = patch.get_facecolor()
+    fill = to_hex([1 - opaque * (1 - part) for part in (red, green, blue)])
+    edge = to_hex(patch.get_edgecolor()) if patch.get_linewidth() else fill
+    return max(contrast(fill, "#ffffff"), contrast(edge, "#ffffff"))
 
 
 def _ticks_beyond_the_axis(figure: Figure) -> set[Text]:

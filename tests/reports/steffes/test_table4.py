@@ -9,7 +9,7 @@ from reports.drawing.style import SOURCES
 from reports.steffes.table4 import Speeds, table4_figure
 from sched_sim.design.timing import Timing
 from sched_sim.errors import InputError
-from tests.reports.layout import flaws, texts
+from tests.reports.layout import contrast_of, flaws, texts
 
 CELLS = [
     Speeds(
@@ -44,6 +44,10 @@ def test_intervals_are_bars_and_that_of_the_analysis_goes_over_its_row() -> None
     assert found == [pytest.approx(cell.intervals["analysis"]) for cell in CELLS]
     low = [(box.get_x(), box.get_x() + box.get_width()) for box in boxes if box not in tall]
     assert low == [pytest.approx(cell.intervals["measured"]) for cell in CELLS]
+
+
+def test_intervals_stand_out_from_the_page() -> None:
+    assert min(map(contrast_of, table4_figure(CELLS).axes[0].patches)) >= 3
 
 
 def test_a_source_is_told_apart_by_its_own_sign() -> None:
