@@ -9,8 +9,12 @@ from matplotlib.ticker import MaxNLocator
 
 from reports.charts.panels import METHOD_NAMES
 from reports.drawing.legend import draw_legend, legend_height
+from reports.drawing.readout import plain_text
 from reports.drawing.style import FONT_PT, PALE, WIDTH_MM, axes_at, drawing, page, text_width_mm
-from reports.steffes.signs import MEASURED, check_sources, row_name, sign, source_entries
+from reports.pages.machine import marked
+from reports.pages.numbers import span
+from reports.pages.stored import Rows
+from reports.steffes.signs import MEASURED, check_sources, row_name, shown, sign, source_entries
 from sched_sim.costs.methods import KINDS
 from sched_sim.costs.table import CostTable
 from studies.machines.ranges import Range, range_of
@@ -66,17 +70,12 @@ def cost_figure(tables: Mapping[str, CostTable], measured: Sequence[CostTable] =
     check_sources(sources)
     alike = [table.normalised() for table in measured]
     normalised = {name: table.normalised() for name, table in tables.items()}
-    shown = [
-        (method, kind)
-        for method, kinds in KINDS.items()
-        for kind in kinds
-        if sum(kind in table.costs.get(method, {}) for table in normalised.values()) >= min(2, len(tables))
-    ]
+    jobs = _shown(normalised)
     with drawing():
-        left = EDGE_MM + 2.0 + max(text_width_mm(KIND_NAMES[kind]) for _, kind in shown)
+        left = EDGE_MM + 2.0 + max(text_width_mm(KIND_NAMES[kind]) for _, kind in jobs)
         width = WIDTH_MM - left - RIGHT_MM
-        methods = list(dict.fromkeys(method for method, _ in shown))
-        height = ROW_MM * (len(shown) + len(methods))
+        methods = list(dict.fromkeys(method for method, _ in jobs))
+        height = ROW_MM * (len(jobs) + len(methods))
         legend = source_entries(sources)
         figure = page(EDGE_MM + height + AXIS_MM + legend_height(legend, width) + EDGE_MM)
         axes = axes_at(figure, left, EDGE_MM, width, height)
@@ -84,7 +83,7 @@ def cost_figure(tables: Mapping[str, CostTable], measured: Sequence[CostTable] =
         for method in methods:
             axes.text(0.0, y, f" {METHOD_NAMES[method]}", size=FONT_PT, weight="bold", va="center")
             y += 1
-            for kind in [kind for of_method, kind in shown if of_method == method]:
+            for kind in [kind for of_method, kind in jobs if of_method == method]:
                 rows[y] = f"{METHOD_NAMES[method]}, {KIND_NAMES[kind]}"
                 row_name(axes, y, KIND_NAMES[kind])
                 for source, table in normalised.items():
@@ -100,6 +99,32 @@ def cost_figure(tables: Mapping[str, CostTable], measured: Sequence[CostTable] =
         axes.set_xlabel("cost (standard filter's propagate + update = 1)", labelpad=2)
         draw_legend(figure, legend, left, EDGE_MM + height + AXIS_MM, width)
         return figure
+
+
+def cost_rows(tables: Mapping[str, CostTable], measured: Sequence[CostTable]) -> Rows:
+    """What `cost_figure` draws. The last column is the range over all measurements."""
+    normalised = {name: table.normalised() for name, table in tables.items()}
+    alike = [table.normalised() for table in measured]
+    rows: Rows = [["Method", "Job", *map(shown, normalised), marked("all measurements")]]
+    for method, kind in _shown(normalised):
+        costs = [
+            f"{_least(table, method, kind):.3f}" if table.has(method, kind) else "" for table in normalised.values()
+        ]
+        over = _over(alike, method, kind)
+        rows.append(
+            [METHOD_NAMES[method], plain_text(KIND_NAMES[kind]), *costs, span(*map("{:.3f}".format, over or ()))]
+        )
+    return rows
+
+
+def _shown(tables: Mapping[str, CostTable]) -> list[tuple[str, str]]:
+    """The jobs that at least two tables have, by method and kind; all, of one table."""
+    return [
+        (method, kind)
+        for method, kinds in KINDS.items()
+        for kind in kinds
+        if sum(kind in table.costs.get(method, {}) for table in tables.values()) >= min(2, len(tables))
+    ]
 
 
 def _least(table: CostTable, method: str, kind: str) -> float:

@@ -67,29 +67,53 @@ def variants(table: CostTable, timing: Timing) -> list[Variant]:
     return found
 
 
-def processors_figure(table: CostTable, timing: Timing) -> Figure:
-    """Where the correction lands against speed, for each variant, from the least speed on at which it does."""
+def landings(table: CostTable, timing: Timing) -> dict[str, list[tuple[float, int]]]:
+    """Of each variant the speeds, from the slowest, and where the correction lands at each."""
     table, N, M = table.normalised(), timing.N, timing.M
     stairs = {name: staircase(select(table, "dual-rate", of), N, M, of) for name, of in VARIANTS.items()}
     slowest = 0.93 * float(min(stair.speed for of in stairs.values() for stair in of))
     fastest = 1.05 * float(max(stair.speed for of in stairs.values() for stair in of))
+    found = {}
+    for name, options in VARIANTS.items():
+        speeds = speed_grid(slowest, fastest, CURVE_POINTS, [stair.speed for stair in stairs[name]])
+        curve = achieved_curve(select(table, "dual-rate", options), N, M, speeds, options)
+        found[name] = [(float(speed), L) for speed, L in zip(speeds, curve, strict=True) if L is not None]
+    return found
+
+
+def steps_of(curve: Sequence[tuple[float, int]]) -> list[tuple[float, int]]:
+    """Where it steps: the first speed of each L."""
+    return [
+        point for before, point in zip([None, *curve], curve, strict=False) if before is None or before[1] != point[1]
+    ]
+
+
+def processors_figure(landed: Mapping[str, Sequence[tuple[float, int]]], timing: Timing) -> Figure:
+    """Where the correction lands against speed, for each variant, from the least speed on at which it does.
+
+    landed: from `landings`.
+    """
+    N, M = timing.N, timing.M
+    least, most = (end(speed for of in landed.values() for speed, _ in of) for end in (min, max))
     with drawing():
         drawn = sheet(1, 1, [line_entry(name, line) for name, line in LINES.items()], height_mm=HEIGHT_MM)
         ((axes,),) = drawn.plots
-        for number, (name, options) in enumerate(VARIANTS.items()):
-            line, costs = LINES[name], select(table, "dual-rate", options)
-            speeds = speed_grid(slowest, fastest, CURVE_POINTS, [stair.speed for stair in stairs[name]])
-            curve = achieved_curve(costs, N, M, speeds, options)
-            points = [(float(speed), L) for speed, L in zip(speeds, curve, strict=True) if L is not None]
+        for number, (name, points) in enumerate(landed.items()):
+            line = LINES[name]
             across = [speed for speed, _ in points]
             up = [L - 0.09 * number for _, L in points]
             axes.step(across, up, where="post", color=line.colour, ls=line.dashes, lw=1.3, label=name)
             axes.plot(across[:1], up[:1], line.marker, color=line.colour, ms=line.size + 0.6, zorder=3)
-        axes.set(xlim=(slowest, fastest), ylim=(M, N + 0.7))
+        axes.set(xlim=(0.93 * least, most), ylim=(M, N + 0.7))
         axes.fmt_ydata = lambda at: f"L = {round(at + 0.1)}"
         axes.xaxis.set_major_locator(MultipleLocator(0.1))
         axes.grid(axis="x", color=PALE, lw=0.5)
-        label(axes, f"Dual-rate, $N = {N}$, $M = {M}$, by counts", f"speed ({SPEED_UNIT})", "$L$ at which it lands")
+        label(
+            axes,
+            f"Dual-rate, $N = {N}$, $M = {M}$, by counts",
+            f"speed ({SPEED_UNIT})",
+            "lands at $L$ (steps after $k$)",
+        )
         return drawn.figure
 
 
@@ -124,5 +148,10 @@ def switches_figure(speeds: Mapping[str, Sequence[Fraction]]) -> Figure:
                 label=METHOD_NAMES[method],
             )
         axes.set(xlim=(0, 1.02 * float(SWITCHES[-1])), ylim=(0, None))
-        label(axes, "By the costs of the paper", "cost of a context switch (standard steps)", "least speed")
+        label(
+            axes,
+            "By the costs of the paper",
+            "cost of a context switch (standard steps)",
+            f"least speed\n({SPEED_UNIT})",
+        )
         return drawn.figure

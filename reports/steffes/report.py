@@ -7,7 +7,7 @@ from fractions import Fraction
 
 from reports.charts.bar_rows import bar_rows
 from reports.charts.panels import Panel
-from reports.pages.machine import legend, timed_on
+from reports.pages.machine import legend, marked, timed_on
 from reports.pages.measurements import who_measured
 from reports.pages.pictures import Annotated, Sliding, files, pictures
 from reports.pages.render import csv_bytes, render
@@ -15,16 +15,18 @@ from reports.pages.stored import Rows
 from reports.steffes import rows, said
 from reports.steffes.advantage import about_advantage, heavier_rows, needed_rows
 from reports.steffes.agreement import agreement_figure
-from reports.steffes.comparisons import cost_figure
+from reports.steffes.answer import answer_figure, answer_rows
+from reports.steffes.comparisons import cost_figure, cost_rows
 from reports.steffes.figures import achieved_figure, least_speed_figure
 from reports.steffes.noise import noise_figure
-from reports.steffes.processors import processors_figure, switched, switches_figure, variants
+from reports.steffes.processors import landings, processors_figure, switched, switches_figure, variants
 from reports.steffes.products import products_figure
 from reports.steffes.said import FIGURE_3
 from reports.steffes.sliding import SPEEDS, frames_over_l, frames_over_speed
 from reports.steffes.table4 import Speeds, table4_figure
 from reports.steffes.timelines import dual_rate_panel, dual_rate_timeline, serial_costs, serial_panel, serial_timeline
 from reports.steffes.waiting import waited, waiting_figure
+from sched_sim.costs.methods import PAPER_METHODS
 from sched_sim.costs.table import CostTable
 from sched_sim.costs.table_file import costs_text, load_costs
 from sched_sim.design.least_speed import least_speed
@@ -56,9 +58,13 @@ def build(measured: CostTable, stored: Sequence[CostTable] = ()) -> dict[str, by
     on, switches = variants(tables["counted"], FIGURE_3), switched(paper, FIGURE_3)
     panels, (N, M) = _panels(paper), rows.STAIRS[0]
     over_l = frames_over_l(paper, FIGURE_3.N, FIGURE_3.M)
+    speeds: dict[str, Fraction] = {method: rows.least(paper, method, FIGURE_3) for method in PAPER_METHODS}
+    landed = landings(tables["counted"], FIGURE_3)
     shown: dict[str, Rows] = {
         "tables-1-3": rows.entries(tables["counted"], every),
-        "table-4": rows.table4(tables["counted"], every, cells),
+        "table-4": rows.table4(tables["counted"], every, tables["measured"], cells),
+        "answer": answer_rows(speeds, FIGURE_3),
+        "costs": cost_rows(tables, every),
         "measurements": rows.measurements(every, FIGURE_3),
         "simulated": rows.simulated(paper),
         "propagate-by": rows.propagate_by(paper),
@@ -70,12 +76,14 @@ def build(measured: CostTable, stored: Sequence[CostTable] = ()) -> dict[str, by
         "other-methods": needed_rows(others),
         "heavier-updates": heavier_rows(updates),
         "processors": rows.processors(on),
+        "landings": rows.landings(landed),
         "switches": rows.switches(switches),
         "noise": rows.noise(noises),
         **{name: bar_rows(of) for name, of in {**panels, "fig3": over_l[AT_L].panels}.items()},
     }
     figures = pictures(
         {
+            "answer.svg": answer_figure(speeds, FIGURE_3),
             "fig3.svg": Sliding("L asked for", over_l, at=AT_L),
             "costs.svg": cost_figure(tables, every),
             "table4.svg": table4_figure(_speeds(tables, every, cells)),
@@ -90,7 +98,7 @@ def build(measured: CostTable, stored: Sequence[CostTable] = ()) -> dict[str, by
             "achieved-l.svg": Sliding(
                 "speed", frames_over_speed(paper, N, M), at=AT_SPEED, figure=achieved_figure(paper, rows.STAIRS)
             ),
-            "processors.svg": processors_figure(tables["counted"], FIGURE_3),
+            "processors.svg": processors_figure(landed, FIGURE_3),
             "switches.svg": switches_figure(switches),
             "noise.svg": noise_figure(noises),
         }
@@ -110,13 +118,13 @@ def build(measured: CostTable, stored: Sequence[CostTable] = ()) -> dict[str, by
         product=said.about_products(counted, kept),
         work=said.about_work(tables),
         advantage=about_advantage(others, updates, by_rate(paper, FIGURE_3), FIGURE_3.L),
-        on=said.about_processors(on, switches),
+        on=said.about_processors(on, landed, switches),
         noise=said.about_noise(noises, tables),
         by=said.about_deadlines(paper),
         equations=said.equations(),
         rows={
             name.replace("-", "_"): rows.on_page(of)
-            for name, of in {**shown, "table-4": rows.without(shown["table-4"], "exactly")}.items()
+            for name, of in {**shown, "table-4": rows.without(shown["table-4"], "exactly", marked(rows.HERE))}.items()
         },
     )
     return {

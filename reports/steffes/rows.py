@@ -11,7 +11,7 @@ from reports.charts.panels import METHOD_NAMES
 from reports.pages.machine import marked
 from reports.pages.measurements import Shown, measurement_rows
 from reports.pages.stored import Rows
-from reports.steffes.processors import SWITCHES, Variant
+from reports.steffes.processors import SWITCHES, Variant, steps_of
 from reports.steffes.waiting import Waited
 from sched_sim.costs.methods import PAPER_METHODS
 from sched_sim.costs.table import CostTable
@@ -29,6 +29,8 @@ from studies.steffes.memory import Memory
 from studies.steffes.noise import Approximated
 from studies.steffes.products import STEPS, Multiplies
 
+HERE = "measured for this page"
+"""Heading of what the one measurement gives with which the page is made."""
 P95 = "p95, at most"
 """Heading of least speeds by 95th percentiles."""
 CYCLES = 4
@@ -38,8 +40,8 @@ BY_L = Options(lr_propagate_by="l")
 STAIRS = ((10, 4), (100, 10))
 """N and M of the figures of least speed and of landing."""
 
-SMALL = r"[\d.]+e-\d+"
-TOGETHER = r"\d+ of \d+|\d+(, \d+)+|N, M, L|LR update, .*"
+SMALL, LARGE = r"[\d.]+e-\d+", r"\d{4,}"
+TOGETHER = r"\d+ of \d+|\d+(, \d+)+|N, M, L|LR update, .*|Standard \(no delay\)"
 NO_BREAK = "\N{NO-BREAK SPACE}"
 RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
@@ -83,13 +85,14 @@ def entries(counted: CostTable, measured: Sequence[CostTable]) -> Rows:
     return rows
 
 
-def table4(counted: CostTable, measured: Sequence[CostTable], cells: Sequence[steffes.Cell]) -> Rows:
-    """measured: each normalised."""
+def table4(counted: CostTable, measured: Sequence[CostTable], here: CostTable, cells: Sequence[steffes.Cell]) -> Rows:
+    """measured: each normalised; here: the one with which the page is made."""
     heading = ["N, M, L", "Method", "printed", "analysis", "exactly", "from rounding", "reached", "counted"]
-    rows: Rows = [[*heading, marked("measured"), marked(P95)]]
+    rows: Rows = [[*heading, marked("measured"), marked(HERE), marked(P95)]]
     for cell in cells:
         of_cell = cell.method, cell.timing
-        others = [number(least(counted, *of_cell)), span(*over(measured, *of_cell)), number(at_p95(measured, *of_cell))]
+        by_counts, by_this = (number(least(table, *of_cell)) for table in (counted, here))
+        others = [by_counts, span(*over(measured, *of_cell)), by_this, number(at_p95(measured, *of_cell))]
         rows.append(
             [
                 *(design(cell.timing), METHOD_NAMES[cell.method], number(cell.printed, 2), number(cell.computed.speed)),
@@ -119,7 +122,7 @@ def without(rows: Rows, *headings: str) -> Rows:
 def simulated(paper: CostTable) -> Rows:
     """Each design at its least speed, and one tick of the period slower; misses are of all jobs released."""
     heading = ["N, M, L", "Method", "least speed", "fixed by", "misses", "lands at L", "busy, %"]
-    rows: Rows = [[*heading, "misses, one tick slower"]]
+    rows: Rows = [[*heading, "misses, slower"]]
     for timing in steffes.cases():
         for method in PAPER_METHODS:
             costs = select(paper, method, Options())
@@ -146,7 +149,7 @@ def simulated(paper: CostTable) -> Rows:
 
 
 def propagate_by(paper: CostTable) -> Rows:
-    rows: Rows = [["N, M, L", "by m", "by l"]]
+    rows: Rows = [["N, M, L", "least speed, by m", "by l"]]
     for timing in SMALL_DELAYS:
         both = [number(least(paper, "dual-rate", timing, options), 4) for options in (Options(), BY_L)]
         rows.append([design(timing), *both])
@@ -196,7 +199,7 @@ def memory(found: Sequence[Memory]) -> Rows:
                 one.matrices,
                 one.correction,
                 one.scratch,
-                f"{one.total:,}",
+                one.total,
             ]
         )
     return rows
@@ -216,6 +219,14 @@ def processors(found: Sequence[Variant]) -> Rows:
     return rows
 
 
+def landings(landed: Mapping[str, Sequence[tuple[float, int]]]) -> Rows:
+    """From which speed on each variant lands where."""
+    rows: Rows = [["Dual-rate on", "from speed", "lands at L"]]
+    for name, curve in landed.items():
+        rows += [[name, number(speed), L] for speed, L in steps_of(curve)]
+    return rows
+
+
 def switches(speeds: Mapping[str, Sequence[Fraction]]) -> Rows:
     rows: Rows = [["context switch", *(METHOD_NAMES[method] for method in speeds)]]
     for cost, *of in zip(SWITCHES, *speeds.values(), strict=True):
@@ -229,20 +240,26 @@ def noise(found: Sequence[Approximated]) -> Rows:
     pairs = [(one, other) for one, other in pairwise(found) if (one.noise, other.noise) == ("sum", "euler")]
     for summed, euler in pairs:
         values = summed.share, summed.covariance, euler.covariance, summed.estimate, euler.estimate
-        rows.append([summed.system, *(f"{value:.2g}" for value in values)])
+        rows.append([summed.system, *(f"{value:#.2g}" for value in values)])
     return rows
 
 
 def on_page(rows: Rows) -> Rows:
-    """The same as people write them: small numbers as powers of ten, and no line ends within what belongs together."""
-    return [[_whole(power(cell) if re.fullmatch(SMALL, str(cell)) else str(cell)) for cell in row] for row in rows]
+    """The same as people write them: small numbers as powers of ten, commas between thousands, and no line ends within
+    what belongs together."""
+    return [[_whole(str(cell)) for cell in row] for row in rows]
 
 
 def _whole(cell: str) -> str:
+    if re.fullmatch(SMALL, cell):
+        return power(cell)
+    if re.fullmatch(LARGE, cell):
+        return f"{int(cell):,}"
     return cell.replace(" ", NO_BREAK) if re.fullmatch(TOGETHER, cell) else cell
 
 
 def power(number: str) -> str:
-    """Such as 3 × 10⁻¹⁶, for 3e-16."""
+    """Such as 3 × 10⁻¹⁶, for 3e-16, and 10⁻¹¹, for 1e-11."""
     digits, _, exponent = number.partition("e")
-    return f"{digits} × 10{str(int(exponent)).translate(RAISED)}".replace(" ", NO_BREAK)
+    raised = f"10{str(int(exponent)).translate(RAISED)}"
+    return raised if digits == "1" else f"{digits} × {raised}".replace(" ", NO_BREAK)

@@ -48,11 +48,11 @@ def about_tables(
         method: {name: least(tables[name], method, FIGURE_3) for name in ("printed", "counted")}
         for method in ("larsen", "dual-rate")
     }
-    shares = [speeds["dual-rate"][name] / speeds["larsen"][name] for name in ("printed", "counted")]
+    below = [1 - cell.printed / cell.computed.speed for cell in cells if not cell.reached]
+    share = speeds["dual-rate"]["printed"] / speeds["larsen"]["printed"]
     return {
         "cells": len(cells),
         "reached": sum(cell.reached for cell in cells),
-        "figures": len({(cell.method, cell.printed) for cell in cells if not cell.reached}),
         "counted_deviation": f"{steffes.deviation(tables['counted']):.3f}",
         "measured_deviation": span(*range_of(steffes.deviation, measured)),
         **{
@@ -65,9 +65,15 @@ def about_tables(
         },
         "measurements": counted_on(measured),
         "here": [number(speeds[method]["printed"], 2) for method in ("dual-rate", "larsen")],
-        "share": percent(shares[0]),
-        "counted_share": percent(shares[1]),
+        "recalculate": number(least(tables["printed"], "recalculate", FIGURE_3), 2),
+        "share": percent(share),
         "later": FIGURE_3.L - FIGURE_3.M,
+        "design": FIGURE_3,
+        "busy": [
+            percent(utilization(select(tables["printed"], method), FIGURE_3, of["printed"]))
+            for method, of in speeds.items()
+        ],
+        "below": [f"{100 * float(share):.0f}" for share in (min(below), max(below))],
         "cycles": CYCLES,
     }
 
@@ -200,8 +206,12 @@ def about_work(tables: Mapping[str, CostTable]) -> dict[str, Any]:
     }
 
 
-def about_processors(found: Sequence[Variant], speeds: Mapping[str, Sequence[Fraction]]) -> dict[str, Any]:
-    """Of one CPU or two, the gain computed early, and of switches."""
+def about_processors(
+    found: Sequence[Variant],
+    landed: Mapping[str, Sequence[tuple[float, int]]],
+    speeds: Mapping[str, Sequence[Fraction]],
+) -> dict[str, Any]:
+    """Of one CPU or two, the gain computed early, and of switches. landed: from `landings`."""
     by_name = {one.name: one for one in found}
     one, two, early = by_name["one CPU"], by_name["two CPUs"], by_name["one CPU, early gain"]
     at = SWITCHES.index(ONE_HUNDREDTH)
@@ -211,6 +221,7 @@ def about_processors(found: Sequence[Variant], speeds: Mapping[str, Sequence[Fra
         "one": number(one.speed),
         "two": number(two.speed),
         "early": number(early.speed),
+        "late": number(next(speed for speed, L in landed["one CPU"] if two.lands == L), 2),
         "lands": {"one": one.lands, "two": two.lands, "early": early.lands},
         "two_saves": percent(1 - two.speed / one.speed),
         "early_saves": percent(1 - early.speed / one.speed),
@@ -257,7 +268,7 @@ def about_deadlines(paper: CostTable) -> dict[str, Any]:
         saved[timing] = 1 - by_l / by_m
     less = {timing: share for timing, share in saved.items() if share > 0}
     return {
-        "by_m": number(least(paper, "dual-rate", first)),
+        "by_m": number(least(paper, "dual-rate", first), 4),
         "by_l": number(least(paper, "dual-rate", first, BY_L), 4),
         "N": N,
         "designs": len(saved),

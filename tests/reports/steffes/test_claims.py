@@ -15,7 +15,15 @@ from reports.drawing.style import METHOD_LINES, Line
 from reports.steffes import processors, waiting
 from reports.steffes.agreement import ZERO, agreement_figure
 from reports.steffes.noise import noise_figure
-from reports.steffes.processors import SWITCHES, processors_figure, switched, switches_figure, variants
+from reports.steffes.processors import (
+    SWITCHES,
+    landings,
+    processors_figure,
+    steps_of,
+    switched,
+    switches_figure,
+    variants,
+)
 from reports.steffes.products import products_figure
 from reports.steffes.waiting import by_wait, off_the_curve, waited, waiting_figure
 from sched_sim.costs.table_file import load_costs
@@ -60,7 +68,7 @@ def curves(figure: Figure, label: str) -> list[list[float]]:
         products_figure(COUNTS),
         noise_figure(NOISES),
         waiting_figure(PAPER),
-        processors_figure(COUNTED, T),
+        processors_figure(landings(COUNTED, T), T),
         switches_figure({method: [Fraction(1), *SWITCHES[1:]] for method in ("larsen", "dual-rate")}),
     ],
     ids=["agreement", "products", "noise", "waiting", "processors", "switches"],
@@ -117,6 +125,17 @@ def test_with_an_early_gain_it_lands_at_lower_speeds_too_if_lr_propagate_may_end
     landed = achieved_l(select(COUNTED, "dual-rate", early), T, by_l.speed, early)
     assert landed is not None
     assert landed <= T.L
+
+
+def test_what_is_listed_of_landings_is_what_is_drawn() -> None:
+    landed = landings(COUNTED, T)
+    figure = processors_figure(landed, T)
+    for number, (name, curve) in enumerate(landed.items()):
+        assert curves(figure, name) == [[L - 0.09 * number for _, L in curve]]
+        steps = steps_of(curve)
+        assert [L for _, L in steps] == sorted({L for _, L in curve}, reverse=True)
+        for speed, L in steps:
+            assert speed == min(other for other, at in curve if at == L)
 
 
 @pytest.mark.parametrize("lines", [waiting.LINES, processors.LINES], ids=["waiting", "processors"])

@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from reports.drawing.style import METHOD_LINES, SOURCES
-from reports.steffes.comparisons import cost_figure
+from reports.steffes.comparisons import cost_figure, cost_rows
 from reports.steffes.curves import achieved_curve, hr_limit, knee, speed_grid
 from reports.steffes.figures import achieved_figure, least_speed_figure
 from reports.steffes.signs import shown
@@ -24,7 +24,7 @@ from sched_sim.design.simulate import simulate
 from sched_sim.design.timing import Timing
 from sched_sim.errors import InputError
 from tests.designs import Design, designs
-from tests.reports.layout import flaws, texts
+from tests.reports.layout import contrast_of, flaws, texts
 
 PAPER, COUNTED = load_costs("steffes2014"), load_costs("counted-9-3-3")
 DUAL_RATE = select(PAPER, "dual-rate", Options())
@@ -124,6 +124,23 @@ def test_one_table_shows_all_its_jobs_and_the_range_of_the_least_over_all_measur
     bars = [(bar.get_x(), bar.get_x() + bar.get_width()) for bar in figure.axes[0].patches]
     assert bars == [pytest.approx(ends)]
     assert not cost_figure({"measured": slower}).axes[0].patches
+
+
+def test_each_cost_that_is_drawn_is_listed() -> None:
+    tables = {"printed": PAPER, "counted": COUNTED}
+    heading, *rows = cost_rows(tables, [COUNTED])
+    assert heading == ["Method", "Job", "printed", "counted", "all measurements †"]
+    for column, source in enumerate(tables, start=2):
+        drawn = [line for line in cost_figure(tables).axes[0].lines if line.get_label() == source]
+        assert [row[column] for row in rows if row[column]] == [f"{line.get_xdata()[0]:.3f}" for line in drawn]
+
+
+def test_bars_stand_out_from_the_page() -> None:
+    """By their fill, or by their edge if that is pale."""
+    slower = replace(COUNTED, costs={**COUNTED.costs, "larsen": {**COUNTED.costs["larsen"], "update": Cost.of(9000)}})
+    bars = cost_figure({"measured": COUNTED}, [COUNTED, slower]).axes[0].patches
+    assert bars
+    assert min(map(contrast_of, bars)) >= 3
 
 
 def test_a_job_that_an_earlier_measurement_lacks_has_the_range_of_those_that_timed_it() -> None:
