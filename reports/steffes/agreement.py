@@ -84,7 +84,7 @@ def _shade(axes: Axes, found: Agreement) -> None:
         axes.vlines([k + M - 0.5, k + L - 0.5], *axes.get_ylim(), color=GREY, lw=0.5, ls=(0, (2.0, 1.5)), zorder=0.3)
     axes.axhspan(ZERO / 3, FLOOR, facecolor="none", edgecolor=PALE, hatch="////", lw=0, zorder=0.4)
     axes.axhline(FLOOR, color=GREY, lw=0.7, zorder=0.6)
-    above = axes.text(M + (L - M - 1) / 2, 1e-6, "$m$ to\n$l-1$", ha="center", va="center", size=SMALL_PT)
+    above = axes.text(M + (L - M - 1) / 2, 1e-6, "m to\nl − 1", ha="center", va="center", size=SMALL_PT)
     below = axes.text(last + 0.5, ZERO, "rounding", ha="right", va="center", size=SMALL_PT, color=GREY)
     for note in (above, below):
         note.set_path_effects(OUTLINE)

@@ -96,7 +96,7 @@ def achieved_figure(
                 axes.plot(across[:1], up[:1], line.marker, color=line.colour, ms=MARKER_PT, zorder=3)
                 latest = max(latest, *up)
                 if isinstance(costs, DualRateCosts):
-                    note = f"{across[0]:.3g}: $L = {up[0]}$"
+                    note = f"{across[0]:.3g}: L = {up[0]}"
                     label = axes.annotate(note, (across[0], up[0]), (5, 2), textcoords="offset points", size=SMALL_PT)
                     label.set_path_effects(OUTLINE)
                     _hatch_overrun(axes, slowest, float(hr_limit(costs, N, options)))
@@ -169,14 +169,13 @@ def _mark_knee(axes: Axes, stairs: Sequence[Stair]) -> None:
     first, last = axes.get_xlim()
     left_half = stair.achieved < (first + last) / 2
     note = axes.annotate(
-        f"{speed:.3g} already lands at $L = {stair.achieved}$;\nwaiting longer buys nothing",
+        f"{speed:.3g} already lands at L = {stair.achieved};\nwaiting longer buys nothing",
         (stair.achieved, speed),
         (10 if left_half else -10, -7),
         textcoords="offset points",
         ha="left" if left_half else "right",
         va="top",
         size=SMALL_PT,
-        linespacing=1.4,
         arrowprops={"arrowstyle": "-", "lw": 0.7, "shrinkB": 3.5, "shrinkA": 0, "relpos": (0 if left_half else 1, 1)},
         zorder=5,
     )

@@ -42,6 +42,7 @@ STAIRS = ((10, 4), (100, 10))
 
 SMALL, LARGE = r"[\d.]+e-\d+", r"\d{4,}"
 TOGETHER = r"\d+ of \d+|\d+(, \d+)+|N, M, L|LR update, .*|Standard \(no delay\)"
+PHRASE = r"(one|two) CPUs?|early gain|one LR|\b\w [+−] \d\b"
 NO_BREAK = "\N{NO-BREAK SPACE}"
 RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
@@ -178,7 +179,7 @@ def agreement(found: Agreement) -> Rows:
 
 
 def products(counted: Sequence[Multiplies]) -> Rows:
-    rows: Rows = [["n", "n³", *STEPS.values(), "more than standard", "saved by Q′"]]
+    rows: Rows = [["n", "n³", *STEPS.values(), "over standard", "saved by Q′"]]
     exact, summed = ("dual-rate", "hr_propagate"), ("dual-rate", "hr_propagate_sum")
     for one in counted:
         saved = one.by_job[exact] - one.by_job[summed]
@@ -255,7 +256,11 @@ def _whole(cell: str) -> str:
         return power(cell)
     if re.fullmatch(LARGE, cell):
         return f"{int(cell):,}"
-    return cell.replace(" ", NO_BREAK) if re.fullmatch(TOGETHER, cell) else cell
+    return cell.replace(" ", NO_BREAK) if re.fullmatch(TOGETHER, cell) else re.sub(PHRASE, _unbroken, cell)
+
+
+def _unbroken(phrase: re.Match[str]) -> str:
+    return phrase[0].replace(" ", NO_BREAK)
 
 
 def power(number: str) -> str:

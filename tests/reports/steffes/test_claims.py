@@ -14,6 +14,7 @@ from matplotlib.figure import Figure
 from reports.drawing.style import METHOD_LINES, Line
 from reports.steffes import processors, waiting
 from reports.steffes.agreement import ZERO, agreement_figure
+from reports.steffes.figures import achieved_figure, least_speed_figure
 from reports.steffes.noise import noise_figure
 from reports.steffes.processors import (
     SWITCHES,
@@ -35,7 +36,7 @@ from sched_sim.design.timing import Timing
 from studies.steffes.agreement import Agreement
 from studies.steffes.noise import Approximated
 from studies.steffes.products import STEPS, Multiplies
-from tests.reports.layout import flaws
+from tests.reports.layout import flaws, texts
 
 PAPER, COUNTED = load_costs("steffes2014"), load_costs("counted-9-3-3").normalised()
 DUAL_RATE = select(PAPER, "dual-rate")
@@ -76,6 +77,15 @@ def curves(figure: Figure, label: str) -> list[list[float]]:
 def test_figures_can_be_read(figure: Figure) -> None:
     assert flaws(figure) == []
     assert all(axes.get_xlabel() for axes in figure.axes if axes.axison)
+
+
+@pytest.mark.parametrize(
+    "figure",
+    [agreement_figure(AGREED), waiting_figure(PAPER), least_speed_figure(PAPER), achieved_figure(PAPER)],
+    ids=["agreement", "waiting", "least speed", "achieved"],
+)
+def test_no_formula_has_a_halo_which_in_a_pdf_would_cover_the_letters_before_it(figure: Figure) -> None:
+    assert not [text.get_text() for text, _ in texts(figure) if "$" in text.get_text() and text.get_path_effects()]
 
 
 def test_no_difference_at_all_is_drawn_at_the_zero_of_the_axis() -> None:

@@ -37,7 +37,7 @@ def written(value: float) -> str:
 def test_products_and_memory_are_those_of_their_tables() -> None:
     products = published.rows(rebuilt(), "products.csv")
     for row in products:
-        assert row["more than standard"] == row["n³"]
+        assert row["over standard"] == row["n³"]
         assert int(row["saved by Q′"]) == 2 * int(row["n³"])
         assert row["Larsen"] == row["Dual-rate"]
         assert row["Dual-rate, Q′"] == row["Dual-rate, Q″"]
