@@ -134,15 +134,24 @@ def method_panel(
     notes = [_pace(table, speed), landing_note(landings.values(), delay.M)]
     if method == "standard":
         notes[1] = "no delay: lands at $k$"
+    landing = "correction {} lands"
     if method in MULTIRATE_METHODS:
         notes[1] = notes[1].replace("correction", "gain").replace("lands at", "gain in use from")
+        landing = "gain {} is in use"
     if method in CAVEATS:
         notes.append(CAVEATS[method].partition(":")[0])
     panel = Panel(
         title=METHOD_NAMES[method] if title is None else title,
         schedule=schedule,
         notes=(*notes, *_cost_notes(table), *option_notes(options), busy(schedule.utilization)),
-        marks=cycle_marks(delay, cycles, landings, arrives=not two_rate, end=schedule.horizon // schedule.period),
+        marks=cycle_marks(
+            delay,
+            cycles,
+            landings,
+            arrives=not two_rate,
+            end=schedule.horizon // schedule.period,
+            landing=landing,
+        ),
     )
     if first == 0 and last is None:
         return panel

@@ -51,11 +51,13 @@ def sign_entries(missing: bool, every: int = 1) -> list[Entry]:
 
 def legend_height(entries: Sequence[Entry], width_mm: float) -> float:
     """The height in mm that `draw_legend` takes."""
-    return LINE_MM * len(_lines(entries, width_mm))
+    return LINE_MM * len(_lines(entries, width_mm)) if entries else 0.0
 
 
 def draw_legend(figure: Figure, entries: Sequence[Entry], left: float, top: float, width_mm: float) -> None:
     """Draw it at `left`, `top` (mm from the figure's left and top edge)."""
+    if not entries:
+        return
     lines = _lines(entries, width_mm)
     height = LINE_MM * len(lines)
     axes = axes_at(figure, left, top, width_mm, height)

@@ -17,7 +17,7 @@ from reports.drawing.axes import AXIS_MM, EDGE_MM, TITLE_MM, plain
 from reports.drawing.band import band, band_entry
 from reports.drawing.legend import SWATCH_MM, Entry, draw_legend, legend_height, line_entry
 from reports.drawing.sheet import label
-from reports.drawing.style import FILLS, INK, PALE, RED, SOURCES, WIDTH_MM, Line, axes_at, drawing, page
+from reports.drawing.style import INK, PALE, RED, SOURCES, WIDTH_MM, Line, axes_at, drawing, page
 from studies.live.measure import Measured
 from studies.live.stairs import steps
 from studies.live.taken import NEAR
@@ -26,7 +26,8 @@ LEFT_MM, RIGHT_MM, UPPER_MM, LOWER_MM, BETWEEN_MM = 15.0, 4.0, 44.0, 34.0, 4.0
 MEASURED = SOURCES["measured"]._replace(size=5.0)
 CALM = Line(INK, "-", "o", 2.6)
 ALL = Line(MEASURED.colour, "-", "s", 5.4)
-UNDISTURBED = FILLS["CA"]
+UNDISTURBED: dict[str, Any] = {"facecolor": "white", "edgecolor": INK, "lw": 0.7}
+"""Empty, so that its bars are not taken for shaded bands."""
 PREDICTED = Line(INK, "-", "None")
 LATER = Line(RED, "-", "*", 6.0)
 MOST_LATER = 3
@@ -72,11 +73,7 @@ def staircase_figure(runs: Sequence[Measured], mark: str = "") -> Figure:
 
 
 def _undisturbed(axes: Axes, x: float, y: float) -> None:
-    axes.add_patch(Rectangle((x, y - 1.3), SWATCH_MM, 2.6, **_bar_style()))
-
-
-def _bar_style() -> dict[str, Any]:
-    return {"facecolor": UNDISTURBED.colour, "edgecolor": UNDISTURBED.ink, "lw": UNDISTURBED.edge_pt}
+    axes.add_patch(Rectangle((x, y - 1.3), SWATCH_MM, 2.6, **UNDISTURBED))
 
 
 def _frame(axes: Axes, runs: Sequence[Measured]) -> None:
@@ -131,7 +128,7 @@ def _shares(axes: Axes, runs: Sequence[Measured]) -> None:
     undisturbed = [100 * of.undisturbed / of.cycles for of in agreements]
     everything = [float(100 * of.share) for of in agreements]
     low, high = axes.get_xlim()
-    axes.bar(speeds, undisturbed, 0.012 * (high - low), zorder=1, **_bar_style())
+    axes.bar(speeds, undisturbed, 0.012 * (high - low), zorder=1, **UNDISTURBED)
     for name, line, values in (("of all cycles", ALL, everything), ("of undisturbed cycles", CALM, calm)):
         axes.plot(
             speeds, values, line.marker, color=line.colour, ms=line.size, mew=0, clip_on=False, zorder=3, label=name

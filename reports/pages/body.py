@@ -24,8 +24,9 @@ FIGURE = re.compile(
 HEADING = re.compile(r"<h([23])>(.*?)</h\1>")
 TABLE = re.compile(r"<table>.*?</table>", re.DOTALL)
 ROW_NAME = re.compile(r"<tr>\s*<td[^>]*>(.*?)</td>", re.DOTALL)
-LONG_NAME = 18
-"""Letters: rows with such names have more room for them, where the page is narrow."""
+HEAD = re.compile(r"<th\b.*?</th>", re.DOTALL)
+LONG_NAME, LONG_HEAD = 18, 14
+"""Letters: rows with such names, and columns with such headings, have more room for them, where the page is narrow."""
 MENTION = re.compile(r"(<[^>]*>)|\bFigure (\d+)\b(?!\.<)")
 ANSWER = "<p><strong>Answer.</strong>"
 
@@ -104,9 +105,14 @@ def _of_section(html: str) -> str:
         label = f"Table {next(numbers)}{of}" if several else f"Table{of}"
         long = any(len(_text(name)) >= LONG_NAME for name in ROW_NAME.findall(table[0]))
         shown = "table long-names" if long else "table"
-        return f'<div class="{shown}" role="group" tabindex="0" aria-label="{label}">{table[0]}</div>'
+        text = HEAD.sub(_with_room, table[0])
+        return f'<div class="{shown}" role="group" tabindex="0" aria-label="{label}">{text}</div>'
 
     return TABLE.sub(reached, html)
+
+
+def _with_room(head: re.Match[str]) -> str:
+    return head[0].replace("<th", '<th class="long"', 1) if len(_text(head[0])) >= LONG_HEAD else head[0]
 
 
 def _text(html: str) -> str:

@@ -65,7 +65,7 @@ def _unbroken(cell: str) -> str:
     return re.sub(r"(?<=[\d.%]) (to|±) (?=[-−\d])", "\N{NO-BREAK SPACE}\\1\N{NO-BREAK SPACE}", cell)
 
 
-NUMBER = r"(?:<\s)?[-+−]?[\d., ]+(?:\s×\s10[⁻⁰¹²³⁴-⁹]+)?(?:\s?%)?"
+NUMBER = r"(?:[<>≤≥]\s)?[-+−]?[\d., ]+(?:\s×\s10[⁻⁰¹²³⁴-⁹]+)?(?:\s?%)?"
 IS_NUMBER = re.compile(rf"{NUMBER}(?:\sto\s{NUMBER})?|[-–]")
 
 

@@ -4,14 +4,18 @@ from __future__ import annotations
 
 import re
 from fractions import Fraction
+from math import floor, log10
 
 WITHIN = re.compile(
-    r"(<code>.*?</code>|<[^>]*>)"
-    r"|(?<=\d) (?=(?:%|(?:ms|µs|s|min|m|MHz|Hz|KB)\b))"
-    r"|(?<=\b\w) (?=[=≤≥<>/] )|(?<=\b\w [=≤≥<>/]) (?=[-−\w])",
+    r"(?P<other><code>.*?</code>|<[^>]*>)"
+    r"|(?P<day>\b\d{4}-\d\d-\d\d\b)"
+    r"|(?<=\d) (?=(?:%|°|(?:ms|µs|s|min|mm|m|µrad|MHz|Hz|KB)\b))"
+    r"|(?<=\b\w) (?=[=≤≥<>/+−] )|(?<=\b\w [=≤≥<>/+−]) (?=[-−\w])"
+    r"|(?:(?<=Eq\.)|(?<=Eqs\.)|(?<=Fig\.)|(?<=Figs\.)|(?<=Sec\.)|(?<=Secs\.)) (?=\(?\w)",
     re.DOTALL,
 )
-"""In HTML: what is no text, or the space before a unit or on either side of the sign of a short equation."""
+"""In HTML: what is no text, a day, or the space before a unit, on either side of the sign of a short equation, or
+between a name and its number."""
 
 
 def percent(share: Fraction) -> str:
@@ -31,10 +35,14 @@ def significant(value: Fraction | float, digits: int = 3) -> str:
 
 
 def plus_minus(value: float, standard_error: float) -> str:
-    """Three digits, ± twice the standard error in one; in two where the first is 1."""
+    """± twice the standard error, in one digit, in two where the first is 1; the value to the same place."""
     error = 2 * standard_error
     digits = 2 if f"{error:e}".startswith("1") else 1
-    return f"{significant(value)} ± {significant(error, digits)}"
+    rounded = float(f"{error:.{digits}g}")
+    if not rounded:
+        return f"{significant(value)} ± 0"
+    place = digits - 1 - floor(log10(rounded))
+    return " ± ".join(f"{round(part, place):,.{max(place, 0)}f}" for part in (value, rounded))
 
 
 def between(value: float, low: float, high: float) -> str:
@@ -56,5 +64,10 @@ def duration(seconds: float) -> str:
 
 
 def unbroken(html: str) -> str:
-    """The same, with no end of a line between a number and its unit, or in "n = 5"."""
-    return WITHIN.sub(lambda found: found[1] or "\N{NO-BREAK SPACE}", html)
+    """The same, with no end of a line in a day, between a number and its unit, or in "n = 5"."""
+
+    def kept(found: re.Match[str]) -> str:
+        day = f'<span class="day">{found["day"]}</span>' if found["day"] else ""
+        return found["other"] or day or "\N{NO-BREAK SPACE}"
+
+    return WITHIN.sub(kept, html)

@@ -20,12 +20,19 @@ class Mark(NamedTuple):
 
 
 def cycle_marks(
-    timing: Timing, cycles: int, landings: Mapping[int, int], *, arrives: bool = True, end: int = 0
+    timing: Timing,
+    cycles: int,
+    landings: Mapping[int, int],
+    *,
+    arrives: bool = True,
+    end: int = 0,
+    landing: str = "correction {} lands",
 ) -> list[Mark]:
     """k, m and l of every cycle; steps that coincide share one mark, "m = l".
 
     landings: achieved L by cycle, for the cycles whose correction landed; arrives: whether there is an m; end: where
-    the last of them must have landed after the last cycle, the step until which each k has its mark.
+    the last of them must have landed after the last cycle, the step until which each k has its mark; landing: what
+    happens at l, with a place for its number.
     """
     names: dict[int, list[Mark]] = {}
 
@@ -44,7 +51,7 @@ def cycle_marks(
         if cycle in landings:
             L = landings[cycle]
             text = f"l{later}" if landings.get(0) == L else f"l = k{later}+{L}"
-            add(k + L, text, cycle, f"correction {number} lands")
+            add(k + L, text, cycle, landing.format(number))
     return [_joined(step, marks) for step, marks in sorted(names.items())]
 
 

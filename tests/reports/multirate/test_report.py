@@ -214,7 +214,11 @@ def test_from_the_rate_that_is_said_on_five_is_good_and_the_limit_is_lost() -> N
 
 
 def test_late_are_as_many_state_updates_as_the_schedule_lists() -> None:
-    late = [row for row in rows("rates.csv") if (row["schedule"], row["work"], row["late"]) == ("One loop", "SU", "yes")]
+    late = [
+        row
+        for row in rows("rates.csv")
+        if [row[key] for key in ("schedule", "work", "late")] == ["One loop", "SU", "yes"]
+    ]
     assert f"covariance and gain are late, and {len(late)} of {N} state updates" in text()
 
 

@@ -71,6 +71,12 @@ def test_long_names_of_rows_have_room(name: str, shown: str) -> None:
     assert f'<div class="{shown}" ' in text
 
 
+@pytest.mark.parametrize(("head", "long"), [("share", False), ("within a factor of", True)])
+def test_long_heads_of_columns_have_room(head: str, long: bool) -> None:
+    text = body_of(f"## Who\n\n| who | {head} |\n| --- | ---: |\n| a | 1 |\n", {}).rest
+    assert ('<th class="long" style="text-align:right">' in text) is long
+
+
 def test_the_answer_is_marked() -> None:
     assert body_of("# T\n\n**Answer.** Half.\n", {}).lead.count('<p class="answer"><strong>Answer.</strong> Half.') == 1
 
@@ -83,6 +89,11 @@ def test_no_line_ends_between_a_number_and_its_unit() -> None:
 def test_no_line_ends_in_a_short_equation_and_code_can_be_copied() -> None:
     found = unbroken("n = 5, n ≥ 4, R / 4; speed = 3; <code>n = 5</code>")
     assert found == "n\xa0=\xa05, n\xa0≥\xa04, R\xa0/\xa04; speed = 3; <code>n = 5</code>"
+
+
+def test_no_line_ends_in_a_day_or_between_a_name_and_its_number() -> None:
+    found = unbroken("On 2026-11-29, by Eq. (1) and Secs III.")
+    assert found == 'On <span class="day">2026-11-29</span>, by Eq.\xa0(1) and Secs III.'
 
 
 def test_tables_of_one_section_are_told_apart() -> None:

@@ -16,6 +16,8 @@ from reports.pages.markdown import markdown_table
         "1,827",
         "2.09",
         "< 0.001",
+        "> 50,000",
+        "≥ 20",
         "<\N{NO-BREAK SPACE}0.001",
         "5 %",
         "-",
