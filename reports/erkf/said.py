@@ -17,7 +17,7 @@ from reports.erkf.results import CURVES, Results
 from reports.erkf.schedule import millions
 from reports.erkf.styles import FILTERS
 from reports.pages.machine import residue
-from reports.pages.numbers import percent, span
+from reports.pages.numbers import percent, power, span
 from sched_sim.costs.methods import ROBUST_METHODS, RobustMethod
 from sched_sim.costs.table import CostTable
 from sched_sim.design.fit import Fit, fit
@@ -128,7 +128,7 @@ def rounding_said(results: Results) -> dict[str, Any]:
     drawn = [case.name for case in CURVES]
 
     def worst(rows: Sequence[Mapping[str, str]], *keys: str) -> str:
-        return tables.signed(residue(max(float(row[key]) for row in rows for key in keys)))
+        return power(residue(max(float(row[key]) for row in rows for key in keys)))
 
     by_way = {way: [record for record in scaled if record["way"] == way] for way in ("givens", "lu")}
     radians = [r for r in records if "radians" in r["case"] and r["way"] in by_way]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import Any
@@ -12,7 +13,7 @@ from reports.erkf.schedule import millions
 from reports.erkf.ways import Response
 from reports.pages.machine import marked, residue
 from reports.pages.measurements import Shown, measurement_rows
-from reports.pages.numbers import percent, plus_minus, significant, span
+from reports.pages.numbers import percent, plus_minus, power, raised, significant, span
 from sched_sim.costs.methods import ROBUST_METHODS
 from sched_sim.costs.table import CostTable
 from sched_sim.design.fit import fit
@@ -103,13 +104,8 @@ def parallel_rows(devices: Mapping[SystemName, Parallel]) -> Rows:
 
 
 def typeset(rows: Rows) -> Rows:
-    """The same with true minus signs, for the page; files have what programs read."""
-    return [[signed(str(cell)) for cell in row] for row in rows]
-
-
-def signed(number: str) -> str:
-    """With a true minus sign in its power of ten."""
-    return number.replace("e-", "e\N{MINUS SIGN}")
+    """The same with powers of ten as people write them, for the page; files have what programs read."""
+    return [[power(str(cell)) for cell in row] for row in rows]
 
 
 def agreement_rows(results: Results) -> Rows:
@@ -155,7 +151,8 @@ def with_error(record: Mapping[str, str], name: str) -> str:
 def spoken(method: str) -> str:
     """A filter's name of the studies as the page says it."""
     name = f"E{method}" if method.startswith("KF") else method
-    signs = (("mu=inf", "μ = ∞"), ("mu=", "μ = "), ("I/mu", "I/μ"), (" x ", " × "))
+    name = re.sub(r"mu=1e(\d+)", lambda found: f"μ = {raised(found[1])}", name)
+    signs = (("mu=inf", "μ = ∞"), ("I/mu", "I/μ"), (" x ", " × "))
     for written, said in signs:
         name = name.replace(written, said)
     return name

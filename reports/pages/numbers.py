@@ -16,6 +16,8 @@ WITHIN = re.compile(
 )
 """In HTML: what is no text, a day, or the space before a unit, on either side of the sign of a short equation, or
 between a name and its number."""
+SCIENTIFIC = re.compile(r"([\d.]+)e([-+]?\d+)")
+RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def percent(share: Fraction) -> str:
@@ -32,6 +34,21 @@ def significant(value: Fraction | float, digits: int = 3) -> str:
     """So many digits, with commas between thousands; such as a rate in Hz."""
     rounded = float(f"{float(value):.{digits}g}")
     return f"{rounded:,.0f}" if rounded >= 10 ** (digits - 1) else f"{rounded:#.{digits}g}"
+
+
+def power(number: str) -> str:
+    """As people write it, with no end of a line in it: 3 × 10⁻¹⁶ for "3e-16", 10⁻¹¹ for "1e-11"; another text as it
+    is."""
+    found = SCIENTIFIC.fullmatch(number)
+    if found is None:
+        return number
+    times = "" if found[1] == "1" else f"{found[1]} × ".replace(" ", "\N{NO-BREAK SPACE}")
+    return f"{times}{raised(found[2])}"
+
+
+def raised(exponent: str) -> str:
+    """The power of ten, such as 10⁻⁶ for "-06"."""
+    return f"10{str(int(exponent)).translate(RAISED)}"
 
 
 def plus_minus(value: float, standard_error: float) -> str:

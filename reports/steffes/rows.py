@@ -10,6 +10,7 @@ from itertools import pairwise
 from reports.charts.panels import METHOD_NAMES
 from reports.pages.machine import marked
 from reports.pages.measurements import Shown, measurement_rows
+from reports.pages.numbers import SCIENTIFIC, power
 from reports.pages.stored import Rows
 from reports.steffes.processors import SWITCHES, Variant, steps_of
 from reports.steffes.waiting import Waited
@@ -40,11 +41,10 @@ BY_L = Options(lr_propagate_by="l")
 STAIRS = ((10, 4), (100, 10))
 """N and M of the figures of least speed and of landing."""
 
-SMALL, LARGE = r"[\d.]+e-\d+", r"\d{4,}"
+LARGE = r"\d{4,}"
 TOGETHER = r"\d+ of \d+|\d+(, \d+)+|N, M, L|LR update, .*|Standard \(no delay\)"
 PHRASE = r"(one|two) CPUs?|early gain|one LR|\b\w [+−] \d\b"
 NO_BREAK = "\N{NO-BREAK SPACE}"
-RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def number(value: Fraction | float, digits: int = 3) -> str:
@@ -252,19 +252,12 @@ def on_page(rows: Rows) -> Rows:
 
 
 def _whole(cell: str) -> str:
-    if re.fullmatch(SMALL, cell):
-        return power(cell)
     if re.fullmatch(LARGE, cell):
         return f"{int(cell):,}"
+    if SCIENTIFIC.fullmatch(cell):
+        return power(cell)
     return cell.replace(" ", NO_BREAK) if re.fullmatch(TOGETHER, cell) else re.sub(PHRASE, _unbroken, cell)
 
 
 def _unbroken(phrase: re.Match[str]) -> str:
     return phrase[0].replace(" ", NO_BREAK)
-
-
-def power(number: str) -> str:
-    """Such as 3 × 10⁻¹⁶, for 3e-16, and 10⁻¹¹, for 1e-11."""
-    digits, _, exponent = number.partition("e")
-    raised = f"10{str(int(exponent)).translate(RAISED)}"
-    return raised if digits == "1" else f"{digits} × {raised}".replace(" ", NO_BREAK)

@@ -9,9 +9,9 @@ from typing import Any
 from reports.charts.panels import METHOD_NAMES
 from reports.pages.machine import residue
 from reports.pages.measurements import counted_on
-from reports.pages.numbers import significant
+from reports.pages.numbers import power, significant
 from reports.steffes.processors import SWITCHES, Variant
-from reports.steffes.rows import BY_L, CYCLES, SMALL_DELAYS, at_p95, least, number, over, power, span
+from reports.steffes.rows import BY_L, CYCLES, SMALL_DELAYS, at_p95, least, number, over, span
 from reports.steffes.timelines import serial_costs
 from reports.steffes.waiting import Waited, by_wait, off_the_curve
 from sched_sim.costs.table import CostTable

@@ -14,7 +14,7 @@ from reports.erkf import tables
 from reports.erkf.counts import all_counts, parallel
 from reports.erkf.drive import windowed_rms, wrapped_deg
 from reports.erkf.results import CURVES
-from reports.pages.numbers import span
+from reports.pages.numbers import power, span
 from sched_sim.costs.methods import ROBUST_METHODS
 from sched_sim.costs.table_file import load_costs
 from sched_sim.design.fit import fit
@@ -155,7 +155,7 @@ def test_the_schedules_of_the_figure_are_in_its_file() -> None:
 def test_the_page_says_which_filters_figures_7_and_8_show() -> None:
     attitude, position = CURVES
     assert (attitude.name, position.name) == ("attitude, gyro row, mu=1e5", "position, bias row, mu=1e8")
-    assert "attitude, gyro row, μ = 1e5, and position, bias row, μ = 1e8" in text()
+    assert "attitude, gyro row, μ = 10⁵, and position, bias row, μ = 10⁸" in text()
 
 
 def test_the_table_of_processors_is_that_of_all_its_verdicts() -> None:
@@ -293,7 +293,7 @@ def test_differences_that_are_said_are_those_of_the_table() -> None:
     ]
     assert len(drawn) == 2
     most = max(float(row[heading]) for row in drawn for heading in ("max, abs. †", "min, abs. †"))
-    assert f"of these two filters, they differ by {tables.signed(f'{most:.0e}')} † at most" in text()
+    assert f"of these two filters, they differ by {' '.join(power(f'{most:.0e}').split())} † at most" in text()
 
 
 def test_what_is_only_rounding_has_one_digit() -> None:
@@ -317,9 +317,9 @@ def test_where_robustness_pays() -> None:
     yaw = {
         (row["Scale error"], row["Filter"]): float(row["yaw"].split(" ± ")[0]) for row in rows("attitude-errors.csv")
     }
-    assert yaw["10 %", "ERKF μ = 1e4, gyro row"] < 0.65 * yaw["10 %", "EKF"]
-    assert yaw["10 %", "EKF with I/μ only, μ = 1e4"] == pytest.approx(yaw["10 %", "ERKF μ = 1e4, gyro row"], rel=0.05)
-    assert yaw["2 %", "ERKF μ = 1e4, gyro row"] > yaw["2 %", "EKF"]
+    assert yaw["10 %", "ERKF μ = 10⁴, gyro row"] < 0.65 * yaw["10 %", "EKF"]
+    assert yaw["10 %", "EKF with I/μ only, μ = 10⁴"] == pytest.approx(yaw["10 %", "ERKF μ = 10⁴, gyro row"], rel=0.05)
+    assert yaw["2 %", "ERKF μ = 10⁴, gyro row"] > yaw["2 %", "EKF"]
     assert "At 2 % the yaw loses too" in text()
     for rows_said in ("gyro row", "bias row", "all rows"):
         assert yaw["2 %", f"ERKF μ = ∞, {rows_said}"] > 4 * yaw["2 %", "EKF"]

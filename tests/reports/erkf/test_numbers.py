@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from reports.erkf import counts as ways
+from reports.pages.numbers import power
 from studies.robust.costs import HR_HZ, SYSTEMS
 from tests.reports.erkf.page import costs_of, rebuilt, rows, stored, text
 
@@ -71,7 +72,7 @@ def test_rounding() -> None:
     pivoted = [r for r in found if r["way"] == "lu" and r["case"] in unpivoted]
     worst = [max(float(r["relative_largest"]) for r in each) for each in (unpivoted.values(), pivoted)]
     assert worst[0] > 1000 * worst[1]
-    without, with_it = (f"{value:.0e}".replace("-", "−") for value in worst)
+    without, with_it = (" ".join(power(f"{value:.0e}").split()) for value in worst)
     assert f"relative errors of up to {without} †, where pivoting has {with_it} †" in text()
     (radians,) = (r for r in found if "radians" in r["case"] and r["way"] == "givens")
     assert f"smallest singular value differs by {100 * float(radians['relative_smallest']):.0f} % †" in text()

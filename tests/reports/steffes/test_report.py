@@ -8,8 +8,8 @@ from dataclasses import replace
 
 import pytest
 
+from reports.pages.numbers import power
 from reports.steffes.report import build
-from reports.steffes.rows import power
 from sched_sim.costs.table import Cost
 from tests.reports import published
 from tests.reports.steffes.page import committed_costs, ends, every, of_table_4, rebuilt, said

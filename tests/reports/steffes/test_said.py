@@ -7,7 +7,7 @@ import re
 import pytest
 
 from reports.pages.machine import residue
-from reports.steffes.rows import power
+from reports.pages.numbers import power
 from studies.steffes.noise import APPROXIMATIONS, tried
 from studies.steffes.noise_long import worst
 from tests.reports import published
