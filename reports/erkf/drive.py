@@ -19,7 +19,7 @@ from reports.erkf.styles import FILTERS, GPS, IMU, TRUE, WIDTHS
 
 Columns = Mapping[str, FloatArray]
 
-LEFT_MM, RIGHT_MM, GAP_MM, BETWEEN_MM, ROW_MM = 15.0, 4.0, 14.0, 4.0, 34.0
+LEFT_MM, RIGHT_MM, GAP_MM, BETWEEN_MM, ROW_MM = 15.0, 4.0, 14.0, 3.0, 23.0
 WINDOW = 50
 """Samples of which an error is the root mean square: 5 s."""
 ANGLES, AXES = ("roll", "pitch", "yaw"), ("north", "east", "up")

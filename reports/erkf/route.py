@@ -12,12 +12,12 @@ from filters.arrays import FloatArray
 from reports.drawing.axes import AXIS_MM, EDGE_MM, TITLE_MM
 from reports.drawing.legend import draw_legend, legend_height, line_entry
 from reports.drawing.style import GREY, INK, SMALL_PT, TITLE_PT, WIDTH_MM, axes_at, drawing, page
-from reports.erkf.drive import BETWEEN_MM, ROW_MM, filter_entry, style_axes
+from reports.erkf.drive import BETWEEN_MM, filter_entry, style_axes
 from reports.erkf.styles import FILTERS, GPS, TRUE, WIDTHS
 
 Columns = Mapping[str, FloatArray]
 
-LEFT_MM, RIGHT_MM, ROUTE_MM, GAP_MM = 4.0, 4.0, 78.0, 18.0
+LEFT_MM, RIGHT_MM, ROUTE_MM, GAP_MM, ROW_MM = 4.0, 4.0, 78.0, 18.0, 30.0
 HEIGHT_TIMES = 10.0
 """Heights are drawn so many times as large as what is level."""
 EAST, NORTH = np.array([0.94, -0.34]), np.array([0.62, 0.50])
@@ -67,7 +67,7 @@ def _route(axes: Axes, drive: Columns, error: str) -> None:
     for name, line in FILTERS.items():
         axes.plot(*of(f"{name} {error}"), color=line.colour, lw=WIDTHS[name])
     axes.plot(*of("true")[:, :1], "o", ms=5, mfc="none", mec=INK, mew=0.9)
-    _directions(axes, np.array([below[0].min(), below[1].min() - 10.0]))
+    _directions(axes, of("true").mean(axis=1) - np.array([50.0, 20.0]))
     axes.set_aspect("equal", adjustable="datalim")
     axes.set(xticks=[], yticks=[])
     axes.axis("off")

@@ -11,16 +11,18 @@ from matplotlib.figure import Figure
 
 from reports.drawing.axes import AXIS_MM, EDGE_MM, decades, plain
 from reports.drawing.legend import SWATCH_MM, Entry, draw_legend, legend_height
-from reports.drawing.style import INK, SMALL_PT, WIDTH_MM, axes_at, drawing, page, text_width_mm
+from reports.drawing.style import INK, SMALL_PT, axes_at, drawing, page, text_width_mm
 from reports.erkf.styles import HOLLOW, way_line
 from sched_sim.design.pieces import RobustCosts
 from sched_sim.design.simulate import simulate
 from sched_sim.design.timing import Timing
 from sched_sim.schedule.intervals import jobs
 
-WAY_MM, BAR_MM, RIGHT_MM, HEAD_MM = 9.0, 3.4, 6.0, 7.5
+ACROSS_MM, WAY_MM, BAR_MM, RIGHT_MM, HEAD_MM = 115.0, 7.8, 3.1, 6.0, 6.5
 LEAST_MS = 0.1
 """Where bars begin; the axis is logarithmic."""
+SAID = {"inverse": "dense inverse"}
+"""Of a way that does not skip zeros, as all others here do."""
 
 
 class Response(NamedTuple):
@@ -53,11 +55,11 @@ def ways_figure(responses: Sequence[Response], deadlines_s: Mapping[str, float])
     ways = list(dict.fromkeys(response.way for response in responses))
     systems = list(dict.fromkeys(response.system for response in responses))
     with drawing():
-        left = EDGE_MM + 3.0 + max(text_width_mm(way) for way in ways)
-        across, height = WIDTH_MM - left - RIGHT_MM, WAY_MM * len(ways)
+        left = EDGE_MM + 3.0 + max(text_width_mm(SAID.get(way, way)) for way in ways)
+        across, height = ACROSS_MM - left - RIGHT_MM, WAY_MM * len(ways)
         legend = [Entry(f"{system} filter", SWATCH_MM, _swatch(system)) for system in systems]
         legend_top = EDGE_MM + HEAD_MM + height + AXIS_MM
-        figure = page(legend_top + legend_height(legend, across) + EDGE_MM)
+        figure = page(legend_top + legend_height(legend, across) + EDGE_MM, ACROSS_MM)
         axes = axes_at(figure, left, EDGE_MM + HEAD_MM, across, height)
         decades(axes, "x", LEAST_MS, 2e3 * max(deadlines_s.values()))
         axes.xaxis.set_major_formatter(lambda value, _: f"{value:g}")
@@ -70,7 +72,7 @@ def ways_figure(responses: Sequence[Response], deadlines_s: Mapping[str, float])
             )  # fmt: skip
         for number, way in enumerate(ways):
             axes.annotate(
-                way, (0, WAY_MM * (number + 0.5)), (-4, 0), xycoords=axes.get_yaxis_transform(),
+                SAID.get(way, way), (0, WAY_MM * (number + 0.5)), (-4, 0), xycoords=axes.get_yaxis_transform(),
                 textcoords="offset points", ha="right", va="center",
             )  # fmt: skip
         for response in responses:
@@ -92,7 +94,7 @@ def _bar(axes: Axes, response: Response, top: float) -> None:
     )  # fmt: skip
     axes.plot([milliseconds], [top + BAR_MM / 2], color=line.colour, label=response.system)  # for who asks for it
     written = axes.annotate(
-        f"{milliseconds:#.3g} ms", (milliseconds, top + BAR_MM / 2), (3, 0), textcoords="offset points", va="center",
+        f"{milliseconds:#.3g}", (milliseconds, top + BAR_MM / 2), (3, 0), textcoords="offset points", va="center",
         size=SMALL_PT, zorder=4,
     )  # fmt: skip
     written.set_bbox({"facecolor": "white", "edgecolor": "none", "pad": 0.6})
