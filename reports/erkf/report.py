@@ -4,13 +4,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from fractions import Fraction
 from itertools import product
 
 from matplotlib.figure import Figure
 
 from reports.charts.bar_rows import bar_rows
-from reports.charts.panels import Panel
 from reports.erkf import counts as ways
 from reports.erkf import tables
 from reports.erkf.cost_figure import Way, cost_figure
@@ -20,7 +18,6 @@ from reports.erkf.parallel import parallel_figure
 from reports.erkf.results import CURVES, Results
 from reports.erkf.route import HEIGHT_TIMES, route_figure
 from reports.erkf.said import (
-    SOON,
     cost_said,
     drive_said,
     linear_said,
@@ -29,9 +26,10 @@ from reports.erkf.said import (
     schedule_said,
     shown_drive_said,
 )
-from reports.erkf.schedule import millions, one_period, speed_figure, two_rates
+from reports.erkf.schedule import speed_figure
 from reports.erkf.scheme import filters_figure, imu_figure
 from reports.erkf.singular import singular_figure
+from reports.erkf.sliding import DRAWN, over_l
 from reports.erkf.stability import stability_figure
 from reports.erkf.ways import Response, response_s, ways_figure
 from reports.pages.machine import legend, timed_on
@@ -41,7 +39,6 @@ from reports.pages.render import csv_bytes, render
 from sched_sim.costs.methods import ROBUST_METHODS
 from sched_sim.costs.table import CostTable
 from sched_sim.costs.table_file import load_costs
-from sched_sim.design.least_speed import least_speed
 from sched_sim.design.timing import Timing
 from sched_sim.processors.part import Part
 from sched_sim.processors.part_file import load_part, shipped_parts
@@ -49,7 +46,7 @@ from studies.robust import drive
 from studies.robust.costs import HR_HZ, SYSTEMS, N, SystemName
 from studies.robust.singular_values import Case
 
-TITLE = "The extended robust Kalman filter: which way to compute it, on which processor, and what it buys"
+TITLE = "Extended robust Kalman filter: how to compute it, what it buys"
 SLOWEST = "leon3"
 """The processor of the lead figure and of the parallel device."""
 FIGURES = dict(zip((7, 8), CURVES, strict=True))
@@ -64,6 +61,7 @@ def build(results: Results) -> dict[str, bytes]:
     parts = [load_part(name) for name in shipped_parts()]
     slowest = next(part for part in parts if part.name == SLOWEST)
     responses = _responses(counted, slowest)
+    schedules = over_l(tables.robust_costs_of(counted["position"], "robust-givens"))
     rows = {
         "ways": tables.response_rows(responses),
         "costs": tables.cost_rows(all_counts(), results.measurements),
@@ -78,9 +76,9 @@ def build(results: Results) -> dict[str, bytes]:
         "least-speeds": tables.least_speed_rows(counted),
         "processors": tables.processor_rows(counted, parts),
         "device": tables.device_rows(slowest),
-        "deadlines": [[*row] for row in bar_rows(_deadlines_panels(counted["position"]))],
+        "deadlines": [[*row] for row in bar_rows(schedules.frames[schedules.at].panels)],
     }
-    figures = pictures(_figures(results, counted, devices, responses))
+    figures = pictures({**_figures(results, counted, devices, responses), "deadlines.svg": schedules})
     pages = render(
         "erkf",
         TITLE,
@@ -104,7 +102,7 @@ def build(results: Results) -> dict[str, bytes]:
         hz=HR_HZ,
         period_ms=f"{1000 / HR_HZ:g}",
         fix_hz=HR_HZ // N,
-        soon=SOON,
+        soon=DRAWN,
         slowest=SLOWEST,
         small=unbroken(SMALL),
         large=unbroken(LARGE),
@@ -128,11 +126,11 @@ def _figures(
     counted: Mapping[SystemName, CostTable],
     devices: Mapping[SystemName, Parallel],
     responses: Sequence[Response],
-) -> dict[str, Figure | Sequence[Panel]]:
+) -> dict[str, Figure]:
     course = results.columns("drive")
     period_s = 1 / HR_HZ
     return {
-        "ways.svg": ways_figure(responses, {"robust step in each period": period_s, "one for each fix": N * period_s}),
+        "ways.svg": ways_figure(responses, {"one period": period_s, "next fix": N * period_s}),
         "imu.svg": imu_figure(),
         "filters.svg": filters_figure(),
         "costs.svg": cost_figure(
@@ -161,7 +159,6 @@ def _figures(
             N,
             HR_HZ,
         ),
-        "deadlines.svg": _deadlines_panels(counted["position"]),
     }
 
 
@@ -194,19 +191,3 @@ def _responses(counted: Mapping[SystemName, CostTable], part: Part) -> list[Resp
         assert costs is not None
         found.append(Response(system, tables.WAYS[method], response_s(costs, Timing(N, 0, N), HR_HZ)))
     return found
-
-
-def _deadlines_panels(table: CostTable) -> list[Panel]:
-    """Givens at the least speeds for two L, and in one period at the faster of them."""
-    costs = tables.robust_costs_of(table, "robust-givens")
-    timings = [Timing(N, 0, L) for L in (N, SOON)]
-    speeds = [least_speed(costs, timing).speed for timing in timings]
-    panels = [
-        two_rates(costs, timing, speed, f"Two rates, L = {timing.L}", _pace(speed))
-        for timing, speed in zip(timings, speeds, strict=True)
-    ]
-    return [*panels, one_period(costs, N, speeds[-1], "In one period", _pace(speeds[-1]))]
-
-
-def _pace(speed: Fraction) -> str:
-    return f"{millions(speed, HR_HZ):.3g} million operations/s"

@@ -14,10 +14,11 @@ from reports.erkf import tables
 from reports.erkf.counts import Parallel, all_counts
 from reports.erkf.drive import ANGLES, windowed_rms, wrapped_deg
 from reports.erkf.results import CURVES, Results
-from reports.erkf.schedule import millions
+from reports.erkf.schedule import millions, one_period
+from reports.erkf.sliding import DRAWN
 from reports.erkf.styles import FILTERS
 from reports.pages.machine import residue
-from reports.pages.numbers import percent, power, span
+from reports.pages.numbers import power, significant, span
 from sched_sim.costs.methods import ROBUST_METHODS, RobustMethod
 from sched_sim.costs.table import CostTable
 from sched_sim.design.fit import Fit, fit
@@ -29,9 +30,6 @@ from studies.robust import drive
 from studies.robust.costs import HR_HZ, SYSTEMS, N, SystemName, between_fixes, robust_case
 from studies.robust.counts import PENALTIES, filled, product_share
 from studies.robust.linear import KALMAN
-
-SOON = 10
-"""The L of the Gantt charts other than N."""
 
 
 def cost_said(results: Results) -> dict[str, Any]:
@@ -255,6 +253,7 @@ def schedule_said(counted: Mapping[SystemName, CostTable], parts: list[Part], sl
     position = counted["position"]
     costs = {method: tables.robust_costs_of(position, method) for method in ROBUST_METHODS}
     least = {method: least_speed(work, Timing(N, 0, N)).speed for method, work in costs.items()}
+    givens, soon = costs["robust-givens"], least_speed(costs["robust-givens"], Timing(N, 0, DRAWN)).speed
     serial = {method: work.inertial + work.robust_step for method, work in costs.items()}
     able: dict[str, dict[RobustMethod, Fit]] = {}
     in_every_step: dict[str, dict[RobustMethod, Fit]] = {}
@@ -264,7 +263,6 @@ def schedule_said(counted: Mapping[SystemName, CostTable], parts: list[Part], sl
             for fits, timing in ((able, Timing(N, 0, N)), (in_every_step, Timing(1, 0, 1))):
                 fits[part.name] = {m: fit(work, timing, Fraction(HR_HZ)) for m, work in on.items() if work is not None}
     here, here_in_every_step = able[slowest.name], in_every_step[slowest.name]
-    alone = {m: tables.on(position, slowest, m) for m in ROBUST_METHODS}
     every_way = [name for name, of_part in able.items() if all(verdict.fits for verdict in of_part.values())]
     lacking = [part.name for part in parts if part.name not in able]
     failing = [tables.WAYS[method] for method, verdict in here_in_every_step.items() if not verdict.fits]
@@ -272,9 +270,7 @@ def schedule_said(counted: Mapping[SystemName, CostTable], parts: list[Part], sl
         "serial": {method: f"{millions(speed, HR_HZ):.3g}" for method, speed in serial.items()},
         "least": {method: f"{millions(speed, HR_HZ):.2g}" for method, speed in least.items()},
         "gain": {method: f"{float(serial[method] / least[method]):.0f}" for method in costs},
-        "load": {method: percent(verdict.load) for method, verdict in here.items()},
         "landed": {method: verdict.landed for method, verdict in here.items()},
-        "one_period": {m: percent((work.inertial + work.robust_step) * HR_HZ) for m, work in alone.items() if work},
         "inertial": f"{float(100 * HR_HZ * _inertial(position, slowest)):.2f}",
         "able": len(able),
         "every_way": every_way,
@@ -282,14 +278,21 @@ def schedule_said(counted: Mapping[SystemName, CostTable], parts: list[Part], sl
         * (every_way != list(able)),
         "single": [part.name for part in parts if part.precision == "single"],
         "lacking": lacking,
-        "every_step": {method: percent(verdict.needed) for method, verdict in here_in_every_step.items()},
+        "every_step": {method: share_of(verdict.needed) for method, verdict in here_in_every_step.items()},
         "every_step_fails": f": the processor is too slow for {' and '.join(failing)}" if failing else "",
         "every_step_all": [
             name for name, of_part in in_every_step.items() if all(verdict.fits for verdict in of_part.values())
         ],
         "without_fix": {f"robust-{way}": f"{float(share):.2f}" for way, share in between_fixes("position").items()},
-        "least_soon": f"{millions(least_speed(costs['robust-givens'], Timing(N, 0, SOON)).speed, HR_HZ):.3g}",
+        "least_soon": f"{millions(soon, HR_HZ):.3g}",
+        "propagation": significant(100 * givens.inertial / soon, 2),
+        "late": one_period(givens, N, soon, "", "").schedule.misses,
     }
+
+
+def share_of(needed: Fraction) -> str:
+    """How much of a speed, such as "23.7 % of" or "19.6 times"."""
+    return f"{significant(needed)} times" if needed > 1 else f"{significant(100 * needed)} % of"
 
 
 def _inertial(table: CostTable, part: Part) -> Fraction:

@@ -57,7 +57,7 @@ def speed_figure(costs: Mapping[str, Mapping[str, RobustCosts[Fraction]]], N: in
             axes.set_xlim(0, N + 1)
             axes.xaxis.set_major_locator(FixedLocator([1, *range(N // 8, N + 1, N // 8)]))
             axes.xaxis.set_minor_locator(NullLocator())
-            axes.set_xlabel("$L$: HR steps until the result must be in use", labelpad=2)
+            axes.set_xlabel("$L$: steps until the result must be in use", labelpad=2)
             axes.set_title(system, loc="left", size=TITLE_PT)
             plain(axes)
             if column == 0:

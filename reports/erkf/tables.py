@@ -121,7 +121,7 @@ def agreement_rows(results: Results) -> Rows:
 
 
 def attitude_rows(results: Results) -> Rows:
-    rows: Rows = [["Scale error", "Filter", "roll", "pitch", "yaw", "yaw, GPS out"]]
+    rows: Rows = [["Scale error", "Filter", "roll, °", "pitch, °", "yaw, °", "yaw, GPS out, °"]]
     for record in results.records("attitude"):
         values = [with_error(record, f"{name}_deg") for name in ("roll", "pitch", "yaw", "outage")]
         rows.append([f"{100 * float(record['scale_error']):g} %", spoken(record["method"]), *values])
@@ -129,7 +129,7 @@ def attitude_rows(results: Results) -> Rows:
 
 
 def position_rows(results: Results) -> Rows:
-    rows: Rows = [["Scale error", "Filter", "north", "east", "down", "GPS out, end"]]
+    rows: Rows = [["Scale error", "Filter", "north, m", "east, m", "up, m", "GPS out, end, m"]]
     for record in results.records("position"):
         values = [with_error(record, name) for name in OF_POSITION]
         rows.append([f"{100 * float(record['scale_error']):g} %", spoken(record["method"]), *values])
@@ -168,9 +168,8 @@ def response_rows(responses: Sequence[Response]) -> Rows:
 
 def linear_rows(results: Results) -> Rows:
     """Of each filter on a linear system what makes it stable, and its error where nothing is wrong with the model."""
-    rows: Rows = [
-        ["System", "Filter", "radius of F", "radius of the filter", "steps to one P", "error, step 50", "step 200"]
-    ]
+    errors_at = "error, step 50", "error, step 200"
+    rows: Rows = [["System", "Filter", "radius of F", "radius of the filter", "steps to one P", *errors_at]]
     for record in results.records("linear"):
         errors = [significant(float(record[f"error_{step}"])) for step in (50, 200)]
         rows.append(
@@ -215,7 +214,8 @@ def speed_rows(tables: Mapping[SystemName, CostTable], measured: Measurements) -
             timed = (robust_costs_of(table_here, method) for table_here in measured[system])
             loads = [fit(costs_here, Timing(N, 0, N), Fraction(HR_HZ)).load for costs_here in timed]
             numbers = [f"{millions(speed, HR_HZ):#.3g}".rstrip(".") for speed in speeds]
-            rows.append([system, WAYS[method], *numbers, span(percent(min(loads)), percent(max(loads)))])
+            low, high = (significant(100 * load, 2) for load in (min(loads), max(loads)))
+            rows.append([system, WAYS[method], *numbers, span(low, high)])
     return rows
 
 
@@ -259,17 +259,16 @@ def processor_rows(tables: Mapping[SystemName, CostTable], processors: Sequence[
 
 
 def device_rows(processor: Part) -> Rows:
-    """A device that does several column pairs at a time, its operations as slow as the processor's; and one unit by
-    the other ways."""
-    rows: Rows = [["System", "Way", "units", "step, ms", "times faster", "in use at l", "clock for L = 1, MHz"]]
+    """Givens on a device that does several column pairs at a time, its operations as slow as the processor's."""
+    rows: Rows = [["System", "units", "step, ms", "times faster", "in use at l", "clock for L = 1, MHz"]]
     for system in SYSTEMS:
         alone = None
         for units in UNITS:
             costs = on(parallel_costs(system, units), processor, "robust-givens")
             assert costs is not None
             alone = costs if alone is None else alone
-            row = [system, "Givens", units, *_device(costs, processor)]
-            rows.append([*row[:4], f"{float(alone.robust_step / costs.robust_step):.1f}", *row[4:]])
+            row = [system, units, *_device(costs, processor)]
+            rows.append([*row[:3], f"{float(alone.robust_step / costs.robust_step):.1f}", *row[3:]])
     return rows
 
 
