@@ -67,7 +67,7 @@ def _route(axes: Axes, drive: Columns, error: str) -> None:
     for name, line in FILTERS.items():
         axes.plot(*of(f"{name} {error}"), color=line.colour, lw=WIDTHS[name])
     axes.plot(*of("true")[:, :1], "o", ms=5, mfc="none", mec=INK, mew=0.9)
-    _directions(axes, of("true").mean(axis=1) - np.array([50.0, 20.0]))
+    _directions(axes, of("true").mean(axis=1) - np.array([40.0, 50.0]))
     axes.set_aspect("equal", adjustable="datalim")
     axes.set(xticks=[], yticks=[])
     axes.axis("off")

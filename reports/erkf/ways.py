@@ -18,7 +18,7 @@ from sched_sim.design.simulate import simulate
 from sched_sim.design.timing import Timing
 from sched_sim.schedule.intervals import jobs
 
-ACROSS_MM, WAY_MM, BAR_MM, RIGHT_MM, HEAD_MM = 115.0, 7.8, 3.1, 6.0, 6.5
+ACROSS_MM, WAY_MM, BAR_MM, RIGHT_MM, HEAD_MM = 115.0, 7.0, 2.9, 6.0, 6.0
 LEAST_MS = 0.1
 """Where bars begin; the axis is logarithmic."""
 SAID = {"inverse": "dense inverse"}

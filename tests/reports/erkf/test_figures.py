@@ -14,6 +14,7 @@ from matplotlib.text import Annotation
 
 from filters.arrays import FloatArray
 from reports.charts.chart import gantt
+from reports.drawing.style import SMALL_PT
 from reports.erkf import styles
 from reports.erkf.cost_figure import Way, cost_figure
 from reports.erkf.drive import (
@@ -173,6 +174,21 @@ def test_no_arrow_of_the_scheme_runs_through_a_text() -> None:
     for text, box in texts(figure):
         for piece in pieces:
             assert not Path(piece).intersects_bbox(box, filled=False), text.get_text()
+
+
+def test_the_first_figure_can_be_read_on_a_phone_and_two_of_the_drive_fit_on_a_page() -> None:
+    """Small letters are more than 6.5 px where a figure is 320 px wide; at print size figures are as high as in mm."""
+    found = [Response("position", "Givens", 1e-3)]
+    across = ways_figure(found, {"one period": 2.5e-3, "next fix": 0.1}).get_size_inches()[0]
+    assert SMALL_PT / 72 / across * 320 > 6.5
+    columns = course()
+    close_up = {name: values[400:411] for name, values in columns.items()}
+    pages = (
+        (route_figure(columns, close_up, "2 %"), attitude_figure(columns, "10 %")),
+        (position_figure(columns, "2 %"), errors_figure(columns, ["2 %", "10 %"])),
+    )
+    for figures in pages:
+        assert sum(figure.get_size_inches()[1] for figure in figures) * 25.4 < 215
 
 
 def test_responses_are_bars_that_end_where_the_result_is_there() -> None:

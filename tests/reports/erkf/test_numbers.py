@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -154,3 +155,15 @@ def test_what_is_said_to_be_reproduced_of_the_paper_has_the_same_numbers() -> No
     said = "in 1000 of 1000 random systems; with $\\mu = \\infty$ where noises are more than uncertain rows, else in"
     assert f"{said} less than half of 1000" in page
     assert {f"{name}.svg" for name in ("imu", "filters", "route", "attitude", "stability")} <= set(rebuilt())
+
+
+def test_no_number_is_said_twice_or_to_absurd_digits() -> None:
+    assert not re.findall(r"(?<![\d.,])([\d.,]+) and \1(?![\d.,])", text())
+    assert not re.findall(r"\d{3,}\.\d+ %", text())
+
+
+def test_what_is_said_in_short_is_short() -> None:
+    """Six points, each read in some ten seconds."""
+    _, *points = re.split(r" \d\. ", text().partition("**In short.**")[2].partition(" ## ")[0])
+    assert len(points) == 6
+    assert all(len(point.split()) <= 45 for point in points)
