@@ -95,7 +95,7 @@ def build(results: Results) -> dict[str, bytes]:
         linear_said=linear_said(results),
         schedule=schedule_said(counted, parts, slowest),
         response={f"{each.system} {each.way}": f"{1e3 * each.seconds:#.3g}" for each in responses},
-        by_part=tables.part_rows(counted["position"], parts),
+        by_part=tables.typeset(tables.part_rows(counted["position"], parts)),
         shown={_system(case): f"{_system(case)}, {_rows(case)}" for case in CURVES},
         height_times=f"{HEIGHT_TIMES:g}",
         N=N,

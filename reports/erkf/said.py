@@ -163,7 +163,7 @@ def drive_said(results: Results) -> dict[str, Any]:
     mild, strong = drive.POSITION_EKF.name, drive.POSITION_ROBUST.name
 
     def error(scale: float, method: drive.AttitudeMethod, angle: str = "yaw") -> str:
-        return tables.with_error(attitude[scale, method.name], f"{angle}_deg")
+        return tables.unbroken(tables.with_error(attitude[scale, method.name], f"{angle}_deg"))
 
     def both(method: drive.AttitudeMethod) -> list[str]:
         return [error(scale, method) for scale in (small, large)]
@@ -204,7 +204,7 @@ def drive_said(results: Results) -> dict[str, Any]:
             for scale in drive.SCALE_ERRORS
             for name in tables.OF_POSITION
         ),
-        "outage": [tables.with_error(at[small, name], "outage_end_m") for name in (mild, strong)],
+        "outage": [tables.unbroken(tables.with_error(at[small, name], "outage_end_m")) for name in (mild, strong)],
     }
 
 

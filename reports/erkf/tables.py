@@ -104,8 +104,14 @@ def parallel_rows(devices: Mapping[SystemName, Parallel]) -> Rows:
 
 
 def typeset(rows: Rows) -> Rows:
-    """The same with powers of ten as people write them, for the page; files have what programs read."""
-    return [[power(str(cell)) for cell in row] for row in rows]
+    """The same with powers of ten as people write them and no line that ends within what belongs together, for the
+    page; files have what programs read."""
+    return [[unbroken(power(str(cell))) for cell in row] for row in rows]
+
+
+def unbroken(text: str) -> str:
+    """With no end of a line before or behind a sign between two values."""
+    return re.sub(r" ([±=/]) ", "\N{NO-BREAK SPACE}\\1\N{NO-BREAK SPACE}", text)
 
 
 def agreement_rows(results: Results) -> Rows:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import pytest
-
 from reports.erkf import tables
 from reports.erkf.schedule import millions
 from reports.erkf.sliding import ASKED, DRAWN, over_l
@@ -30,8 +28,3 @@ def test_it_goes_from_one_period_to_the_next_fix_in_few_states_and_begins_where_
     assert (ASKED[0], ASKED[-1]) == (1, N)
     assert len(ASKED) <= 12
     assert sliding.frames[sliding.at].label.startswith(f"L = {DRAWN}: ")
-
-
-@pytest.mark.parametrize(("name", "said"), [("KF mu=1e5, bias row", "EKF μ = 10⁵, bias row"), ("mu=inf", "μ = ∞")])
-def test_filters_are_called_as_people_write_them(name: str, said: str) -> None:
-    assert tables.spoken(name) == said
