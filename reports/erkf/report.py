@@ -84,6 +84,7 @@ def build(results: Results) -> dict[str, bytes]:
         TITLE,
         figures,
         **{name.replace("-", "_"): tables.typeset(table) for name, table in rows.items()},
+        measurements=tables.by_system({system: rows[f"measurements-{system}"] for system in SYSTEMS}),
         legend=legend(timed_on(results.measured["position"].provenance), residues=True),
         who_measured=who_measured(results.measurements["position"]),
         measured_on=counted_on(results.measurements["position"]),

@@ -92,6 +92,12 @@ def measurement_rows_of(measured: Sequence[CostTable]) -> Rows:
     return [*map(list, measurement_rows(measured, {f"{way}, µs": of(method) for method, way in WAYS.items()}))]
 
 
+def by_system(tables: Mapping[SystemName, Rows]) -> Rows:
+    """Tables of one heading as one, whose first column says which filter's they are."""
+    (heading, *_), *_ = tables.values()
+    return [["Filter", *heading], *([system, *row] for system, rows in tables.items() for row in rows[1:])]
+
+
 def parallel_rows(devices: Mapping[SystemName, Parallel]) -> Rows:
     rows: Rows = [["System", "Schedule", "rotations", "stages", *(f"P = {P}" for P in SHOWN), "speed-up"]]
     for system, of_system in devices.items():

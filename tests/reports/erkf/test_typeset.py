@@ -18,3 +18,8 @@ def test_no_line_of_a_cell_ends_within_an_interval_or_a_pair() -> None:
     assert [" ".join(cell.split()) for cell in (interval, pair, small)] == [
         "0.12 ± 0.01, μ = ∞", "3.8 / no", "1 × 10⁻¹¹",
     ]  # fmt: skip
+
+
+def test_tables_of_both_filters_are_one() -> None:
+    found = tables.by_system({"attitude": [["date"], [1], [2]], "position": [["date"], [3]]})
+    assert found == [["Filter", "date"], ["attitude", 1], ["attitude", 2], ["position", 3]]
