@@ -80,11 +80,12 @@ def _values(axes: Axes, time_s: FloatArray, values: FloatArray, which: str) -> N
 
 
 def _differences(axes: Axes, time_s: FloatArray, differences: Mapping[str, FloatArray]) -> None:
+    """Signs have a rim, so that their shape is seen on a curve that goes up and down."""
     for number, (way, curve) in enumerate(differences.items()):
         line = LINES[WAYS[way]]
         every = max(len(time_s) // MARKED, 1)
         positive = np.where(curve > 0, curve, np.nan)
         axes.plot(
-            time_s, positive, line.marker, color=line.colour, ms=line.size, mew=0, ls="-", lw=0.7,
+            time_s, positive, line.marker, color=line.colour, ms=1.4 * line.size, mec="white", mew=0.6, ls="-", lw=0.7,
             markevery=(number * every // len(WAYS), every), label=WAYS[way],
         )  # fmt: skip

@@ -102,6 +102,7 @@ def test_singular_values() -> None:
     (_, largest), (_, smallest) = curves(figure, 0, 401)
     np.testing.assert_allclose(largest, found["a largest"])
     np.testing.assert_allclose(smallest, found["a smallest"])
+    assert all(line.get_markeredgewidth() > 0 for line in figure.axes[1].lines), "signs are seen without colour"
 
 
 def course(samples: int = 1000) -> dict[str, FloatArray]:
