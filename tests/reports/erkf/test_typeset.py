@@ -16,7 +16,7 @@ def test_no_line_of_a_cell_ends_within_an_interval_or_a_pair() -> None:
     ((interval, pair, small),) = tables.typeset([["0.12 ± 0.01, μ = ∞", "3.8 / no", "1e-11"]])
     assert [cell.count(" ") for cell in (interval, pair, small)] == [1, 0, 0]
     assert [" ".join(cell.split()) for cell in (interval, pair, small)] == [
-        "0.12 ± 0.01, μ = ∞", "3.8 / no", "1 × 10⁻¹¹",
+        "0.12 ± 0.01, μ = ∞", "3.8 / no", "10⁻¹¹",
     ]  # fmt: skip
 
 
