@@ -21,8 +21,8 @@ from sched_sim.text import visible
 
 WIDTH_MM = 170.0
 """Text width of a two-column journal page."""
-NARROW_MM = 85.0
-"""Of what is drawn for a phone: 321 pixels, of 360 without the margins of the page."""
+NARROW_MM = 100.0
+"""Of what is drawn for a phone, on which its letters are 8 pixels high."""
 
 FONT_PT, SMALL_PT, TITLE_PT = 7.5, 7.0, 8.5
 """Nothing is set smaller than 7 points at print size."""

@@ -84,7 +84,7 @@ def answer_figure(halves: Mapping[str, Sequence[Row]]) -> Figure:
         axes.fmt_ydata = lambda y: names.get(round(y), "")
         axes.grid(axis="x", color=PALE, lw=0.5)
         numbers_at(axes.xaxis, (0.1, 0.2, 0.5, 1, 2, 5, 10, 20))
-        axes.set_xlabel("over what counts say (logarithmic)", labelpad=2)
+        axes.set_xlabel("times what counts say (logarithmic)", labelpad=2)
         plain(axes)
         axes.spines["left"].set_visible(False)
         return figure

@@ -18,6 +18,7 @@ from reports.multirate.start_figure import start_figure
 from reports.multirate.steady_figures import Point, readings_figure, rule_figure
 from reports.multirate.tables import CASES, LIMIT, RULE
 from reports.multirate.words import KINDS, READING_NAMES, VEHICLE_SYSTEMS, VEHICLE_TITLES, VEHICLES
+from reports.pages.pictures import Drawn, Narrowing
 from sched_sim.processors.part import Part
 from studies.multirate.accuracy import Reading
 from studies.multirate.constancy import constant_from
@@ -29,7 +30,7 @@ LIMIT_OF = "aircraft"
 
 def drawn(
     results: Results, tended: Limits, own: Form, forms: Mapping[str, Form], patents: Part, cases: Sequence[Load]
-) -> dict[str, Figure]:
+) -> dict[str, Drawn]:
     """By file name, all but the schedules."""
     costs = least_time_of(own, patents)
     least = least_period(costs, LIMIT)
@@ -42,7 +43,9 @@ def drawn(
         for vehicle, name in VEHICLE_SYSTEMS.items()
     }
     return {
-        "answer.svg": lead_figure(costs, of_each_second, least, ratios),
+        "answer.svg": Narrowing(
+            *(lead_figure(costs, of_each_second, least, ratios, narrow=narrow) for narrow in (False, True))
+        ),
         "load.svg": _load(own, forms, patents, cases),
         "steady.svg": readings_figure(_readings(results), READING_NAMES),
         "rule.svg": rule_figure(_points(results), RULE),

@@ -13,7 +13,7 @@ from matplotlib.ticker import FixedLocator, MultipleLocator
 from reports.drawing.axes import end_labels
 from reports.drawing.legend import SWATCH_MM, Entry, line_entry
 from reports.drawing.sheet import label, sheet
-from reports.drawing.style import INK, SMALL_PT, drawing
+from reports.drawing.style import INK, NARROW_MM, SMALL_PT, WIDTH_MM, drawing
 from reports.multirate.ratio_axis import GROUND, LEAST, ratio_axis
 from reports.multirate.styles import FORM_LINES, PRINTED, PRINTED_MARKER, VEHICLE_LINES, printed_entry
 from reports.pages.numbers import significant
@@ -22,7 +22,7 @@ from sched_sim.design.pieces import MultirateCosts
 from sched_sim.design.timing import Timing
 from studies.multirate.patent import LIMIT_PERCENT
 
-PLOT_MM = 56.0
+PLOT_MM, RIGHT_MM = 56.0, 19.0
 COUNTED = "the patent's counts"
 RING_PT = 7.0
 
@@ -32,9 +32,11 @@ def lead_figure(
     printed: Mapping[int, str],
     least_n: int,
     ratios: Mapping[str, Mapping[int, float]],
+    *,
+    narrow: bool = False,
 ) -> Figure:
-    """Left, the load at one measurement of all satellites a second; right, the ratio in steady state; rings at
-    least_n, with their numbers.
+    """The load at one measurement of all satellites a second, and the ratio in steady state; rings at least_n, with
+    their numbers. The one left of the other, or above it where it is to be narrow.
 
     costs: the patent's, in seconds; printed: loads as printed, by n; least_n: from there on the load is within the
     limit; ratios: by vehicle and n, from n = 1 on.
@@ -45,7 +47,9 @@ def lead_figure(
             printed_entry(),
             Entry(f"the answer's $n$ = {least_n}", SWATCH_MM / 2, _ringed),
         ]
-        figure, [[left, right]] = sheet(1, 2, legend, height_mm=PLOT_MM, right_mm=19.0)
+        rows, columns, width_mm = (2, 1, NARROW_MM) if narrow else (1, 2, WIDTH_MM)
+        figure, plots = sheet(rows, columns, legend, height_mm=PLOT_MM, right_mm=RIGHT_MM, width_mm=width_mm)
+        left, right = (axes for row in plots for axes in row)
         periods = list(next(iter(ratios.values())))
         _load(left, costs, printed, least_n, periods)
         ratio_axis(right, 1.6 * max(max(of.values()) for of in ratios.values()))

@@ -195,6 +195,20 @@ def test_no_rule_of_accessible_pages_is_broken_and_a_phone_shows_all(visit: Visi
     assert broken(page) == []
 
 
+def test_on_a_phone_the_figure_of_the_answer_is_the_narrow_one(visit: Visit) -> None:
+    page = opened(visit, "patent-multirate")
+    lead = page.locator("#figure-1")
+    wide, narrow = lead.locator(".ss-picture > svg").all()
+    assert (wide.is_visible(), narrow.is_visible()) == (True, False)
+    page.set_viewport_size({"width": PHONE, "height": 800})
+    assert (wide.is_visible(), narrow.is_visible()) == (False, True)
+    assert lead.get_by_role("button", name="Full size").is_hidden()
+    narrow.locator("xpath=..").locator(".ss-readout").first.press("End")
+    expect(lead.locator(".ss-told:visible")).to_contain_text("10")
+    page.emulate_media(media="print")
+    assert (wide.is_visible(), narrow.is_visible()) == (True, False)
+
+
 def test_on_a_phone_a_figure_opens_to_full_size_by_button_and_by_tap(visit: Visit) -> None:
     page = opened(visit)
     costs, still = figure(page, "costs.svg"), picture(page, "costs.svg")

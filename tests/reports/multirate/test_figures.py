@@ -70,6 +70,12 @@ def lead() -> Figure:
     return lead_figure(COSTS, {1: "16.7", 5: "4.1"}, 4, RATIOS)
 
 
+def test_the_answer_for_a_phone_says_the_same() -> None:
+    narrow = lead_figure(COSTS, {1: "16.7", 5: "4.1"}, 4, RATIOS, narrow=True)
+    assert flaws(narrow) == []
+    assert {text.get_text() for text, _ in texts(narrow)} == {text.get_text() for text, _ in texts(lead())}
+
+
 def test_the_answer() -> None:
     figure = lead()
     assert flaws(figure) == []

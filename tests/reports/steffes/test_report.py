@@ -64,7 +64,7 @@ def test_cells_are_reached_where_the_interval_from_rounding_meets_the_printed_on
         low, high = map(float, row["from rounding"].split(" to "))
         printed = float(row["printed"])
         assert (row["reached"] == "yes") == (low <= printed + 0.005 + 1e-9 and printed - 0.005 - 1e-9 <= high)
-    assert said(r"(\d+) of the paper's (\d+) speeds") == (
+    assert said(r"(\d+) of the (\d+) speeds of Table 4") == (
         str(sum(row["reached"] == "yes" for row in rows)),
         str(len(rows)),
     )
