@@ -42,10 +42,13 @@ class CargoDrive(NamedTuple):
     gps_yaw: FloatArray
 
 
-def simulate_cargo_drive(seconds: float = 100.0, scale_error: float = 0.02, seed: int = 0) -> CargoDrive:
+def simulate_cargo_drive(
+    seconds: float = 100.0, scale_error: float = 0.02, seed: int = 0, accelerometer_error: float = 0.002
+) -> CargoDrive:
     """A drive of so many seconds. scale_error: of the gyros, all three read (1 + scale_error) times the rate.
+    accelerometer_error: likewise, of the accelerometers.
 
-    The same seed gives the same noise whatever the scale error.
+    The same seed gives the same noise whatever the scale errors.
 
     Raises:
         ValueError: there is not one whole step, or more than a day.
@@ -62,7 +65,7 @@ def simulate_cargo_drive(seconds: float = 100.0, scale_error: float = 0.02, seed
     gyro_bias = _gauss_markov(random, steps, 0.005, 200.0)
     accelerometer_bias = _gauss_markov(random, steps, 0.05, 300.0)
     gyro = (1 + scale_error) * rates + gyro_bias + random.normal(0.0, 0.0025, (steps, 3))
-    accelerometer = 1.002 * force + accelerometer_bias + random.normal(0.0, 0.02, (steps, 3))
+    accelerometer = (1 + accelerometer_error) * force + accelerometer_bias + random.normal(0.0, 0.02, (steps, 3))
     imu_attitude = attitude[:-1] + random.normal(0.0, 0.005, (steps, 3))
     imu_attitude[:, 2] = wrap(imu_attitude[:, 2] + np.radians(8.0) * (time_s[:-1] / 100.0) ** 2)
 

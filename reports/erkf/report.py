@@ -14,13 +14,13 @@ from reports.erkf import tables
 from reports.erkf.cost_figure import Way, cost_figure
 from reports.erkf.counts import Parallel, all_counts, parallel
 from reports.erkf.drive import attitude_figure, errors_figure, position_figure
+from reports.erkf.linear import linear_rows, linear_said, sample_rows
 from reports.erkf.parallel import parallel_figure
 from reports.erkf.results import CURVES, Results
 from reports.erkf.route import HEIGHT_TIMES, route_figure
 from reports.erkf.said import (
     cost_said,
     drive_said,
-    linear_said,
     parallel_said,
     rounding_said,
     schedule_said,
@@ -69,8 +69,8 @@ def build(results: Results) -> dict[str, bytes]:
         "agreements": tables.agreement_rows(results),
         "attitude-errors": tables.attitude_rows(results),
         "position-errors": tables.position_rows(results),
-        "linear": tables.linear_rows(results),
-        "linear-sample": tables.sample_rows(results),
+        "linear": linear_rows(results),
+        "linear-sample": sample_rows(results),
         "speeds": tables.speed_rows(counted, results.measurements),
         **{f"measurements-{name}": tables.measurement_rows_of(of) for name, of in results.measurements.items()},
         "least-speeds": tables.least_speed_rows(counted),

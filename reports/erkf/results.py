@@ -80,7 +80,7 @@ def read(folder: Path) -> Results:
 
 
 def results(thorough: bool = False, progress: Progress = lambda _done, _total, _what: None) -> Results:
-    """Times the code and runs the studies: about five minutes."""
+    """Times the code and runs the studies: about ten minutes."""
     measured: dict[SystemName, CostTable] = {}
     for done, name in enumerate(SYSTEMS):
         progress(done, len(SYSTEMS), f"timing, {name}")
@@ -96,7 +96,7 @@ def simulated(progress: Progress = lambda _done, _total, _what: None) -> dict[st
     """All tables: none depends on times."""
     errors = drive.SCALE_ERRORS
     asked = [(method, error) for error in errors for method in drive.ATTITUDE_METHODS]
-    asked_position = [(method, error) for error in errors for method in drive.POSITION_METHODS]
+    asked_position = [(method, scales) for scales in drive.POSITION_ERRORS for method in drive.POSITION_METHODS]
     total = len(asked) + len(asked_position) + len(singular.CASES) + 2
     done = 0
 
@@ -110,9 +110,9 @@ def simulated(progress: Progress = lambda _done, _total, _what: None) -> dict[st
         tell(f"attitude, {of_attitude.name}")
         attitude.append(_attitude_row(drive.attitude_result(of_attitude, error)))
     position: Rows = [[*_POSITION]]
-    for of_position, error in asked_position:
+    for of_position, scales in asked_position:
         tell(f"position, {of_position.name}")
-        position.append(_position_row(drive.position_result(of_position, error)))
+        position.append(_position_row(drive.position_result(of_position, scales)))
     raw = drive.raw_result()
     agreement: Rows = [[*_AGREEMENT]]
     curves: dict[str, FloatArray] = {}
@@ -152,7 +152,8 @@ def _of(what: str, unit: str) -> list[str]:
 _OF_ATTITUDE = ("roll_deg", "pitch_deg", "yaw_deg", "gps_deg", "imu_deg", "outage_deg")
 _ATTITUDE = ("scale_error", "method", *_OF_ATTITUDE, *(f"{name} se" for name in _OF_ATTITUDE))
 _POSITION = (
-    "scale_error", "method", *_of("fix", "m"), *_of("between", "m"), *_of("velocity", "m_s"), *_of("outage", "m"),
+    *("scale_error", "accelerometer_error", "method"),
+    *_of("fix", "m"), *_of("between", "m"), *_of("velocity", "m_s"), *_of("outage", "m"),
     "outage_end_m", *(f"{name} se" for name in (*_of("between", "m"), "outage_end_m")),
 )  # fmt: skip
 _AGREEMENT = ("case", "way", "largest", "smallest", "relative_largest", "relative_smallest", "state", "fails_in_step")
@@ -173,7 +174,8 @@ def _position_row(result: drive.PositionResult) -> list[Any]:
         *(*result.after_fix_m, *result.between_m, *result.between_velocity, *result.outage_m),
         *(result.outage_end_m, *errors),
     )
-    return [result.scale_error, result.method, *(digits(value) for value in values)]
+    scales = result.scale_error, result.accelerometer_error
+    return [*scales, result.method, *(digits(value) for value in values)]
 
 
 def _agreement_row(agreement: singular.Agreement) -> list[Any]:

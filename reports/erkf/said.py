@@ -29,7 +29,6 @@ from studies.machines.ranges import range_of
 from studies.robust import drive
 from studies.robust.costs import HR_HZ, SYSTEMS, N, SystemName, between_fixes, robust_case
 from studies.robust.counts import PENALTIES, filled, product_share
-from studies.robust.linear import KALMAN
 
 
 def cost_said(results: Results) -> dict[str, Any]:
@@ -45,11 +44,13 @@ def cost_said(results: Results) -> dict[str, Any]:
     position_times = tables.seconds(results.measurements["position"], "robust-inverse")
     position = {way: f"{numbers['position', 'finite']:,}" for way, numbers in counts.operations.items()}
     shares = [filled(system, penalty) for system in SYSTEMS for penalty in PENALTIES]
-    products = [product_share(counts.unknowns[s], len(robust_case(s).start.x)) for s in SYSTEMS]
+    states = [len(robust_case(system).start.x) for system in SYSTEMS]
+    products = [product_share(counts.unknowns[s], n) for s, n in zip(SYSTEMS, states, strict=True)]
     return {
         "unknowns": counts.unknowns,
         "filled": span(f"{100 * min(shares):.0f}", f"{100 * max(shares):.0f}"),
         "inversion": f"{100 * (1 - max(products)):.0f}",
+        "symmetric": [str(n * (n - 1)) for n in states],
         "repeated": position[ways.REPEATED],
         "inverse": position[ways.INVERSE],
         "givens": position[ways.GIVENS_ORDERED],
@@ -157,7 +158,10 @@ def _same(record: Mapping[str, str], others: list[dict[str, str]]) -> bool:
 def drive_said(results: Results) -> dict[str, Any]:
     """Errors with twice their standard errors."""
     attitude = {(float(r["scale_error"]), r["method"]): r for r in results.records("attitude")}
-    at = {(float(r["scale_error"]), r["method"]): r for r in results.records("position")}
+    at = {
+        ((float(r["scale_error"]), float(r["accelerometer_error"])), r["method"]): r
+        for r in results.records("position")
+    }
     small, large = drive.SCALE_ERRORS
     (raw,) = results.records("raw")
     mild, strong = drive.POSITION_EKF.name, drive.POSITION_ROBUST.name
@@ -176,6 +180,7 @@ def drive_said(results: Results) -> dict[str, Any]:
     def sides(record: Mapping[str, str], what: str) -> str:
         return ", ".join(record[f"{what}_{axis}_m"] for axis in ("north", "east", "down"))
 
+    first = drive.POSITION_ERRORS[0]
     return {
         "seeds": len(drive.SEEDS),
         "ekf": both(drive.EKF),
@@ -194,17 +199,28 @@ def drive_said(results: Results) -> dict[str, Any]:
         "from_imu": attitude[small, drive.ROBUST.name]["imu_deg"],
         "ekf_from_gps": attitude[small, drive.EKF.name]["gps_deg"],
         "raw": raw,
-        "fix": sides(at[small, strong], "fix"),
-        "between": sides(at[small, strong], "between"),
-        "ekf_between": sides(at[small, mild], "between"),
+        "fix": sides(at[first, strong], "fix"),
+        "between": sides(at[first, strong], "between"),
+        "ekf_between": sides(at[first, mild], "between"),
         "gps": sides(raw, "gps"),
         "held": sides(raw, "held"),
+        "accelerometer": f"{100 * drive.ACCELEROMETER_ERROR:g}",
+        "stated": error(large, drive.STATED),
         "position_differs": any(
-            tables.differ(at[scale, mild], at[scale, strong], name)
-            for scale in drive.SCALE_ERRORS
+            tables.differ(at[scales, mild], at[scales, drive.POSITION_SCALE.name], name)
+            for scales in drive.POSITION_ERRORS
             for name in tables.OF_POSITION
         ),
-        "outage": [tables.unbroken(tables.with_error(at[small, name], "outage_end_m")) for name in (mild, strong)],
+        "outage": {
+            of: tables.unbroken(tables.with_error(at[drive.POSITION_ERRORS[-1], method.name], "outage_end_m"))
+            for of, method in {
+                "ekf": drive.POSITION_EKF,
+                "scale": drive.POSITION_SCALE,
+                "inflated": drive.POSITION_INFLATED,
+                "bias": drive.POSITION_ROBUST,
+                "stated": drive.POSITION_STATED,
+            }.items()
+        },
     }
 
 
@@ -224,28 +240,6 @@ def shown_drive_said(results: Results) -> dict[str, Any]:
         "pitch_worse": "throughout" if worse == 1 else f"in {100 * worse:.0f} % of them",
         "yaw_off": f"{max(np.abs(off(f'{name} {large}', 'yaw')[settled]).max() for name in FILTERS):.1f}",
         "drift": f"{np.abs(off('imu', 'yaw')).max():.0f}",
-    }
-
-
-def linear_said(results: Results) -> dict[str, Any]:
-    """Stability and convergence, of two systems and of random ones."""
-    found = {(record["system"], record["filter"]): record for record in results.records("linear")}
-    samples = results.records("linear-sample")
-    robust = [record for (_, name), record in found.items() if name != KALMAN]
-    whole = [record for record in samples if record["kept"] == record["systems"]]
-    (broken,) = (record for record in samples if record not in whole)
-    systems = min(int(record["systems"]) for record in whole)
-    return {
-        "radius": max(float(record["radius"]) for record in robust),
-        "steps": max(int(record["steps"]) for record in robust),
-        "systems": f"{systems:,}",
-        "whole": len(whole),
-        "at_most": f"{100 * (1 - 0.05 ** (1 / systems)):.1f}",
-        "broken": int(broken["systems"]) - int(broken["kept"]),
-        "growing": {name: record for (system, name), record in found.items() if system == "growing"},
-        "kalman": found["growing", KALMAN]["error_200"],
-        "finite": f"{float(found['growing', 'robust, μ = 1']['error_200']):,.0f}",
-        "limit": f"{float(found['growing', 'robust, μ = ∞']['error_200']):,.0f}",
     }
 
 

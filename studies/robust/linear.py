@@ -16,12 +16,13 @@ NOTHING = (0.0, 0.0)
 
 
 class Linear(NamedTuple):
-    """A filter on a constant system."""
+    """A filter on a constant system. off (n, n): by how much F may be wrong, either way."""
 
     name: str
     system: str
     model: RobustModel
     mu: float
+    off: FloatArray
 
 
 def sayed(E_F: Sequence[float] = (0.0, 5.0)) -> RobustModel:
@@ -46,7 +47,7 @@ def _two_states(
 
 
 CASES = tuple(
-    Linear(name, system, model(NOTHING) if name == KALMAN else model(), mu)
+    Linear(name, system, model(NOTHING) if name == KALMAN else model(), mu, model().M1 @ model().E_F)
     for system, model in (("decaying", sayed), ("growing", growing))
     for name, mu in ((KALMAN, np.inf), ("robust, μ = 1", 1.0), ("robust, μ = ∞", np.inf))
 )

@@ -43,7 +43,7 @@ def attitude_result(method: AttitudeMethod, scale_error: float) -> AttitudeResul
 
 @cache
 def position_result(method: PositionMethod) -> PositionResult:
-    return study.position_result(method, 0.02, SEEDS[:1])
+    return study.position_result(method, study.POSITION_ERRORS[0], SEEDS[:1])
 
 
 # ------------------------------------------------------------------------------------------------------ the drive
@@ -80,6 +80,13 @@ def test_gyros_read_too_much() -> None:
     turning = (drive().attitude[middle + 1] - drive().attitude[middle - 1]) * RATE_HZ / 2
     np.testing.assert_allclose(T @ rates[middle], turning, atol=1e-4)
     assert abs(rates[middle, 2]) > 0.1
+
+
+def test_accelerometers_read_as_much_too_much_as_is_asked() -> None:
+    exact, off = (simulate_cargo_drive(1.0, accelerometer_error=error) for error in (0.0, 0.10))
+    force = (off.accelerometer - exact.accelerometer) / 0.10
+    np.testing.assert_allclose(exact.accelerometer, force, atol=0.5)
+    np.testing.assert_array_equal(exact.gyro, off.gyro)
 
 
 def test_unit_drifts_and_gps_does_not() -> None:
@@ -234,6 +241,16 @@ def test_robustness_does_not_pay_in_position() -> None:
     assert (position_result(study.POSITION_LIMIT).between_m > 1.5 * ekf.between_m).all()
 
 
+def test_a_row_that_states_the_true_error_of_the_accelerometers_makes_the_position_worse() -> None:
+    """Without GPS, where their scale is wrong by 10 %; what states 0.5 % does not."""
+    ekf, scale, stated = (
+        study.position_result(method, (0.10, 0.10), SEEDS[:1])
+        for method in (study.POSITION_EKF, study.POSITION_SCALE, study.POSITION_STATED)
+    )
+    assert scale.outage_end_m == pytest.approx(ekf.outage_end_m, rel=0.3)
+    assert stated.outage_end_m > 3 * ekf.outage_end_m
+
+
 @pytest.mark.parametrize("method", [study.POSITION_EKF, study.POSITION_ROBUST])
 def test_ten_seconds_without_gps_cost_about_a_metre_and_a_degree(method: PositionMethod) -> None:
     """The yaw drifts with the unit's: its correction is held on."""
@@ -244,7 +261,7 @@ def test_ten_seconds_without_gps_cost_about_a_metre_and_a_degree(method: Positio
 
 
 def test_results_are_all_there_and_frozen() -> None:
-    found = study.results(seeds=[0], scale_errors=[0.02])
+    found = study.results(seeds=[0], scale_errors=[0.02], position_errors=[(0.02, 0.02)])
     assert [row.method for row in found.attitude] == [method.name for method in study.ATTITUDE_METHODS]
     assert [row.method for row in found.position] == [method.name for method in study.POSITION_METHODS]
     for array in (found.raw.gps_m, found.attitude[0].errors_deg, found.position[0].between_m):
