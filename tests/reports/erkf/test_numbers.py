@@ -150,10 +150,26 @@ def test_what_is_said_to_be_reproduced_of_the_paper_has_the_same_numbers() -> No
     )
     assert f"Householder takes {natural} times as many operations" in page
     assert f"Givens takes {ratios(ways.GIVENS_ORDERED, ways.FADDEEV_ORDERED, 1)} times as many" in page
-    kept = [int(row["stable and convergent †"].replace(",", "")) for row in rows("linear-sample.csv")]
-    assert kept[0] == kept[1] == 1000 > 2 * kept[2]
-    said = "in 1000 of 1000 random systems; with $\\mu = \\infty$ where noises are more than uncertain rows, else in"
-    assert f"{said} less than half of 1000" in page
+    kept = [row["stable and convergent"] for row in rows("linear-sample.csv")]
+    assert kept == ["1,000"] * 3
+    assert "in 3 times 1000 of 1000 random systems" in page
+    stopped = int(rows("linear-sample.csv")[-1]["stopped by rounding †"])
+    assert round(1000 / stopped) == 8
+    assert "rounding stops about one filter in eight" in page
+    kalman, finite, limit = (row for row in rows("linear.csv") if row["System"] == "decaying")
+    wrong = "F wrong"
+    said = (
+        f"to an error of {kalman[wrong]} instead of {kalman['error, step 200']}, the robust one to {finite[wrong]} or"
+    )
+    assert said in page
+    assert f"with $\\mu = \\infty$, {limit[wrong]} |" in page
+    assert f"yes: Givens takes {ratios(ways.GIVENS_ORDERED, ways.LU_ORDERED, 1)} times as many operations" in page
+    plain, *_, stated = (
+        float(record["outage_end_m"])
+        for record in stored().records("position")
+        if record["accelerometer_error"] == "0.1" and record["method"].startswith(("EKF", "ERKF mu=1e8"))
+    )
+    assert f"makes ten seconds without GPS {stated / plain:.0f} times worse" in page
     assert {f"{name}.svg" for name in ("imu", "filters", "route", "attitude", "stability")} <= set(rebuilt())
 
 
