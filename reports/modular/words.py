@@ -11,7 +11,8 @@ from filters.modular.sigma_points import maccormack, merwe, weights
 from filters.systems.rocket import BURN_S, RATE_HZ
 from filters.systems.spring_mass import period_s
 from reports.modular.costs import OPERATIONS
-from reports.modular.oscillator import OSCILLATOR_AMPLITUDES, QUANTITIES
+from reports.modular.gap_words import gap_words
+from reports.modular.oscillator import QUANTITIES
 from reports.modular.results import HALF, OWN_MODEL, SHOWN_PERIODS, Results
 from reports.modular.rocket import QUANTITIES as OF_ROCKET
 from reports.modular.rocket_rows import CASES
@@ -78,12 +79,6 @@ def oscillator_words(results: Results) -> dict[str, Any]:
     }
     few, sensors = by_rate[RATES[0]]["0.8"], results.records("dropout", group="position only")
     high = usual["0.8"]
-    at_the_gap = {
-        float(dropout): interval_of(row, "error", "position")[0] / OSCILLATOR_AMPLITUDES["position"]
-        for rate, rows in by_rate.items()
-        for dropout, row in rows.items()
-        if dropout == f"{spring_mass.borne(rate):g}" and float(dropout) > 0
-    }
     return {
         "runs": high["runs"],
         "sensor_runs": sensors[0]["runs"],
@@ -112,8 +107,7 @@ def oscillator_words(results: Results) -> dict[str, Any]:
         "least_times": significant(
             min(interval_of(rows["0.8"], "error", "position", "times")[1] for rows in by_rate.values())
         ),
-        "at_the_gap": [f"{100 * edge(at_the_gap.values()):.1f}" for edge in (min, max)],
-        "lost_at_the_gap": [f"{100 * edge(at_the_gap):g}" for edge in (min, max)],
+        **gap_words({rate: [*rows.values()] for rate, rows in by_rate.items()}),
         "seen_at_the_gap": f"{1 / spring_mass.BORNE:g}",
         "fewer": f"{FEWER:g}",
         "mean_of_fewer": f"{FEWER**0.5:.1f}",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import defaultdict
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +16,8 @@ from studies.modular.rocket_readings import chord
 from studies.modular.rocket_schedule import LAND_BY, PERIOD_MS, compared_at, counted
 from tests.reports.modular.page import interval, number, rebuilt, rows, stored, text
 
+RATES = ("usual", "rate 20", "rate 50", "rate 200", "rate 400")
+"""The groups of stored rows that `rates.svg` shows."""
 REPRODUCED = Path(__file__).parents[3] / "docs" / "reproduced.md"
 
 
@@ -23,27 +26,46 @@ def test_the_answer_is_short_and_its_numbers_are_in_the_tables() -> None:
     assert answer
     assert len(answer[1].split()) <= 50
     (holds,) = (row["all, from s"] for row in rows("readings.csv") if row["Residual"].startswith("position"))
-    assert answer[1].endswith(f"rocket errs under 15 % of its distance after {holds} s.")
+    assert answer[1].endswith(f"its sensors unbiased, errs under 15 % of its distance after {holds} s.")
     of = {row["In a period"]: interval(row["error at 80 %"]) for row in rows("rates.csv")}
     still = 100 * float(stored().records("dropout", group="usual", dropout="0.8")[0]["still"])
-    assert "With 100 sampled a filter bears the poster's 80 % dropout; with 20 it loses the motion" in answer[1]
+    assert "Thus 100 sampled bear the poster's 80 % dropout, 20 none." in answer[1]
     assert of["100"][1] < 1.2 * 5 < still < of["20"][0]
-    at_the_gap = [
-        row
-        for group in ("usual", "rate 200", "rate 400")
-        for row in stored().records("dropout", group=group)
-        if float(row["interval"]) == pytest.approx(1 / 20)
-    ]
-    assert [float(row["dropout"]) for row in at_the_gap] == [0.8, 0.9, 0.95]
-    assert "20 measurements per period of motion get through: position errs about as one of them, 5 %" in answer[1]
-    for row in at_the_gap:
-        assert float(row["error high m"]) < 1.2 * float(NOISES["position"])
+    assert {row["In a period"]: row["borne, %"] for row in rows("rates.csv")}["20"] == "0"
+    least, most = ends_at_the_gap()
+    said = f"position errs by {least:.1f} to {most:.1f} %, a measurement by {100 * NOISES['position']:g} %"
+    assert f"20 measurements per period of motion get through: {said}" in answer[1]
+
+
+def ends_at_the_gap() -> tuple[float, float]:
+    """Least and greatest error in percent where 20 measurements in a period get through, of all rates of the figure."""
+    there = [row for group in RATES for row in stored().records("dropout", group=group) if row["interval"] == "0.0500"]
+    assert [(row["rate"], row["dropout"]) for row in there] == [
+        ("100", "0.8"), ("20", "0.0"), ("50", "0.6"), ("200", "0.9"), ("400", "0.95"),
+    ]  # fmt: skip
+    errors = [100 * float(row["error m"]) for row in there]
+    return min(errors), max(errors)
+
+
+def test_what_is_said_of_equal_gaps_is_so_at_every_rate() -> None:
+    least, most = ends_at_the_gap()
+    said = re.search(r"the error goes from ([\d.]+) \([^)]*\) % .* to ([\d.]+) \([^)]*\) % \(400 sampled", text())
+    assert said
+    assert (float(said[1]), float(said[2])) == (pytest.approx(least), pytest.approx(most))
+    by_gap: defaultdict[str, list[float]] = defaultdict(list)
+    for group in RATES:
+        for row in stored().records("dropout", group=group):
+            by_gap[row["interval"]].append(float(row["error m"]))
+    apart = max(max(errors) / min(errors) for errors in by_gap.values())
+    assert f"the errors of all rates are within a factor of {apart:.1f}" in text()
+    assert apart < 2
+    assert "within a factor of two of one another" in text()
 
 
 def test_what_the_gap_decides() -> None:
     """Up to a twentieth of a period the error is near a measurement's, or below, at any rate; beyond it is not."""
     noise = float(NOISES["position"])
-    for group in ("usual", "rate 20", "rate 50", "rate 200", "rate 400"):
+    for group in RATES:
         for row in stored().records("dropout", group=group):
             if float(row["interval"]) <= 0.05:
                 assert float(row["error high m"]) < 1.2 * noise

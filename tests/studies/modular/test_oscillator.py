@@ -234,5 +234,8 @@ def test_the_study_has_all_its_rows(monkeypatch: pytest.MonkeyPatch) -> None:
     )
     assert {count for count, _, _ in found.rows} == {len(study.SEEDS)}
     assert {setting.rate for _, setting, _ in found.by_rate} == set(study.RATES)
+    assert {(setting.rate, dropout) for _, setting, dropout in found.by_rate} == {
+        (rate, dropout) for rate in study.RATES for dropout in (*study.FEW_DROPOUTS, study.borne(rate))
+    }
     assert {setting.losing for _, setting, _ in found.by_sensor} == {"position", "acceleration"}
     assert seen == [(done, 4) for done in range(5)]
