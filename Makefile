@@ -39,7 +39,7 @@ publish: $(STAMP) ## write all reports anew where they are kept, in reports/publ
 	cd reports/published/embedded && cp cortex-*.toml stored-boards.csv stored-checks.csv stored-folders.csv stored-live*.csv \
 		$(CURDIR)/studies/data/embedded
 	cd reports/published && $(CURDIR)/$(BIN)/python -m studies.machines steffes2014/measured.toml erkf/measured-*.toml \
-		modular/measured.toml embedded/c-*.toml embedded/numba-*.toml embedded/numpy-*.toml
+		modular/measured*.toml embedded/c-*.toml embedded/numba-*.toml embedded/numpy-*.toml
 
 times: $(STAMP) ## time this machine for the reports, keep it in studies/data/measurements, write them anew with it
 	$(BIN)/python -m studies.machines

@@ -7,7 +7,17 @@ from matplotlib.figure import Figure
 
 from filters.systems.rocket import BURN_S
 from filters.systems.spring_mass import period_s
-from reports.modular import future, future_tables, future_words, oscillator, rocket, schedule, tables, words
+from reports.modular import (
+    future,
+    future_tables,
+    future_words,
+    oscillator,
+    rocket,
+    schedule,
+    shared_code,
+    tables,
+    words,
+)
 from reports.modular.costs import cost_figure
 from reports.modular.gap import gap_figure
 from reports.modular.late import late_figure
@@ -42,6 +52,8 @@ def build(results: Results) -> dict[str, bytes]:
         "late": tables.late_rows(results),
         "parts": tables.part_rows(results),
         "measurements": tables.measurement_rows_of(results),
+        "systems": shared_code.system_rows(),
+        "compiled": shared_code.flight_rows(results),
         "processors": tables.verdict_on_processors(results),
         "spent": tables.spent_on(results),
         "residual-time": future_tables.residual_time_rows(results),
@@ -71,6 +83,7 @@ def build(results: Results) -> dict[str, bytes]:
         spring=words.oscillator_words(results),
         rocket=words.rocket_words(results),
         setting=setting_words(results),
+        code=shared_code.shared_code_words(results),
         delayed=words.late_words(results),
         cost=words.cost_words(results),
         schedule=words.schedule_words(results),

@@ -28,6 +28,7 @@ from studies.modular import (
     costs as modular_costs,
 )
 from studies.modular import (
+    flight_times,
     late_measurements,
     rocket,
     rocket_schedule,
@@ -44,8 +45,8 @@ SEED, HALF, SHOWN_PERIODS = 0, 0.5, 2
 """The run that is drawn: its seed, its dropout, and how much of it."""
 EVERY = 4
 """Steps between the points of a curve over all runs."""
-MEASURED = "measured.toml"
-"""The file of the times of the parts."""
+MEASURED, FLOWN = "measured.toml", "measured-flight.toml"
+"""The files of the times of the parts, and of whole flights."""
 OWN_MODEL = "usual, its own model true"
 
 TABLES = (
@@ -56,17 +57,24 @@ TABLES = (
 
 
 class Results(NamedTuple):
-    """tables: by name, as in `TABLES`. measured: the times of the parts here; stored: those before, or of other
-    machines."""
+    """tables: by name, as in `TABLES`. measured, flown: the times of the parts and of flights here; stored,
+    flown_before: those before, or of other machines."""
 
     tables: Tables
     measured: PartTimes
+    flown: PartTimes
     stored: Sequence[PartTimes] = ()
+    flown_before: Sequence[PartTimes] = ()
 
     @property
     def measurements(self) -> tuple[PartTimes, ...]:
-        """All that there are; the last is the one of here."""
+        """All that there are of parts; the last is the one of here."""
         return parts_beside(self.measured, self.stored)
+
+    @property
+    def flights(self) -> tuple[PartTimes, ...]:
+        """All that there are of whole flights, likewise."""
+        return parts_beside(self.flown, self.flown_before)
 
     def least(self, kind: modular_costs.Kind, states: int, part: modular_costs.Part) -> Range[float]:
         """The range of the least times of a part, in µs."""
@@ -82,19 +90,22 @@ class Results(NamedTuple):
 
     def files(self) -> dict[str, bytes]:
         """What `read` reads."""
-        return {**table_files(self.tables), MEASURED: parts_text(self.measured).encode()}
+        times = {MEASURED: self.measured, FLOWN: self.flown}
+        return {**table_files(self.tables), **{name: parts_text(one).encode() for name, one in times.items()}}
 
 
 def read(folder: Path) -> Results:
     """The results that a report in `folder` was made from, beside all measurements that are kept."""
-    return Results(read_tables(folder, TABLES), read_parts(folder / MEASURED), kept_parts())
+    measured, flown = (read_parts(folder / name) for name in (MEASURED, FLOWN))
+    return Results(read_tables(folder, TABLES), measured, flown, kept_parts(), kept_parts(name=flight_times.NAME))
 
 
 def results(thorough: bool = False, progress: Progress = lambda _done, _total, _what: None) -> Results:
     """Runs the studies and times the code: about fifteen minutes, and two more if nothing was compiled before."""
     measured = part_times(modular_costs.times(thorough=thorough, progress=progress))
+    flown = part_times(flight_times.flight_times(progress=progress), flight_times.NAME)
     tables = {**simulated(progress), **as_stored({"parts": part_rows(modular_costs.operations())})}
-    return Results(tables, measured, kept_parts())
+    return Results(tables, measured, flown, kept_parts(), kept_parts(name=flight_times.NAME))
 
 
 def simulated(progress: Progress = lambda _done, _total, _what: None) -> dict[str, Rows]:

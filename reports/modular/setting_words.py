@@ -7,7 +7,17 @@ from typing import Any
 import numpy as np
 
 from filters.systems.rocket import PAD_S, RATE_HZ, THRUST_AT_S
-from filters.systems.rocket_filter import BAROMETER, CAMERA, GPS, GRAVITY, sensors
+from filters.systems.rocket_filter import (
+    ACCELEROMETER,
+    BAROMETER,
+    BRIDGED_S,
+    CAMERA,
+    GPS,
+    GRAVITY,
+    GYRO,
+    TUNED,
+    sensors,
+)
 from reports.modular.results import Results
 from reports.modular.schedule_gantt import DELAY
 from studies.modular.rocket import CLAIM_PERCENT
@@ -28,10 +38,32 @@ def setting_words(results: Results) -> dict[str, Any]:
     }
     return {
         **late,
+        "noise": rocket_noise(),
+        "process": {
+            "jerk": f"{TUNED.jerk:g}",
+            "angular": [f"{density:g}" for density in (TUNED.roll, TUNED.across)],
+            "bridged_ms": f"{1000 * BRIDGED_S:g}",
+        },
         "hz": RATE_HZ,
         "pad": f"{PAD_S:g}",
         "onset": f"{1000 * THRUST_AT_S[1]:g}",
         "jump": f"{np.ptp(jumped) / GRAVITY:.0f}",
         "quaternion": f"{np.degrees(4 * np.arcsin(CLAIM_PERCENT / 200)):.0f}",
         "fix": f"{PERIOD_MS * DELAY:g}",
+    }
+
+
+def rocket_noise() -> dict[str, Any]:
+    """Standard deviations of the rocket's sensors; of GPS level and upward, first of position, then of velocity; of the
+    camera in degrees."""
+    sigmas = {sensor.name: np.sqrt(np.diagonal(sensor.corrector.R)) for sensor in sensors()}
+    level, up = sigmas[GPS][[0, 3]], sigmas[GPS][[2, 5]]
+    return {
+        "level": [f"{sigma:g}" for sigma in level],
+        "up": [f"{sigma:g}" for sigma in up],
+        "camera": f"{np.degrees(sigmas[CAMERA][0]):g}",
+        **{
+            word: f"{sigmas[name][0]:g}"
+            for word, name in (("barometer", BAROMETER), ("gyro", GYRO), ("accelerometer", ACCELEROMETER))
+        },
     }

@@ -148,6 +148,7 @@ def rocket_words(results: Results) -> dict[str, Any]:
         for dropout, case in CASES.items()
     }
     blind = errors["no accelerometer"]
+    tuned = [rocket_error(errors[case.name], "position") for case in rocket.NOISE_CASES]
     return {
         "flights": base["runs"],
         "few": len(rocket.FEW_SEEDS),
@@ -161,6 +162,8 @@ def rocket_words(results: Results) -> dict[str, Any]:
         "blind_velocity": rocket_error(blind, "velocity"),
         "blind_position": rocket_error(blind, "position"),
         "lossy": rocket_error(lossy, "position"),
+        "tuned": tuned,
+        "without_gps": rocket_error(errors["no GPS"], "position"),
         "from_s": {
             dropout: {name: _time(row["holds from s"]) for name, row in rows.items()}
             for dropout, rows in readings.items()

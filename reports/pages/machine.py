@@ -25,7 +25,8 @@ def timed_on(about: Mapping[str, Any]) -> str:
     """
     versions = ", ".join(f"{name} {number}" for name, number in about["versions"].items())
     protocol = about["protocol"]
-    rounds = f"{protocol['rounds']} rounds of {protocol['repetitions']} repetitions"
+    times = protocol["repetitions"]
+    rounds = f"{protocol['rounds']} rounds of {times} repetition{'s' * (times != 1)}"
     busy = f", **which was busy** ({about['busy']}): times may be too long" if "busy" in about else ""
     return f"{about['machine']}, {about['date']} ({versions}; {rounds}){busy}"
 

@@ -1,4 +1,4 @@
-"""Adds this machine to the store of measurements: `python -m studies.machines`, up to three minutes on an idle machine.
+"""Adds this machine to the store of measurements: `python -m studies.machines`, up to four minutes on an idle machine.
 
 With the paths of cost tables, such as those in the folders of reports, it adds these, and measures nothing.
 """
@@ -20,6 +20,8 @@ from studies.machines.parts import PartTimes, keep_parts, part_times, read_parts
 from studies.machines.store import keep
 from studies.measurement.methods import measure
 from studies.modular.costs import times
+from studies.modular.flight_times import NAME as FLIGHTS
+from studies.modular.flight_times import flight_times
 from studies.robust.costs import SYSTEMS, robust_costs
 
 
@@ -29,11 +31,13 @@ def measured_here() -> Iterator[CostTable | PartTimes]:
     for name in SYSTEMS:
         yield robust_costs(name, "compiled")
     yield part_times(times())
+    yield part_times(flight_times(), FLIGHTS)
 
 
 def _read(path: Path) -> CostTable | PartTimes:
     text = read_text(path, f"measurement {str(path)!r}", "give the path of a TOML file")
-    return read_parts(path) if f'name = "{PARTS}"' in text.splitlines() else read_costs(path)
+    is_of_parts = any(f'name = "{name}"' in text.splitlines() for name in (PARTS, FLIGHTS))
+    return read_parts(path) if is_of_parts else read_costs(path)
 
 
 def main(paths: list[str]) -> int:

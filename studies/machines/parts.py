@@ -1,4 +1,5 @@
-"""Measurements by machine of the parts of composed filters, which are no methods and so have no cost table.
+"""Measurements by machine of composed filters, which are no methods and so have no cost table: of their parts, and of
+whole flights.
 
 A file of the store has the form of a cost table; a part has its least and its median time in µs, of which older
 measurements know no more.
@@ -22,7 +23,8 @@ NAME, UNIT = "modular-parts", "us"
 SOURCE = "means over the repetitions of a round; minimum and median over rounds"
 
 PartName: TypeAlias = tuple[str, str, str]
-"""Its kind, how many states, and predict or correct."""
+"""Its kind, how many states, and predict or correct; of a flight the kind of its predictor, the states, and the way to
+run it."""
 
 
 class Micros(NamedTuple):
@@ -33,24 +35,26 @@ class Micros(NamedTuple):
 
 
 class PartTimes(NamedTuple):
-    """One measurement. provenance: the machine, the date, the versions, the protocol, and that it was busy if so."""
+    """One measurement. provenance: the machine, the date, the versions, the protocol, and that it was busy if so. name:
+    what the store calls such measurements."""
 
     provenance: Mapping[str, Any]
     parts: Mapping[PartName, Micros]
+    name: str = NAME
 
 
-def part_times(timed: Times) -> PartTimes:
+def part_times(timed: Times, name: str = NAME) -> PartTimes:
     """To three digits: more would be noise."""
     parts: dict[PartName, Micros] = {
         key: Micros(*(float(f"{1e6 * time:.3g}") for time in (min(rounds), median(rounds))))
         for key, rounds in timed.seconds.items()
     }
-    return PartTimes({"source": SOURCE, **timed.about}, parts)
+    return PartTimes({"source": SOURCE, **timed.about}, parts, name)
 
 
 def parts_text(measured: PartTimes) -> str:
     """As `read_parts` reads it back."""
-    lines, sections = [f"name = {toml_value(NAME)}", f"unit = {toml_value(UNIT)}"], []
+    lines, sections = [f"name = {toml_value(measured.name)}", f"unit = {toml_value(UNIT)}"], []
     for key, value in measured.provenance.items():
         if isinstance(value, Mapping):
             sections += toml_tables(key, value)
@@ -66,6 +70,7 @@ def read_parts(path: Path) -> PartTimes:
     """Raises InputError if the file is not there, is no TOML, or holds no times of parts."""
     document = read_toml(path, f"times of parts {str(path)!r}", "give the path of one that this program wrote")
     try:
+        name = str(document["name"])
         about = {key: value for key, value in document.items() if key not in ("name", "unit", "costs")}
         parts: dict[PartName, Micros] = {}
         for of_filter, costs in document["costs"].items():
@@ -74,12 +79,12 @@ def read_parts(path: Path) -> PartTimes:
                 parts[kind, states, part] = Micros(float(cost["minimum"]), float(cost["median"]))
     except (KeyError, ValueError, TypeError, AttributeError):
         raise InputError(f"{path} holds no times of parts: give a file that this program wrote") from None
-    return PartTimes(about, parts)
+    return PartTimes(about, parts, name)
 
 
-def kept_parts(folder: Path = FOLDER) -> tuple[PartTimes, ...]:
-    """All measurements, the oldest first."""
-    return tuple(read_parts(path) for path in files(NAME, folder))
+def kept_parts(folder: Path = FOLDER, name: str = NAME) -> tuple[PartTimes, ...]:
+    """All measurements of this name, the oldest first."""
+    return tuple(read_parts(path) for path in files(name, folder))
 
 
 def keep_parts(measured: PartTimes, folder: Path = FOLDER) -> Path:
@@ -87,13 +92,13 @@ def keep_parts(measured: PartTimes, folder: Path = FOLDER) -> Path:
 
     Raises InputError for one of other parts than those that are kept, and if the folder cannot be written.
     """
-    for path in files(NAME, folder):
+    for path in files(measured.name, folder):
         other = read_parts(path)
         if other == measured:
             return path
         if other.parts.keys() != measured.parts.keys():
-            raise InputError(f"{NAME}: these are not times of the parts that {path} has")
-    path = place(NAME, str(measured.provenance["machine"]), str(measured.provenance["date"]), folder)
+            raise InputError(f"{measured.name}: these are not times of the parts that {path} has")
+    path = place(measured.name, str(measured.provenance["machine"]), str(measured.provenance["date"]), folder)
     write(path, parts_text(measured).encode(), "times of parts")
     return path
 

@@ -43,7 +43,7 @@ MEASURED, DT, DRAG, SCALE = 3, 0.01, 1e-3, 1e-3
 class Times(NamedTuple):
     """seconds: of one run of each job, one figure a round; about: the machine, the versions and the protocol."""
 
-    seconds: Mapping[Key, list[float]]
+    seconds: Mapping[tuple[str, str, str], list[float]]
     about: Mapping[str, Any]
 
 
@@ -113,4 +113,4 @@ def times(*, thorough: bool = False, seed: int = 0, progress: Progress = silent)
     """Times of the compiled code on this machine; a minute or two if it was not compiled before."""
     protocol: Protocol = THOROUGH if thorough else QUICK
     timed = time_jobs(jobs(), "compiled", protocol, seed, progress)
-    return Times(timed.seconds, where_timed(protocol, seed, timed.busy))
+    return Times(dict(timed.seconds.items()), where_timed(protocol, seed, timed.busy))

@@ -47,6 +47,11 @@ def test_another_machine_changes_only_what_is_marked_as_measured() -> None:
     slower = {
         key: Micros(*(time * (2 + at % 3) for time in micros)) for at, (key, micros) in enumerate(here.parts.items())
     }
+    flown = stored().flown
+    later = {
+        key: Micros(*(time * (2 + at % 3) for time in micros)) for at, (key, micros) in enumerate(flown.parts.items())
+    }
     another = PartTimes({**here.provenance, "machine": "another"}, slower)
-    other = build(Results(stored().tables, another, stored().stored))
+    again = PartTimes({**flown.provenance, "machine": "another"}, later, flown.name)
+    other = build(Results(stored().tables, another, again, stored().stored, stored().flown_before))
     published.differs_only_where_marked(rebuilt(), other, ["parts.svg"])

@@ -19,10 +19,12 @@ from studies.machines.parts import (
     read_parts,
 )
 from studies.machines.store import files
+from studies.modular import flight_times
 from studies.modular.costs import KINDS, PARTS, STATES, Times
 
 ABOUT = {"machine": "Intel Xeon", "date": "2026-11-30", "versions": {"numba": "0.68"}, "protocol": {"rounds": 3}}
 KEYS = {(kind, str(states), part) for kind in KINDS for states in STATES for part in PARTS}
+FLIGHT_KEYS = {(kind, flight_times.STATES, way) for kind in flight_times.PREDICTORS for way in flight_times.WAYS}
 
 
 def timed(least: float = 0.2, **about: str) -> PartTimes:
@@ -49,7 +51,14 @@ def test_measurements_are_kept_once_the_oldest_first(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    "text", ["", "[costs.linear]\npredict = 1", "[costs.linear-3]\npredict = { minimum = 1 }", "costs = 3"]
+    "text",
+    [
+        "",
+        "[costs.linear-3]\npredict = { minimum = 1, median = 1 }",
+        "[costs.linear]\npredict = 1",
+        "[costs.linear-3]\npredict = { minimum = 1 }",
+        "costs = 3",
+    ],
 )
 def test_what_holds_no_times_of_parts_is_refused(text: str, tmp_path: Path) -> None:
     (tmp_path / "times.toml").write_text(text, encoding="utf-8")
@@ -63,15 +72,26 @@ def test_times_of_other_parts_are_refused(tmp_path: Path) -> None:
         keep_parts(PartTimes(ABOUT, {("linear", "6", "predict"): Micros(1.0, 2.0)}), tmp_path)
 
 
-def test_the_repository_has_all_parts_in_every_measurement(tmp_path: Path) -> None:
+@pytest.mark.parametrize(("name", "keys"), [("modular-parts", KEYS), ("modular-flight", FLIGHT_KEYS)])
+def test_the_repository_has_all_parts_in_every_measurement(
+    name: str, keys: set[tuple[str, str, str]], tmp_path: Path
+) -> None:
     """And kept anew, one after another, they are the same files."""
-    every = kept_parts()
+    every = kept_parts(name=name)
     assert every
-    for path, one in zip(files("modular-parts"), every, strict=True):
-        assert one.parts.keys() == KEYS
+    for path, one in zip(files(name), every, strict=True):
+        assert one.parts.keys() == keys
         assert all(micros.least <= micros.median for micros in one.parts.values())
         again = keep_parts(one, tmp_path)
         assert (again.name, again.read_bytes()) == (path.name, path.read_bytes())
+
+
+def test_flights_are_kept_beside_parts(tmp_path: Path) -> None:
+    flown = timed()._replace(name="modular-flight", parts={("unscented", "15", "compiled"): Micros(1.0, 2.0)})
+    for one in (timed(), flown):
+        keep_parts(one, tmp_path)
+    assert kept_parts(tmp_path) == (timed(),)
+    assert kept_parts(tmp_path, "modular-flight") == (flown,)
 
 
 def test_the_command_keeps_them(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -18,8 +18,9 @@ from studies.machines import __main__ as command
 from studies.machines.parts import NAME as PARTS
 from studies.machines.store import FOLDER, beside, files, keep, kept
 from studies.modular.costs import Times
+from studies.modular.flight_times import NAME as FLIGHTS
 
-TABLES = sorted({path.name for path in FOLDER.iterdir()} - {PARTS})
+TABLES = sorted({path.name for path in FOLDER.iterdir()} - {PARTS, FLIGHTS})
 XEON, EPYC = "Intel(R) Xeon(R) CPU @ 2.20GHz", "AMD EPYC"
 
 
