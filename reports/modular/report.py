@@ -8,6 +8,7 @@ from matplotlib.figure import Figure
 from filters.systems.rocket import BURN_S
 from filters.systems.spring_mass import period_s
 from reports.modular import (
+    biases,
     future,
     future_tables,
     future_words,
@@ -48,6 +49,7 @@ def build(results: Results) -> dict[str, bytes]:
         "rocket-errors": tables.rocket_error_rows(results),
         "readings": tables.reading_rows(results),
         "lost": tables.lost_rows(results),
+        "biases": biases.bias_table(results),
         "rocket-nees": tables.rocket_nees_rows(results),
         "late": tables.late_rows(results),
         "parts": tables.part_rows(results),
@@ -83,6 +85,7 @@ def build(results: Results) -> dict[str, bytes]:
         spring=words.oscillator_words(results),
         rocket=words.rocket_words(results),
         setting=setting_words(results),
+        biased=biases.bias_words(results),
         code=shared_code.shared_code_words(results),
         delayed=words.late_words(results),
         cost=words.cost_words(results),

@@ -14,6 +14,7 @@ import numpy as np
 
 from filters.arrays import FloatArray
 from filters.systems.spring_mass import period_s
+from reports.modular.bias_rows import bias_rows
 from reports.modular.costs import OPERATIONS
 from reports.modular.future_rows import TABLES as FUTURE_TABLES
 from reports.modular.future_rows import future_tables
@@ -25,13 +26,14 @@ from reports.pages.stored import Rows, Tables, as_stored, columns, digits, read_
 from studies.machines.parts import PartTimes, kept_parts, part_times, parts_beside, parts_text, read_parts
 from studies.machines.ranges import Range, range_of
 from studies.modular import (
-    costs as modular_costs,
-)
-from studies.modular import (
+    biases,
     flight_times,
     late_measurements,
     rocket,
     rocket_schedule,
+)
+from studies.modular import (
+    costs as modular_costs,
 )
 from studies.modular import (
     oscillator as spring_mass,
@@ -51,7 +53,7 @@ OWN_MODEL = "usual, its own model true"
 
 TABLES = (
     "oscillator", "dropout", "consistency", "rocket-errors", "rocket-residuals", "rocket-nees",
-    "rocket-residual-course", "rocket-nees-course", "rocket-apogee", "flight", "late",
+    "rocket-residual-course", "rocket-nees-course", "rocket-apogee", "rocket-biases", "flight", "late",
     "parts", *SCHEDULE_TABLES, *FUTURE_TABLES,
 )  # fmt: skip
 
@@ -114,6 +116,7 @@ def simulated(progress: Progress = lambda _done, _total, _what: None) -> dict[st
         {
             **oscillator_tables(spring_mass.dropout_study(progress)),
             **rocket_tables(rocket.rocket_study(progress=progress)),
+            "rocket-biases": bias_rows(biases.bias_study(progress=progress)),
             "late": late_rows(late_measurements.late_study(progress=progress)),
             **schedule_tables(rocket_schedule.counted(), progress),
             **future_tables(progress),

@@ -164,7 +164,11 @@ def lost_rows(results: Results) -> Rows:
 
 def share_that_holds(row: Record) -> str:
     """The share of the flights in percent, with its 95 % interval."""
-    hold, runs = int(row["hold"]), int(row["runs"])
+    return share_of(int(row["hold"]), int(row["runs"]))
+
+
+def share_of(hold: int, runs: int) -> str:
+    """In percent, with its 95 % interval."""
     share, *ends = (f"{100 * value:.0f}" for value in (hold / runs, *wilson(hold, runs)))
     return f"{share} ({' to '.join(ends)})"
 

@@ -14,6 +14,7 @@ from reports.modular.schedule import miss_rows_of
 from reports.modular.schedule_gantt import clocks_shown, fix_panels
 from studies.modular.rocket_readings import chord
 from studies.modular.rocket_schedule import LAND_BY, PERIOD_MS, compared_at, counted
+from studies.modular.shared_code import PARTS, POINTS, code_lines
 from tests.reports.modular.page import interval, number, rebuilt, rows, stored, text
 
 RATES = ("usual", "rate 20", "rate 50", "rate 200", "rate 400")
@@ -230,13 +231,27 @@ def test_what_is_said_to_be_reproduced_of_the_poster_has_the_same_numbers() -> N
     said = REPRODUCED.read_text(encoding="utf-8").partition("MacCormack")[2]
     error, innovation, _ = rows("claim.csv")
     (bridged,) = (row for row in rows("stiffness.csv") if row["Lost, %"] == "80")
+    least, most = ends_at_the_gap()
+    biased = next(row for row in rows("biases.csv") if (row["Bias of"], row["size"]) == ("all", "1"))
+    own = [int(row["its own lines"]) for row in rows("systems.csv")]
     aware, unaware = (bridged[name].partition(" (")[0] for name in ("stiffness as a state", "no spring"))
     for words in (
         f"not of the error: {error['position'].partition(' (')[0]} times",
         f"innovation of position, {innovation['position'].partition(' (')[0]} times",
         f"at 80 % dropout {aware} % error instead of {unaware} %",
+        f"position errs by {least:.1f} to {most:.1f} %, by the sampling rate",
+        f"position still is, orientation in {number(biased['orientation holds, %']):.0f} % of the flights",
+        f"{code_lines(*PARTS)} for predictors and correctors of all three kinds",
+        f"{code_lines(*POINTS)} for sigma points",
+        f"a system adds {min(own)} to {max(own)}",
     ):
         assert words in said
+    gain = re.search(r"by some (\d+) times over Python, (\d+) over NumPy calls", said)
+    assert gain
+    unscented = next(row for row in rows("compiled.csv") if row["Predictor"] == "unscented")
+    for times, head in zip(gain.groups(), ("times faster than Python †", "than NumPy †"), strict=True):
+        ends = [float(end) for end in unscented[head].split(" to ")]
+        assert 0.9 * ends[0] < float(times) < 1.1 * ends[-1]
 
 
 def test_what_15_percent_of_a_quaternion_are() -> None:

@@ -7,6 +7,8 @@ import re
 import numpy as np
 import pytest
 
+from filters.systems.rocket_filter import TUNED, sensors
+from reports.modular.biases import ALL
 from reports.modular.costs import OPERATIONS
 from reports.modular.schedule import miss_rows_of
 from reports.modular.styles import WAY_NAMES
@@ -83,6 +85,34 @@ def test_position_keeps_to_the_claim_on_the_rocket_and_each_axis_does_not() -> N
     assert number(share["nose / turn of the nose"]) < 100
 
 
+def test_position_bears_biases_as_large_as_the_noise_and_orientation_does_not() -> None:
+    of = {(row["Bias of"], row["size"]): row for row in rows("biases.csv")}
+    none, every, more = of["none", "-"], of["all", "1"], of["all", "3"]
+    base = next(row for row in rows("rocket-errors.csv") if row["Filter"] == "unscented")
+    assert [none[f"{name}, {unit}"] for name, unit in (("position", "m"), ("orientation", "°"))] == [
+        base["position"], base["orientation"],
+    ]  # fmt: skip
+    assert {number(row["position holds, %"]) for key, row in of.items() if key != ("all", "3")} == {100}
+    assert interval(more["position holds, %"])[1] < 65
+    assert number(none["orientation holds, %"]) == 100 > 95 > interval(every["orientation holds, %"])[1]
+    assert f"in {every['orientation holds, %']} % of the flights" in text()
+    assert f"position holds in {more['position holds, %']} %, and in all from {more['position from s']} s on" in text()
+    (stored_row,) = stored().records("rocket-biases", size="1", biased=ALL)
+    assert 12 < float(stored_row["position worst"]) < 15
+    assert f"**position holds, barely** ({stored_row['position worst']} % at worst)" in text()
+    assert "with biases as large as the noise position stays below, orientation does not" in text()
+
+
+def test_the_rockets_sensors_are_said_as_the_filter_is_told() -> None:
+    sigmas = {sensor.name: np.sqrt(np.diagonal(sensor.corrector.R)) for sensor in sensors()}
+    level, up = sigmas["GPS"][[0, 3]], sigmas["GPS"][[2, 5]]
+    assert f"GPS {level[0]:g} m and {level[1]:g} m/s (upward {up[0]:g} m and {up[1]:g} m/s)" in text()
+    assert f"barometer {sigmas['barometer'][0]:g} m, gyro {sigmas['gyro'][0]:g} rad/s" in text()
+    assert f"accelerometer {sigmas['accelerometer'][0]:g} m/s², camera {np.degrees(sigmas['camera'][0]):g}°" in text()
+    assert "of a size that the filter knows, and no biases" in text()
+    assert f"densities {TUNED.jerk:g} (m/s³)²/Hz, and {TUNED.roll:g} (roll) and {TUNED.across:g} (rad/s²)²/Hz" in text()
+
+
 def test_the_extended_predictor_does_as_well() -> None:
     of = {row["Filter"]: row for row in rows("rocket-errors.csv")}
     for one, other in (("unscented", "extended"), ("dropout 95 %", "extended, dropout 95 %")):
@@ -102,9 +132,9 @@ def test_what_ignoring_a_delay_costs() -> None:
     both, alone = "both", "position"
     assert number(of[both, "Fuse as fresh"]["10 late"]) > 6 * number(of[both, "Recalculate"]["10 late"])
     assert number(of[alone, "Fuse as fresh"]["2 late"]) < number(of[alone, "Recalculate"]["2 late"])
-    for sensors in (both, alone):
+    for measuring in (both, alone):
         for name in (f"{delay} late" for delay in (0, 2, 4, 6, 8, 10)):
-            larsen, recalculate = (number(of[sensors, way][name]) for way in ("Larsen", "Recalculate"))
+            larsen, recalculate = (number(of[measuring, way][name]) for way in ("Larsen", "Recalculate"))
             assert larsen == pytest.approx(recalculate, rel=0.01)
     assert len({of[alone, "Dual-rate"][f"{delay} late"] for delay in (0, 2, 4, 6, 8)}) == 1
 
