@@ -85,6 +85,7 @@ def build(results: Results) -> dict[str, bytes]:
         spring=words.oscillator_words(results),
         rocket=words.rocket_words(results),
         setting=setting_words(results),
+        biases_shown=tables.without(rows["biases"], "orientation from s"),
         biased=biases.bias_words(results),
         code=shared_code.shared_code_words(results),
         delayed=words.late_words(results),

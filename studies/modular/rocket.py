@@ -21,7 +21,8 @@ nearly all at 95 %.
 
 The filter is as accurate as it says, but for the onset of thrust, and for lost measurements: noise that has the mean
 square of the flight's jerk is not that of its onset. An extended predictor does as well as the unscented one, to the
-digits that are shown: 10 ms of flight are as good as linear. Sensors have white noise only, of known size; no biases.
+digits that are shown: 10 ms of flight are as good as linear. Sensors have white noise only, of known size; biases are
+tried in `biases`.
 """
 
 from __future__ import annotations
