@@ -6,12 +6,14 @@ import json
 from pathlib import Path
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from filters.registry import ALL_METHODS
 from filters.systems.example import example_system
 from reports.pages.machine import timed_on
 from studies.measurement import methods
-from studies.measurement.busy import Clocks, Load, load, signs_of_others
+from studies.measurement.busy import Clocks, Load, load, own_load, signs_of_others
 from studies.measurement.job_times import Protocol, time_jobs
 from tests.command_line import Run
 
@@ -49,10 +51,25 @@ def test_each_sign_is_said_with_its_figure() -> None:
     assert signs_of_others(Load(4, 4), START, Clocks(1_000_005, 500_007), [rough]).count(", ") == 3
 
 
+def test_what_a_process_has_added_itself_is_no_sign_of_others() -> None:
+    assert signs_of_others(Load(1.9, 2, 1.0), START, ALONE, [EVEN]) == ""
+    said = "load average 2.1 on 2 processors before it, 1.0 of it its own"
+    assert signs_of_others(Load(2.1, 2, 1.0), START, ALONE, [EVEN]) == said
+
+
+@given(st.floats(0, 4), st.floats(0.01, 1e5), st.floats(0.01, 1e5))
+def test_the_own_load_grows_to_the_share_of_processors_that_was_had(share: float, less: float, more: float) -> None:
+    first, later = (own_load(share * seconds, int(1e9 * seconds)) for seconds in sorted((less, more)))
+    assert 0 <= first <= later + 1e-9
+    assert later <= share + 1e-9
+    assert own_load(share * 1e4, int(1e13)) == pytest.approx(share)
+
+
 def test_the_load_is_asked_of_the_system() -> None:
-    average, processors = load()
-    assert average is None or average >= 0
-    assert processors >= 1
+    found = load()
+    assert found.average is None or found.average >= 0
+    assert found.processors >= 1
+    assert 0 <= found.own <= 2 * found.processors
 
 
 def test_what_was_timed_on_a_busy_machine_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
