@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from datetime import UTC, datetime
+from decimal import Decimal
 from html import escape
 from importlib.metadata import version
 from pathlib import Path
@@ -52,13 +53,18 @@ def made_of(folder: Path) -> Made | None:
         return None
     about = read_toml(path, str(path), REMEDY)
     try:
-        return Made(about["date"], about["machine"], about["versions"], _seconds(about))
+        return Made(str(about["date"]), str(about["machine"]), about["versions"], _seconds(about, path))
     except KeyError as missing:
         raise InputError(f"{path} lacks {missing}: {REMEDY}") from None
 
 
-def _seconds(about: Mapping[str, Any]) -> float | None:
-    return float(about["seconds"]) if "seconds" in about else None
+def _seconds(about: Mapping[str, Any], path: Path) -> float | None:
+    seconds = about.get("seconds")
+    if seconds is None:
+        return None
+    if isinstance(seconds, bool) or not isinstance(seconds, int | Decimal) or not float(seconds) >= 0:
+        raise InputError(f"{path}: seconds is {seconds!s}, which is no duration: {REMEDY}")
+    return float(seconds)
 
 
 def with_made(files: Mapping[str, bytes], made: Made | None) -> dict[str, bytes]:

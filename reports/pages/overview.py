@@ -1,6 +1,6 @@
 """The page of all reports in a folder: of each its title, its answer, its first figure, and when and where it was made.
 
-It is made from the reports' own files, whatever wrote them.
+It is made from the reports' own files, whatever wrote them: what is damaged of one hides nothing of the others.
 """
 
 from __future__ import annotations
@@ -9,6 +9,7 @@ import re
 from collections.abc import Iterable
 from pathlib import Path
 from typing import NamedTuple
+from xml.etree import ElementTree
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markdown_it import MarkdownIt
@@ -17,7 +18,7 @@ from markupsafe import Markup, escape
 from reports.explorer.compact import compact
 from reports.explorer.module import PALETTE, asset
 from reports.pages.inline import inline
-from reports.pages.made import made_of
+from reports.pages.made import FILE, made_of
 from reports.pages.numbers import unbroken
 from sched_sim.errors import InputError
 
@@ -37,7 +38,8 @@ OURS = {"index.html": f"<title>{TITLE}</title>", "index.md": f"# {TITLE}\n"}
 
 class Report(NamedTuple):
     """name: of its folder; title, answer: as Markdown, the answer empty where there is none; figure: its file, alt: in
-    words; made: when, where and in how long it was, in words; empty where nobody wrote that down."""
+    words, both empty where there is none; made: when, where and in how long it was, in words; empty where nobody wrote
+    that down."""
 
     name: str
     title: str
@@ -49,7 +51,7 @@ class Report(NamedTuple):
 
 def overview(folder: Path, order: Iterable[str]) -> dict[str, bytes]:
     """The files "index.md" and "index.html" of the reports of these names that are in `folder`."""
-    reports = [report_in(folder / name) for name in order if (folder / name / "index.md").exists()]
+    reports = [report_in(folder / name) for name in order if (folder / name / "index.md").is_file()]
     environment = Environment(
         loader=PackageLoader("reports"),
         undefined=StrictUndefined,
@@ -85,18 +87,32 @@ def check_overview(folder: Path) -> None:
 
 def report_in(folder: Path) -> Report:
     """What its Markdown says, and what stands beside it of its making."""
-    text = (folder / "index.md").read_text(encoding="utf-8")
+    text = (folder / "index.md").read_text(encoding="utf-8", errors="replace")
     title, answer, figure = HEADING.search(text), ANSWER.search(text), FIRST_FIGURE.search(text)
-    seen = figure is not None and (folder / figure[2]).exists()
-    made = made_of(folder)
+    seen = figure is not None and _is_picture(folder / figure[2])
     return Report(
         folder.name,
         title[1] if title else folder.name,
         " ".join(answer[1].split()) if answer else "",
         figure[2] if figure and seen else "",
         figure[1] if figure and seen else "",
-        made.words if made else "",
+        _made(folder),
     )
+
+
+def _made(folder: Path) -> str:
+    try:
+        made = made_of(folder)
+    except InputError:
+        return f"its {FILE} cannot be read"
+    return made.words if made else ""
+
+
+def _is_picture(path: Path) -> bool:
+    try:
+        return path.is_file() and "viewBox" in ElementTree.fromstring(path.read_bytes()).attrib
+    except ElementTree.ParseError:
+        return False
 
 
 def _thumbnail(folder: Path, report: Report) -> str:

@@ -7,7 +7,7 @@ import signal
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from time import monotonic
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
@@ -15,6 +15,9 @@ from sched_sim.cli.measured_note import say_busy
 from sched_sim.cli.output import say
 from sched_sim.cli.progress import Progress, progress_bar
 from sched_sim.errors import InputError
+
+if TYPE_CHECKING:
+    from reports.pages.made import Made
 
 Name = Annotated[
     Literal["steffes2014", "patent-multirate", "erkf", "modular", "accuracy", "embedded"] | None,
@@ -121,16 +124,25 @@ def _make_all(thorough: bool, output: Path) -> None:
 def _expected(output: Path) -> str:
     """How long it will take, by how long each report took when it was last made here, or where it is published."""
     import reports
-    from reports.pages.made import made_of
     from reports.pages.numbers import duration
 
     published = Path(reports.__file__).parent / "published"
-    last = {name: made_of(output / name) or made_of(published / name) for name in REPORTS}
+    last = {name: _last(output / name) or _last(published / name) for name in REPORTS}
     seconds = {name: made.seconds for name, made in last.items() if made is not None and made.seconds is not None}
     if not seconds:
         return f"{len(REPORTS)} reports; how long they take is not known here: some minutes"
     each = ", ".join(f"{name} {duration(seconds[name])}" if name in seconds else f"{name} ?" for name in REPORTS)
     return f"{len(REPORTS)} reports, about {duration(sum(seconds.values()))} by their last runs: {each}"
+
+
+def _last(folder: Path) -> Made | None:
+    """What its last making wrote of itself; None if that cannot be read: it is about to be replaced."""
+    from reports.pages.made import made_of
+
+    try:
+        return made_of(folder)
+    except InputError:
+        return None
 
 
 def _page(folder: Path) -> Path:

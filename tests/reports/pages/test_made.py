@@ -55,6 +55,13 @@ def test_a_file_that_is_broken_is_named(tmp_path: Path) -> None:
         made_of(tmp_path)
 
 
+@pytest.mark.parametrize("seconds", ["nan", "-1", "true", '"long"', "1e300"])
+def test_what_is_no_duration_is_named(tmp_path: Path, seconds: str) -> None:
+    (tmp_path / FILE).write_text(f'date = "2026-11-29"\nmachine = "here"\nseconds = {seconds}\n[versions]\n')
+    with pytest.raises(InputError, match=r"made.toml: seconds is "):
+        made_of(tmp_path)
+
+
 def test_here_it_is_this_machine_by_these_versions() -> None:
     made = made_here(12.34)
     assert made.machine

@@ -63,6 +63,23 @@ def test_a_figure_whose_file_is_gone_is_left_out(folder: Path) -> None:
     assert "lead.svg" not in markdown
 
 
+@pytest.mark.parametrize("damage", [b"", b"\xff\xfe not text", b"<svg/>"])
+@pytest.mark.parametrize("file", ["made.toml", "lead.svg", "index.md"])
+def test_a_damaged_file_of_one_hides_nothing_of_the_others(folder: Path, file: str, damage: bytes) -> None:
+    (folder / "second" / file).write_bytes(damage)
+    for text in texts(folder):
+        assert "A plain one" in text
+        assert "sched-sim report second" in text
+        assert ("its made.toml cannot be read" in text) is (file == "made.toml")
+
+
+@pytest.mark.parametrize("file", ["made.toml", "lead.svg", "index.md"])
+def test_nor_does_a_folder_in_its_place(folder: Path, file: str) -> None:
+    (folder / "second" / file).unlink()
+    (folder / "second" / file).mkdir()
+    assert all("A plain one" in text for text in texts(folder))
+
+
 def test_it_is_a_function_of_the_folder(folder: Path) -> None:
     assert texts(folder) == texts(folder)
     assert "Reports" in texts(folder / "first")[0]

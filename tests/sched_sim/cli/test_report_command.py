@@ -78,6 +78,17 @@ def test_all_of_them_and_how_long_each_took_and_will_take(sched_sim: Run, tmp_pa
     )
 
 
+@pytest.mark.usefixtures("reports")
+def test_what_is_damaged_of_the_last_run_is_made_anew(sched_sim: Run, tmp_path: Path) -> None:
+    (tmp_path / "new/erkf").mkdir(parents=True)
+    (tmp_path / "new/erkf/index.md").write_bytes(b"\xff")
+    (tmp_path / "new/erkf/made.toml").write_text("seconds = ")
+    assert sched_sim("report modular -o new").code == 0
+    assert "its made.toml cannot be read" in (tmp_path / "new/index.md").read_text()
+    assert sched_sim("report --all -o new").code == 0
+    assert "cannot be read" not in (tmp_path / "new/index.md").read_text()
+
+
 def test_an_error_of_one_does_not_lose_the_others(sched_sim: Run, tmp_path: Path, reports: Callable[..., None]) -> None:
     reports(modular=broken)
     result = sched_sim("report --all -o new")
