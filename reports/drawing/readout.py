@@ -137,7 +137,7 @@ def _short(value: float, digits: int = DIGITS) -> float:
     return int(rounded) if rounded.is_integer() and abs(rounded) < 1e15 else rounded
 
 
-SIGNS = {r"\Phi ": "Φ", r"\Phi": "Φ", r"\Delta ": "Δ", r"\Delta": "Δ", r"\,": " "}
+SIGNS = {r"\Phi ": "Φ", r"\Phi": "Φ", r"\Delta ": "Δ", r"\Delta": "Δ", r"\,": " ", r"\to ": "→"}
 FORMULA = re.compile(r"(?<!\\)\$(.*?)(?<!\\)\$")
 
 
@@ -151,7 +151,9 @@ def _plain_formula(formula: str) -> str:
     for sign, letter in SIGNS.items():
         formula = formula.replace(sign, letter)
     formula = formula.replace("''", "″").replace("'", "′")
+    formula = formula.replace("^-", "⁻").replace("^+", "⁺").replace("-", "\N{MINUS SIGN}")
     formula = re.sub(r"\\sqrt\{([^}]*)\}", r"√(\1)", formula)
+    formula = re.sub(r"_\{([^}]*)\}", r"(\1)", formula)
     formula = re.sub(r"\\[a-z]+\{([^}]*)\}", r"\1", formula)
-    formula = re.sub(r"(?<=\w)\+(?=\w)", " + ", formula)
+    formula = re.sub(r"(?<=\w)([+\N{MINUS SIGN}→])(?=\w)", r" \1 ", formula)
     return re.sub(r"[{}]", "", formula).replace("^3", "³").replace("^2", "²")
