@@ -16,6 +16,8 @@ WITHIN = re.compile(
 )
 """In HTML: what is no text, a day, or the space before a unit, on either side of the sign of a short equation, or
 between a name and its number."""
+HYPHENATED = re.compile(r"[^\s<>]*-[^\s<>]*(?![^<]*>)")
+"""A word of code that a browser would break after its hyphen; in no tag."""
 SCIENTIFIC = re.compile(r"([\d.]+)e([-+]?\d+)")
 RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
@@ -81,10 +83,13 @@ def duration(seconds: float) -> str:
 
 
 def unbroken(html: str) -> str:
-    """The same, with no end of a line in a day, between a number and its unit, or in "n = 5"."""
+    """The same, with no end of a line in a day, an option or a name of code, between a number and its unit, or in
+    "n = 5"."""
 
     def kept(found: re.Match[str]) -> str:
         day = f'<span class="day">{found["day"]}</span>' if found["day"] else ""
-        return found["other"] or day or "\N{NO-BREAK SPACE}"
+        other = found["other"] or ""
+        code = HYPHENATED.sub(r'<span class="word">\g<0></span>', other) if other.startswith("<code>") else other
+        return code or day or "\N{NO-BREAK SPACE}"
 
     return WITHIN.sub(kept, html)

@@ -91,6 +91,12 @@ def test_no_line_ends_in_a_short_equation_and_code_can_be_copied() -> None:
     assert found == "n\xa0=\xa05, n\xa0≥\xa04, R\xa0/\xa04; speed = 3; <code>n = 5</code>"
 
 
+def test_no_line_ends_after_a_hyphen_of_a_command() -> None:
+    found = unbroken("<code>sched-sim report --all &lt;in&gt;-b</code> word-by-word <code>P - <b a-b>c</b></code>")
+    words = [f'<span class="word">{word}</span>' for word in ("sched-sim", "--all", "&lt;in&gt;-b", "-")]
+    assert found == "<code>{} report {} {}</code> word-by-word <code>P {} <b a-b>c</b></code>".format(*words)
+
+
 def test_no_line_ends_in_a_day_or_between_a_name_and_its_number() -> None:
     found = unbroken("On 2026-11-29, by Eq. (1) and Secs III.")
     assert found == 'On <span class="day">2026-11-29</span>, by Eq.\xa0(1) and Secs III.'

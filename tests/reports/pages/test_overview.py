@@ -47,7 +47,7 @@ def test_title_answer_first_figure_and_making_of_each_in_their_order(folder: Pat
         assert "Of no order" not in text
         assert "2026-11-29" in text
         assert "1 min 23 s" in text.replace("\N{NO-BREAK SPACE}", " ")
-        assert "sched-sim report second" in text
+        assert "report second" in text
     assert '<a href="second/index.html">Which &amp; why</a>' in html
     assert "It needs <em>half</em> of what another needs" in html
     assert "A &lt;fast&gt; machine" in html
@@ -69,7 +69,7 @@ def test_a_damaged_file_of_one_hides_nothing_of_the_others(folder: Path, file: s
     (folder / "second" / file).write_bytes(damage)
     for text in texts(folder):
         assert "A plain one" in text
-        assert "sched-sim report second" in text
+        assert "report second" in text
         assert ("its made.toml cannot be read" in text) is (file == "made.toml")
 
 
