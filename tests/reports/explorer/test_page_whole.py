@@ -44,7 +44,7 @@ def test_all_sliders_can_be_dragged_from_end_to_end_without_a_refusal(visit: Vis
         expect(page.get_by_role("alert").filter(has_text=re.compile("."))).to_have_count(0)
 
 
-@pytest.mark.slow
+@pytest.mark.exhaust
 def test_each_choice_can_be_made_and_taken_back(visit: Visit, explorer: Explorer) -> None:
     page = opened(visit, explorer, FLIGHT)
     first = shown(page, explorer)["query"]
