@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import csv
 import io
+import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -21,6 +22,9 @@ from reports.pages.markdown import Row, markdown_of
 from reports.pages.pictures import Picture
 from sched_sim.errors import InputError
 from sched_sim.files.writable import check_writable, write
+
+FOR_PEOPLE = re.compile(r"[-+\N{MINUS SIGN}]?(?:\d{1,3}(?:,\d{3})+|\d+)(?:\.\d+)?")
+"""A number as tables of a page show it."""
 
 
 def render(template: str, title: str, figures: Mapping[str, Picture], **values: Any) -> dict[str, bytes]:
@@ -46,9 +50,16 @@ def render(template: str, title: str, figures: Mapping[str, Picture], **values: 
 
 
 def csv_bytes(rows: Sequence[Row]) -> bytes:
+    """The table for programs: numbers that people read with commas and a true minus are without, as -1234.5."""
     text = io.StringIO()
-    csv.writer(text, lineterminator="\n").writerows(rows)
+    csv.writer(text, lineterminator="\n").writerows([_for_programs(cell) for cell in row] for row in rows)
     return text.getvalue().encode()
+
+
+def _for_programs(cell: Any) -> Any:
+    if isinstance(cell, str) and FOR_PEOPLE.fullmatch(cell):
+        return cell.replace(",", "").replace("\N{MINUS SIGN}", "-")
+    return cell
 
 
 def make_folder(folder: Path) -> None:

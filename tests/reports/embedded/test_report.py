@@ -245,8 +245,8 @@ def test_speeds_on_the_page_are_those_of_the_file() -> None:
         assert [*emulated[0], *timed[0][2:]] == [*found[0][:6], found[0][-1], *found[0][6:-1]]
         for table in (emulated, timed):
             assert [row[:2] for row in table] == [row[:2] for row in found]
-        assert published.rows(rebuilt(), f"speeds-{form}.csv") == [
-            dict(zip(found[0], row, strict=True)) for row in found[1:]
+        assert [list(row.values()) for row in published.rows(rebuilt(), f"speeds-{form}.csv")] == [
+            [cell.replace("\N{MINUS SIGN}", "-") for cell in row] for row in found[1:]
         ]
 
 
@@ -355,22 +355,22 @@ def test_a_whole_folder_takes_less_ram_than_all_arguments_of_its_jobs() -> None:
 
 def test_the_headline_of_memory_is_of_what_is_written_as_a_whole() -> None:
     folders = rows("folders.csv")
-    ram = {row["Method"]: row["RAM, single"] for row in folders}
-    flash = sorted((row["code, single"] for row in folders), key=number)
+    ram = {row["Method"]: int(row["RAM, single"]) for row in folders}
+    flash = sorted(int(row["code, single"]) for row in folders)
     short = text().partition("**In short.**")[2].partition("## ")[0]
-    assert f"{flash[0]} to {flash[-1]} bytes of flash" in short
-    assert f"and {min(ram.values(), key=number)} bytes of RAM or more. Of {len(ram)} methods augmentation" in short
-    most = sorted(ram, key=lambda method: number(ram[method]), reverse=True)[:3]
+    assert f"{flash[0]:,} to {flash[-1]:,} bytes of flash" in short
+    assert f"and {min(ram.values()):,} bytes of RAM or more. Of {len(ram)} methods augmentation" in short
+    most = sorted(ram, key=lambda method: ram[method], reverse=True)[:3]
     assert most == ["Augmentation", "Dual-rate", "Larsen"]
     first, second, third = (ram[method] for method in most)
-    assert f"{first} bytes, then the dual-rate filter, {second}, then Larsen's method, {third}" in short
+    assert f"{first:,} bytes, then the dual-rate filter, {second:,}, then Larsen's method, {third:,}" in short
 
 
 def test_the_known_loop_is_exact_on_all_cores() -> None:
     checks = rows("checks.csv")
     assert len(checks) == len(CORES)
     for row in checks:
-        assert row["the loop has"] == row["counted"] == row["again"] == f"{INSTRUCTIONS:,}"
+        assert row["the loop has"] == row["counted"] == row["again"] == str(INSTRUCTIONS)
         assert row["of which differ"] == "0"
     assert f"all {sum(int(row['jobs run twice']) for row in checks)} jobs that were run a second time" in text()
 
