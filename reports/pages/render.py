@@ -70,7 +70,11 @@ def make_folder(folder: Path) -> None:
         raise InputError(
             f"--output: {str(folder)!r} cannot be written ({error.strerror}); give a folder that is yours to write"
         ) from None
-    check_writable(folder / "index.html", "--output")
+    page = folder / "index.html"
+    try:
+        check_writable(page, "--output")
+    except InputError:
+        raise InputError(f"--output: {str(page)!r} cannot be written; give a folder that is yours to write") from None
 
 
 def write_report(files: Mapping[str, bytes], folder: Path) -> None:

@@ -68,7 +68,8 @@ def report(
         with progress_bar(name) as progress:
             _make(name, thorough, output, progress)
     except KeyboardInterrupt:
-        say(f"Stopped: what was being made is not written, and nothing of before is lost; what is done is in {output}")
+        done = f"; what is done is in {output}" if any((output / name).exists() for name in REPORTS) else ""
+        say(f"Stopped: what was being made is not written, and nothing of before is lost{done}")
         raise typer.Exit(128 + signal.SIGINT) from None
     say(f"Wrote {_page(output / name)}, the same as index.md, its figures and tables; all reports: {_page(output)}")
 

@@ -108,6 +108,20 @@ def test_when_it_is_stopped_what_is_done_is_there(sched_sim: Run, tmp_path: Path
     assert "what is done is in new" in result.err
 
 
+def test_when_the_first_is_stopped_nothing_is_said_to_be_done(
+    sched_sim: Run, tmp_path: Path, reports: Callable[..., None]
+) -> None:
+    reports(accuracy=stopped)
+    assert sched_sim("report --all -o new").err.endswith("nothing of before is lost\n")
+    assert written(tmp_path / "new") == []
+
+
+@pytest.mark.usefixtures("reports")
+def test_where_no_page_can_be_written_another_folder_is_asked_for(sched_sim: Run, tmp_path: Path) -> None:
+    (tmp_path / "erkf" / "index.html").mkdir(parents=True)
+    is_refused(sched_sim("report erkf -o ."), ["--output: 'erkf/index.html'", "give a folder"])
+
+
 @pytest.mark.usefixtures("reports")
 def test_one_and_all_is_refused_and_so_is_to_replace_a_page_of_yours(sched_sim: Run, tmp_path: Path) -> None:
     is_refused(sched_sim("report erkf --all"), ["erkf and --all", "leave out one of them"])
