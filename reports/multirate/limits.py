@@ -9,11 +9,11 @@ from typing import Any, NamedTuple
 
 from reports.multirate.costs import every
 from reports.multirate.results import N
-from reports.multirate.words import VEHICLES, ratio_text
+from reports.multirate.words import EACH_GAIN, VEHICLES, ratio_text, reading_text
 from reports.pages.numbers import significant
 from sched_sim.design.load import utilization
 from sched_sim.design.pieces import MultirateCosts
-from studies.multirate.accuracy import ACCELERATION_NOISES, GOOD
+from studies.multirate.accuracy import ACCELERATION_NOISES, GOOD, Reading
 from studies.multirate.limit import Tending, tending
 
 BETWEEN_S = 5
@@ -23,6 +23,8 @@ MEASUREMENTS = (1, 2, 5, 10, 20, 50, 100)
 RATES_HZ = (Fraction(1, 2), *map(Fraction, (1, 2, 5, 10, 20, 50, 100)))
 TENTHS = 10
 """Rates are told in so many parts of a Hz."""
+
+DIVIDED: Sequence[Reading] = ("averaged", "sampled")
 
 Rows = list[list[Any]]
 
@@ -76,12 +78,14 @@ def faster_rows(found: Limits, costs: MultirateCosts[Fraction]) -> Rows:
 
 
 def all_rows(found: Limits) -> Rows:
-    """What the figure shows, and both ratios, for a spreadsheet."""
-    heads = ("optimal", "averaged", "sampled", "averaged_ratio", "sampled_ratio")
-    rows: Rows = [["receiver", "n", "measurements_a_second", *heads]]
+    """What the figure shows, under the names of its curves, and both ratios, for a spreadsheet."""
+    divided: dict[str, str] = {reading: reading_text(reading) for reading in DIVIDED}
+    ratios = {f"{reading}_ratio": f"variance ratio, {name}" for reading, name in divided.items()}
+    names = {"optimal": EACH_GAIN, **divided, **ratios}
+    rows: Rows = [["receiver", "n", "measurements a second", *names.values()]]
     for of in (found.more, found.faster):
         for name, tendings in of.items():
             for row in tendings:
-                values = (getattr(row, head) for head in heads)
+                values = (getattr(row, name) for name in names)
                 rows.append([name, row.n, f"{1 / row.period_s:g}", *(f"{value:.5g}" for value in values)])
     return rows

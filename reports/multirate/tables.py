@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 from filters.arrays import FloatArray
 from reports.multirate.costs import Form, every, least_period, least_time_of, time_of
 from reports.multirate.results import RECEIVER, SHOWN, N, Results
-from reports.multirate.words import change_text, ratio_text, scenario_text
+from reports.multirate.words import change_text, ratio_text, reading_text, scenario_text
 from reports.pages.numbers import decimal, percent, significant
 from sched_sim.costs.operations import arithmetic
 from sched_sim.design.fit import fit
@@ -240,11 +240,11 @@ def processor_rows(forms: Sequence[tuple[Form, int]], processors: Sequence[Part]
 
 def accuracy_rows(results: Results) -> Rows:
     """Everything the study found, for a spreadsheet."""
-    heads = ["system", "reading", "n", "L", "steady_mean", "steady_worst", "worst", "worst_step", "settled_step"]
+    heads = ["system", "filter", "n", "L", "steady_mean", "steady_worst", "worst", "worst_step", "settled_step"]
     return [
         heads,
         *(
-            [row.scenario, row.reading, row.n, row.L]
+            [scenario_text(row.scenario), reading_text(row.reading), row.n, row.L]
             + [f"{value:.6g}" for value in (row.steady_mean, row.steady_worst, row.worst)]
             + [peak_step(row), row.settled_step]
             for rows in results.accuracies.values()

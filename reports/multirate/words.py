@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from reports.drawing.readout import plain_text
 from reports.pages.numbers import significant
 from studies.multirate.accuracy import ACCELERATION_NOISES, Reading
 
@@ -36,6 +37,12 @@ READING_NAMES: Mapping[Reading, str] = {
     "skipped": "skipped: one measurement in $n$",
 }
 """What is done with the gain, as legends name it."""
+
+
+def reading_text(reading: Reading) -> str:
+    """As legends name it, without their mathtext."""
+    return plain_text(READING_NAMES[reading])
+
 
 KINDS = {"random walk": "random walk", "tracker": "tracker", "gps": "receiver"}
 """By the beginning of a scenario's name."""

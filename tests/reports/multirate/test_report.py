@@ -15,11 +15,11 @@ from reports.multirate.limits import limits
 from reports.multirate.report import build
 from reports.multirate.results import PERIODS, SHOWN, N, Results, results
 from reports.multirate.said import beaten_from
-from reports.multirate.words import VEHICLE_SYSTEMS
+from reports.multirate.words import VEHICLE_SYSTEMS, reading_text, scenario_text
 from sched_sim.design.load import utilization
 from sched_sim.processors.part_file import load_part, shipped_parts
 from studies.multirate import patent
-from studies.multirate.accuracy import ACCELERATION_NOISES, GOOD, largest_good
+from studies.multirate.accuracy import ACCELERATION_NOISES, GOOD, Reading, largest_good
 from studies.multirate.limit import tending
 from tests.command_line import Run
 from tests.reports import published
@@ -140,18 +140,25 @@ def said_of_three(values: Iterable[object]) -> str:
     return f"{calm} (calm), {road} (road) and {aircraft} (aircraft)"
 
 
-def settled(system: str, reading: str) -> dict[int, float]:
+def settled(system: str, reading: Reading) -> dict[int, float]:
     """Ratios of the table by n, the gain in use at once."""
-    asked = (system, reading, "0")
-    of = [row for row in rows("accuracy.csv") if (row["system"], row["reading"], row["L"]) == asked]
+    asked = (scenario_text(system), reading_text(reading), "0")
+    of = [row for row in rows("accuracy.csv") if (row["system"], row["filter"], row["L"]) == asked]
     return {int(row["n"]): float(row["steady_mean"]) for row in of}
+
+
+def test_systems_and_filters_have_one_name_in_all_tables_and_on_the_page() -> None:
+    accuracies = rows("accuracy.csv")
+    assert {row["system"] for row in accuracies} == {row["System"] for row in rows("steady.csv")}
+    for name in {row["filter"].partition(",")[0].partition(":")[0] for row in accuracies}:
+        assert f"**{name.capitalize()}" in text()
 
 
 def test_from_which_n_on_skipping_measurements_is_better() -> None:
     """Of each receiver, by the table: it was said of the aircraft alone."""
     said = {"calm": None, "road": 17, "aircraft": 7}
     for (vehicle, system), first in zip(VEHICLE_SYSTEMS.items(), said.values(), strict=True):
-        averaged, skipped = (settled(system, reading) for reading in ("averaged", "skipped"))
+        averaged, skipped = settled(system, "averaged"), settled(system, "skipped")
         better = [n for n in averaged if skipped[n] < averaged[n]]
         assert (better[0] if better else None) == first == beaten_from(found(), system), vehicle
     assert "on the road from n = 17 on and in the aircraft from n = 7 on" in text()
@@ -198,7 +205,9 @@ def test_a_shorter_time_between_gains_makes_the_division_exact_and_more_measurem
         assert [float(row[name]) for row in faster] == sorted((float(row[name]) for row in faster), reverse=True)
         assert float(faster[-1][name]) == 1.0
     assert float(faster[-1]["aircraft, with R"]) > 1.3
-    fixed = {row["averaged"] for row in rows("limits.csv") if row["receiver"] == "aircraft" and row["n"] != "5"}
+    fixed = {
+        row["divided gain, R/n"] for row in rows("limits.csv") if row["receiver"] == "aircraft" and row["n"] != "5"
+    }
     assert {f"{float(value):.3f}" for value in fixed} == {"0.269"}
 
 
