@@ -58,7 +58,7 @@ def cost_rows(counts: Counts, measured: Measurements) -> Rows:
     """Operations of every way, with infinite and finite mu, and the time of the compiled code."""
     rows: Rows = [["Way"]]
     for system in SYSTEMS:
-        rows[0] += [f"{system}, μ = ∞", "finite μ", marked("µs")]
+        rows[0] += [f"{system}, {what}" for what in ("μ = ∞", "finite μ", marked("µs"))]
     for way in ALL_WAYS:
         row: list[Any] = [way]
         for system in SYSTEMS:

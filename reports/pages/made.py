@@ -5,7 +5,7 @@ A report itself is a pure function of its results; this is what differs from one
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from datetime import UTC, datetime
 from decimal import Decimal
 from html import escape
@@ -19,6 +19,7 @@ from sched_sim.files.toml_reader import read_toml
 from sched_sim.files.toml_writer import toml_tables, toml_value
 
 FILE = "made.toml"
+DATA = (".csv", ".toml")
 REMEDY = "delete it, or make the report anew"
 
 
@@ -68,17 +69,25 @@ def _seconds(about: Mapping[str, Any], path: Path) -> float | None:
 
 
 def with_made(files: Mapping[str, bytes], made: Made | None) -> dict[str, bytes]:
-    """The report's files as they are written: its page says when and where it was made, a file beside it too."""
+    """The report's files as they are written: its page says when and where it was made, a file beside it too, and leads
+    to all data."""
     if made is None:
         return dict(files)
     before, end, after = files["index.html"].decode().rpartition("</main>")
-    return {**files, "index.html": f"{before}{_footer(made)}{end}{after}".encode(), FILE: _toml(made)}
+    further = [name for name in sorted(files) if name.endswith(DATA) and f'href="{name}"' not in before]
+    return {**files, "index.html": f"{before}{_footer(made, further)}{end}{after}".encode(), FILE: _toml(made)}
 
 
-def _footer(made: Made) -> str:
+def _footer(made: Made, further: Sequence[str]) -> str:
+    """further: files of data that are not linked above."""
     versions = ", ".join(f"{name} {number}" for name, number in made.versions.items())
     said = escape(f"This page was {made.words} ({versions}): ")
-    return f'<footer class="files">{said}<a href="{FILE}">{FILE}</a></footer>\n'
+    data = f". Data of tables, and what they are made from: {', '.join(map(_link, further))}" if further else ""
+    return f'<footer class="files">{said}{_link(FILE)}{data}.</footer>\n'
+
+
+def _link(name: str) -> str:
+    return f'<a href="{name}">{name}</a>'
 
 
 def _toml(made: Made) -> bytes:

@@ -59,7 +59,8 @@ def overview(folder: Path, order: Iterable[str]) -> dict[str, bytes]:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    environment.filters["inline"] = lambda text: Markup(unbroken(MarkdownIt("commonmark").renderInline(text)))
+    markdown = MarkdownIt("commonmark", {"html": False})
+    environment.filters["inline"] = lambda text: Markup(unbroken(markdown.renderInline(text)))
     environment.filters["unbroken"] = lambda text: Markup(unbroken(escape(text)))
     environment.filters["thumbnail"] = lambda report: Markup(_thumbnail(folder, report))
     values = {

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 from functools import cache
 
 from reports.erkf.report import build
@@ -33,6 +31,5 @@ def rows(name: str) -> list[dict[str, str]]:
 
 def costs_of(way: str, column: str) -> int:
     """A cell of the table of counts. column: the system, with a finite μ where nothing else is said."""
-    (cells,) = (line for line in csv.reader(io.StringIO(rebuilt()["costs.csv"].decode())) if line[0] == way)
-    heading = ["", "attitude, μ = ∞", "attitude", "", "position, μ = ∞", "position", ""]
-    return int(cells[heading.index(column)].replace(",", ""))
+    (row,) = (row for row in rows("costs.csv") if row["Way"] == way)
+    return int(row[column if "μ" in column else f"{column}, finite μ"])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from html import unescape
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -39,6 +40,13 @@ def test_the_page_says_it_at_its_end_and_nothing_else_changes(made: Made) -> Non
     said = unescape(footer + after)
     how = "stored results" if made.seconds is None else duration(made.seconds)
     assert all(word in said for word in (made.date, made.machine, how, *made.versions.values()))
+
+
+def test_the_page_leads_to_all_data_and_to_each_file_once() -> None:
+    page = b'<main><a href="late.csv">late.csv</a></main>'
+    files = {"index.html": page, "late.csv": b"", "costs.csv": b"", "measured.toml": b"", "late.svg": b""}
+    text = with_made(files, made_here(None))["index.html"].decode()
+    assert re.findall('href="(.*?)"', text) == ["late.csv", FILE, "costs.csv", "measured.toml"]
 
 
 def test_of_a_report_that_nobody_wrote_it_down_of_nothing_is_said(tmp_path: Path) -> None:

@@ -73,6 +73,11 @@ def test_a_damaged_file_of_one_hides_nothing_of_the_others(folder: Path, file: s
         assert ("its made.toml cannot be read" in text) is (file == "made.toml")
 
 
+def test_a_title_is_text_whatever_it_holds(folder: Path) -> None:
+    (folder / "second" / "index.md").write_text(f"# <script>alert()</script>\n\n{ANSWER}\n")
+    assert "<script>" not in texts(folder)[0]
+
+
 @pytest.mark.parametrize("file", ["made.toml", "lead.svg", "index.md"])
 def test_nor_does_a_folder_in_its_place(folder: Path, file: str) -> None:
     (folder / "second" / file).unlink()
