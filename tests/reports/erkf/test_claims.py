@@ -52,7 +52,7 @@ def test_the_answer_is_short_and_its_times_are_those_of_the_figure() -> None:
     for way, words in (
         ("closed form", "in closed form ({} ms on a 100 MHz processor"),
         ("pivoted LU", "by pivoted LU ({} ms)"),
-        ("Givens", "Givens rotations take {} ms and miss the 2.5 ms period"),
+        ("Givens", "Givens rotations take {} ms, too long for each 2.5 ms period"),
     ):
         assert words.format(f"{milliseconds['position', way]:#.3g}") in answer
     in_time = {way for (system, way), time in milliseconds.items() if system == "position" and time <= 2.5}
