@@ -29,7 +29,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's background job ignores it, and so would the tests'
 
 ANY_TIME: dict[str, Any] = {"deadline": None, "suppress_health_check": [HealthCheck.too_slow]}  # of a busy machine
-settings.register_profile("ci", max_examples=12, derandomize=True, print_blob=True, **ANY_TIME)
+settings.register_profile("ci", max_examples=10, derandomize=True, print_blob=True, **ANY_TIME)
 settings.register_profile("thorough", max_examples=2000, print_blob=True, **ANY_TIME)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "ci"))
 

@@ -29,7 +29,7 @@ def test_who_knows_rates_delay_and_need_finds_method_part_and_landing(visit: Vis
     expect(page.get_by_role("status").first).to_contain_text(view["answer"]["sentence"])
 
 
-@pytest.mark.slow
+@pytest.mark.exhaust
 def test_all_sliders_can_be_dragged_from_end_to_end_without_a_refusal(visit: Visit, explorer: Explorer) -> None:
     """One after the other, each from where the one before has led."""
     page = opened(visit, explorer, FLIGHT)

@@ -140,6 +140,7 @@ def test_errors_are_those_of_the_estimate() -> None:
     np.testing.assert_allclose(one.errors[:, 12:], (estimate.inv() * true).as_rotvec(), atol=1e-14)
 
 
+@pytest.mark.exhaust
 def test_a_summary_holds_all_readings_and_quantities() -> None:
     one = study.summary(early())
     assert one.residuals.shape == (len(READINGS), EARLY + 1)
