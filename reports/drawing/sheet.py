@@ -35,7 +35,10 @@ def sheet(
     stacked: bool = False,
     width_mm: float = WIDTH_MM,
 ) -> Sheet:
-    """Empty plots, each `height_mm` high; stacked: rows have one axis of x, below the last of them."""
+    """Empty plots.
+
+    height_mm: of each; width_mm: of the page; stacked: rows have one axis of x, below the last of them.
+    """
     across = width_mm - LEFT_MM - right_mm
     width = (across - gap_mm * (columns - 1)) / columns
     down = height_mm + (STACKED_MM if stacked else AXIS_MM + TITLE_MM)
