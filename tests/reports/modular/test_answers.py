@@ -30,7 +30,7 @@ def test_the_answer_is_short_and_its_numbers_are_in_the_tables() -> None:
     assert answer[1].endswith(f"its sensors unbiased, errs under 15 % of its distance after {holds} s.")
     of = {row["In a period"]: interval(row["error at 80 %"]) for row in rows("rates.csv")}
     still = 100 * float(stored().records("dropout", group="usual", dropout="0.8")[0]["still"])
-    assert "the poster's 80 % dropout with 100 measurements per period of motion, not with 20: 20 must" in answer[1]
+    assert "the poster's 80 % dropout with 100 measurements per period of motion, not with 20, as 20 must" in answer[1]
     assert of["100"][1] < 1.2 * 5 < still < of["20"][0]
     assert {row["In a period"]: row["borne, %"] for row in rows("rates.csv")}["20"] == "0"
     least, most = ends_at_the_gap()
